@@ -1,0 +1,25 @@
+# Warnings, sanitizers and the rules for a module, in one place. Nothing here reaches a consumer.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+option(FIRSTCONTACT_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
+set(FIRSTCONTACT_SANITIZERS "" CACHE STRING "Value of -fsanitize=, empty for none")
+
+add_library(firstcontact_build_flags INTERFACE)
+target_compile_options(firstcontact_build_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+  # The error bounds are derived for the operations as written.
+  -ffp-contract=off)
+if(FIRSTCONTACT_WARNINGS_AS_ERRORS)
+  target_compile_options(firstcontact_build_flags INTERFACE -Werror)
+endif()
+if(FIRSTCONTACT_SANITIZERS)
+  add_compile_options(-fsanitize=${FIRSTCONTACT_SANITIZERS} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FIRSTCONTACT_SANITIZERS})
+endif()

@@ -1,0 +1,92 @@
+/// @file
+/// In-between motions: where a body is at every instant of the step.
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/constant_rate_path.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// How a motion runs between two neighbouring poses.
+enum class Between {
+  constant_velocity,  ///< The body origin moves on a line, the body turns at a constant rate.
+  screw,              ///< One rotation about, and one translation along, one axis.
+};
+
+/// The motion X_WB(t) of a rigid body over the step, t in [0, 1]. Immutable; cheap to share.
+///
+/// The motion contract. A motion is a sequence of pieces, each of which is smooth and rigid and
+/// runs from breaks()[k] to breaks()[k + 1]. Of a piece the algorithms know only its path: the
+/// pose and twist at t, and a bound of the acceleration of every point along every direction
+/// that holds to the piece's end. The motion is the exact real-number function that the doubles
+/// below define; `path` states how far its arithmetic may deviate from it.
+///
+/// All factories throw std::invalid_argument on NaN, infinities, zero quaternions or axes.
+class FIRSTCONTACT_API Motion {
+ public:
+  /// Rests at `pose`.
+  static Motion fixed(const Pose& pose = {});
+
+  /// T(t) = T(0) + t translation, R(t) = Rot(rotation_vector t) R(0).
+  ///
+  /// @param start            pose at t = 0
+  /// @param translation      [m]    of the body origin over the step, world frame
+  /// @param rotation_vector  [rad]  axis times angle over the step, world frame; any number of turns
+  static Motion constant_velocity(const Pose& start, const Eigen::Vector3d& translation,
+                                  const Eigen::Vector3d& rotation_vector = Eigen::Vector3d::Zero());
+
+  /// The same between two poses, by the shortest rotation. For a half turn the axis is the one
+  /// whose first non-zero component is positive.
+  static Motion constant_velocity(const Pose& from, const Pose& to);
+
+  /// Rotation by angle t about, and translation by (translation t) along, one axis,
+  /// applied to the start pose.
+  ///
+  /// @param axis_point      [m]    a point on the axis, world frame
+  /// @param axis_direction  [-]    any length but zero, world frame
+  /// @param angle           [rad]  over the step; any number of turns
+  /// @param translation     [m]    along the axis over the step
+  static Motion screw(const Pose& start, const Eigen::Vector3d& axis_point,
+                      const Eigen::Vector3d& axis_direction, double angle, double translation);
+
+  /// The screw motion between two poses, by the shortest rotation.
+  static Motion screw(const Pose& from, const Pose& to);
+
+  /// Runs through `poses` at `times`; rests before the first and after the last.
+  ///
+  /// @param times  [-]  in [0, 1], strictly increasing, as many as poses
+  static Motion waypoints(std::span<const double> times, std::span<const Pose> poses,
+                          Between between = Between::constant_velocity);
+
+  /// 0 = breaks[0] < ... < breaks[n] = 1: the ends of the n pieces.
+  [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
+
+  /// The piece's path of body point C.
+  ///
+  /// @param piece  index in [0, breaks().size() - 1)
+  /// @param p_BC   [m]  any point of the body, best the centre of its mesh
+  [[nodiscard]] ConstantRatePath path(std::size_t piece, const Eigen::Vector3d& p_BC) const;
+
+  /// X_WB(t), rounded to doubles; t is clamped to [0, 1].
+  [[nodiscard]] Pose pose(double t) const;
+
+  /// A total order of motions by their defining numbers, so that queries can put two bodies in
+  /// an order of their own and answer alike for A and B swapped. Negative, zero or positive.
+  [[nodiscard]] int compare(const Motion& other) const;
+
+ private:
+  Motion(std::vector<double> breaks, std::vector<ConstantRateSegment> segments);
+
+  std::vector<double> breaks_;
+  std::vector<ConstantRateSegment> segments_;
+};
+
+}  // namespace firstcontact

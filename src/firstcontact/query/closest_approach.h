@@ -1,0 +1,33 @@
+/// @file
+/// Closest approach of two moving shapes over the step.
+
+#pragma once
+
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+
+struct ClosestApproachOptions {
+  double tolerance = 1e-6;  ///< [m]  distance - lower_bound is at most this; > 0.
+  WorkBudget budget = {};
+};
+
+struct ClosestApproachResult {
+  /// [m]  Attained at t; an upper bound of the least distance over the step.
+  double distance = std::numeric_limits<double>::infinity();
+  double lower_bound = 0.0;  ///< [m]  Proven for all t in [0, 1].
+  double t = 0.0;            ///< [-]  A time where `distance` is attained.
+  UndecidedReason reason = UndecidedReason::none;  ///< Not `none`: the budget ended the search.
+  double tolerance_used = 0.0;                     ///< [m]
+  std::optional<Contact> closest;                  ///< The closest feature pair at t.
+  WorkCount work;
+};
+
+/// Least distance of A and B over the step, to the tolerance, with a time where it is attained.
+///
+/// @throws std::invalid_argument if an option is outside its documented range.
+[[nodiscard]] FIRSTCONTACT_API ClosestApproachResult
+closest_approach(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+                 const ClosestApproachOptions& options = {});
+
+}  // namespace firstcontact

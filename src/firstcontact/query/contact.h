@@ -1,0 +1,40 @@
+/// @file
+/// The contact state: which features touch, where and how.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace firstcontact {
+
+enum class FeatureType { vertex, edge, face };
+
+/// A feature of a shape: a vertex, a unique edge or a triangle, by its index in the shape.
+struct Feature {
+  FeatureType type = FeatureType::vertex;
+  std::uint32_t index = 0;
+  std::uint32_t triangle = 0;  ///< A triangle that the feature belongs to.
+
+  friend bool operator==(const Feature&, const Feature&) = default;
+};
+
+/// Two features within the contact band at the reported time.
+struct Contact {
+  Feature feature_A;
+  Feature feature_B;
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< [m]  Closest point on A's thickened surface.
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Closest point on B's thickened surface.
+  /// [-]  Unit, from A to B. Where the closest points coincide: the face's normal, or the
+  /// normalised product of the two edges, pointing against the relative motion of B; null where
+  /// no feature normal decides.
+  std::optional<Eigen::Vector3d> n_AB_W;
+  double distance = 0.0;  ///< [m]  Negative: depth of thickened features.
+  /// [m per step]  Velocity of B's point relative to A's along the normal; negative when closing;
+  /// 0 without a normal.
+  double normal_velocity = 0.0;
+};
+
+}  // namespace firstcontact

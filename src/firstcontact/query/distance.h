@@ -1,0 +1,24 @@
+/// @file
+/// Distance of two moving shapes at one instant.
+
+#pragma once
+
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+
+struct DistanceResult {
+  double distance = 0.0;     ///< [m]  Of the closest points found, 0 when the shapes meet.
+  double lower_bound = 0.0;  ///< [m]  Proven: the shapes are at least this far apart.
+  std::optional<Contact> closest;  ///< The closest feature pair.
+  WorkCount work;
+};
+
+/// Distance of A(t) and B(t). `distance - lower_bound` is at most the rounding error.
+///
+/// @param t  [-]  in [0, 1]
+/// @throws std::invalid_argument if t is outside its range.
+[[nodiscard]] FIRSTCONTACT_API DistanceResult distance(const MovingShape& A, const MovingShape& B,
+                                                       double t, Workspace& workspace);
+
+}  // namespace firstcontact

@@ -1,0 +1,100 @@
+/// @file
+/// First contact of two moving shapes: the question, its options and its answer.
+
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/workspace.h>
+
+namespace firstcontact {
+
+/// A shape S and its motion X_WS(t) over the step, t in [0, 1].
+struct MovingShape {
+  const Shape& shape;
+  const Motion& X_WS;
+};
+
+/// When to stop early with what is proven so far.
+struct WorkBudget {
+  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();  ///< Node groups + feature steps.
+  std::size_t memory = std::size_t{1} << 30;  ///< [byte]  Of the search queue.
+  std::optional<std::chrono::steady_clock::time_point> deadline;
+  std::stop_token stop;
+};
+
+enum class StartContacts {
+  report,     ///< A start within margin + tolerance is `contact_at_start`.
+  keep_half,  ///< A feature pair that starts there, but apart, is held to half its start distance.
+};
+
+enum class ContactState {
+  none,   ///< Only the time.
+  first,  ///< The feature pair that decided.
+  all,    ///< Every feature pair within the band at t.
+};
+
+struct FirstContactOptions {
+  double margin = 0.0;      ///< [m]  Closer than this counts as contact; >= 0.
+  double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance; > 0.
+  StartContacts start_contacts = StartContacts::report;
+  ContactState contacts = ContactState::all;
+  double contact_band = 0.0;  ///< [m]  Reports pairs within margin + tolerance + band; >= 0.
+  WorkBudget budget = {};     ///< Spending it gives `undecided`, never a guess.
+};
+
+enum class Verdict {
+  free,              ///< Proven: farther apart than the margin on all of [0, 1].
+  contact,           ///< Proven: so before t; at t no farther than margin + tolerance.
+  contact_at_start,  ///< As `contact`, with t = 0.
+  undecided,         ///< Proven so before t, nothing known after it; see `reason`.
+};
+
+enum class UndecidedReason { none, work, deadline, memory, precision, cancelled };
+
+/// Work done, for budgets and benchmarks.
+struct WorkCount {
+  std::uint64_t node_groups = 0;     ///< Evaluations of up to 16 node pairs.
+  std::uint64_t triangle_pairs = 0;  ///< Triangle pairs visited.
+  std::uint64_t steps = 0;           ///< Certified steps of triangle pairs.
+};
+
+struct FirstContactResult {
+  Verdict verdict = Verdict::undecided;
+  UndecidedReason reason = UndecidedReason::none;
+  double t = 0.0;  ///< [-]  Normalised step time; [0, t) is proven free of contact; 1 when free.
+  /// [-]  For `contact` t; for `undecided` a later time proven to be in contact, if one is known.
+  std::optional<double> t_upper;
+  double clearance = 0.0;  ///< [m]  Proven lower bound of the distance before t.
+  double tolerance_used = 0.0;    ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
+  std::vector<Contact> contacts;  ///< At t, sorted by features.
+  WorkCount work;
+};
+
+/// Finds the first contact of A and B during the step.
+///
+/// Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
+/// Holds for the exact motions that the input defines, in the arithmetic as executed (docs/
+/// algorithm.md has the proof). Symmetric in A and B, and the same on every run.
+/// Thread-safe: the shapes and motions are only read; each thread brings its own workspace.
+///
+/// @throws std::invalid_argument if an option is outside its documented range.
+[[nodiscard]] FIRSTCONTACT_API FirstContactResult first_contact(
+    const MovingShape& A, const MovingShape& B, Workspace& workspace,
+    const FirstContactOptions& options = {});
+
+/// The same, reusing the memory of `result`: with a warm workspace and result nothing is allocated.
+FIRSTCONTACT_API void first_contact(const MovingShape& A, const MovingShape& B,
+                                    Workspace& workspace, const FirstContactOptions& options,
+                                    FirstContactResult& result);
+
+}  // namespace firstcontact
