@@ -1,0 +1,21 @@
+/// @file
+/// Where tests find the data sets that are too large for the repository.
+
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace firstcontact::test {
+
+/// FIRSTCONTACT_DATA_DIR, or else ../shared/data beside the source tree. Empty where neither
+/// exists; a test then says so: `GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR"`.
+inline std::filesystem::path data_dir() {
+  const char* set = std::getenv("FIRSTCONTACT_DATA_DIR");
+  const std::filesystem::path path =
+      set != nullptr ? std::filesystem::path(set)
+                     : std::filesystem::path(FIRSTCONTACT_SOURCE_DIR) / "../shared/data";
+  return std::filesystem::is_directory(path) ? path : std::filesystem::path();
+}
+
+}  // namespace firstcontact::test
