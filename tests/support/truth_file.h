@@ -1,0 +1,35 @@
+/// @file
+/// Stored answers of the oracle: one file for each family of generated cases.
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "support/first_contact_oracle.h"
+#include "support/generated_case.h"
+
+namespace firstcontact::oracle {
+
+/// The answer to one generated case; `digest` tells whether the case is still the same.
+struct StoredTruth {
+  std::uint32_t digest = 0;
+  TruthKind kind = TruthKind::gave_up;
+  double lo = 0.0;
+  double hi = 1.0;
+};
+
+/// Where the answers of a family lie, below the folder of test data.
+std::filesystem::path truth_path(const std::filesystem::path& data, Family family);
+
+/// The answers to cases 0, 1, 2, ... of the file; none where there is no file.
+std::vector<StoredTruth> read_truth(const std::filesystem::path& path);
+
+/// Adds answers at the end.
+void append_truth(const std::filesystem::path& path, const std::vector<StoredTruth>& truth);
+
+/// Asks the oracle.
+StoredTruth find_truth(const GeneratedCase& c);
+
+}  // namespace firstcontact::oracle
