@@ -2,6 +2,7 @@
 //
 // usage: make_truth FOLDER COUNT [THREADS]
 //
+// tests/data holds the output of `make_truth tests/data 1100 2` (about 10 minutes on two cores).
 // Answers the first COUNT cases of every family into FOLDER/truth/FAMILY.truth. What a file holds
 // already is kept, so that the command can be stopped and started again.
 

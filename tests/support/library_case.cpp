@@ -1,0 +1,101 @@
+#include "support/library_case.h"
+
+#include <cstdio>
+#include <vector>
+
+namespace firstcontact::oracle {
+namespace {
+
+Eigen::Vector3d vector(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
+
+Pose pose(const PoseInput& p) {
+  return {vector(p.position),
+          Eigen::Quaterniond(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)};
+}
+
+std::string describe(const char* what, const FirstContactResult& answer, const Truth& truth) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s: t = %.17g, tolerance used %g; truth %s [%.17g, %.17g]",
+                what, answer.t, answer.tolerance_used,
+                truth.kind == TruthKind::free ? "free" : "contact in", truth.lo, truth.hi);
+  return text;
+}
+
+}  // namespace
+
+Shape to_shape(const MovingSoup& soup) {
+  Mesh mesh;
+  for (const Vector3<double>& v : soup.vertices) {
+    mesh.vertices.push_back(vector(v));
+  }
+  for (const auto& t : soup.triangles) {
+    mesh.triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                              static_cast<std::uint32_t>(t[2])});
+  }
+  return Shape(std::move(mesh), soup.radius);
+}
+
+Motion to_motion(const MotionInput& m) {
+  const Pose start = pose(m.poses.front());
+  switch (m.kind) {
+    case MotionKind::fixed:
+      return Motion::fixed(start);
+    case MotionKind::constant_velocity:
+      return Motion::constant_velocity(start, vector(m.translation), vector(m.rotation_vector));
+    case MotionKind::constant_velocity_between:
+      return Motion::constant_velocity(start, pose(m.poses[1]));
+    case MotionKind::screw:
+      return Motion::screw(start, vector(m.axis_point), vector(m.axis_direction), m.angle, m.along);
+    case MotionKind::screw_between:
+      return Motion::screw(start, pose(m.poses[1]));
+    case MotionKind::waypoints:
+    case MotionKind::screw_waypoints:
+      break;
+  }
+  std::vector<Pose> poses;
+  for (const PoseInput& p : m.poses) {
+    poses.push_back(pose(p));
+  }
+  return Motion::waypoints(
+      m.times, poses,
+      m.kind == MotionKind::waypoints ? Between::constant_velocity : Between::screw);
+}
+
+FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace) {
+  const Shape shape_A = to_shape(c.A);
+  const Shape shape_B = to_shape(c.B);
+  const Motion X_WA = to_motion(c.A.motion);
+  const Motion X_WB = to_motion(c.B.motion);
+  FirstContactOptions options;
+  options.margin = c.margin;
+  options.tolerance = c.tolerance;
+  options.contacts = ContactState::none;
+  return first_contact({shape_A, X_WA}, {shape_B, X_WB}, workspace, options);
+}
+
+std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,
+                      const Truth& truth) {
+  const bool touches = truth.kind == TruthKind::contact;
+  if (touches && answer.verdict == Verdict::free) {
+    return describe("missed contact", answer, truth);
+  }
+  if (touches && !(answer.t <= truth.hi)) {
+    return describe("late", answer, truth);
+  }
+  if (answer.verdict == Verdict::undecided) {
+    return describe("undecided", answer, truth);
+  }
+  if (answer.verdict == Verdict::contact_at_start && answer.t != 0.0) {
+    return describe("start after t = 0", answer, truth);
+  }
+  if (answer.verdict != Verdict::free &&
+      !FirstContactOracle(c.A, c.B, c.margin).within(answer.t, answer.tolerance_used)) {
+    return describe("false contact", answer, truth);
+  }
+  if (!(answer.tolerance_used <= c.tolerance)) {
+    return describe("larger tolerance", answer, truth);
+  }
+  return {};
+}
+
+}  // namespace firstcontact::oracle

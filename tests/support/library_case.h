@@ -1,0 +1,25 @@
+/// @file
+/// Asks the library a question of the oracle, and judges its answer.
+
+#pragma once
+
+#include <string>
+
+#include <firstcontact/query/first_contact.h>
+
+#include "support/first_contact_oracle.h"
+#include "support/generated_case.h"
+
+namespace firstcontact::oracle {
+
+Shape to_shape(const MovingSoup& soup);
+Motion to_motion(const MotionInput& input);
+
+/// The library's answer to a case; without the contact state.
+FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace);
+
+/// What is wrong with an answer; empty where it keeps every promise:
+/// no missed contact, none too late, none farther than margin + tolerance, decided, as asked.
+std::string complaint(const GeneratedCase& c, const FirstContactResult& answer, const Truth& truth);
+
+}  // namespace firstcontact::oracle
