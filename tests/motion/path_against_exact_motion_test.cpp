@@ -1,0 +1,99 @@
+// The library's paths against the exact motions of the oracle, 256 bits, for every kind of motion.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <firstcontact/motion/motion.h>
+
+#include "support/exact_motion.h"
+#include "support/generated_case.h"
+#include "support/library_case.h"
+
+namespace firstcontact::oracle {
+namespace {
+
+Wide wide(const DoubleDouble& d) { return Wide(d.hi) + Wide(d.lo); }
+
+Vector3<Wide> wide(const DoubleDoubleVector3& v) {
+  return {wide(v.c[0]), wide(v.c[1]), wide(v.c[2])};
+}
+
+/// A piece of an exact motion at one time.
+class ExactState {
+ public:
+  ExactState(const MotionPiece& piece, double t)
+      : piece_(piece),
+        s_((Wide(t) - Wide(piece.t_begin)) / (Wide(piece.t_end) - Wide(piece.t_begin))) {}
+
+  [[nodiscard]] Vector3<Wide> center() const {
+    return piece_.pivot + s_ * piece_.travel + rotated(piece_.lever);
+  }
+  [[nodiscard]] Vector3<Wide> column(std::size_t j) const { return rotated(piece_.R.column[j]); }
+
+ private:
+  [[nodiscard]] Vector3<Wide> rotated(const Vector3<Wide>& v) const {
+    if (piece_.angle.is_zero()) {
+      return v;
+    }
+    const Wide angle = s_ * piece_.angle;
+    const Vector3<Wide> along = dot(piece_.axis, v) * piece_.axis;
+    return along + cos(angle) * (v - along) + sin(angle) * cross(piece_.axis, v);
+  }
+
+  const MotionPiece& piece_;
+  Wide s_;
+};
+
+void expect_agreement(const MotionPiece& piece, const ConstantRatePath& path, double t) {
+  const ExactState exact_state(piece, t);
+  const Vector3<Wide> center = wide(path.pivot(t) + path.precise_lever(t));
+  const double size =
+      norm(exact_state.center()).upper() + norm(piece.lever).upper() + norm(piece.travel).upper();
+  const double error = norm(center - exact_state.center()).upper();
+  // The stated bounds, and the roundings of pivot(t) and of the sum.
+  EXPECT_LE(error, path.position_error() + 0x1p-94 * path.lever_length() + 0x1p-100 * size);
+  const Eigen::Matrix3d R_WB = path.state(t).R_WB;
+  for (int j = 0; j < 3; ++j) {
+    const Vector3<double> column{R_WB(0, j), R_WB(1, j), R_WB(2, j)};
+    const Wide difference = norm(exact(column) - exact_state.column(static_cast<std::size_t>(j)));
+    EXPECT_LE(difference.upper(), 22.0 * 0x1p-53 + path.rotation_error());
+  }
+}
+
+TEST(ConstantRatePath, StaysWithinItsErrorsOfTheExactMotion) {
+  for (int f = 0; f < kFamilyCount; ++f) {
+    for (std::uint64_t i = 0; i < 50; ++i) {
+      const GeneratedCase c = generate(static_cast<Family>(f), i);
+      for (const MovingSoup* soup : {&c.A, &c.B}) {
+        const Vector3<double>& p = soup->vertices[0];
+        const std::vector<MotionPiece> pieces = motion_pieces(soup->motion, p);
+        const Motion motion = to_motion(soup->motion);
+        ASSERT_EQ(motion.breaks().size(), pieces.size() + 1);
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+          const ConstantRatePath path = motion.path(k, {p.x, p.y, p.z});
+          const double begin = pieces[k].t_begin;
+          const double end = pieces[k].t_end;
+          for (const double t : {begin, begin + 0.3 * (end - begin), end}) {
+            SCOPED_TRACE(name(static_cast<Family>(f)) + " " + std::to_string(i));
+            expect_agreement(pieces[k], path, t);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Else an error of infinity would pass.
+TEST(ConstantRatePath, StatesSmallErrors) {
+  Motion motion = Motion::screw({{1.0, 2.0, 3.0}, {0.5, 0.5, 0.1, 0.2}},
+                                {{2.0, 1.0, 0.0}, {0.1, 0.9, 0.3, 0.4}});
+  const ConstantRatePath path = motion.path(0, {0.3, 0.2, 0.1});
+  EXPECT_LE(path.position_error(), 1e-26);
+  EXPECT_LE(path.rotation_error(), 1e-26);
+}
+
+}  // namespace
+}  // namespace firstcontact::oracle
