@@ -11,6 +11,8 @@ namespace {
 
 using Vec = Vector3<double>;
 
+// No expression below draws twice, but for those in braces: only they have an order.
+
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
 class Random {
  public:
@@ -50,6 +52,11 @@ class Random {
         return (1.0 / std::sqrt(l2)) * v;
       }
     }
+  }
+  /// Of a length between low and high.
+  Vec vector(double low, double high) {
+    const double length = uniform(low, high);
+    return length * unit();
   }
   Quaternion rotation() {
     const Vec v = in_box(1.0);
@@ -155,14 +162,12 @@ MotionInput through_middle(const Vec& middle, const Vec& travel, const Vec& half
 }
 
 MotionInput random_motion(Random& random, const Vec& from, const Vec& to, double angle) {
-  switch (random.integer(0, 3)) {
-    case 0:
-      return between({from, random.rotation()}, {to, random.rotation()}, false);
-    case 1:
-      return between({from, random.rotation()}, {to, random.rotation()}, true);
-    default:
-      return constant_velocity({from, random.rotation()}, to - from, angle * random.unit());
+  const int kind = random.integer(0, 3);
+  const PoseInput start{from, random.rotation()};
+  if (kind <= 1) {
+    return between(start, {to, random.rotation()}, kind == 1);
   }
+  return constant_velocity(start, to - from, angle * random.unit());
 }
 
 MotionInput random_screw(Random& random, const Vec& from, double angle) {
@@ -170,7 +175,8 @@ MotionInput random_screw(Random& random, const Vec& from, double angle) {
   m.kind = MotionKind::screw;
   m.poses = {{from, random.rotation()}};
   m.axis_point = random.in_box(2.0);
-  m.axis_direction = random.power_of_ten(-2, 2) * random.unit();
+  const double length = random.power_of_ten(-2, 2);
+  m.axis_direction = length * random.unit();
   m.angle = random.chance(0.5) ? angle : -angle;
   m.along = random.uniform(-3.0, 3.0);
   return m;
@@ -192,6 +198,11 @@ MotionInput random_waypoints(Random& random) {
 
 /// [rad]  0.01 to ten turns.
 double random_angle(Random& random) { return std::min(63.0, random.power_of_ten(-2, 1)); }
+
+Vec random_spin(Random& random) {
+  const double angle = random_angle(random);
+  return angle * random.unit();
+}
 
 /// A gap between 1e-10 and 1e-2, above or below zero.
 double random_gap(Random& random) {
@@ -228,7 +239,7 @@ Draft needle_swing(Random& random) {
 
 Draft random_pair(Random& random, double angle_A, double angle_B) {
   Draft d{random_soup(random, 12, 1.0), random_soup(random, 12, 1.0)};
-  const Vec away = random.uniform(0.5, 2.5) * random.unit();
+  const Vec away = random.vector(0.5, 2.5);
   const Vec aim = random.in_box(0.7);
   d.A.motion =
       random.chance(0.3) ? at_rest({}) : random_motion(random, {}, random.in_box(0.5), angle_A);
@@ -237,21 +248,22 @@ Draft random_pair(Random& random, double angle_A, double angle_B) {
 }
 
 Draft random_slow(Random& random) {
-  const double a = random.power_of_ten(-2, -1);
-  Draft d = random_pair(random, a, random.power_of_ten(-2, -1));
-  return d;
+  const double angle_A = random.power_of_ten(-2, -1);
+  return random_pair(random, angle_A, random.power_of_ten(-2, -1));
 }
 
 Draft random_turning(Random& random) {
-  const double a = random_angle(random);
-  return random_pair(random, a, random_angle(random));
+  const double angle_A = random_angle(random);
+  return random_pair(random, angle_A, random_angle(random));
 }
 
 Draft random_screws(Random& random) {
   Draft d = random_pair(random, 1.0, 1.0);
-  d.B.motion = random_screw(random, 2.0 * random.unit(), random_angle(random));
+  const double angle = random_angle(random);
+  d.B.motion = random_screw(random, 2.0 * random.unit(), angle);
   if (random.chance(0.5)) {
-    d.A.motion = random_screw(random, random.in_box(0.3), random_angle(random));
+    const double angle_A = random_angle(random);
+    d.A.motion = random_screw(random, random.in_box(0.3), angle_A);
   }
   return d;
 }
@@ -269,7 +281,7 @@ Draft tumbling_boxes(Random& random) {
   const auto half = [&] { return random.uniform(0.1, 0.6); };
   const Vec half_A{half(), half(), half()};
   const Vec half_B{half(), half(), half()};
-  Draft d = random_pair(random, random_angle(random), random_angle(random));
+  Draft d = random_turning(random);
   const MotionInput motion_A = d.A.motion;
   const MotionInput motion_B = d.B.motion;
   d.A = box(random.in_box(0.3), half_A);
@@ -335,8 +347,8 @@ Draft peg_in_hole(Random& random) {
   Draft d{tube, box({}, {0.5 - gap, random.uniform(0.2, 0.5) - std::abs(gap), 0.4}), gap};
   const Vec travel{0.0, 0.0, -random.uniform(1.2, 3.0)};
   const double tilt = random.chance(0.7) ? 0.0 : random.power_of_ten(-6, -2);
-  d.B.motion = through_middle({0.0, 0.0, random.uniform(-0.5, 0.5)}, travel, {0.0, tilt, 0.0},
-                              random.chance(0.5));
+  const Vec middle{0.0, 0.0, random.uniform(-0.5, 0.5)};
+  d.B.motion = through_middle(middle, travel, {0.0, tilt, 0.0}, random.chance(0.5));
   return d;
 }
 
@@ -373,9 +385,9 @@ Draft parallel_edges(Random& random) {
   Draft d{box({}, {0.5, 0.5, 0.5}), box({}, {random.uniform(0.1, 0.6), 0.5, 0.3})};
   const double shift_y = static_cast<double>(random.integer(-2, 2)) * 0.5;
   const double shift_z = random.chance(0.5) ? 0.0 : 0.8;
-  d.B.motion =
-      constant_velocity({{-2.0, shift_y, shift_z}, {}}, {random.uniform(0.5, 4.0), 0.0, 0.0},
-                        random.chance(0.5) ? Vec{} : Vec{random.uniform(-9.0, 9.0), 0.0, 0.0});
+  const Vec travel{random.uniform(0.5, 4.0), 0.0, 0.0};
+  const Vec spin{random.chance(0.5) ? 0.0 : random.uniform(-9.0, 9.0), 0.0, 0.0};
+  d.B.motion = constant_velocity({{-2.0, shift_y, shift_z}, {}}, travel, spin);
   return d;
 }
 
@@ -388,11 +400,12 @@ Draft needles(Random& random) {
       const Vec along = random.unit();
       const Vec b = a + random.uniform(0.3, 1.0) * along;
       const double s_c = random.uniform(-0.2, 1.2);
-      add_triangle(s, a, b, a + s_c * (b - a) + random.power_of_ten(-8, -3) * random.unit());
+      const double width = random.power_of_ten(-8, -3);
+      add_triangle(s, a, b, a + s_c * (b - a) + width * random.unit());
     }
     return s;
   };
-  Draft d = random_pair(random, random_angle(random), random_angle(random));
+  Draft d = random_turning(random);
   const MotionInput motion = d.B.motion;
   d.B = soup();
   d.B.motion = motion;
@@ -412,8 +425,9 @@ Draft points(Random& random) {
     const Vec q = random.chance(0.5) ? p : random.in_box(0.4);
     add_triangle(d.B, p, q, random.chance(0.5) ? p : q);
   }
-  const Vec away = random.uniform(0.8, 2.0) * random.unit();
-  d.B.motion = random_motion(random, away, random.in_box(0.5), random_angle(random));
+  const Vec away = random.vector(0.8, 2.0);
+  const double angle = random_angle(random);
+  d.B.motion = random_motion(random, away, random.in_box(0.5), angle);
   d.A.motion = random_motion(random, {}, {}, random_angle(random));
   return d;
 }
@@ -453,13 +467,14 @@ Draft bullets(Random& random) {
   d.B = random.chance(0.5) ? top(random) : random_soup(random, 4, 0.2);
   const Vec at{random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), 0.0};
   const double speed = random.power_of_ten(4, 5);
-  const Vec direction = random.unit() + Vec{0.0, 0.0, random.chance(0.5) ? 1.5 : -1.5};
+  const Vec down{0.0, 0.0, random.chance(0.5) ? 1.5 : -1.5};
+  const Vec direction = down + random.unit();
   const double hit = random.uniform(0.05, 0.95);
   const Vec travel = speed * direction;
-  d.B.motion = constant_velocity({at - hit * travel, random.rotation()}, travel,
-                                 random_angle(random) * random.unit());
+  const PoseInput start{at - hit * travel, random.rotation()};
+  d.B.motion = constant_velocity(start, travel, random_spin(random));
   if (random.chance(0.3)) {
-    d.A.motion = constant_velocity({}, {}, random_angle(random) * random.unit());
+    d.A.motion = constant_velocity({}, {}, random_spin(random));
   }
   return d;
 }
