@@ -1,7 +1,7 @@
 // The library against the oracle: stored truth of more than 20,000 generated cases, and a fresh
 // sample in every run.
 //
-// FIRSTCONTACT_ORACLE_CASES (default 600) and FIRSTCONTACT_ORACLE_SEED (default: the clock) choose
+// FIRSTCONTACT_ORACLE_CASES (default 1500) and FIRSTCONTACT_ORACLE_SEED (default: the clock) choose
 // the fresh sample. A million cases take about 10 hours of one core:
 //   FIRSTCONTACT_ORACLE_CASES=1000000 build/ci/tests/query/first_contact_oracle_test
 //     --gtest_filter='*Fresh*'
@@ -80,7 +80,7 @@ std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
 }
 
 TEST(FreshTruth, IsMet) {
-  const std::uint64_t count = from_environment("FIRSTCONTACT_ORACLE_CASES", 600);
+  const std::uint64_t count = from_environment("FIRSTCONTACT_ORACLE_CASES", 1'500);
   const std::uint64_t seed = from_environment(
       "FIRSTCONTACT_ORACLE_SEED",
       static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
