@@ -1,0 +1,195 @@
+/// @file
+/// Walks over the words and numbers of a text, line by line, whatever the locale.
+
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <firstcontact/geometry/parse_error.h>
+
+namespace firstcontact::detail {
+
+/// Text in quotes for an error: cut short, and printable.
+std::string quoted(std::string_view text);
+
+/// What differs between the text formats.
+struct TextSyntax {
+  bool comments = false;      ///< '#' to the end of the line.
+  bool continuation = false;  ///< A backslash at its end joins the next line.
+};
+
+/// A position in a text. Blanks are skipped before each item; a line ends at its line feed only.
+class TextCursor {
+ public:
+  TextCursor(std::string_view text, const std::string& source, TextSyntax syntax,
+             std::size_t first_line = 1)
+      : next_(text.data()),
+        end_(text.data() + text.size()),
+        line_(first_line),
+        source_(source),
+        syntax_(syntax) {}
+
+  [[nodiscard]] std::size_t line() const { return line_; }
+  [[nodiscard]] std::size_t remaining() const { return static_cast<std::size_t>(end_ - next_); }
+
+  [[nodiscard]] bool at_line_end() {
+    skip_blanks();
+    return next_ == end_ || *next_ == '\n' || is_comment(next_);
+  }
+
+  /// Goes to the next line that holds something; false at the end of the text. On a line with
+  /// something left it stays.
+  [[nodiscard]] bool find_line() {
+    while (at_line_end()) {
+      if (next_ == end_) {
+        return false;
+      }
+      skip_line();
+    }
+    return true;
+  }
+
+  /// Leaves the rest of the line.
+  void skip_line() {
+    while (next_ != end_ && *next_ != '\n') {
+      ++next_;
+    }
+    if (next_ != end_) {
+      ++next_;
+      ++line_;
+    }
+  }
+
+  void expect_line_end() {
+    if (!at_line_end()) {
+      fail_at_word("the end of the line");
+    }
+  }
+
+  /// Everything up to the next blank; empty at the end of the line.
+  std::string_view word() {
+    if (at_line_end()) {
+      return {};
+    }
+    const char* begin = next_;
+    while (!is_delimiter(next_)) {
+      ++next_;
+    }
+    return {begin, static_cast<std::size_t>(next_ - begin)};
+  }
+
+  /// The next character if it is `wanted`, without skipping blanks.
+  bool take(char wanted) {
+    const bool found = next_ != end_ && *next_ == wanted;
+    next_ += found ? 1 : 0;
+    return found;
+  }
+
+  /// Two integers or signs can follow each other only across a blank or one of `take`.
+  [[nodiscard]] bool at_delimiter() const { return is_delimiter(next_); }
+
+  /// A finite number, rounded to nearest.
+  double number(const char* what) {
+    skip_blanks();
+    const char* begin = skip_plus();
+    double value = 0.0;
+    auto [stop, error] = std::from_chars(begin, end_, value);
+    if (error == std::errc::result_out_of_range) {
+      value = beyond_double(begin);
+      error = {};
+    }
+    if (error != std::errc() || !is_delimiter(stop) || !std::isfinite(value)) {
+      fail_at_word(what);
+    }
+    next_ = stop;
+    return value;
+  }
+
+  /// An integer that need not end at a blank: `take` and `at_delimiter` say what follows.
+  std::int64_t integer_prefix(const char* what) {
+    const char* begin = skip_plus();
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(begin, end_, value);
+    if (error != std::errc()) {
+      fail_at_word(what);
+    }
+    next_ = stop;
+    return value;
+  }
+
+  std::int64_t integer(const char* what) {
+    skip_blanks();
+    const char* begin = next_;
+    const std::int64_t value = integer_prefix(what);
+    if (!at_delimiter()) {
+      next_ = begin;
+      fail_at_word(what);
+    }
+    return value;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw ParseError(source_, line_, message);
+  }
+
+  /// "expected `what`, got 'word'".
+  [[noreturn]] void fail_at_word(const std::string& what);
+
+ private:
+  static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+  }
+
+  [[nodiscard]] bool is_comment(const char* p) const { return syntax_.comments && *p == '#'; }
+
+  /// The length of a backslash with its line break at p, or 0.
+  [[nodiscard]] std::size_t continuation(const char* p) const {
+    if (!syntax_.continuation || *p != '\\') {
+      return 0;
+    }
+    if (end_ - p > 1 && p[1] == '\n') {
+      return 2;
+    }
+    return end_ - p > 2 && p[1] == '\r' && p[2] == '\n' ? 3 : 0;
+  }
+
+  [[nodiscard]] bool is_delimiter(const char* p) const {
+    return p == end_ || is_blank(*p) || *p == '\n' || is_comment(p) || continuation(p) != 0;
+  }
+
+  void skip_blanks() {
+    while (next_ != end_) {
+      if (is_blank(*next_)) {
+        ++next_;
+      } else if (const std::size_t length = continuation(next_)) {
+        next_ += length;
+        ++line_;
+      } else {
+        return;
+      }
+    }
+  }
+
+  /// std::from_chars knows no '+'.
+  [[nodiscard]] const char* skip_plus() const {
+    const bool plus = end_ - next_ > 1 && *next_ == '+' && next_[1] != '-';
+    return plus ? next_ + 1 : next_;
+  }
+
+  /// A number too small for double is 0; one too large is infinite.
+  [[nodiscard]] double beyond_double(const char* begin) const;
+
+  const char* next_;
+  const char* end_;
+  std::size_t line_;
+  const std::string& source_;
+  TextSyntax syntax_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,43 @@
+/// @file
+/// What is unusual about a mesh; none of it keeps a query from being right.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// Counts of defects. Vertices count as they are numbered: weld first.
+///
+/// A triangle with repeated corners has fewer edges, or none; no edge joins a vertex to itself.
+struct MeshDefects {
+  std::size_t edges = 0;                 ///< Unique ones.
+  std::size_t open_edges = 0;            ///< Of one triangle.
+  std::size_t nonmanifold_edges = 0;     ///< Of three triangles or more.
+  std::size_t degenerate_triangles = 0;  ///< Equal corners, or area <= 1e-12 (longest edge)^2.
+  std::size_t doubled_triangles = 0;     ///< With the corners of an earlier one, in any order.
+  std::size_t nonfinite_vertices = 0;
+  std::size_t unused_vertices = 0;
+  std::size_t components = 0;  ///< Sets of triangles joined by shared vertices.
+  bool closed = false;         ///< Every edge has exactly two triangles, and there are edges.
+  bool consistently_oriented = false;  ///< No edge is run through twice in the same direction.
+  Eigen::AlignedBox3d bounds;          ///< [m]  Of the finite vertices that triangles use.
+
+  /// [m^3]  By rounded sums; only of a closed, consistently oriented, finite mesh.
+  /// Positive where the triangles face outwards.
+  std::optional<double> signed_volume;
+};
+
+/// Inspects a mesh; takes about a second per million triangles at most.
+///
+/// @param mesh  may be empty or hold vertices that are not finite; indices must be in range
+/// @throws std::invalid_argument if an index is out of range
+[[nodiscard]] FIRSTCONTACT_API MeshDefects inspect(const Mesh& mesh);
+
+}  // namespace firstcontact

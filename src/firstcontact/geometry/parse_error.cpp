@@ -1,0 +1,39 @@
+#include <firstcontact/geometry/parse_error.h>
+
+namespace firstcontact {
+namespace {
+
+// The promise is one line, even where a name has a line break in it.
+std::string in_one_line(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') {
+      c = ' ';
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+ParseError::ParseError(const std::string& path, const std::string& place,
+                       const std::string& message)
+    : std::runtime_error(in_one_line(path + place + ": " + message)),
+      path_(path),
+      message_(in_one_line(message)) {}
+
+ParseError::ParseError(const std::string& path, const std::string& message)
+    : ParseError(path, std::string(), message) {}
+
+ParseError::ParseError(const std::string& path, std::size_t line, const std::string& message)
+    : ParseError(path, ":" + std::to_string(line), message) {
+  line_ = line;
+}
+
+ParseError ParseError::at_byte(const std::string& path, std::size_t offset,
+                               const std::string& message) {
+  ParseError error(path, ": byte " + std::to_string(offset), message);
+  error.offset_ = offset;
+  return error;
+}
+
+}  // namespace firstcontact

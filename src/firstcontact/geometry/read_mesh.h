@@ -1,0 +1,59 @@
+/// @file
+/// Reads triangle meshes from files and from memory.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// Reads a mesh in double precision and welds vertices of equal position (weld.h).
+///
+/// The ending of the name says the format, in upper or lower case: obj, stl, ply, off; and dae,
+/// glb, gltf through assimp, which rounds coordinates to single precision. Coordinates are taken
+/// as metres; of the assimp formats the node transforms (and the unit of a dae) are applied, but
+/// the up axis of a dae is not turned.
+///
+/// A polygon becomes a fan of triangles about its first corner. An element of one or two corners
+/// is a point or an edge: a triangle with repeated corners. Materials, normals, colours and
+/// texture coordinates are passed over. The locale changes nothing.
+///
+/// The file must not shrink while it is read.
+///
+/// @throws ParseError  one line with path, place and what was expected: the file cannot be
+///         opened, is malformed or cut off, has a coordinate that is not finite, an index out of
+///         range, or no element at all
+[[nodiscard]] FIRSTCONTACT_API Mesh read_mesh(const std::filesystem::path& path);
+
+/// Parses Wavefront OBJ text: `v` (with an optional weight of 1, or a colour), `f`, `l` and `p`
+/// with negative indices, comments and continued lines. Not welded; vertices keep the file's order.
+///
+/// @param source  names the text in errors
+/// @throws ParseError  as read_mesh; also on free-form curves and surfaces
+[[nodiscard]] FIRSTCONTACT_API Mesh parse_obj(std::string_view text, const std::string& source);
+
+/// Parses binary or ASCII STL, whichever it is: a soup of three vertices a triangle, not welded.
+///
+/// A file is binary if its size fits its count, or if it is not text that begins with `solid`.
+///
+/// @throws ParseError  as read_mesh; also where a binary file's size contradicts its count
+[[nodiscard]] FIRSTCONTACT_API Mesh parse_stl(std::string_view data, const std::string& source);
+
+/// Parses PLY: ASCII, binary of either byte order, any order and type of properties. Needs the
+/// elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index); passes over others.
+///
+/// @throws ParseError  as read_mesh; also on triangle strips, and where bytes are left over
+[[nodiscard]] FIRSTCONTACT_API Mesh parse_ply(std::string_view data, const std::string& source);
+
+/// Parses ASCII OFF, one vertex or face a line; of the variants (ST, C, N) the extra columns are
+/// passed over.
+///
+/// @throws ParseError  as read_mesh; also on 4OFF, nOFF and binary OFF
+[[nodiscard]] FIRSTCONTACT_API Mesh parse_off(std::string_view text, const std::string& source);
+
+}  // namespace firstcontact

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/geometry/detail/mesh_builder.h>
+#include <firstcontact/geometry/detail/text_cursor.h>
+#include <firstcontact/geometry/read_mesh.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::MeshBuilder;
+using detail::TextCursor;
+
+constexpr const char* kCoordinate = "a finite coordinate";
+constexpr const char* kCorner = "a vertex index (v, v/vt, v//vn or v/vt/vn)";
+
+// Statements that change no geometry. Anything else unknown is refused, as it may be a surface.
+constexpr std::array<std::string_view, 19> kPassedOver = {
+    "vn",         "vt",     "vp",     "g",      "o",        "s",        "mg",
+    "usemtl",     "mtllib", "usemap", "maplib", "c_interp", "d_interp", "trace_obj",
+    "shadow_obj", "bevel",  "lod",    "ctech",  "stech"};
+
+void read_vertex(TextCursor& text, MeshBuilder& mesh) {
+  std::array<double, 7> values{};
+  std::size_t count = 0;
+  while (count < 3 || !text.at_line_end()) {
+    if (count == values.size()) {
+      text.fail_at_word("the end of the line");
+    }
+    values[count] = text.number(count < 3 ? kCoordinate : "a finite weight or colour");
+    ++count;
+  }
+  if (count == 5) {
+    text.fail("expected x y z, x y z w or x y z r g b, got 5 numbers");
+  }
+  if (count == 4 && values[3] != 1.0) {
+    text.fail("expected a vertex weight of 1");
+  }
+  if (!mesh.add_vertex({values[0], values[1], values[2]})) {
+    text.fail("expected fewer than 2^32 vertices");
+  }
+}
+
+/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`, and returns the index from 0.
+std::int64_t read_corner(TextCursor& text, const MeshBuilder& mesh) {
+  const std::int64_t number = text.integer_prefix(kCorner);
+  if (text.take('/')) {
+    if (!text.take('/')) {
+      text.integer_prefix(kCorner);
+      if (text.take('/')) {
+        text.integer_prefix(kCorner);
+      }
+    } else {
+      text.integer_prefix(kCorner);
+    }
+  }
+  if (!text.at_delimiter()) {
+    text.fail_at_word("a blank after the vertex index");
+  }
+  // A negative number counts back from the newest vertex.
+  const std::int64_t index =
+      number > 0 ? number - 1 : static_cast<std::int64_t>(mesh.vertex_count()) + number;
+  if (number == 0 || index < 0) {
+    text.fail("vertex index " + std::to_string(number) +
+              " is out of range: " + std::to_string(mesh.vertex_count()) + " vertices so far");
+  }
+  return index;
+}
+
+void add_corner(TextCursor& text, MeshBuilder& mesh, std::int64_t index) {
+  if (!mesh.add_corner(index)) {
+    text.fail("vertex index " + std::to_string(index + 1) + " is out of range");
+  }
+}
+
+void read_polygon(TextCursor& text, MeshBuilder& mesh) {
+  mesh.begin_polygon(text.line());
+  while (!text.at_line_end()) {
+    add_corner(text, mesh, read_corner(text, mesh));
+  }
+  if (mesh.end_polygon() == 0) {
+    text.fail_at_word(kCorner);
+  }
+}
+
+/// `p`: each corner on its own. `l`: each corner with the one before.
+void read_simplices(TextCursor& text, MeshBuilder& mesh, bool joined) {
+  std::size_t count = 0;
+  std::int64_t previous = 0;
+  for (; !text.at_line_end(); ++count) {
+    const std::int64_t index = read_corner(text, mesh);
+    if (!joined || count > 0) {
+      mesh.begin_polygon(text.line());
+      add_corner(text, mesh, joined ? previous : index);
+      add_corner(text, mesh, index);
+      mesh.end_polygon();
+    }
+    previous = index;
+  }
+  if (count < (joined ? 2u : 1u)) {
+    text.fail_at_word(kCorner);
+  }
+}
+
+void read_statement(TextCursor& text, MeshBuilder& mesh) {
+  const std::string_view keyword = text.word();
+  if (keyword == "v") {
+    read_vertex(text, mesh);
+  } else if (keyword == "f") {
+    read_polygon(text, mesh);
+  } else if (keyword == "l" || keyword == "p") {
+    read_simplices(text, mesh, keyword == "l");
+  } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) == kPassedOver.end()) {
+    text.fail("expected an OBJ statement (v, vn, vt, f, l, p, g, o, s, usemtl ...), got " +
+              detail::quoted(keyword));
+  }
+}
+
+}  // namespace
+
+Mesh parse_obj(std::string_view data, const std::string& source) {
+  TextCursor text(data, source, {.comments = true, .continuation = true});
+  MeshBuilder mesh;
+  while (text.find_line()) {
+    read_statement(text, mesh);
+    text.skip_line();
+  }
+  if (mesh.has_range_error()) {
+    throw ParseError(source, mesh.greatest().place,
+                     "vertex index " + std::to_string(mesh.greatest().index_end) +
+                         " is out of range: the file has " + std::to_string(mesh.vertex_count()) +
+                         " vertices");
+  }
+  if (mesh.is_empty()) {
+    throw ParseError(source, "expected at least one face, line or point, found none");
+  }
+  return mesh.finish();
+}
+
+}  // namespace firstcontact

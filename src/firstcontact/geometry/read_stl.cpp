@@ -1,0 +1,150 @@
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/geometry/detail/byte_cursor.h>
+#include <firstcontact/geometry/detail/mesh_builder.h>
+#include <firstcontact/geometry/detail/text_cursor.h>
+#include <firstcontact/geometry/read_mesh.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::ByteCursor;
+using detail::MeshBuilder;
+using detail::TextCursor;
+
+constexpr std::size_t kHeader = 80;
+constexpr std::size_t kFacet = 50;
+
+std::string lower(std::string_view word) {
+  std::string result(word.substr(0, 16));
+  for (char& c : result) {
+    c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  }
+  return result;
+}
+
+bool size_fits_count(std::string_view data) {
+  if (data.size() < kHeader + 4) {
+    return false;
+  }
+  ByteCursor bytes(data.substr(kHeader), {}, /*big_endian=*/false);
+  return data.size() - kHeader - 4 == std::uint64_t{bytes.read<std::uint32_t>("")} * kFacet;
+}
+
+/// Some binary files begin with "solid" too, but their count has a zero byte.
+bool looks_like_text(std::string_view data) {
+  const std::size_t start = data.find_first_not_of(" \t\r\n\v\f");
+  return start != data.npos && lower(data.substr(start, 5)) == "solid" &&
+         data.substr(0, 1024).find('\0') == data.npos;
+}
+
+Mesh parse_binary(std::string_view data, const std::string& source) {
+  if (data.size() < kHeader + 4) {
+    throw ParseError::at_byte(source, data.size(),
+                              "expected STL: 'solid', or a header of 84 bytes");
+  }
+  ByteCursor bytes(data, source, /*big_endian=*/false);
+  bytes.skip(kHeader, "the header");
+  const std::uint64_t count = bytes.read<std::uint32_t>("the number of triangles");
+  if (bytes.remaining() != count * kFacet) {
+    throw ParseError::at_byte(source, data.size(),
+                              "expected " + std::to_string(kHeader + 4 + count * kFacet) +
+                                  " bytes for " + std::to_string(count) +
+                                  " triangles, got the end of the file");
+  }
+  MeshBuilder mesh;
+  mesh.reserve_vertices(3 * count, 3 * bytes.remaining(), kFacet);
+  mesh.reserve_triangles(count, bytes.remaining(), kFacet);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    bytes.skip(12, "a normal");
+    mesh.begin_polygon(bytes.offset());
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t place = bytes.offset();
+      const float x = bytes.read<float>("a coordinate");
+      const float y = bytes.read<float>("a coordinate");
+      const float z = bytes.read<float>("a coordinate");
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
+        throw ParseError::at_byte(source, place,
+                                  "expected finite coordinates of triangle " + std::to_string(i));
+      }
+      if (!mesh.add_vertex({x, y, z}) ||
+          !mesh.add_corner(static_cast<std::int64_t>(mesh.vertex_count()) - 1)) {
+        throw ParseError::at_byte(source, place, "expected fewer than 2^32 vertices");
+      }
+    }
+    mesh.end_polygon();
+    bytes.skip(2, "the attributes");
+  }
+  if (mesh.is_empty()) {
+    throw ParseError(source, "expected at least one triangle, found none");
+  }
+  return mesh.finish();
+}
+
+void expect(TextCursor& text, std::string_view keyword) {
+  const bool found = text.find_line();
+  TextCursor before = text;
+  if (!found || lower(text.word()) != keyword) {
+    before.fail_at_word("'" + std::string(keyword) + "'");
+  }
+}
+
+void read_facet(TextCursor& text, MeshBuilder& mesh) {
+  expect(text, "normal");
+  text.skip_line();  // Not used: it is often not a number.
+  expect(text, "outer");
+  expect(text, "loop");
+  mesh.begin_polygon(text.line());
+  for (int k = 0; k < 3; ++k) {
+    expect(text, "vertex");
+    const double x = text.number("a finite coordinate");
+    const double y = text.number("a finite coordinate");
+    const double z = text.number("a finite coordinate");
+    text.expect_line_end();
+    if (!mesh.add_vertex({x, y, z}) ||
+        !mesh.add_corner(static_cast<std::int64_t>(mesh.vertex_count()) - 1)) {
+      text.fail("expected fewer than 2^32 vertices");
+    }
+  }
+  mesh.end_polygon();
+  expect(text, "endloop");
+  expect(text, "endfacet");
+}
+
+Mesh parse_ascii(std::string_view data, const std::string& source) {
+  TextCursor text(data, source, {});
+  MeshBuilder mesh;
+  while (text.find_line()) {
+    expect(text, "solid");
+    text.skip_line();  // The name.
+    for (;;) {
+      const bool more = text.find_line();
+      TextCursor before = text;
+      const std::string keyword = more ? lower(text.word()) : std::string();
+      if (keyword == "endsolid") {
+        text.skip_line();
+        break;
+      }
+      if (keyword != "facet") {
+        before.fail_at_word("'facet' or 'endsolid'");
+      }
+      read_facet(text, mesh);
+    }
+  }
+  if (mesh.is_empty()) {
+    throw ParseError(source, "expected at least one triangle, found none");
+  }
+  return mesh.finish();
+}
+
+}  // namespace
+
+Mesh parse_stl(std::string_view data, const std::string& source) {
+  const bool text = !size_fits_count(data) && looks_like_text(data);
+  return text ? parse_ascii(data, source) : parse_binary(data, source);
+}
+
+}  // namespace firstcontact
