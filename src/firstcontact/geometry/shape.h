@@ -3,19 +3,16 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
-#include <Eigen/Core>
-
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
-
-namespace detail {
-struct ShapeData;
-}
 
 /// A union of simplices thickened by a radius, with its bounding-volume hierarchy.
 /// Immutable and cheap to copy: copies share their data, also between threads.
@@ -37,10 +34,18 @@ class FIRSTCONTACT_API Shape {
   /// makes no edge.
   [[nodiscard]] std::array<std::uint32_t, 2> edge(std::size_t index) const;
 
-  [[nodiscard]] const detail::ShapeData& data() const { return *data_; }
+  /// The unique edge that joins two vertices of one triangle.
+  [[nodiscard]] std::uint32_t edge_index(std::uint32_t vertex, std::uint32_t other) const;
+
+  [[nodiscard]] const Hierarchy& hierarchy() const;
+
+  /// A total order by content (up to hash collisions), so that queries can put two bodies in an
+  /// order of their own and answer alike for A and B swapped. Negative, zero or positive.
+  [[nodiscard]] int compare(const Shape& other) const;
 
  private:
-  std::shared_ptr<const detail::ShapeData> data_;
+  struct Data;
+  std::shared_ptr<const Data> data_;
 };
 
 }  // namespace firstcontact

@@ -1,0 +1,165 @@
+#include <firstcontact/geometry/shape.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace firstcontact {
+namespace {
+
+void validate(const Mesh& mesh, double radius) {
+  if (!(radius >= 0.0 && std::isfinite(radius))) {
+    throw std::invalid_argument("Shape: radius must be finite and >= 0, got " +
+                                std::to_string(radius));
+  }
+  if (mesh.triangles.empty()) {
+    throw std::invalid_argument("Shape: the mesh has no triangles");
+  }
+  if (mesh.triangles.size() >= (std::size_t{1} << 28)) {
+    throw std::invalid_argument("Shape: more than 2^28 triangles");
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t v : mesh.triangles[i]) {
+      if (v >= mesh.vertices.size()) {
+        throw std::invalid_argument("Shape: triangle " + std::to_string(i) + " refers to vertex " +
+                                    std::to_string(v) + " of " +
+                                    std::to_string(mesh.vertices.size()));
+      }
+      // Beyond this, squares and products of lengths would overflow.
+      constexpr double kMaximumCoordinate = 1e60;
+      if (!(mesh.vertices[v].cwiseAbs().maxCoeff() <= kMaximumCoordinate) ||
+          mesh.vertices[v].hasNaN()) {
+        throw std::invalid_argument("Shape: vertex " + std::to_string(v) +
+                                    " is not finite or beyond 1e60 m");
+      }
+    }
+  }
+}
+
+/// Unique edges, bucketed by their smaller vertex: those of vertex v are the numbers from
+/// first[v] to first[v + 1], with their larger vertices in rising order.
+struct EdgeTable {
+  std::vector<std::uint32_t> first;
+  std::vector<std::uint32_t> larger;
+};
+
+template <class Use>
+void for_each_triangle_edge(const Mesh& mesh, const Use& use) {
+  for (const auto& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k];
+      const std::uint32_t b = t[(k + 1) % 3];
+      if (a != b) {
+        use(std::min(a, b), std::max(a, b));
+      }
+    }
+  }
+}
+
+EdgeTable collect_edges(const Mesh& mesh) {
+  EdgeTable table;
+  table.first.assign(mesh.vertices.size() + 1, 0);
+  for_each_triangle_edge(mesh, [&](std::uint32_t a, std::uint32_t) { ++table.first[a + 1]; });
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    table.first[v + 1] += table.first[v];
+  }
+  table.larger.resize(table.first.back());
+  std::vector<std::uint32_t> next(table.first.begin(), table.first.end() - 1);
+  for_each_triangle_edge(mesh,
+                         [&](std::uint32_t a, std::uint32_t b) { table.larger[next[a]++] = b; });
+  // Sorts each bucket and closes the gaps that its duplicates leave.
+  std::uint32_t write = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto begin = table.larger.begin() + (v == 0 ? 0 : next[v - 1]);
+    const auto end = table.larger.begin() + next[v];
+    std::sort(begin, end);
+    const auto last = std::unique(begin, end);
+    table.first[v] = write;
+    write = static_cast<std::uint32_t>(
+        std::copy(begin, last, table.larger.begin() + write) - table.larger.begin());
+  }
+  table.first.back() = write;
+  table.larger.resize(write);
+  table.larger.shrink_to_fit();
+  return table;
+}
+
+std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
+  return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29);
+}
+
+std::uint64_t content_hash(const Mesh& mesh, double radius) {
+  std::uint64_t hash = mix(mesh.triangles.size(), std::bit_cast<std::uint64_t>(radius));
+  for (const Eigen::Vector3d& v : mesh.vertices) {
+    for (int k = 0; k < 3; ++k) {
+      hash = mix(hash, std::bit_cast<std::uint64_t>(v[k]));
+    }
+  }
+  for (const auto& t : mesh.triangles) {
+    hash = mix(hash, std::uint64_t{t[0]} << 32 | t[1]);
+    hash = mix(hash, t[2]);
+  }
+  return hash;
+}
+
+}  // namespace
+
+struct Shape::Data {
+  Mesh mesh;
+  double radius = 0.0;
+  EdgeTable edges;
+  Hierarchy hierarchy;
+  std::uint64_t hash = 0;
+};
+
+Shape::Shape(Mesh mesh, double radius) {
+  validate(mesh, radius);
+  auto data = std::make_shared<Data>();
+  data->mesh = std::move(mesh);
+  data->radius = radius;
+  data->edges = collect_edges(data->mesh);
+  data->hierarchy = build_hierarchy(data->mesh);
+  data->hash = content_hash(data->mesh, radius);
+  data_ = std::move(data);
+}
+
+const Mesh& Shape::mesh() const { return data_->mesh; }
+
+double Shape::radius() const { return data_->radius; }
+
+std::size_t Shape::edge_count() const { return data_->edges.larger.size(); }
+
+std::array<std::uint32_t, 2> Shape::edge(std::size_t index) const {
+  const EdgeTable& edges = data_->edges;
+  const auto number = static_cast<std::uint32_t>(index);
+  const auto after = std::upper_bound(edges.first.begin(), edges.first.end(), number);
+  return {static_cast<std::uint32_t>(after - edges.first.begin() - 1), edges.larger.at(index)};
+}
+
+std::uint32_t Shape::edge_index(std::uint32_t vertex, std::uint32_t other) const {
+  const EdgeTable& edges = data_->edges;
+  const auto [a, b] = std::minmax(vertex, other);
+  const auto begin = edges.larger.begin() + edges.first.at(a);
+  const auto end = edges.larger.begin() + edges.first.at(a + 1);
+  const auto found = std::lower_bound(begin, end, b);
+  if (found == end || *found != b) {
+    throw std::invalid_argument("Shape::edge_index: no triangle has an edge between vertices " +
+                                std::to_string(vertex) + " and " + std::to_string(other));
+  }
+  return static_cast<std::uint32_t>(found - edges.larger.begin());
+}
+
+const Hierarchy& Shape::hierarchy() const { return data_->hierarchy; }
+
+int Shape::compare(const Shape& other) const {
+  if (data_ == other.data_ || data_->hash == other.data_->hash) {
+    return 0;
+  }
+  return data_->hash < other.data_->hash ? -1 : 1;
+}
+
+}  // namespace firstcontact
