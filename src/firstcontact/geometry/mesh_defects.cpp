@@ -25,8 +25,10 @@ void check_indices(const Mesh& mesh) {
   }
 }
 
+bool has_repeated_corner(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
 bool is_degenerate(const Mesh& mesh, const Triangle& t) {
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+  if (has_repeated_corner(t)) {
     return true;
   }
   Eigen::Vector3d a = mesh.vertices[t[1]] - mesh.vertices[t[0]];
@@ -49,17 +51,13 @@ struct EdgeRuns {
 
 template <class Use>
 void for_each_edge(const Triangle& t, const Use& use) {
-  // With two equal corners the remaining edge would be met twice: there and back.
-  const bool folded = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+  if (has_repeated_corner(t)) {
+    return;
+  }
   for (int k = 0; k < 3; ++k) {
     const std::uint32_t a = t[k];
     const std::uint32_t b = t[(k + 1) % 3];
-    if (a != b) {
-      use(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a > b ? 1 : 0));
-      if (folded) {
-        return;
-      }
-    }
+    use(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a > b ? 1 : 0));
   }
 }
 
@@ -94,7 +92,7 @@ void count_edges(const Mesh& mesh, MeshDefects& defects) {
       ++defects.edges;
       defects.open_edges += triangles == 1 ? 1 : 0;
       defects.nonmanifold_edges += triangles > 2 ? 1 : 0;
-      if (backward > 1 || triangles - backward > 1) {
+      if (triangles == 2 && backward != 1) {
         defects.consistently_oriented = false;
       }
     }
@@ -103,9 +101,13 @@ void count_edges(const Mesh& mesh, MeshDefects& defects) {
 }
 
 std::size_t count_doubled(const Mesh& mesh) {
-  std::vector<Triangle> sorted = mesh.triangles;
-  for (Triangle& t : sorted) {
-    std::sort(t.begin(), t.end());
+  std::vector<Triangle> sorted;
+  sorted.reserve(mesh.triangles.size());
+  for (Triangle t : mesh.triangles) {
+    if (!has_repeated_corner(t)) {
+      std::sort(t.begin(), t.end());
+      sorted.push_back(t);
+    }
   }
   std::sort(sorted.begin(), sorted.end());
   return static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
@@ -125,8 +127,9 @@ class Components {
     return v;
   }
   void join(std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax(root(a), root(b));
-    parent_[high] = low;
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:

@@ -15,7 +15,8 @@ namespace firstcontact {
 
 /// Counts of defects. Vertices count as they are numbered: weld first.
 ///
-/// A triangle with repeated corners has fewer edges, or none; no edge joins a vertex to itself.
+/// A triangle with repeated corners bounds no surface: it is not counted among doubled ones,
+/// nor are its edges.
 struct MeshDefects {
   std::size_t edges = 0;                 ///< Unique ones.
   std::size_t open_edges = 0;            ///< Of one triangle.
@@ -26,7 +27,7 @@ struct MeshDefects {
   std::size_t unused_vertices = 0;
   std::size_t components = 0;  ///< Sets of triangles joined by shared vertices.
   bool closed = false;         ///< Every edge has exactly two triangles, and there are edges.
-  bool consistently_oriented = false;  ///< No edge is run through twice in the same direction.
+  bool consistently_oriented = false;  ///< Two triangles run their edge in opposite directions.
   Eigen::AlignedBox3d bounds;          ///< [m]  Of the finite vertices that triangles use.
 
   /// [m^3]  By rounded sums; only of a closed, consistently oriented, finite mesh.

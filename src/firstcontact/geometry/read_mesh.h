@@ -20,8 +20,9 @@ namespace firstcontact {
 /// the up axis of a dae is not turned.
 ///
 /// A polygon becomes a fan of triangles about its first corner. An element of one or two corners
-/// is a point or an edge: a triangle with repeated corners. Materials, normals, colours and
-/// texture coordinates are passed over. The locale changes nothing.
+/// is a point or an edge: a triangle with repeated corners; in dae, glb and gltf files these are
+/// left out, as they are drawings there. Materials, normals, colours and texture coordinates are
+/// passed over. The locale changes nothing.
 ///
 /// The file must not shrink while it is read.
 ///
@@ -31,7 +32,8 @@ namespace firstcontact {
 [[nodiscard]] FIRSTCONTACT_API Mesh read_mesh(const std::filesystem::path& path);
 
 /// Parses Wavefront OBJ text: `v` (with an optional weight of 1, or a colour), `f`, `l` and `p`
-/// with negative indices, comments and continued lines. Not welded; vertices keep the file's order.
+/// with negative indices, comments and continued lines; a line of counts is passed over.
+/// Not welded; vertices keep the file's order.
 ///
 /// @param source  names the text in errors
 /// @throws ParseError  as read_mesh; also on free-form curves and surfaces

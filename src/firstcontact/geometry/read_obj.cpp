@@ -105,6 +105,14 @@ void read_simplices(TextCursor& text, MeshBuilder& mesh, bool joined) {
   }
 }
 
+/// A line of counts only: some exporters begin with the numbers of vertices and faces.
+bool is_counts(std::string_view word, TextCursor& text) {
+  while (!word.empty() && word.find_first_not_of("0123456789") == word.npos) {
+    word = text.word();
+  }
+  return word.empty();
+}
+
 void read_statement(TextCursor& text, MeshBuilder& mesh) {
   const std::string_view keyword = text.word();
   if (keyword == "v") {
@@ -113,7 +121,8 @@ void read_statement(TextCursor& text, MeshBuilder& mesh) {
     read_polygon(text, mesh);
   } else if (keyword == "l" || keyword == "p") {
     read_simplices(text, mesh, keyword == "l");
-  } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) == kPassedOver.end()) {
+  } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) == kPassedOver.end() &&
+             !is_counts(keyword, text)) {
     text.fail("expected an OBJ statement (v, vn, vt, f, l, p, g, o, s, usemtl ...), got " +
               detail::quoted(keyword));
   }

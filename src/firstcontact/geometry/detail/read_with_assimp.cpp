@@ -66,6 +66,9 @@ void add_mesh(const std::string& path, const aiMesh& part, const Eigen::Affine3d
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices < 3) {
+      continue;  // Lines and points are drawings here, not parts of the body.
+    }
     mesh.begin_polygon(i);
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] >= part.mNumVertices || !mesh.add_corner(base + face.mIndices[k])) {

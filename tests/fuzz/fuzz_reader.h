@@ -1,0 +1,39 @@
+/// @file
+/// What holds for a mesh reader on any bytes: a valid mesh, or a ParseError of one line.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/geometry/weld.h>
+
+namespace firstcontact::test {
+
+inline void require(bool holds) {
+  if (!holds) {
+    std::abort();
+  }
+}
+
+/// Parses the bytes, and puts what was read through weld and inspect.
+template <class Parse>
+void fuzz_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
+  try {
+    Mesh mesh = parse(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
+    require(!mesh.triangles.empty());
+    weld(mesh);
+    require(inspect(mesh).nonfinite_vertices == 0);
+  } catch (const ParseError& error) {
+    require(std::strchr(error.what(), '\n') == nullptr);
+  }
+}
+
+}  // namespace firstcontact::test
