@@ -1,0 +1,55 @@
+/// @file
+/// Distance of two triangles, and the features that are close.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;  ///< Corners; may coincide or be collinear.
+
+/// A feature of one triangle: corner k, edge from corner k to corner k + 1 (mod 3), or the face.
+struct TriangleFeature {
+  enum class Type { vertex, edge, face };
+  Type type = Type::vertex;
+  int index = 0;
+
+  friend bool operator==(const TriangleFeature&, const TriangleFeature&) = default;
+};
+
+/// A point of each triangle, and the features in whose interiors they lie. Which constraint is
+/// active decides the class, never a tolerance.
+struct ClosestFeatures {
+  double distance = 0.0;  ///< [m]  |p_B - p_A|, up to rounding; 0 where the triangles pierce.
+  Eigen::Vector3d p_A = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_B = Eigen::Vector3d::Zero();
+  TriangleFeature feature_A;
+  TriangleFeature feature_B;
+};
+
+/// Closest points of two triangles. They always lie on the triangles, so that `distance` is an
+/// upper bound of the true distance up to a few units in the last place of the coordinates,
+/// whatever the shape of the triangles: needles, points, parallel, coplanar and piercing ones.
+///
+/// Least over the nine pairs of edges and the six projections of a corner into a face; a pair that
+/// none of these decides pierces, which is tested by itself.
+FIRSTCONTACT_API ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B);
+
+/// Up to 21 feature pairs: nine of edges, six of a corner and a face, six piercings.
+struct FeaturePairs {
+  std::array<ClosestFeatures, 21> pairs;
+  std::size_t count = 0;
+};
+
+/// All elementary pairs within `band` [m], each with the features in whose interiors its closest
+/// points lie; the same pair of features may come more than once.
+FIRSTCONTACT_API FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B,
+                                                   double band);
+
+}  // namespace firstcontact

@@ -1,0 +1,117 @@
+#include <firstcontact/query/closest_approach.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/distance.h>
+
+namespace firstcontact {
+namespace {
+
+/// An upper bound by sampling, lowered by local descent; the certificate is first_contact's.
+class Descent {
+ public:
+  Descent(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+          ClosestApproachResult& best)
+      : A_(A), B_(B), workspace_(workspace), best_(best) {}
+
+  double sample(double t) {
+    const DistanceResult here = distance(A_, B_, t, workspace_);
+    best_.work.node_groups += here.work.node_groups;
+    best_.work.triangle_pairs += here.work.triangle_pairs;
+    if (here.distance < best_.distance) {
+      best_.distance = here.distance;
+      best_.t = t;
+      best_.closest = here.closest;
+    }
+    return here.distance;
+  }
+
+  /// Golden-section search around t, within `width` on either side.
+  void improve(double t, double width, double tolerance) {
+    constexpr double kGolden = 0.6180339887498949;
+    double low = std::max(0.0, t - width);
+    double high = std::min(1.0, t + width);
+    double x = high - kGolden * (high - low);
+    double y = low + kGolden * (high - low);
+    double dx = sample(x);
+    double dy = sample(y);
+    constexpr int kSteps = 60;
+    for (int i = 0; i < kSteps && std::abs(dx - dy) > 0.01 * tolerance; ++i) {
+      if (dx < dy) {
+        high = y;
+        y = x;
+        dy = dx;
+        x = high - kGolden * (high - low);
+        dx = sample(x);
+      } else {
+        low = x;
+        x = y;
+        dx = dy;
+        y = low + kGolden * (high - low);
+        dy = sample(y);
+      }
+    }
+  }
+
+ private:
+  const MovingShape& A_;
+  const MovingShape& B_;
+  Workspace& workspace_;
+  ClosestApproachResult& best_;
+};
+
+}  // namespace
+
+ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& B,
+                                       Workspace& workspace,
+                                       const ClosestApproachOptions& options) {
+  if (!(options.tolerance > 0.0 && std::isfinite(options.tolerance))) {
+    throw std::invalid_argument("ClosestApproachOptions::tolerance must be finite and > 0, got " +
+                                std::to_string(options.tolerance));
+  }
+  const FloatEnvironmentGuard guard;
+  ClosestApproachResult best;
+  best.tolerance_used = options.tolerance;
+  Descent descent(A, B, workspace, best);
+  constexpr int kSamples = 8;
+  for (int i = 0; i <= kSamples; ++i) {
+    descent.sample(static_cast<double>(i) / kSamples);
+  }
+  descent.improve(best.t, 1.0 / kSamples, options.tolerance);
+  // Proves that nothing is closer than distance - tolerance, or finds what is.
+  while (best.distance > options.tolerance) {
+    FirstContactOptions query;
+    query.margin = best.distance - options.tolerance;
+    query.tolerance = 0.5 * options.tolerance;
+    query.contacts = ContactState::none;
+    query.budget = options.budget;
+    const FirstContactResult closer = first_contact(A, B, workspace, query);
+    best.work.node_groups += closer.work.node_groups;
+    best.work.triangle_pairs += closer.work.triangle_pairs;
+    best.work.steps += closer.work.steps;
+    best.tolerance_used =
+        std::max(best.tolerance_used, closer.tolerance_used + 0.5 * options.tolerance);
+    if (closer.verdict == Verdict::free) {
+      best.lower_bound = query.margin;
+      return best;
+    }
+    if (closer.verdict == Verdict::undecided) {
+      best.reason = closer.reason;
+      return best;
+    }
+    const double before = best.distance;
+    descent.sample(closer.t);
+    descent.improve(closer.t, 0.01, options.tolerance);
+    if (!(best.distance < before)) {  // Rounding hides what the search found.
+      best.reason = UndecidedReason::precision;
+      return best;
+    }
+  }
+  return best;
+}
+
+}  // namespace firstcontact

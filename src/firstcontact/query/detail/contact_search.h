@@ -1,0 +1,41 @@
+/// @file
+/// The best-first search for the first contact over one piece of two motions.
+
+#pragma once
+
+#include <optional>
+
+#include <firstcontact/query/detail/workspace_data.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact::detail {
+
+/// What the search of one piece found.
+struct PieceResult {
+  double t = 0.0;           ///< Proven: no contact of the piece before t.
+  bool contact = false;     ///< At t some pair is within its threshold + tolerance.
+  bool finished = false;    ///< Neither: the whole piece is proven free.
+  UndecidedReason reason = UndecidedReason::none;
+  BoxId a;                  ///< The pair that decided.
+  BoxId b;
+};
+
+struct SearchLimits {
+  double margin = 0.0;     ///< [m]  Radii of the shapes included.
+  double radii = 0.0;      ///< [m]  Sum of the two.
+  double tolerance = 0.0;  ///< [m]
+  StartContacts start_contacts = StartContacts::report;
+  const MovingPair& start;  ///< At t = 0, where start distances are taken.
+  const WorkBudget& budget;
+};
+
+/// Searches [t_begin, t_end].
+///
+/// Every pair of triangles is at all times represented by exactly one entry of the queue, itself or
+/// a pair of boxes around it, whose key is proven to be no later than the pair's first contact. The
+/// least key is hence never later than the first contact of the shapes. Keys of nearly tied pairs
+/// are lowered a little with each level of the hierarchies, so that ties are searched depth-first.
+PieceResult search_piece(const MovingPair& pair, double t_begin, double t_end,
+                         const SearchLimits& limits, WorkspaceData& workspace, WorkCount& work);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,140 @@
+#include <firstcontact/query/detail/contact_state.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+Feature global_feature(const Shape& shape, std::uint32_t triangle, const TriangleFeature& local) {
+  const std::uint32_t index = shape.hierarchy().triangle_index[triangle];
+  const auto& corners = shape.mesh().triangles[index];
+  switch (local.type) {
+    case TriangleFeature::Type::vertex:
+      return {FeatureType::vertex, corners[local.index], index};
+    case TriangleFeature::Type::edge:
+      return {FeatureType::edge,
+              shape.edge_index(corners[local.index], corners[(local.index + 1) % 3]), index};
+    case TriangleFeature::Type::face:
+      break;
+  }
+  return {FeatureType::face, index, index};
+}
+
+Vector3d face_normal(const Triangle& T) { return (T[1] - T[0]).cross(T[2] - T[0]); }
+
+Vector3d edge_vector(const Triangle& T, int edge) { return T[(edge + 1) % 3] - T[edge]; }
+
+/// The direction that the features alone define, of any length and sign; zero where none does.
+Vector3d feature_normal(const TrianglePair& pair, const ClosestFeatures& closest) {
+  using Type = TriangleFeature::Type;
+  if (closest.feature_A.type == Type::face) {
+    return face_normal(pair.A);
+  }
+  if (closest.feature_B.type == Type::face) {
+    return face_normal(pair.B);
+  }
+  if (closest.feature_A.type == Type::edge && closest.feature_B.type == Type::edge) {
+    return edge_vector(pair.A, closest.feature_A.index)
+        .cross(edge_vector(pair.B, closest.feature_B.index));
+  }
+  return Vector3d::Zero();
+}
+
+Vector3d relative_velocity(const RelativeMotion& motion, const RelativeState& state,
+                           const Vector3d& p_A, const Vector3d& p_B) {
+  const Vector3d v_A = motion.A().rate() * motion.A().axis().cross(p_A - state.p_AQa);
+  const Vector3d v_B = motion.B().rate() * motion.B().axis().cross(p_B - state.p_AQb);
+  return motion.pivot_velocity() + v_B - v_A;
+}
+
+auto order_key(const Contact& c) {
+  return std::tuple(c.feature_A.type, c.feature_A.index, c.feature_B.type, c.feature_B.index,
+                    c.distance, c.feature_A.triangle, c.feature_B.triangle);
+}
+
+bool same_features(const Contact& x, const Contact& y) {
+  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
+         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+}
+
+}  // namespace
+
+Contact make_contact(const ContactFrame& frame, const RelativeState& state,
+                     std::uint32_t triangle_A, std::uint32_t triangle_B,
+                     const ClosestFeatures& closest) {
+  Contact contact;
+  contact.feature_A = global_feature(frame.A, triangle_A, closest.feature_A);
+  contact.feature_B = global_feature(frame.B, triangle_B, closest.feature_B);
+  const Vector3d velocity =
+      relative_velocity(frame.pair.motion(), state, closest.p_A, closest.p_B);
+  Vector3d n = closest.p_B - closest.p_A;
+  if (!(closest.distance > 0.0)) {
+    n = feature_normal(frame.pair.place(state, triangle_A, triangle_B), closest);
+    n = n.dot(velocity) > 0.0 ? Vector3d(-n) : n;
+  }
+  const double length = n.norm();
+  Vector3d thickness_A = Vector3d::Zero();
+  Vector3d thickness_B = Vector3d::Zero();
+  if (length > 0.0) {
+    contact.n_AB_W = n / length;
+    contact.normal_velocity = contact.n_AB_W->dot(velocity);
+    thickness_A = frame.A.radius() * *contact.n_AB_W;
+    thickness_B = -frame.B.radius() * *contact.n_AB_W;
+  }
+  contact.p_WA = frame.p_WC + closest.p_A + thickness_A;
+  contact.p_WB = frame.p_WC + closest.p_B + thickness_B;
+  contact.distance = closest.distance - frame.A.radius() - frame.B.radius();
+  return contact;
+}
+
+void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
+                      std::vector<Contact>& contacts) {
+  const MovingPair& pair = frame.pair;
+  const RelativeState state = pair.motion().state(frame.t);
+  const double reach = band + pair.gap_error(state);
+  auto& stack = workspace.stack;
+  stack.assign(1, {BoxId{}, BoxId{}});
+  while (!stack.empty()) {
+    const auto [box_A, box_B] = stack.back();
+    stack.pop_back();
+    if (is_triangle(pair.A(), box_A) && is_triangle(pair.B(), box_B)) {
+      const std::uint32_t ta = triangle(pair.A(), box_A);
+      const std::uint32_t tb = triangle(pair.B(), box_B);
+      const TrianglePair triangles = pair.place(state, ta, tb);
+      const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
+      for (std::size_t k = 0; k < close.count; ++k) {
+        contacts.push_back(make_contact(frame, state, ta, tb, close.pairs[k]));
+      }
+      continue;
+    }
+    const BoxChildren as = children(pair.A(), box_A);
+    const BoxChildren bs = children(pair.B(), box_B);
+    for (int i = 0; i < as.count; ++i) {
+      const PlacedBox a = pair.place_A(state, as.boxes[i]);
+      for (int j = 0; j < bs.count; ++j) {
+        if (MovingPair::gap(a, pair.place_B(state, bs.boxes[j])) <= reach) {
+          stack.emplace_back(as.boxes[i], bs.boxes[j]);
+        }
+      }
+    }
+  }
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& x, const Contact& y) { return order_key(x) < order_key(y); });
+  contacts.erase(std::unique(contacts.begin(), contacts.end(), same_features), contacts.end());
+}
+
+void swap_bodies(Contact& contact) {
+  std::swap(contact.feature_A, contact.feature_B);
+  std::swap(contact.p_WA, contact.p_WB);
+  if (contact.n_AB_W) {
+    contact.n_AB_W = -*contact.n_AB_W;
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,169 @@
+#include <firstcontact/query/detail/moving_pair.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+PlacedBox place(const Hierarchy& hierarchy, BoxId box, const Matrix3d& R, const Vector3d& origin,
+                const Vector3d& pivot) {
+  PlacedBox placed;
+  if (box.is_whole()) {
+    placed.centre = origin;
+    placed.axes.setIdentity();
+    placed.extent.setConstant(hierarchy.radius);
+    placed.radius = hierarchy.radius;
+  } else {
+    const HierarchyNode& node = hierarchy.nodes[box.node];
+    const auto slot = static_cast<int>(box.slot);
+    Vector3d centre;
+    for (int k = 0; k < 3; ++k) {
+      centre[k] = static_cast<double>(node.centre[k][slot]);
+      const auto bits = static_cast<std::uint32_t>(node.extent[k][slot]) << 16;
+      placed.extent[k] = static_cast<double>(std::bit_cast<float>(bits)) * hierarchy.unit;
+    }
+    placed.centre = origin + R * (centre * hierarchy.unit);
+    placed.axes = box_axes(node, slot) * R.transpose();
+    placed.radius = placed.extent.norm();
+  }
+  placed.reach = ((placed.centre - pivot).norm() + placed.radius) * (1.0 + 0x1p-48);
+  return placed;
+}
+
+double extent_along(const PlacedBox& box, const Vector3d& n) {
+  return box.extent.dot((box.axes * n).cwiseAbs());
+}
+
+/// The extent of a whole shape is its radius in every direction.
+struct Separation {
+  Vector3d n;  // from A to B
+  double gap;
+};
+
+template <class Use>
+void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) {
+  const Vector3d d = b.centre - a.centre;
+  const auto consider = [&](Vector3d n) {
+    double along = n.dot(d);
+    if (along < 0.0) {
+      n = -n;
+      along = -along;
+    }
+    use(Separation{n, along - extent_along(a, n) - extent_along(b, n)});
+  };
+  const double length = d.norm();
+  if (length > 0.0) {
+    consider(d / length);
+  }
+  for (int k = 0; k < 3; ++k) {
+    consider(a.axes.row(k).transpose());
+    consider(b.axes.row(k).transpose());
+  }
+}
+
+}  // namespace
+
+MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const RelativeMotion& motion)
+    : A_(A),
+      B_(B),
+      motion_(motion),
+      speed_bound_((motion.pivot_velocity().norm() +
+                    motion.A().rate() * (motion.A().lever_length() + A.radius) +
+                    motion.B().rate() * (motion.B().lever_length() + B.radius)) *
+                   (1.0 + 0x1p-40)) {}
+
+double MovingPair::gap_error(const RelativeState& state) const {
+  return 0x1p-47 * (A_.radius + B_.radius + state.p_AB.norm()) + motion_.position_error() +
+         motion_.A().rotation_error() * A_.radius + motion_.B().rotation_error() * B_.radius;
+}
+
+PlacedBox MovingPair::place_A(const RelativeState& state, BoxId box) const {
+  PlacedBox placed =
+      detail::place(A_, box, state.R_WA, Vector3d::Zero(), state.p_AQa);
+  placed.velocity =
+      motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
+  return placed;
+}
+
+PlacedBox MovingPair::place_B(const RelativeState& state, BoxId box) const {
+  PlacedBox placed = detail::place(B_, box, state.R_WB, state.p_AB, state.p_AQb);
+  placed.velocity =
+      motion_.pivot_velocity() +
+      motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
+  return placed;
+}
+
+TrianglePair MovingPair::place(const RelativeState& state, std::uint32_t triangle_A,
+                               std::uint32_t triangle_B) const {
+  TrianglePair pair;
+  const auto& ta = A_.triangles[triangle_A];
+  const auto& tb = B_.triangles[triangle_B];
+  for (int k = 0; k < 3; ++k) {
+    pair.A[k] = state.R_WA * A_.vertices[ta[k]];
+    pair.B[k] = state.p_AB + state.R_WB * B_.vertices[tb[k]];
+  }
+  return pair;
+}
+
+BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double threshold,
+                               double error) const {
+  const double wA = motion_.A().rate();
+  const double wB = motion_.B().rate();
+  const Vector3d velocity = b.velocity - a.velocity;
+  const double slip =
+      0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach);
+  BoxPairBound best;
+  best.gap = -std::numeric_limits<double>::infinity();
+  for_each_direction(a, b, [&](const Separation& s) {
+    best.gap = std::max(best.gap, s.gap);
+    const double clear = s.gap - threshold - error;
+    if (!(clear > 0.0)) {
+      return;
+    }
+    const double turn_A = wA * s.n.cross(motion_.A().axis()).norm();
+    const double turn_B = wB * s.n.cross(motion_.B().axis()).norm();
+    const double speed =
+        slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius;
+    const double half_acceleration =
+        0.5 * (1.0 + 0x1p-46) *
+        (wA * turn_A * a.reach + wB * turn_B * b.reach + slip * (wA + wB));
+    best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
+  });
+  return best;
+}
+
+double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
+  double best = -std::numeric_limits<double>::infinity();
+  for_each_direction(a, b, [&](const Separation& s) { best = std::max(best, s.gap); });
+  return best;
+}
+
+BoxChildren children(const Hierarchy& hierarchy, BoxId box) {
+  BoxChildren result;
+  if (!box.is_whole() && is_triangle(hierarchy, box)) {
+    result.boxes[result.count++] = box;
+    return result;
+  }
+  const std::uint32_t node =
+      box.is_whole() ? 0 : hierarchy.nodes[box.node].child_node(static_cast<int>(box.slot));
+  for (std::uint32_t slot = 0; slot < 4; ++slot) {
+    if ((hierarchy.nodes[node].used() >> slot & 1u) != 0) {
+      result.boxes[result.count++] = {node, slot};
+    }
+  }
+  return result;
+}
+
+bool is_triangle(const Hierarchy& hierarchy, BoxId box) {
+  return !box.is_whole() && hierarchy.nodes[box.node].is_leaf(static_cast<int>(box.slot));
+}
+
+}  // namespace firstcontact::detail

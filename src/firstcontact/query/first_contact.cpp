@@ -1,0 +1,130 @@
+#include <firstcontact/query/first_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/detail/contact_search.h>
+#include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/order.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::MovingPair;
+
+void require_range(bool holds, const char* option, const char* range, double value) {
+  if (!holds) {
+    throw std::invalid_argument(std::string("FirstContactOptions::") + option + " must be " +
+                                range + ", got " + std::to_string(value));
+  }
+}
+
+void validate(const FirstContactOptions& options) {
+  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin",
+                "finite and >= 0", options.margin);
+  require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
+                "finite and > 0", options.tolerance);
+  require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
+                "finite and >= 0", options.contact_band);
+}
+
+/// The least tolerance that doubles resolve: eight times the error of a gap near contact, and the
+/// motion between neighbouring times.
+double resolvable_tolerance(const MovingPair& pair, double margin) {
+  const double size = pair.A().radius + pair.B().radius;
+  RelativeState touching;
+  touching.p_AB = Eigen::Vector3d(size + margin, 0.0, 0.0);
+  return 8.0 * pair.gap_error(touching) + 0x1p-49 * pair.speed_bound();
+}
+
+void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPair& pair,
+                     const Eigen::Vector3d& p_WC, const detail::PieceResult& found,
+                     const FirstContactOptions& options, detail::WorkspaceData& workspace,
+                     FirstContactResult& result) {
+  const detail::ContactFrame frame{A.shape, B.shape, pair, result.t, p_WC};
+  if (options.contacts == ContactState::first) {
+    const RelativeState state = pair.motion().state(result.t);
+    const std::uint32_t ta = detail::triangle(pair.A(), found.a);
+    const std::uint32_t tb = detail::triangle(pair.B(), found.b);
+    const TrianglePair triangles = pair.place(state, ta, tb);
+    result.contacts.push_back(detail::make_contact(
+        frame, state, ta, tb, triangle_distance(triangles.A, triangles.B)));
+  } else if (options.contacts == ContactState::all) {
+    const double band = options.margin + result.tolerance_used + options.contact_band +
+                        A.shape.radius() + B.shape.radius();
+    detail::collect_contacts(frame, band, workspace, result.contacts);
+  }
+}
+
+void solve(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& workspace,
+           const FirstContactOptions& options, FirstContactResult& result) {
+  const Hierarchy& hA = A.shape.hierarchy();
+  const Hierarchy& hB = B.shape.hierarchy();
+  const RelativeMotion start_motion(A.X_WS.path(0, hA.centre), B.X_WS.path(0, hB.centre),
+                                    options.tolerance);
+  const MovingPair start(hA, hB, start_motion);
+  result.tolerance_used = options.tolerance;
+  for (detail::SharedPiece piece(A.X_WS, B.X_WS); piece.valid(); piece.next()) {
+    const RelativeMotion motion(A.X_WS.path(piece.index_A(), hA.centre),
+                                B.X_WS.path(piece.index_B(), hB.centre), options.tolerance);
+    const MovingPair pair(hA, hB, motion);
+    const double radii = A.shape.radius() + B.shape.radius();
+    result.tolerance_used = std::max(result.tolerance_used,
+                                     resolvable_tolerance(pair, options.margin + radii));
+    const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
+                                      options.start_contacts, start, options.budget};
+    const detail::PieceResult found =
+        detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+    result.t = found.t;
+    if (found.contact) {
+      result.t_upper = found.t;
+    }
+    if (found.reason != UndecidedReason::none) {
+      result.verdict = Verdict::undecided;
+      result.reason = found.reason;
+      return;
+    }
+    if (found.contact) {
+      result.verdict = found.t > 0.0 ? Verdict::contact : Verdict::contact_at_start;
+      const ConstantRatePath& path = motion.A();
+      const Eigen::Vector3d p_WC = (path.pivot(found.t) + path.precise_lever(found.t)).value();
+      report_contacts(A, B, pair, p_WC, found, options, workspace, result);
+      return;
+    }
+  }
+  result.verdict = Verdict::free;
+}
+
+}  // namespace
+
+void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  validate(options);
+  const FloatEnvironmentGuard guard;
+  result.reason = UndecidedReason::none;
+  result.t = 0.0;
+  result.t_upper.reset();
+  result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
+  result.contacts.clear();
+  result.work = {};
+  if (detail::in_order(A, B)) {
+    solve(A, B, workspace.data(), options, result);
+    return;
+  }
+  solve(B, A, workspace.data(), options, result);
+  for (Contact& contact : result.contacts) {
+    detail::swap_bodies(contact);
+  }
+}
+
+FirstContactResult first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+                                 const FirstContactOptions& options) {
+  FirstContactResult result;
+  first_contact(A, B, workspace, options, result);
+  return result;
+}
+
+}  // namespace firstcontact
