@@ -31,13 +31,29 @@ void validate(const FirstContactOptions& options) {
                 "finite and >= 0", options.contact_band);
 }
 
-/// The least tolerance that doubles resolve: eight times the error of a gap near contact, and the
-/// motion between neighbouring times.
-double resolvable_tolerance(const MovingPair& pair, double margin) {
+/// Eight times the error of a gap near contact: below it doubles cannot tell distances apart.
+double resolvable_distance(const MovingPair& pair, double margin) {
   const double size = pair.A().radius + pair.B().radius;
   RelativeState touching;
   touching.p_AB = Eigen::Vector3d(size + margin, 0.0, 0.0);
-  return 8.0 * pair.gap_error(touching) + 0x1p-49 * pair.speed_bound();
+  return 8.0 * pair.gap_error(touching);
+}
+
+/// Far above the motion between neighbouring times, which ends a search of very fast bodies.
+double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_bound(); }
+
+/// Searches a piece with the tolerance in use; where time is too coarse for it, with a larger one.
+detail::PieceResult search(const MovingPair& pair, const detail::SharedPiece& piece,
+                           detail::SearchLimits limits, detail::WorkspaceData& workspace,
+                           FirstContactResult& result) {
+  detail::PieceResult found = detail::search_piece(pair, piece.begin(), piece.end(), limits,
+                                                   workspace, result.work);
+  if (found.reason == UndecidedReason::precision &&
+      resolvable_motion(pair) > limits.tolerance) {
+    limits.tolerance = result.tolerance_used = resolvable_motion(pair);
+    found = detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+  }
+  return found;
 }
 
 void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPair& pair,
@@ -72,12 +88,11 @@ void solve(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& wo
                                 B.X_WS.path(piece.index_B(), hB.centre), options.tolerance);
     const MovingPair pair(hA, hB, motion);
     const double radii = A.shape.radius() + B.shape.radius();
-    result.tolerance_used = std::max(result.tolerance_used,
-                                     resolvable_tolerance(pair, options.margin + radii));
+    result.tolerance_used =
+        std::max(result.tolerance_used, resolvable_distance(pair, options.margin + radii));
     const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
                                       options.start_contacts, start, options.budget};
-    const detail::PieceResult found =
-        detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+    const detail::PieceResult found = search(pair, piece, limits, workspace, result);
     result.t = found.t;
     if (found.contact) {
       result.t_upper = found.t;

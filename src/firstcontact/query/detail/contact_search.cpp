@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <firstcontact/narrowphase/separating_direction.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -233,16 +235,32 @@ class Search {
            (limits_.budget.deadline && work_.node_groups + work_.steps >= next_clock_);
   }
 
-  /// The best certificate of the closest direction and, should it fail, of the global speed.
+  /// The longest certificate of the direction between the closest points and of the direction that
+  /// the features define, which stays accurate when the points nearly coincide; should both fail,
+  /// of any normal and any product of edges.
   [[nodiscard]] double step(const RelativeState& state, const TrianglePair& triangles,
                             const ClosestFeatures& closest, double threshold, double error,
                             double t) const {
     const Eigen::Vector3d d = closest.p_B - closest.p_A;
-    if (!(closest.distance > 0.0)) {
-      return 0.0;
+    double best = 0.0;
+    const auto consider = [&](const Eigen::Vector3d& direction) {
+      const double length = direction.norm();
+      if (length > 0.0 && best < t_end_ - t) {
+        const Eigen::Vector3d n = direction / length;
+        best = std::max(best, advance(pair_.motion(), state, triangles, n, threshold, error, t,
+                                      t_end_));
+      }
+    };
+    consider(d);
+    const Eigen::Vector3d by_features = separating_direction(triangles, closest);
+    consider(by_features.dot(d) < 0.0 ? Eigen::Vector3d(-by_features) : by_features);
+    if (!(best > 0.0)) {
+      for_each_plane_normal(triangles, [&](const Eigen::Vector3d& n) {
+        consider(n);
+        consider(-n);
+      });
     }
-    return advance(pair_.motion(), state, triangles, d / closest.distance, threshold, error, t,
-                   t_end_);
+    return best;
   }
 
   [[nodiscard]] double tolerance_of(const SearchEntry& entry) const {
