@@ -264,8 +264,8 @@ TEST(PublishedFailures, PhysXOmni505AGrazedTriangleHidesTheWall) {
     const Vector3d at_contact(p.x + 4.0 * truth.lo, p.y - 0.3 * truth.lo, 0.0);
     const FirstContactResult next = first_contact(
         {mesh, Motion::fixed()},
-        {ball,
-         Motion::constant_velocity({at_contact + Vector3d(0.0, 1e-9, 0.0), {}}, {4.0, 0.0, 0.0})},
+        {ball, Motion::constant_velocity({.position = at_contact + Vector3d(0.0, 1e-9, 0.0)},
+                                         {4.0, 0.0, 0.0})},
         workspace, options);
     EXPECT_NE(next.verdict, Verdict::free);
     EXPECT_LE(next.t, (0.75 - at_contact.x()) / 4.0);

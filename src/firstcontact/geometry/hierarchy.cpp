@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 namespace firstcontact {
 namespace {
@@ -39,7 +39,7 @@ struct Box {
   }
 };
 
-constexpr std::size_t kSampledTriangles = 48;   // decide between candidate frames
+constexpr std::size_t kSampledTriangles = 48;     // decide between candidate frames
 constexpr std::size_t kParallelTriangles = 8192;  // below this a subtree is built by one task
 
 class Builder {
@@ -190,10 +190,9 @@ class Builder {
     const Vector3d axis = principal_axes(items).row(0).transpose();
     for (Item& item : items) {
       const auto& t = mesh_.triangles[item.triangle];
-      item.key = static_cast<float>(
-          axis.dot(mesh_.vertices[t[0]] + mesh_.vertices[t[1]] + mesh_.vertices[t[2]] -
-                   3.0 * centre_) *
-          scale_);
+      item.key = static_cast<float>(axis.dot(mesh_.vertices[t[0]] + mesh_.vertices[t[1]] +
+                                             mesh_.vertices[t[2]] - 3.0 * centre_) *
+                                    scale_);
     }
     const std::size_t middle = items.size() / 2;
     std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle),
@@ -383,8 +382,7 @@ void set_bounds(const Mesh& mesh, Hierarchy& hierarchy) {
     }
   }
   hierarchy.radius = std::sqrt(radius2) * (1.0 + 0x1p-48);
-  hierarchy.unit =
-      hierarchy.radius > 0.0 ? std::exp2(std::ceil(std::log2(hierarchy.radius))) : 1.0;
+  hierarchy.unit = hierarchy.radius > 0.0 ? std::exp2(std::ceil(std::log2(hierarchy.radius))) : 1.0;
 }
 
 /// Copies triangles and vertices in the order of the hierarchy.

@@ -49,13 +49,13 @@ static_assert(sizeof(HierarchyNode) == 128);
 /// The hierarchy, with the mesh's vertices and triangles in its own order for locality.
 struct Hierarchy {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the body frame.
-  double radius = 0.0;  ///< [m]  Every vertex is within it of the centre.
-  double unit = 1.0;    ///< [m]  A power of two, at least the radius.
-  std::vector<HierarchyNode> nodes;                       ///< The root is the first.
-  std::vector<Eigen::Vector3d> vertices;                  ///< [m]  Relative to the centre, rounded.
-  std::vector<std::array<std::uint32_t, 3>> triangles;    ///< Indices into vertices.
-  std::vector<std::uint32_t> vertex_index;                ///< Index in the mesh of each vertex.
-  std::vector<std::uint32_t> triangle_index;              ///< Index in the mesh of each triangle.
+  double radius = 0.0;                    ///< [m]  Every vertex is within it of the centre.
+  double unit = 1.0;                      ///< [m]  A power of two, at least the radius.
+  std::vector<HierarchyNode> nodes;       ///< The root is the first.
+  std::vector<Eigen::Vector3d> vertices;  ///< [m]  Relative to the centre, rounded.
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into vertices.
+  std::vector<std::uint32_t> vertex_index;              ///< Index in the mesh of each vertex.
+  std::vector<std::uint32_t> triangle_index;            ///< Index in the mesh of each triangle.
 };
 
 /// Builds the hierarchy top-down, on all cores for large meshes; the same on every run.

@@ -79,8 +79,8 @@ EdgeTable collect_edges(const Mesh& mesh) {
     std::sort(begin, end);
     const auto last = std::unique(begin, end);
     table.first[v] = write;
-    write = static_cast<std::uint32_t>(
-        std::copy(begin, last, table.larger.begin() + write) - table.larger.begin());
+    write = static_cast<std::uint32_t>(std::copy(begin, last, table.larger.begin() + write) -
+                                       table.larger.begin());
   }
   table.first.back() = write;
   table.larger.resize(write);

@@ -41,7 +41,8 @@ inline DoubleDouble fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-/// The exact product a b (Dekker and Veltkamp, so that no FMA hardware is needed); |a|, |b| < 2^996.
+/// The exact product a b (Dekker and Veltkamp, so that no FMA hardware is needed); |a|, |b| <
+/// 2^996.
 inline DoubleDouble two_product(double a, double b) {
   constexpr double kSplit = 134217729.0;  // 2^27 + 1
   const double ca = kSplit * a;

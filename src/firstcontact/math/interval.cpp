@@ -31,8 +31,8 @@ Interval rounded(const DoubleDouble& x) {
   return sum + Interval(-kPreciseError, kPreciseError);
 }
 
-// sin(x) for 0 <= x <= 2^-27: x - x^3 / 6 <= sin(x) <= x, and x^3 / 6 < x 2^-56 is less than one step
-// down.
+// sin(x) for 0 <= x <= 2^-27: x - x^3 / 6 <= sin(x) <= x, and x^3 / 6 < x 2^-56 is less than one
+// step down.
 Interval tiny_sine(double x) { return x >= 0.0 ? Interval(below(x), x) : Interval(x, above(x)); }
 
 Interval point_sine(double x) {
@@ -107,7 +107,9 @@ Interval sqrt(const Interval& a) {
   if (a.upper() < 0.0) {
     return {};
   }
-  const auto root_below = [](double x) { return x > 0.0 ? std::max(below(std::sqrt(x)), 0.0) : 0.0; };
+  const auto root_below = [](double x) {
+    return x > 0.0 ? std::max(below(std::sqrt(x)), 0.0) : 0.0;
+  };
   const auto root_above = [](double x) { return x > 0.0 ? above(std::sqrt(x)) : 0.0; };
   return {root_below(a.lower()), root_above(a.upper())};
 }

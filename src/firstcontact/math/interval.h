@@ -47,15 +47,17 @@ class Interval {
     return std::isnan(middle) ? 0.0 : std::clamp(middle, lower_, upper_);
   }
 
-  [[nodiscard]] double width_bound() const;      ///< upper - lower, rounded upwards.
-  [[nodiscard]] double magnitude() const {       ///< Largest |x|.
+  [[nodiscard]] double width_bound() const;  ///< upper - lower, rounded upwards.
+  [[nodiscard]] double magnitude() const {   ///< Largest |x|.
     return std::max(std::abs(lower_), std::abs(upper_));
   }
   [[nodiscard]] bool contains(double x) const { return lower_ <= x && x <= upper_; }
   [[nodiscard]] bool contains(const Interval& other) const {
     return lower_ <= other.lower_ && other.upper_ <= upper_;
   }
-  [[nodiscard]] bool is_bounded() const { return magnitude() <= std::numeric_limits<double>::max(); }
+  [[nodiscard]] bool is_bounded() const {
+    return magnitude() <= std::numeric_limits<double>::max();
+  }
 
   friend bool operator==(const Interval&, const Interval&) = default;
 

@@ -23,8 +23,9 @@ struct DoubleDoubleSineCosine {
 
 /// Sine and cosine of a double-double angle, each within 2^-51 of the exact value.
 ///
-/// Derivation: the reduced angle r = rh + rl, |r| <= 0.786, is known to 2^-102 (pi/2 is taken to 163
-/// bits); the Taylor remainders of degree 19 and 18 are below 2^-58; rounding stays below 2^-52.
+/// Derivation: the reduced angle r = rh + rl, |r| <= 0.786, is known to 2^-102 (pi/2 is taken to
+/// 163 bits); the Taylor remainders of degree 19 and 18 are below 2^-58; rounding stays below
+/// 2^-52.
 ///
 /// @param angle  [rad]  at most kMaximumAngle in size
 FIRSTCONTACT_API SineCosine sine_cosine(const DoubleDouble& angle);

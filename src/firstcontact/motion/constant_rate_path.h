@@ -22,14 +22,14 @@ namespace firstcontact {
 struct ConstantRateSegment {
   double t_begin = 0.0;
   double t_end = 1.0;
-  DoubleDoubleVector3 p_WQ;           ///< [m]  Pivot at t_begin.
-  DoubleDoubleVector3 p_BQ;           ///< [m]  Pivot in the body frame.
-  DoubleDoubleVector3 velocity;       ///< [m per step]  Of the pivot.
-  DoubleDoubleVector3 axis;           ///< [-]  Unit, world frame; unused when rate is 0.
-  DoubleDouble rate;                  ///< [rad per step]  >= 0.
+  DoubleDoubleVector3 p_WQ;                     ///< [m]  Pivot at t_begin.
+  DoubleDoubleVector3 p_BQ;                     ///< [m]  Pivot in the body frame.
+  DoubleDoubleVector3 velocity;                 ///< [m per step]  Of the pivot.
+  DoubleDoubleVector3 axis;                     ///< [-]  Unit, world frame; unused when rate is 0.
+  DoubleDouble rate;                            ///< [rad per step]  >= 0.
   std::array<DoubleDoubleVector3, 3> rotation;  ///< [-]  Columns of R_WB at t_begin.
-  double position_error = 0.0;        ///< [m]
-  double rotation_error = 0.0;        ///< [-]
+  double position_error = 0.0;                  ///< [m]
+  double rotation_error = 0.0;                  ///< [-]
 };
 
 /// The path of a body point C over one piece, prepared for fast evaluation.
@@ -62,13 +62,15 @@ class FIRSTCONTACT_API ConstantRatePath {
   [[nodiscard]] double rotation_error() const { return rotation_error_; }
 
   struct State {
-    Eigen::Matrix3d R_WB;   ///< Each product R y is within 22 2^-53 |y| of exact, before its own rounding.
-    Eigen::Vector3d p_QC_W; ///< [m]  Lever from the pivot to C; within 12 2^-53 of its length.
+    Eigen::Matrix3d
+        R_WB;  ///< Each product R y is within 22 2^-53 |y| of exact, before its own rounding.
+    Eigen::Vector3d p_QC_W;  ///< [m]  Lever from the pivot to C; within 12 2^-53 of its length.
   };
   [[nodiscard]] State state(double t) const;
 
-  [[nodiscard]] DoubleDoubleVector3 pivot(double t) const;          ///< [m]  p_WQ(t).
-  [[nodiscard]] DoubleDoubleVector3 precise_lever(double t) const;  ///< [m]  p_QC_W(t) to 2^-94 of its length.
+  [[nodiscard]] DoubleDoubleVector3 pivot(double t) const;  ///< [m]  p_WQ(t).
+  [[nodiscard]] DoubleDoubleVector3 precise_lever(
+      double t) const;  ///< [m]  p_QC_W(t) to 2^-94 of its length.
 
  private:
   double t_begin_;

@@ -181,8 +181,7 @@ ConstantRateSegment screw_segment(const Pose& start, const DoubleDoubleVector3& 
                                   const AxisAngle& turn, const DoubleDouble& translation) {
   ConstantRateSegment s = at_rest(start);
   const DoubleDoubleVector3 origin(start.position);
-  const DoubleDoubleVector3 p_WQ =
-      axis_point + dot(origin - axis_point, turn.axis) * turn.axis;
+  const DoubleDoubleVector3 p_WQ = axis_point + dot(origin - axis_point, turn.axis) * turn.axis;
   const DoubleDoubleVector3 p_BQ_W = p_WQ - origin;
   s.p_BQ = {dot(s.rotation[0], p_BQ_W), dot(s.rotation[1], p_BQ_W), dot(s.rotation[2], p_BQ_W)};
   s.p_WQ = p_WQ;
@@ -239,8 +238,7 @@ ConstantRateSegment over(ConstantRateSegment s, double t_begin, double t_end) {
   s.t_end = t_end;
   s.velocity = speed_up * s.velocity;
   s.rate = speed_up * s.rate;
-  s.position_error +=
-      kConstructionError * (t_end - t_begin) * rounded_length(s.velocity);
+  s.position_error += kConstructionError * (t_end - t_begin) * rounded_length(s.velocity);
   return s;
 }
 
@@ -344,8 +342,8 @@ int Motion::compare(const Motion& other) const {
     const auto numbers = [](const ConstantRateSegment& s) {
       std::array<double, 44> n{s.t_begin, s.t_end, s.rate.hi, s.rate.lo};
       std::size_t k = 4;
-      for (const DoubleDoubleVector3* v : {&s.p_WQ, &s.p_BQ, &s.velocity, &s.axis,
-                                           &s.rotation[0], &s.rotation[1]}) {
+      for (const DoubleDoubleVector3* v :
+           {&s.p_WQ, &s.p_BQ, &s.velocity, &s.axis, &s.rotation[0], &s.rotation[1]}) {
         for (const DoubleDouble& c : v->c) {
           n[k++] = c.hi;
           n[k++] = c.lo;

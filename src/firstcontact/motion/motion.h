@@ -39,7 +39,8 @@ class FIRSTCONTACT_API Motion {
   ///
   /// @param start            pose at t = 0
   /// @param translation      [m]    of the body origin over the step, world frame
-  /// @param rotation_vector  [rad]  axis times angle over the step, world frame; any number of turns
+  /// @param rotation_vector  [rad]  axis times angle over the step, world frame; any number of
+  /// turns
   static Motion constant_velocity(const Pose& start, const Eigen::Vector3d& translation,
                                   const Eigen::Vector3d& rotation_vector = Eigen::Vector3d::Zero());
 

@@ -13,8 +13,8 @@ namespace firstcontact {
 /// The rotation means the quaternion divided by its exact length, so that any finite,
 /// non-zero quaternion names an exact rigid transform, whatever its rounding.
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< [m]  p_WB.
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();     ///< [-]  R_WB; finite, not zero.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< [m]  p_WB.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< [-]  R_WB; finite, not zero.
 };
 
 }  // namespace firstcontact

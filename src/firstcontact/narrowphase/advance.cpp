@@ -39,16 +39,15 @@ double along_direction_fixed(const RelativeMotion& motion, const RelativeState& 
   const Vector3d turn_A = wA * n.cross(motion.A().axis());
   const Vector3d turn_B = wB * n.cross(motion.B().axis());
   const double slip = kSpeedError * (motion.pivot_velocity().norm() + wA * reach.A + wB * reach.B);
-  const double half_acceleration = 0.5 * (1.0 + 0x1p-46) *
-                                   (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B +
-                                    slip * (wA + wB));
+  const double half_acceleration =
+      0.5 * (1.0 + 0x1p-46) *
+      (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B + slip * (wA + wB));
   const double drift = n.dot(motion.pivot_velocity());
   double least = kInfinity;
   for (const Vector3d& a : pair.A) {
     for (const Vector3d& b : pair.B) {
       const double gap = n.dot(b - a) - clearance_error;
-      const double opening =
-          drift + turn_B.dot(b - state.p_AQb) - turn_A.dot(a - state.p_AQa);
+      const double opening = drift + turn_B.dot(b - state.p_AQb) - turn_A.dot(a - state.p_AQa);
       least = std::min(least, time_to_close(gap, slip - opening, half_acceleration));
     }
   }
@@ -57,8 +56,8 @@ double along_direction_fixed(const RelativeMotion& motion, const RelativeState& 
 
 /// What a body that carries the direction sees of the other one.
 struct CarriedView {
-  double rate = 0.0;        // of the carrier
-  Vector3d axis;            // of the carrier
+  double rate = 0.0;  // of the carrier
+  Vector3d axis;      // of the carrier
   Vector3d carrier_pivot;
   double other_rate = 0.0;
   Vector3d other_axis;
@@ -100,8 +99,7 @@ double time_to_close(double gap, double speed, double half_acceleration) {
   if (!(gap > 0.0)) {
     return 0.0;
   }
-  const double denominator =
-      speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
+  const double denominator = speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
   if (speed <= 0.0 && half_acceleration == 0.0) {
     return kInfinity;
   }
@@ -123,10 +121,10 @@ double advance(const RelativeMotion& motion, const RelativeState& state, const T
   if (fixed >= time_left) {
     return fixed;
   }
-  const CarriedView by_A{A.rate(), A.axis(), state.p_AQa, B.rate(),
-                         B.axis(), state.p_AQb, s,         reach.B};
-  const CarriedView by_B{B.rate(), B.axis(), state.p_AQb, A.rate(),
-                         A.axis(), state.p_AQa, -s,        reach.A};
+  const CarriedView by_A{A.rate(), A.axis(),    state.p_AQa, B.rate(),
+                         B.axis(), state.p_AQb, s,           reach.B};
+  const CarriedView by_B{B.rate(), B.axis(),    state.p_AQb, A.rate(),
+                         A.axis(), state.p_AQa, -s,          reach.A};
   return std::max({fixed,
                    along_direction_carried(by_A, pair.A, pair.B, n, clearance_error, time_left),
                    along_direction_carried(by_B, pair.B, pair.A, -n, clearance_error, time_left)});

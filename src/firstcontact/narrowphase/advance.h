@@ -27,9 +27,9 @@ struct TrianglePair {
 /// How long two triangles provably stay farther apart than `threshold`.
 ///
 /// Claims: for every t' in [t, t + tau], t' within the piece, the exact distance of the two
-/// triangles is > threshold. Source: conservative advancement (B. Mirtich, 1996) with a second-order
-/// bound along a direction. Derivation: along a fixed unit n the gap of two points changes at the
-/// rate n . (v_b - v_a), whose own rate is at most
+/// triangles is > threshold. Source: conservative advancement (B. Mirtich, 1996) with a
+/// second-order bound along a direction. Derivation: along a fixed unit n the gap of two points
+/// changes at the rate n . (v_b - v_a), whose own rate is at most
 ///   K = w_A^2 |n x u_A| rho_A + w_B^2 |n x u_B| rho_B
 /// in size, as the acceleration of a point is -w^2 rho_perp with |rho_perp| constant. Carried by
 /// body A, n turns with it; A's points stand still, and in A's turning frame a point b of B has

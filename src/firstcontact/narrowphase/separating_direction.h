@@ -14,7 +14,8 @@ namespace firstcontact {
 
 /// The direction that the closest features define, of any length and either sign: the normal of a
 /// face, the product of two edges, for an edge and a corner the part of p_B - p_A across the edge,
-/// for two corners p_B - p_A. Other than p_B - p_A it stays accurate when the points nearly coincide.
+/// for two corners p_B - p_A. Other than p_B - p_A it stays accurate when the points nearly
+/// coincide.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d separating_direction(const TrianglePair& pair,
                                                                     const ClosestFeatures& closest);
 
@@ -22,9 +23,7 @@ namespace firstcontact {
 /// six normals of edges within their face; each of any length, zero where degenerate.
 template <class Use>
 void for_each_plane_normal(const TrianglePair& pair, const Use& use) {
-  const auto edge = [](const Triangle& T, int k) {
-    return Eigen::Vector3d(T[(k + 1) % 3] - T[k]);
-  };
+  const auto edge = [](const Triangle& T, int k) { return Eigen::Vector3d(T[(k + 1) % 3] - T[k]); };
   for (const Triangle* T : {&pair.A, &pair.B}) {
     const Eigen::Vector3d normal = edge(*T, 0).cross(edge(*T, 1));
     use(normal);

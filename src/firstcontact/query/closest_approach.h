@@ -15,8 +15,8 @@ struct ClosestApproachOptions {
 struct ClosestApproachResult {
   /// [m]  Attained at t; an upper bound of the least distance over the step.
   double distance = std::numeric_limits<double>::infinity();
-  double lower_bound = 0.0;  ///< [m]  Proven for all t in [0, 1].
-  double t = 0.0;            ///< [-]  A time where `distance` is attained.
+  double lower_bound = 0.0;                        ///< [m]  Proven for all t in [0, 1].
+  double t = 0.0;                                  ///< [-]  A time where `distance` is attained.
   UndecidedReason reason = UndecidedReason::none;  ///< Not `none`: the budget ended the search.
   double tolerance_used = 0.0;                     ///< [m]
   std::optional<Contact> closest;                  ///< The closest feature pair at t.

@@ -83,8 +83,8 @@ DistanceResult solve(const MovingShape& A, const MovingShape& B, double t,
   const ConstantRatePath& path = motion.A();
   const detail::ContactFrame frame{A.shape, B.shape, pair, t,
                                    (path.pivot(t) + path.precise_lever(t)).value()};
-  result.closest = detail::make_contact(frame, state, nearest.triangle_A, nearest.triangle_B,
-                                        nearest.closest);
+  result.closest =
+      detail::make_contact(frame, state, nearest.triangle_A, nearest.triangle_B, nearest.closest);
   return result;
 }
 

@@ -8,8 +8,8 @@
 namespace firstcontact {
 
 struct DistanceResult {
-  double distance = 0.0;     ///< [m]  Of the closest points found, 0 when the shapes meet.
-  double lower_bound = 0.0;  ///< [m]  Proven: the shapes are at least this far apart.
+  double distance = 0.0;           ///< [m]  Of the closest points found, 0 when the shapes meet.
+  double lower_bound = 0.0;        ///< [m]  Proven: the shapes are at least this far apart.
   std::optional<Contact> closest;  ///< The closest feature pair.
   WorkCount work;
 };

@@ -23,8 +23,8 @@ void require_range(bool holds, const char* option, const char* range, double val
 }
 
 void validate(const FirstContactOptions& options) {
-  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin",
-                "finite and >= 0", options.margin);
+  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin", "finite and >= 0",
+                options.margin);
   require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
                 "finite and > 0", options.tolerance);
   require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
@@ -46,10 +46,9 @@ double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_b
 detail::PieceResult search(const MovingPair& pair, const detail::SharedPiece& piece,
                            detail::SearchLimits limits, detail::WorkspaceData& workspace,
                            FirstContactResult& result) {
-  detail::PieceResult found = detail::search_piece(pair, piece.begin(), piece.end(), limits,
-                                                   workspace, result.work);
-  if (found.reason == UndecidedReason::precision &&
-      resolvable_motion(pair) > limits.tolerance) {
+  detail::PieceResult found =
+      detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+  if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
     limits.tolerance = result.tolerance_used = resolvable_motion(pair);
     found = detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
   }
@@ -66,8 +65,8 @@ void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPai
     const std::uint32_t ta = detail::triangle(pair.A(), found.a);
     const std::uint32_t tb = detail::triangle(pair.B(), found.b);
     const TrianglePair triangles = pair.place(state, ta, tb);
-    result.contacts.push_back(detail::make_contact(
-        frame, state, ta, tb, triangle_distance(triangles.A, triangles.B)));
+    result.contacts.push_back(
+        detail::make_contact(frame, state, ta, tb, triangle_distance(triangles.A, triangles.B)));
   } else if (options.contacts == ContactState::all) {
     const double band = options.margin + result.tolerance_used + options.contact_band +
                         A.shape.radius() + B.shape.radius();

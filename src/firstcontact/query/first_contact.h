@@ -26,8 +26,9 @@ struct MovingShape {
 
 /// When to stop early with what is proven so far.
 struct WorkBudget {
-  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();  ///< Node groups + feature steps.
-  std::size_t memory = std::size_t{1} << 30;  ///< [byte]  Of the search queue.
+  std::uint64_t steps =
+      std::numeric_limits<std::uint64_t>::max();  ///< Node groups + feature steps.
+  std::size_t memory = std::size_t{1} << 30;      ///< [byte]  Of the search queue.
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::stop_token stop;
 };
@@ -75,7 +76,8 @@ struct FirstContactResult {
   /// [-]  For `contact` t; for `undecided` a later time proven to be in contact, if one is known.
   std::optional<double> t_upper;
   double clearance = 0.0;  ///< [m]  Proven lower bound of the distance before t.
-  double tolerance_used = 0.0;    ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
+  double tolerance_used =
+      0.0;  ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
   std::vector<Contact> contacts;  ///< At t, sorted by features.
   WorkCount work;
 };
@@ -88,9 +90,9 @@ struct FirstContactResult {
 /// Thread-safe: the shapes and motions are only read; each thread brings its own workspace.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range.
-[[nodiscard]] FIRSTCONTACT_API FirstContactResult first_contact(
-    const MovingShape& A, const MovingShape& B, Workspace& workspace,
-    const FirstContactOptions& options = {});
+[[nodiscard]] FIRSTCONTACT_API FirstContactResult
+first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+              const FirstContactOptions& options = {});
 
 /// The same, reusing the memory of `result`: with a warm workspace and result nothing is allocated.
 FIRSTCONTACT_API void first_contact(const MovingShape& A, const MovingShape& B,

@@ -53,7 +53,8 @@ class Search {
   /// Boxes must not drop a pair that may be held to half its start distance.
   [[nodiscard]] double box_threshold() const {
     return limits_.start_contacts == StartContacts::keep_half
-               ? std::max(limits_.margin, 0.5 * (limits_.radii + limits_.margin + limits_.tolerance))
+               ? std::max(limits_.margin,
+                          0.5 * (limits_.radii + limits_.margin + limits_.tolerance))
                : limits_.margin;
   }
 
@@ -130,7 +131,8 @@ class Search {
     const double error = pair_.gap_error(state);
     if (entry.far) {
       ++work_.node_groups;
-      push_bound(entry, pair_.place_A(state, entry.a), pair_.place_B(state, entry.b), t, error, 0.0);
+      push_bound(entry, pair_.place_A(state, entry.a), pair_.place_B(state, entry.b), t, error,
+                 0.0);
       return;
     }
     const PlacedBox a = pair_.place_A(state, entry.a);
@@ -172,8 +174,8 @@ class Search {
     return itself;
   }
 
-  void push_bound(SearchEntry entry, const PlacedBox& a, const PlacedBox& b, double t,
-                  double error, double lowering) {
+  void push_bound(SearchEntry entry, const PlacedBox& a, const PlacedBox& b, double t, double error,
+                  double lowering) {
     const BoxPairBound bound = pair_.bound(a, b, entry.threshold, error);
     if (covered(t, bound.time)) {
       return;
@@ -247,8 +249,8 @@ class Search {
       const double length = direction.norm();
       if (length > 0.0 && best < t_end_ - t) {
         const Eigen::Vector3d n = direction / length;
-        best = std::max(best, advance(pair_.motion(), state, triangles, n, threshold, error, t,
-                                      t_end_));
+        best = std::max(best,
+                        advance(pair_.motion(), state, triangles, n, threshold, error, t, t_end_));
       }
     };
     consider(d);

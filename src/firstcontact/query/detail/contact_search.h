@@ -12,11 +12,11 @@ namespace firstcontact::detail {
 
 /// What the search of one piece found.
 struct PieceResult {
-  double t = 0.0;           ///< Proven: no contact of the piece before t.
-  bool contact = false;     ///< At t some pair is within its threshold + tolerance.
-  bool finished = false;    ///< Neither: the whole piece is proven free.
+  double t = 0.0;         ///< Proven: no contact of the piece before t.
+  bool contact = false;   ///< At t some pair is within its threshold + tolerance.
+  bool finished = false;  ///< Neither: the whole piece is proven free.
   UndecidedReason reason = UndecidedReason::none;
-  BoxId a;                  ///< The pair that decided.
+  BoxId a;  ///< The pair that decided.
   BoxId b;
 };
 

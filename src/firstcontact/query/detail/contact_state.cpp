@@ -71,8 +71,7 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   Contact contact;
   contact.feature_A = global_feature(frame.A, triangle_A, closest.feature_A);
   contact.feature_B = global_feature(frame.B, triangle_B, closest.feature_B);
-  const Vector3d velocity =
-      relative_velocity(frame.pair.motion(), state, closest.p_A, closest.p_B);
+  const Vector3d velocity = relative_velocity(frame.pair.motion(), state, closest.p_A, closest.p_B);
   Vector3d n = closest.p_B - closest.p_A;
   if (!(closest.distance > 0.0)) {
     n = feature_normal(frame.pair.place(state, triangle_A, triangle_B), closest);

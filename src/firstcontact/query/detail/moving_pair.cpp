@@ -86,18 +86,15 @@ double MovingPair::gap_error(const RelativeState& state) const {
 }
 
 PlacedBox MovingPair::place_A(const RelativeState& state, BoxId box) const {
-  PlacedBox placed =
-      detail::place(A_, box, state.R_WA, Vector3d::Zero(), state.p_AQa);
-  placed.velocity =
-      motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
+  PlacedBox placed = detail::place(A_, box, state.R_WA, Vector3d::Zero(), state.p_AQa);
+  placed.velocity = motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
   return placed;
 }
 
 PlacedBox MovingPair::place_B(const RelativeState& state, BoxId box) const {
   PlacedBox placed = detail::place(B_, box, state.R_WB, state.p_AB, state.p_AQb);
-  placed.velocity =
-      motion_.pivot_velocity() +
-      motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
+  placed.velocity = motion_.pivot_velocity() +
+                    motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
   return placed;
 }
 
@@ -118,8 +115,7 @@ BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double th
   const double wA = motion_.A().rate();
   const double wB = motion_.B().rate();
   const Vector3d velocity = b.velocity - a.velocity;
-  const double slip =
-      0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach);
+  const double slip = 0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach);
   BoxPairBound best;
   best.gap = -std::numeric_limits<double>::infinity();
   for_each_direction(a, b, [&](const Separation& s) {
@@ -130,11 +126,9 @@ BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double th
     }
     const double turn_A = wA * s.n.cross(motion_.A().axis()).norm();
     const double turn_B = wB * s.n.cross(motion_.B().axis()).norm();
-    const double speed =
-        slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius;
+    const double speed = slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius;
     const double half_acceleration =
-        0.5 * (1.0 + 0x1p-46) *
-        (wA * turn_A * a.reach + wB * turn_B * b.reach + slip * (wA + wB));
+        0.5 * (1.0 + 0x1p-46) * (wA * turn_A * a.reach + wB * turn_B * b.reach + slip * (wA + wB));
     best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
   });
   return best;

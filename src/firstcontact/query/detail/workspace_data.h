@@ -13,9 +13,9 @@ namespace firstcontact::detail {
 
 /// A pair of boxes, or of triangles, that still may come into contact.
 struct SearchEntry {
-  double key = 0.0;        ///< [-]  No contact of the pair before this time is proven.
-  double priority = 0.0;   ///< [-]  At most the key; the order of the search.
-  double threshold = 0.0;  ///< [m]  Closer than this is contact.
+  double key = 0.0;             ///< [-]  No contact of the pair before this time is proven.
+  double priority = 0.0;        ///< [-]  At most the key; the order of the search.
+  double threshold = 0.0;       ///< [m]  Closer than this is contact.
   double held_tolerance = 0.0;  ///< [m]  Positive: held to half its start distance, to this.
   BoxId a;
   BoxId b;

@@ -1,0 +1,180 @@
+#include <cmath>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/query/closest_approach.h>
+#include <firstcontact/query/distance.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A surface z = height sin(x) cos(y) over n by n squares, wide enough for a real hierarchy.
+Shape waves(int n, double height) {
+  Mesh mesh;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= n; ++j) {
+      const double x = 4.0 * i / n - 2.0;
+      const double y = 4.0 * j / n - 2.0;
+      mesh.vertices.emplace_back(x, y, height * std::sin(3.0 * x) * std::cos(2.0 * y));
+    }
+  }
+  const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
+      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
+    }
+  }
+  return Shape(std::move(mesh));
+}
+
+Pose at(double z) { return {.position = {0.0, 0.0, z}}; }
+
+// A law: two surfaces fall together; halving the speed doubles the time.
+TEST(FirstContact, TimeIsInverselyProportionalToTheSpeed) {
+  const Shape A = waves(24, 0.1);
+  const Shape B = waves(20, 0.2);
+  const Motion rest = Motion::fixed();
+  Workspace workspace;
+  const auto time_at_speed = [&](double speed) {
+    const Motion fall = Motion::constant_velocity(at(2.0), {0.0, 0.0, -speed});
+    return first_contact({A, rest}, {B, fall}, workspace).t;
+  };
+  const double fast = time_at_speed(8.0);
+  EXPECT_GT(fast, 0.2);
+  EXPECT_NEAR(time_at_speed(4.0), 2.0 * fast, 1e-6);
+}
+
+// Splitting the step at a waypoint changes nothing but the tolerance's share.
+TEST(FirstContact, IsTheSameForASplitStep) {
+  const Shape A = waves(24, 0.1);
+  const Shape B = waves(20, 0.2);
+  const Motion rest = Motion::fixed();
+  const std::vector<double> times{0.0, 0.25, 1.0};
+  const std::vector<Pose> poses{at(2.0), at(1.0), at(-2.0)};
+  Workspace workspace;
+  const auto whole = first_contact(
+      {A, rest}, {B, Motion::constant_velocity(at(2.0), {0.0, 0.0, -4.0})}, workspace);
+  const auto split = first_contact({A, rest}, {B, Motion::waypoints(times, poses)}, workspace);
+  ASSERT_EQ(split.verdict, Verdict::contact);
+  EXPECT_NEAR(split.t, whole.t, 1e-6);
+}
+
+TEST(FirstContact, EndsUndecidedWithAProvenFreeTimeWhenWorkIsSpent) {
+  const Shape A = waves(24, 0.1);
+  const Motion rest = Motion::fixed();
+  const Motion fall = Motion::constant_velocity(at(2.0), {0.0, 0.0, -4.0}, {0.3, 0.2, 0.1});
+  Workspace workspace;
+  const FirstContactResult full = first_contact({A, rest}, {A, fall}, workspace);
+  ASSERT_EQ(full.verdict, Verdict::contact);
+  for (const std::uint64_t steps : {0u, 1u, 4u, 16u}) {
+    FirstContactOptions options;
+    options.budget.steps = steps;
+    const FirstContactResult cut = first_contact({A, rest}, {A, fall}, workspace, options);
+    EXPECT_EQ(cut.verdict, Verdict::undecided);
+    EXPECT_EQ(cut.reason, UndecidedReason::work);
+    EXPECT_LE(cut.t, full.t);
+  }
+  std::stop_source source;
+  source.request_stop();
+  FirstContactOptions options;
+  options.budget.stop = source.get_token();
+  EXPECT_EQ(first_contact({A, rest}, {A, fall}, workspace, options).reason,
+            UndecidedReason::cancelled);
+  options.budget.stop = {};
+  options.budget.deadline = std::chrono::steady_clock::now();
+  EXPECT_EQ(first_contact({A, rest}, {A, fall}, workspace, options).reason,
+            UndecidedReason::deadline);
+}
+
+// Starting at half the tolerance: sliding goes on, pressing ends before the surfaces meet.
+TEST(FirstContact, HoldsAPairThatStartsInTheBandToHalfItsDistance) {
+  const Shape A = waves(8, 0.0);
+  const Shape B = waves(6, 0.0);
+  const Motion rest = Motion::fixed();
+  const double start = 5e-7;
+  Workspace workspace;
+  FirstContactOptions options;
+  const Motion slide = Motion::constant_velocity(at(start), {0.5, 0.0, 0.0});
+  options.start_contacts = StartContacts::keep_half;
+  EXPECT_EQ(first_contact({A, rest}, {B, slide}, workspace, options).verdict, Verdict::free);
+  const Motion press = Motion::constant_velocity(at(start), {0.0, 0.0, -1e-6});
+  const FirstContactResult pressed = first_contact({A, rest}, {B, press}, workspace, options);
+  ASSERT_EQ(pressed.verdict, Verdict::contact);
+  const double left = start - 1e-6 * pressed.t;
+  EXPECT_GE(left, 0.5 * start);
+  EXPECT_LE(left, 0.75 * start);
+}
+
+TEST(FirstContact, RefusesOptionsOutOfRange) {
+  const Shape A = waves(2, 0.0);
+  const Motion rest = Motion::fixed();
+  Workspace workspace;
+  FirstContactOptions options;
+  options.tolerance = std::nan("");
+  EXPECT_THROW((void)first_contact({A, rest}, {A, rest}, workspace, options),
+               std::invalid_argument);
+  options.tolerance = 1e-6;
+  options.margin = -1.0;
+  EXPECT_THROW((void)first_contact({A, rest}, {A, rest}, workspace, options),
+               std::invalid_argument);
+}
+
+TEST(Distance, IsTheHeightOfAParallelPlate) {
+  const Shape A = waves(12, 0.0);
+  const Shape B = waves(9, 0.0);
+  const Motion fall = Motion::constant_velocity(at(2.0), {0.0, 0.0, -1.0});
+  Workspace workspace;
+  for (const double t : {0.0, 0.3, 1.0}) {
+    const DistanceResult result = distance({A, Motion::fixed()}, {B, fall}, t, workspace);
+    EXPECT_NEAR(result.distance, 2.0 - t, 1e-14);
+    EXPECT_LE(result.lower_bound, 2.0 - t);
+    EXPECT_GE(result.lower_bound, 2.0 - t - 1e-12);
+  }
+}
+
+// A corner turns over a plate: the least height is known in closed form.
+TEST(ClosestApproach, FindsTheLowestPointOfATurn) {
+  const Shape plate = waves(6, 0.0);
+  const Shape needle(
+      Mesh{.vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, .triangles = {{0, 1, 1}}});
+  const Motion swing = Motion::constant_velocity(at(1.25), Vector3d::Zero(), {0.0, 3.0, 0.0});
+  Workspace workspace;
+  const ClosestApproachResult result =
+      closest_approach({plate, Motion::fixed()}, {needle, swing}, workspace);
+  EXPECT_EQ(result.reason, UndecidedReason::none);
+  EXPECT_NEAR(result.distance, 0.25, 1e-6);
+  EXPECT_LE(result.lower_bound, 0.25);
+  EXPECT_GE(result.lower_bound, 0.25 - 2e-6);
+}
+
+// Shapes and motions are only read: many threads share them and get the same bits.
+TEST(QueryThreads, ShareShapesAndAgree) {
+  const Shape A = waves(40, 0.1);
+  const Shape B = waves(30, 0.2);
+  const Motion rest = Motion::fixed();
+  const Motion fall = Motion::constant_velocity(at(2.0), {0.1, 0.0, -4.0}, {0.3, 0.2, 0.1});
+  Workspace workspace;
+  const FirstContactResult expected = first_contact({A, rest}, {B, fall}, workspace);
+  std::vector<double> times(4);
+  {
+    std::vector<std::jthread> threads;
+    for (double& t : times) {
+      threads.emplace_back([&] {
+        Workspace own;
+        t = first_contact({A, rest}, {B, fall}, own).t;
+      });
+    }
+  }
+  for (const double t : times) {
+    EXPECT_EQ(t, expected.t);
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact
