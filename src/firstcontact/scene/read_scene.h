@@ -1,0 +1,36 @@
+/// @file
+/// Reads the scene file that a user writes (JSON, "firstcontact": 1; see schema/scene.json).
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// Reads a scene file. Paths in it are relative to its folder. Meshes are not opened yet, but
+/// must exist.
+///
+/// Strict: an unknown key, a repeated key, a wrong type or a number outside its range is an
+/// error, so that no typing error silently means something else. `rpy`, `rotation_vector` and
+/// `matrix` are converted to a quaternion in double precision; the certificate holds for the
+/// motion that the converted numbers define, which the result states as its resolved scene.
+///
+/// @throws ParseError  one line: "path:line: place: what was expected"
+[[nodiscard]] FIRSTCONTACT_API Scene read_scene(const std::filesystem::path& path);
+
+/// Reads a scene from text.
+///
+/// @param text        one JSON object
+/// @param source      the file that the text is from: named in errors, and its folder is where
+///                    relative paths begin
+/// @param first_line  the line of the file on which the text begins
+/// @throws ParseError  as read_scene
+[[nodiscard]] FIRSTCONTACT_API Scene parse_scene(std::string_view text,
+                                                 const std::filesystem::path& source,
+                                                 int first_line = 1);
+
+}  // namespace firstcontact

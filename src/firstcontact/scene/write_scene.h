@@ -1,0 +1,20 @@
+/// @file
+/// Writes a scene as the JSON that read_scene reads.
+
+#pragma once
+
+#include <string>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// The resolved scene as one JSON object on one line: poses as position and quaternion, every
+/// default written out, inline meshes embedded, mesh files by their path as opened.
+///
+/// Numbers are the shortest that read back to the same double, so that parse_scene with a source
+/// in the working directory gives the same scene bit for bit (but for its text digest).
+[[nodiscard]] FIRSTCONTACT_API std::string write_scene(const Scene& scene);
+
+}  // namespace firstcontact
