@@ -1,0 +1,224 @@
+// First contact of random motions, side by side with FCL 0.7.
+//
+//   first_contact_benchmark [--quick] OUTPUT.json
+//
+// All are asked query by query in turn, so that load on the machine hits all alike. Times are
+// processor times of the one thread. "Cold": the caches were filled with something else before the
+// query. "Warm": the same query again, the median of three.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/query/first_contact.h>
+
+#include "benchmarks/support/fcl_peer.h"
+#include "benchmarks/support/normalised_mesh.h"
+#include "benchmarks/support/random_motion.h"
+#include "benchmarks/support/timing.h"
+#include "benchmarks/support/torus_knot.h"
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kTolerance = 1e-6;  // [m]
+constexpr double kWrongTime = 1e-3;  // A peer's time is wrong if this far off.
+constexpr std::uint64_t kSeed = 20261121;
+
+struct Scale {
+  int motions = 500;
+  int continuous_collide_motions = 20;  // Of these; about a second each.
+};
+
+/// Times of one method, hits and misses apart.
+class Times {
+ public:
+  void add(double time, bool hit) { (hit ? hits_ : misses_).push_back(time); }
+
+  [[nodiscard]] json summary() const {
+    std::vector<double> all = hits_;
+    all.insert(all.end(), misses_.begin(), misses_.end());
+    return {{"all", quantiles(all)}, {"hits", quantiles(hits_)}, {"misses", quantiles(misses_)}};
+  }
+
+ private:
+  static json quantiles(const std::vector<double>& values) {
+    return {{"count", values.size()},
+            {"median_us", quantile(values, 0.5)},
+            {"p90_us", quantile(values, 0.9)},
+            {"p99_us", quantile(values, 0.99)},
+            {"max_us", quantile(values, 1.0)}};
+  }
+
+  std::vector<double> hits_;
+  std::vector<double> misses_;
+};
+
+/// A peer's answers held against the loop's.
+struct Verdicts {
+  int asked = 0;
+  int missed = 0;
+  int invented = 0;
+  int late = 0;
+  int early = 0;
+
+  void judge(const PeerAnswer& answer, const PeerAnswer& truth) {
+    ++asked;
+    missed += truth.contact && !answer.contact ? 1 : 0;
+    invented += answer.contact && !truth.contact ? 1 : 0;
+    if (truth.contact && answer.contact) {
+      late += answer.t > truth.t + kWrongTime ? 1 : 0;
+      early += answer.t < truth.t - kWrongTime ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] json summary() const {
+    return {{"asked", asked},
+            {"missed", missed},
+            {"invented", invented},
+            {"late", late},
+            {"early", early}};
+  }
+};
+
+/// One pair of meshes, asked by every method.
+class Comparison {
+ public:
+  Comparison(std::string name, const Mesh& mesh)
+      : name_(std::move(name)), shape_(mesh), fcl_(mesh, mesh) {}
+
+  json run(const Scale& scale) {
+    const auto motions = random_motions(shape_, shape_, scale.motions, kSeed);
+    int left_for_continuous_collide = scale.continuous_collide_motions;
+    for (const PlainMotionPair& pair : motions) {
+      ask(pair, left_for_continuous_collide-- > 0);
+    }
+    return summary();
+  }
+
+ private:
+  void ask(const PlainMotionPair& pair, bool with_continuous_collide) {
+    const Motion motion_A = pair.A.motion();
+    const Motion motion_B = pair.B.motion();
+    const auto query = [&] {
+      first_contact({shape_, motion_A}, {shape_, motion_B}, workspace_, options_, result_);
+    };
+    evict_caches();
+    const double cold = time_of(query);
+    const double warm = quantile({time_of(query), time_of(query), time_of(query)}, 0.5);
+    PeerAnswer truth;
+    const double loop = time_of([&] { truth = fcl_.distance_loop(pair, kTolerance); });
+    PeerAnswer oriented;
+    const double oriented_time = time_of([&] { oriented = fcl_.oriented_advancement(pair); });
+
+    const bool hit = truth.contact;
+    times_["firstcontact, cold"].add(cold, hit);
+    times_["firstcontact, warm"].add(warm, hit);
+    times_["loop over fcl::distance"].add(loop, hit);
+    times_["FCL oriented advancement"].add(oriented_time, hit);
+    ratios_["loop / firstcontact cold"].push_back(loop / cold);
+    ratios_["loop / firstcontact warm"].push_back(loop / warm);
+    ratios_["oriented / firstcontact cold"].push_back(oriented_time / cold);
+    verdicts_["FCL oriented advancement"].judge(oriented, truth);
+    compare(pair, truth);
+    if (with_continuous_collide) {
+      PeerAnswer answer;
+      const double time = time_of([&] { answer = fcl_.continuous_collide(pair); });
+      times_["fcl::continuousCollide"].add(time, hit);
+      ratios_["continuousCollide / firstcontact cold"].push_back(time / cold);
+      verdicts_["fcl::continuousCollide"].judge(answer, truth);
+    }
+  }
+
+  /// Our answer against the loop's, and against FCL's distance at our time.
+  void compare(const PlainMotionPair& pair, const PeerAnswer& truth) {
+    const bool hit = result_.verdict == Verdict::contact;
+    if (hit != truth.contact || result_.verdict == Verdict::undecided) {
+      ++disagreements_;
+      return;
+    }
+    if (hit) {
+      greatest_time_difference_ =
+          std::max(greatest_time_difference_, std::abs(result_.t - truth.t));
+      greatest_distance_ = std::max(greatest_distance_, fcl_.distance(pair, result_.t));
+    }
+    node_groups_.push_back(static_cast<double>(result_.work.node_groups));
+    triangle_pairs_.push_back(static_cast<double>(result_.work.triangle_pairs));
+    steps_.push_back(static_cast<double>(result_.work.steps));
+  }
+
+  [[nodiscard]] json summary() const {
+    json out = {{"pair", name_},
+                {"triangles", shape_.mesh().triangles.size()},
+                {"disagreements_with_loop", disagreements_},
+                {"greatest_time_difference_to_loop", greatest_time_difference_},
+                {"greatest_fcl_distance_at_contact_m", greatest_distance_},
+                {"median_work",
+                 {{"node_groups", quantile(node_groups_, 0.5)},
+                  {"triangle_pairs", quantile(triangle_pairs_, 0.5)},
+                  {"steps", quantile(steps_, 0.5)}}}};
+    for (const auto& [method, times] : times_) {
+      out["times"][method] = times.summary();
+    }
+    for (const auto& [ratio, values] : ratios_) {
+      out["median_of_ratios"][ratio] = quantile(values, 0.5);
+    }
+    for (const auto& [method, verdicts] : verdicts_) {
+      out["wrong_answers"][method] = verdicts.summary();
+    }
+    return out;
+  }
+
+  std::string name_;
+  Shape shape_;
+  FclPeer fcl_;
+  FirstContactOptions options_ = {.tolerance = kTolerance};
+  Workspace workspace_;
+  FirstContactResult result_;
+  std::map<std::string, Times> times_;
+  std::map<std::string, std::vector<double>> ratios_;
+  std::map<std::string, Verdicts> verdicts_;
+  int disagreements_ = 0;
+  double greatest_time_difference_ = 0.0;
+  double greatest_distance_ = 0.0;
+  std::vector<double> node_groups_;
+  std::vector<double> triangle_pairs_;
+  std::vector<double> steps_;
+};
+
+json run_all(const Scale& scale) {
+  json out = json::array();
+  const auto run = [&](const std::string& name, const Mesh& mesh) {
+    std::fprintf(stderr, "%s ...\n", name.c_str());
+    out.push_back(Comparison(name, mesh).run(scale));
+  };
+  run("bunny 69K", bunny());
+  run("knot 1K", normalised(torus_knot(1'000)));
+  run("knot 10K", normalised(torus_knot(10'000)));
+  run("knot 70K", normalised(torus_knot(70'000)));
+  return out;
+}
+
+}  // namespace
+}  // namespace firstcontact::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace firstcontact::benchmarks;
+  const bool quick = argc == 3 && std::string(argv[1]) == "--quick";
+  if (argc != 2 && !quick) {
+    std::fprintf(stderr, "usage: first_contact_benchmark [--quick] OUTPUT.json\n");
+    return 2;
+  }
+  const Scale scale = quick ? Scale{.motions = 40, .continuous_collide_motions = 2} : Scale{};
+  std::ofstream(argv[argc - 1]) << run_all(scale).dump(2) << '\n';
+  return EXIT_SUCCESS;
+}

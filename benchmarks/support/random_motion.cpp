@@ -1,0 +1,118 @@
+#include "benchmarks/support/random_motion.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <random>
+
+#include <firstcontact/query/distance.h>
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// Numbers that are the same with every standard library, unlike those of <random>'s distributions.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+
+  Vector3d direction() {
+    const double z = uniform(-1.0, 1.0);
+    const double angle = uniform(0.0, 2.0 * std::numbers::pi);
+    const double r = std::sqrt(1.0 - z * z);
+    return {r * std::cos(angle), r * std::sin(angle), z};
+  }
+
+  Quaterniond rotation() {
+    const Vector3d axis = direction();
+    return Quaterniond(Eigen::AngleAxisd(uniform(0.0, std::numbers::pi), axis));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Moves B along `direction` until it is `gap` away from A; none where it slips past A.
+std::optional<double> offset_for_gap(const Shape& A, const Shape& B, const Quaterniond& rotation_A,
+                                     const Quaterniond& rotation_B, const Vector3d& direction,
+                                     double gap, Workspace& workspace) {
+  const Motion at_A = Motion::fixed({.rotation = rotation_A});
+  double offset = 2.0 + gap;
+  for (int i = 0; i < 100 && offset > 0.0; ++i) {
+    const Motion at_B = Motion::fixed({.position = offset * direction, .rotation = rotation_B});
+    const double excess = distance({A, at_A}, {B, at_B}, 0.0, workspace).distance - gap;
+    if (excess <= 0.01 * gap) {
+      return offset;
+    }
+    offset -= excess;
+  }
+  return std::nullopt;
+}
+
+std::optional<PlainMotionPair> random_motion(const Shape& A, const Shape& B, Random& random,
+                                             Workspace& workspace) {
+  PlainMotionPair pair;
+  pair.A.rotation = random.rotation();
+  pair.B.rotation = random.rotation();
+  const Vector3d direction = random.direction();
+  const double gap = std::exp(random.uniform(std::log(0.003), std::log(0.5)));
+  const bool aimed = random.chance(0.6);
+  const Vector3d heading =
+      aimed ? (random.uniform(0.0, 0.7) * random.direction() - direction).normalized()
+            : random.direction();
+  const Vector3d relative = random.uniform(0.1, 3.0) * heading;
+  const double part = random.uniform(0.0, 1.0);
+  pair.A.translation = -part * relative;
+  pair.B.translation = (1.0 - part) * relative;
+  for (PlainMotion* motion : {&pair.A, &pair.B}) {
+    const Vector3d axis = random.direction();
+    const double angle = random.uniform(0.0, 0.5 * std::numbers::pi);
+    motion->rotation_vector = random.chance(0.2) ? Vector3d::Zero() : Vector3d(angle * axis);
+  }
+  const std::optional<double> offset =
+      offset_for_gap(A, B, pair.A.rotation, pair.B.rotation, direction, gap, workspace);
+  if (!offset) {
+    return std::nullopt;
+  }
+  pair.B.position = *offset * direction;
+  return pair;
+}
+
+}  // namespace
+
+Motion PlainMotion::motion() const {
+  return Motion::constant_velocity({position, rotation}, translation, rotation_vector);
+}
+
+Eigen::Isometry3d PlainMotion::pose(double t) const {
+  const double angle = rotation_vector.norm();
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = position + t * translation;
+  X.linear() = rotation.toRotationMatrix();
+  if (angle > 0.0) {
+    X.linear() = Eigen::AngleAxisd(t * angle, rotation_vector / angle) * X.linear();
+  }
+  return X;
+}
+
+std::vector<PlainMotionPair> random_motions(const Shape& A, const Shape& B, int count,
+                                            std::uint64_t seed) {
+  Random random(seed);
+  Workspace workspace;
+  std::vector<PlainMotionPair> motions;
+  while (motions.size() < static_cast<std::size_t>(count)) {
+    if (const auto pair = random_motion(A, B, random, workspace)) {
+      motions.push_back(*pair);
+    }
+  }
+  return motions;
+}
+
+}  // namespace firstcontact::benchmarks
