@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -11,15 +12,16 @@
 
 namespace firstcontact {
 
-/// Reads a scene file. Paths in it are relative to its folder. Meshes are not opened yet, but
-/// must exist.
+/// Reads a scene file. Paths in it are relative to its folder. Mesh files must exist, but are
+/// not opened yet.
 ///
 /// Strict: an unknown key, a repeated key, a wrong type or a number outside its range is an
-/// error, so that no typing error silently means something else. `rpy`, `rotation_vector` and
-/// `matrix` are converted to a quaternion in double precision; the certificate holds for the
-/// motion that the converted numbers define, which the result states as its resolved scene.
+/// error, so that no typing error silently means something else. A pose's `rpy`,
+/// `rotation_vector` and `matrix` are converted to a quaternion in double precision; the
+/// certificate holds for the motion that the converted numbers define, which the result states
+/// as its resolved scene. The locale changes nothing.
 ///
-/// @throws ParseError  one line: "path:line: place: what was expected"
+/// @throws ParseError  one line: "path:line: bodies[2].motion.from: what was expected"
 [[nodiscard]] FIRSTCONTACT_API Scene read_scene(const std::filesystem::path& path);
 
 /// Reads a scene from text.
@@ -31,6 +33,6 @@ namespace firstcontact {
 /// @throws ParseError  as read_scene
 [[nodiscard]] FIRSTCONTACT_API Scene parse_scene(std::string_view text,
                                                  const std::filesystem::path& source,
-                                                 int first_line = 1);
+                                                 std::size_t first_line = 1);
 
 }  // namespace firstcontact

@@ -1,0 +1,39 @@
+/// @file
+/// JSON as a tree whose values know their line and can tell their place, so that errors name both.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+
+namespace firstcontact::detail {
+
+struct JsonValue;
+struct JsonNull {};
+using JsonArray = std::vector<JsonValue>;
+using JsonObject = std::vector<std::pair<std::string, JsonValue>>;  // In the order of the text.
+
+using JsonVariant = std::variant<JsonNull, bool, double, std::string, JsonArray, JsonObject>;
+
+struct JsonValue {
+  JsonVariant value;
+  std::size_t line = 0;  ///< On which it begins; 0 if it was not read from a text.
+};
+
+/// The value of a key; null if the object has none.
+[[nodiscard]] FIRSTCONTACT_API const JsonValue* find(const JsonObject& object,
+                                                     std::string_view key);
+
+/// Where a value stands below the root: "bodies[2].motion"; empty for the root itself.
+/// Searches the tree, so that nobody has to carry places along until there is an error.
+///
+/// @param value  the very object in the tree, not a copy
+[[nodiscard]] FIRSTCONTACT_API std::string place_of(const JsonValue& value, const JsonValue& root);
+
+}  // namespace firstcontact::detail

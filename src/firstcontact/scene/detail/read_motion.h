@@ -1,0 +1,16 @@
+/// @file
+/// Reads how a body moves.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// `type` (fixed, constant_velocity, screw, waypoints) and the numbers of that motion.
+///
+/// @throws ParseError
+[[nodiscard]] BodyMotion read_motion(const JsonValue& value, const JsonReader& read);
+
+}  // namespace firstcontact::detail

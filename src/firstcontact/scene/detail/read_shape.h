@@ -1,0 +1,26 @@
+/// @file
+/// Reads what a body is made of.
+
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// Where the paths of a scene begin.
+struct SceneFolders {
+  std::filesystem::path scene;                       ///< Relative paths begin here.
+  std::vector<std::filesystem::path> package_roots;  ///< As opened. For "package://name/...".
+};
+
+/// `mesh` (a file, which must exist) with `scale`, or `vertices` with `triangles`; and `radius`.
+///
+/// @throws ParseError
+[[nodiscard]] BodyShape read_shape(const JsonValue& value, const SceneFolders& folders,
+                                   const JsonReader& read);
+
+}  // namespace firstcontact::detail

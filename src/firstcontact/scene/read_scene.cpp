@@ -1,0 +1,297 @@
+#include <firstcontact/scene/read_scene.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/read_motion.h>
+#include <firstcontact/scene/detail/read_pose.h>
+#include <firstcontact/scene/detail/read_shape.h>
+#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::find;
+using detail::JsonArray;
+using detail::JsonObject;
+using detail::JsonReader;
+using detail::JsonValue;
+using detail::SceneFolders;
+
+void require_version(const JsonValue& root, const JsonReader& read) {
+  const auto* object = std::get_if<JsonObject>(&root.value);
+  if (object == nullptr) {
+    read.fail_expected("a scene, an object with \"firstcontact\": 1 and \"bodies\"", root);
+  }
+  const JsonValue* version = find(*object, "firstcontact");
+  if (version == nullptr) {
+    read.fail(root, "expected \"firstcontact\": 1, the version of the scene format");
+  }
+  const auto* number = std::get_if<double>(&version->value);
+  if (number == nullptr || *number != 1.0) {
+    read.fail_expected("1, the only version of the scene format that is known here", *version);
+  }
+}
+
+SceneFolders read_folders(const JsonObject& scene, const std::filesystem::path& source,
+                          const JsonReader& read) {
+  SceneFolders folders{.scene = source.parent_path(), .package_roots = {}};
+  if (const JsonValue* roots = find(scene, "package_roots")) {
+    for (const JsonValue& root : read.array(*roots, "an array of folders")) {
+      folders.package_roots.push_back(folders.scene / read.string(root, "a folder"));
+    }
+  }
+  return folders;
+}
+
+BodyMotion read_pose_or_motion(const JsonObject& body, const JsonReader& read) {
+  const JsonValue* pose = find(body, "pose");
+  const JsonValue* motion = find(body, "motion");
+  if (pose != nullptr && motion != nullptr) {
+    read.fail(*pose,
+              "expected either \"pose\" (at rest) or \"motion\", got both; "
+              "a motion begins at its own \"from\"");
+  }
+  if (motion != nullptr) {
+    return detail::read_motion(*motion, read);
+  }
+  return FixedMotion{pose == nullptr ? Pose{} : detail::read_pose(*pose, read)};
+}
+
+Body read_body(const JsonValue& value, const SceneFolders& folders, const JsonReader& read) {
+  const JsonObject& object = read.object(value, {{"name", "shape", "pose", "motion"}});
+  Body body;
+  body.name = read.string(read.member(value, "name"), "a name");
+  body.shape = detail::read_shape(read.member(value, "shape"), folders, read);
+  body.motion = read_pose_or_motion(object, read);
+  return body;
+}
+
+std::vector<std::string_view> names(const std::vector<Body>& bodies) {
+  std::vector<std::string_view> result;
+  for (const Body& body : bodies) {
+    result.emplace_back(body.name);
+  }
+  return result;
+}
+
+std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folders,
+                              const JsonReader& read) {
+  std::vector<Body> bodies;
+  for (const JsonValue& element : read.array(value, "an array of bodies")) {
+    bodies.push_back(read_body(element, folders, read));
+  }
+  if (bodies.empty()) {
+    read.fail(value, "expected at least one body, got none");
+  }
+  std::vector<std::string_view> sorted = names(bodies);
+  std::sort(sorted.begin(), sorted.end());
+  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+  if (twice != sorted.end()) {
+    read.fail(value, "expected a name of its own for each body, got " + detail::in_quotes(*twice) +
+                         " twice");
+  }
+  return bodies;
+}
+
+std::size_t read_body_name(const JsonValue& value, const std::vector<Body>& bodies,
+                           const JsonReader& read) {
+  const std::string& name = read.string(value, "the name of a body");
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const Body& body) { return body.name == name; });
+  if (found == bodies.end()) {
+    const std::string_view nearest = detail::nearest_word(name, names(bodies));
+    read.fail(value,
+              "expected the name of a body, got " + detail::in_quotes(name) +
+                  (nearest.empty() ? "" : "; did you mean " + detail::in_quotes(nearest) + "?"));
+  }
+  return static_cast<std::size_t>(found - bodies.begin());
+}
+
+/// The first two elements.
+BodyPair read_pair(const JsonValue& value, const std::vector<Body>& bodies,
+                   const JsonReader& read) {
+  const JsonArray& elements = std::get<JsonArray>(value.value);
+  const std::size_t first = read_body_name(elements[0], bodies, read);
+  const std::size_t second = read_body_name(elements[1], bodies, read);
+  if (first == second) {
+    read.fail(value, "expected two bodies, got one twice");
+  }
+  return {std::min(first, second), std::max(first, second)};
+}
+
+std::vector<BodyPair> read_ignored_pairs(const JsonValue& value, const std::vector<Body>& bodies,
+                                         const JsonReader& read) {
+  const std::string expected = "a pair of names, such as [\"a\", \"b\"]";
+  std::vector<BodyPair> pairs;
+  for (const JsonValue& element : read.array(value, "an array of pairs of names")) {
+    if (read.array(element, expected).size() != 2) {
+      read.fail_expected(expected, element);
+    }
+    pairs.push_back(read_pair(element, bodies, read));
+  }
+  return pairs;
+}
+
+std::vector<PairMargin> read_pair_margins(const JsonValue& value, const std::vector<Body>& bodies,
+                                          const JsonReader& read) {
+  const std::string expected = "two names and a margin, such as [\"a\", \"b\", 0.01]";
+  std::vector<PairMargin> margins;
+  for (const JsonValue& element : read.array(value, "an array of pairs with their margins")) {
+    const JsonArray& elements = read.array(element, expected);
+    if (elements.size() != 3) {
+      read.fail_expected(expected, element);
+    }
+    const BodyPair pair = read_pair(element, bodies, read);
+    const auto same = [&](const PairMargin& other) { return other.bodies == pair; };
+    if (std::any_of(margins.begin(), margins.end(), same)) {
+      read.fail(element, "expected one margin for each pair, got a second one");
+    }
+    margins.push_back({.bodies = pair, .margin = read.not_negative(elements[2])});
+  }
+  return margins;
+}
+
+void read_pairs(const JsonValue& value, Scene& scene, const JsonReader& read) {
+  const JsonObject& object = read.object(value, {{"ignore", "margin"}});
+  if (const JsonValue* ignore = find(object, "ignore")) {
+    scene.ignored_pairs = read_ignored_pairs(*ignore, scene.bodies, read);
+  }
+  if (const JsonValue* margin = find(object, "margin")) {
+    scene.pair_margins = read_pair_margins(*margin, scene.bodies, read);
+  }
+}
+
+SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
+  SceneOptions options;
+  if (const JsonValue* tolerance = find(object, "tolerance")) {
+    options.tolerance = read.positive(*tolerance);
+  }
+  if (const JsonValue* margin = find(object, "margin")) {
+    options.margin = read.not_negative(*margin);
+  }
+  if (const JsonValue* contacts = find(object, "contacts")) {
+    constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
+    options.contacts = kStates.at(read.word(*contacts, {{"none", "first", "all"}}));
+  }
+  if (const JsonValue* start_contacts = find(object, "start_contacts")) {
+    constexpr std::array kStarts{StartContacts::report, StartContacts::keep_half};
+    options.start_contacts = kStarts.at(read.word(*start_contacts, {{"report", "keep_half"}}));
+  }
+  if (const JsonValue* contact_band = find(object, "contact_band")) {
+    options.contact_band = read.not_negative(*contact_band);
+  }
+  if (const JsonValue* deadline = find(object, "deadline")) {
+    options.deadline = read.positive(*deadline);
+  }
+  return options;
+}
+
+/// [s]  The greatest last time of waypoints; 0 where there is none.
+double last_time(const std::vector<Body>& bodies) {
+  double last = 0.0;
+  for (const Body& body : bodies) {
+    if (const auto* waypoints = std::get_if<WaypointMotion>(&body.motion)) {
+      last = std::max(last, waypoints->times.back());
+    }
+  }
+  return last;
+}
+
+/// `asked` may be null.
+double scene_duration(const std::vector<Body>& bodies, const JsonValue* asked,
+                      const JsonReader& read) {
+  const double last = last_time(bodies);
+  if (asked == nullptr) {
+    return last > 0.0 ? last : 1.0;
+  }
+  const double duration = read.positive(*asked);
+  if (last > 0.0 && duration != last) {
+    read.fail_expected(
+        detail::write_json(last) + ", the last time of the waypoints (or no \"duration\" at all)",
+        *asked);
+  }
+  return duration;
+}
+
+/// What only the motions themselves know to refuse, such as too many turns.
+void require_motions(const Scene& scene, const JsonArray& bodies, const JsonReader& read) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    try {
+      (void)normalised_motion(scene.bodies[i].motion, scene.duration);
+    } catch (const std::invalid_argument& error) {
+      const JsonValue* motion = find(std::get<JsonObject>(bodies[i].value), "motion");
+      read.fail(motion == nullptr ? bodies[i] : *motion, error.what());
+    }
+  }
+}
+
+Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read) {
+  require_version(root, read);
+  const JsonObject& object = read.object(
+      root, {{"firstcontact", "id", "package_roots", "bodies", "pairs", "options"}, {"robots"}});
+  Scene scene;
+  if (const JsonValue* id = find(object, "id")) {
+    const auto* text = std::get_if<std::string>(&id->value);
+    scene.id = text != nullptr ? *text : read.string(*id, "a string");
+  }
+  const JsonValue& bodies = read.member(root, "bodies");
+  scene.bodies = read_bodies(bodies, read_folders(object, source, read), read);
+  if (const JsonValue* pairs = find(object, "pairs")) {
+    read_pairs(*pairs, scene, read);
+  }
+  const JsonValue* duration = nullptr;
+  if (const JsonValue* options = find(object, "options")) {
+    const JsonObject& given =
+        read.object(*options, {{"tolerance", "margin", "contacts", "start_contacts", "contact_band",
+                                "deadline", "duration"}});
+    scene.options = read_options(given, read);
+    duration = find(given, "duration");
+  }
+  scene.duration = scene_duration(scene.bodies, duration, read);
+  require_motions(scene, std::get<JsonArray>(bodies.value), read);
+  return scene;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    throw ParseError(path.string(), "expected a scene file, got a folder");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) {
+    throw ParseError(path.string(), "expected a scene file, cannot open this one");
+  }
+  return text;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& source,
+                  std::size_t first_line) {
+  const FloatEnvironmentGuard guard;
+  const std::string name = source.string();
+  const JsonValue root = detail::parse_json(text, name, first_line);
+  Scene scene = to_scene(root, source, JsonReader(root, name));
+  scene.text_digest = detail::sha256(text);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& path) { return parse_scene(read_text(path), path); }
+
+}  // namespace firstcontact

@@ -1,0 +1,167 @@
+#include <firstcontact/scene/write_scene.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonArray;
+using detail::JsonObject;
+using detail::JsonValue;
+
+JsonValue to_json(double number) { return {.value = number}; }
+
+JsonValue to_json(const std::string& text) { return {.value = text}; }
+
+JsonValue to_json(const char* word) { return {.value = std::string(word)}; }
+
+JsonValue to_json(const Eigen::Vector3d& v) {
+  return {.value = JsonArray{to_json(v.x()), to_json(v.y()), to_json(v.z())}};
+}
+
+JsonValue to_json(const std::array<std::uint32_t, 3>& triangle) {
+  JsonArray array;
+  for (const std::uint32_t corner : triangle) {
+    array.push_back(to_json(static_cast<double>(corner)));
+  }
+  return {.value = std::move(array)};
+}
+
+JsonValue to_json(const Pose& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  JsonArray wxyz{to_json(q.w()), to_json(q.x()), to_json(q.y()), to_json(q.z())};
+  return {.value = JsonObject{{"position", to_json(pose.position)},
+                              {"quaternion_wxyz", {.value = std::move(wxyz)}}}};
+}
+
+JsonValue to_json(const Body& body);
+
+JsonValue to_json(Between between) {
+  return to_json(between == Between::screw ? "screw" : "constant_velocity");
+}
+
+template <class T>
+JsonValue to_json(const std::vector<T>& elements) {
+  JsonArray array;
+  for (const T& element : elements) {
+    array.push_back(to_json(element));
+  }
+  return {.value = std::move(array)};
+}
+
+JsonValue to_json(const BodyShape& shape) {
+  JsonObject object;
+  if (const auto* file = std::get_if<MeshFile>(&shape.source)) {
+    object = {{"mesh", to_json(file->path.string())}, {"scale", to_json(file->scale)}};
+  } else {
+    const Mesh& mesh = std::get<Mesh>(shape.source);
+    object = {{"vertices", to_json(mesh.vertices)}, {"triangles", to_json(mesh.triangles)}};
+  }
+  object.emplace_back("radius", to_json(shape.radius));
+  return {.value = std::move(object)};
+}
+
+/// The key and value that say how a body moves; the overloads are picked by std::visit.
+struct MotionMember {
+  using Member = std::pair<std::string, JsonValue>;
+
+  static Member member(const char* type, JsonObject numbers) {
+    numbers.emplace(numbers.begin(), "type", to_json(type));
+    return {"motion", {.value = std::move(numbers)}};
+  }
+
+  Member operator()(const FixedMotion& motion) const { return {"pose", to_json(motion.pose)}; }
+
+  Member operator()(const ConstantVelocityMotion& motion) const {
+    return member("constant_velocity", {{"from", to_json(motion.from)},
+                                        {"translation", to_json(motion.translation)},
+                                        {"rotation_vector", to_json(motion.rotation_vector)}});
+  }
+
+  Member operator()(const ScrewMotion& motion) const {
+    return member("screw", {{"from", to_json(motion.from)},
+                            {"axis_point", to_json(motion.axis_point)},
+                            {"axis_direction", to_json(motion.axis_direction)},
+                            {"angle", to_json(motion.angle)},
+                            {"translation", to_json(motion.translation)}});
+  }
+
+  Member operator()(const TwoPoseMotion& motion) const {
+    return member(motion.between == Between::screw ? "screw" : "constant_velocity",
+                  {{"from", to_json(motion.from)}, {"to", to_json(motion.to)}});
+  }
+
+  Member operator()(const WaypointMotion& motion) const {
+    return member("waypoints", {{"times", to_json(motion.times)},
+                                {"poses", to_json(motion.poses)},
+                                {"between", to_json(motion.between)}});
+  }
+};
+
+JsonValue to_json(const Body& body) {
+  JsonObject object{{"name", to_json(body.name)}, {"shape", to_json(body.shape)}};
+  object.push_back(std::visit(MotionMember{}, body.motion));
+  return {.value = std::move(object)};
+}
+
+JsonValue pairs_to_json(const Scene& scene) {
+  const auto name = [&](std::size_t body) { return to_json(scene.bodies.at(body).name); };
+  JsonArray ignore;
+  for (const auto& [first, second] : scene.ignored_pairs) {
+    ignore.push_back({.value = JsonArray{name(first), name(second)}});
+  }
+  JsonArray margin;
+  for (const PairMargin& pair : scene.pair_margins) {
+    margin.push_back(
+        {.value = JsonArray{name(pair.bodies[0]), name(pair.bodies[1]), to_json(pair.margin)}});
+  }
+  return {.value = JsonObject{{"ignore", {.value = std::move(ignore)}},
+                              {"margin", {.value = std::move(margin)}}}};
+}
+
+const char* word(ContactState contacts) {
+  switch (contacts) {
+    case ContactState::none:
+      return "none";
+    case ContactState::first:
+      return "first";
+    case ContactState::all:
+      break;
+  }
+  return "all";
+}
+
+JsonValue options_to_json(const Scene& scene) {
+  const SceneOptions& options = scene.options;
+  const bool keep_half = options.start_contacts == StartContacts::keep_half;
+  JsonObject object{{"tolerance", to_json(options.tolerance)},
+                    {"margin", to_json(options.margin)},
+                    {"contacts", to_json(word(options.contacts))},
+                    {"start_contacts", to_json(keep_half ? "keep_half" : "report")},
+                    {"contact_band", to_json(options.contact_band)}};
+  if (options.deadline) {
+    object.emplace_back("deadline", to_json(*options.deadline));
+  }
+  object.emplace_back("duration", to_json(scene.duration));
+  return {.value = std::move(object)};
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  return detail::write_json({.value = JsonObject{{"firstcontact", to_json(1.0)},
+                                                 {"id", to_json(scene.id)},
+                                                 {"bodies", to_json(scene.bodies)},
+                                                 {"pairs", pairs_to_json(scene)},
+                                                 {"options", options_to_json(scene)}}});
+}
+
+}  // namespace firstcontact
