@@ -1,0 +1,32 @@
+/// @file
+/// The elementary test of two moving edges.
+
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/narrowphase/elementary_contact.h>
+
+namespace firstcontact {
+
+using Edge = std::array<Eigen::Vector3d, 2>;  ///< [m]  End points; may coincide.
+
+/// When does edge ab of body A first cross edge cd of body B?
+///
+/// As vertex_face_contact, with the coplanarity function f(t) = (c - a) . ((b - a) x (d - c)),
+/// whose two edges turn against each other; a root is a contact where the lines cross inside both
+/// edges. f vanishes throughout where the edges stay parallel or in one plane; the gap between
+/// their nearest points then decides, and their touch is `degenerate`.
+///
+/// Symmetric in A and B up to rounding.
+///
+/// @param edge_A  [m]  from the point of A that its path leads, in A's axes
+/// @param edge_B  [m]  likewise for B
+[[nodiscard]] FIRSTCONTACT_API ElementaryContact
+edge_edge_contact(const ElementaryMotion& motion, const Edge& edge_A, const Edge& edge_B,
+                  const ElementaryOptions& options = {});
+
+}  // namespace firstcontact
