@@ -62,7 +62,7 @@ std::optional<PlainMotionPair> random_motion(const Shape& A, const Shape& B, Ran
   pair.A.rotation = random.rotation();
   pair.B.rotation = random.rotation();
   const Vector3d direction = random.direction();
-  const double gap = std::exp(random.uniform(std::log(0.003), std::log(0.5)));
+  const double gap = random.uniform(0.003, 0.5);
   const bool aimed = random.chance(0.6);
   const Vector3d heading =
       aimed ? (random.uniform(0.0, 0.7) * random.direction() - direction).normalized()
@@ -104,13 +104,16 @@ Eigen::Isometry3d PlainMotion::pose(double t) const {
 
 std::vector<PlainMotionPair> random_motions(const Shape& A, const Shape& B, int count,
                                             std::uint64_t seed) {
-  Random random(seed);
   Workspace workspace;
   std::vector<PlainMotionPair> motions;
-  while (motions.size() < static_cast<std::size_t>(count)) {
-    if (const auto pair = random_motion(A, B, random, workspace)) {
-      motions.push_back(*pair);
+  for (int i = 0; i < count; ++i) {
+    // A seed for each, so that shapes that differ a little get motions that differ a little.
+    Random random(seed + static_cast<std::uint64_t>(i));
+    std::optional<PlainMotionPair> pair;
+    while (!pair) {
+      pair = random_motion(A, B, random, workspace);
     }
+    motions.push_back(*pair);
   }
   return motions;
 }
