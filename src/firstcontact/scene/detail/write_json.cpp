@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <variant>
@@ -70,8 +71,13 @@ std::string write_json(const JsonValue& tree) {
 
 std::string write_json(double number) {
   std::array<char, 32> text{};  // The longest has 24 characters: -1.7976931348623157e+308.
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-  return {text.data(), end};
+  char* const begin = text.data();
+  // Counts and indices stay integers to every reader: 100000, not 1e+05.
+  const bool whole = std::abs(number) < 0x1p53 && number == std::trunc(number);
+  const auto end =
+      whole ? std::to_chars(begin, begin + text.size(), number, std::chars_format::fixed).ptr
+            : std::to_chars(begin, begin + text.size(), number).ptr;
+  return {begin, end};
 }
 
 std::string write_json(std::string_view text) {

@@ -1,0 +1,218 @@
+#include <firstcontact/scene/write_result.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/version.h>
+#include <firstcontact/scene/write_scene.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonArray;
+using detail::JsonNull;
+using detail::JsonObject;
+using detail::JsonValue;
+
+JsonValue to_json(double number) {
+  return std::isfinite(number) ? JsonValue{.value = number} : JsonValue{.value = JsonNull{}};
+}
+
+JsonValue to_json(std::size_t count) { return to_json(static_cast<double>(count)); }
+
+JsonValue to_json(std::string_view text) { return {.value = std::string(text)}; }
+
+JsonValue to_json(const Eigen::Vector3d& v) {
+  return {.value = JsonArray{to_json(v.x()), to_json(v.y()), to_json(v.z())}};
+}
+
+template <typename T>
+JsonValue to_json(const std::optional<T>& value) {
+  return value ? to_json(*value) : JsonValue{.value = JsonNull{}};
+}
+
+JsonValue two(JsonValue first, JsonValue second) {
+  return {.value = JsonArray{std::move(first), std::move(second)}};
+}
+
+JsonValue to_json(const Feature& feature) {
+  return {.value = JsonObject{{"type", to_json(word(feature.type))},
+                              {"index", to_json(std::size_t{feature.index})}}};
+}
+
+JsonValue to_json(UndecidedReason reason) {
+  return reason == UndecidedReason::none ? JsonValue{.value = JsonNull{}} : to_json(word(reason));
+}
+
+/// Writes the parts of one scene's result.
+class ResultWriter {
+ public:
+  explicit ResultWriter(const LoadedScene& loaded) : scene_(loaded.scene), loaded_(loaded) {}
+
+  [[nodiscard]] JsonObject result(const SceneResult& result) const {
+    return {{"id", to_json(scene_.id)},
+            {"verdict", to_json(word(result.verdict))},
+            {"reason", to_json(result.reason)},
+            {"t", to_json(result.t)},
+            {"t_upper", to_json(result.t_upper)},
+            {"time", to_json(result.t * scene_.duration)},
+            {"pair", result.first ? names(result.pairs[*result.first].bodies)
+                                  : JsonValue{.value = JsonNull{}}},
+            {"contacts", {.value = contacts_at(result)}},
+            {"clearance", to_json(result.clearance)}};
+  }
+
+  [[nodiscard]] JsonValue closest(const PairResult& pair) const {
+    const ClosestApproachResult& found = *pair.closest_approach;
+    JsonObject object{{"pair", names(pair.bodies)},
+                      {"distance", to_json(found.distance)},
+                      {"lower_bound", to_json(found.lower_bound)},
+                      {"t", to_json(found.t)},
+                      {"time", to_json(found.t * scene_.duration)},
+                      {"reason", to_json(found.reason)}};
+    if (found.closest) {
+      object.emplace_back("points",
+                          two(to_json(found.closest->p_WA), to_json(found.closest->p_WB)));
+    }
+    return {.value = std::move(object)};
+  }
+
+  [[nodiscard]] JsonValue pair(const PairResult& pair, double margin) const {
+    const FirstContactResult& found = pair.first_contact;
+    JsonArray contacts;
+    append_contacts(pair, contacts);
+    JsonObject object{{"pair", names(pair.bodies)},
+                      {"margin", to_json(margin)},
+                      {"verdict", to_json(word(found.verdict))},
+                      {"reason", to_json(found.reason)},
+                      {"t", to_json(found.t)},
+                      {"t_upper", to_json(found.t_upper)},
+                      {"time", to_json(found.t * scene_.duration)},
+                      {"contacts", {.value = std::move(contacts)}},
+                      {"clearance", to_json(found.clearance)}};
+    append_tolerance(found.tolerance_used, object);
+    if (pair.closest_approach) {
+      object.emplace_back("closest", closest(pair));
+    }
+    return {.value = std::move(object)};
+  }
+
+  /// Only where it is not the one that was asked for.
+  void append_tolerance(double tolerance_used, JsonObject& object) const {
+    if (tolerance_used > scene_.options.tolerance) {
+      object.emplace_back("tolerance_used", to_json(tolerance_used));
+    }
+  }
+
+  [[nodiscard]] JsonValue sampling(const SamplingReport& report) const {
+    return {.value = JsonObject{
+                {"rate", to_json(report.rate)},
+                {"samples", to_json(report.samples)},
+                {"in_contact", to_json(report.in_contact)},
+                {"least_distance", report.least ? to_json(report.least->distance) : JsonValue{}},
+                {"time", report.least ? to_json(report.least->t * scene_.duration) : JsonValue{}}}};
+  }
+
+  [[nodiscard]] JsonArray pairs(const SceneResult& result) const {
+    JsonArray array;
+    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+      array.push_back(pair(result.pairs[k], loaded_.pairs[k].margin));
+    }
+    return array;
+  }
+
+ private:
+  [[nodiscard]] JsonValue names(const BodyPair& bodies) const {
+    return two(to_json(scene_.bodies[bodies[0]].name), to_json(scene_.bodies[bodies[1]].name));
+  }
+
+  [[nodiscard]] JsonValue contact(const BodyPair& bodies, const Contact& contact) const {
+    return {.value = JsonObject{
+                {"bodies", names(bodies)},
+                {"features", two(to_json(contact.feature_A), to_json(contact.feature_B))},
+                {"triangles", two(to_json(std::size_t{contact.feature_A.triangle}),
+                                  to_json(std::size_t{contact.feature_B.triangle}))},
+                {"points", two(to_json(contact.p_WA), to_json(contact.p_WB))},
+                {"normal", to_json(contact.n_AB_W)},
+                {"distance", to_json(contact.distance)},
+                {"normal_velocity", to_json(contact.normal_velocity / scene_.duration)}}};
+  }
+
+  void append_contacts(const PairResult& pair, JsonArray& array) const {
+    for (const Contact& found : pair.first_contact.contacts) {
+      array.push_back(contact(pair.bodies, found));
+    }
+  }
+
+  /// The contacts of every pair that touches at the scene's t.
+  [[nodiscard]] JsonArray contacts_at(const SceneResult& result) const {
+    JsonArray array;
+    for (const PairResult& pair : result.pairs) {
+      if (result.first && pair.first_contact.t == result.t) {
+        append_contacts(pair, array);
+      }
+    }
+    return array;
+  }
+
+  const Scene& scene_;
+  const LoadedScene& loaded_;
+};
+
+JsonValue to_json(const WorkCount& work) {
+  return {.value = JsonObject{{"node_groups", to_json(std::size_t{work.node_groups})},
+                              {"triangle_pairs", to_json(std::size_t{work.triangle_pairs})},
+                              {"steps", to_json(std::size_t{work.steps})}}};
+}
+
+}  // namespace
+
+SamplingReport report_sampling(double rate, std::span<const GapSample> samples) {
+  SamplingReport report{.rate = rate, .samples = samples.size(), .in_contact = 0, .least = {}};
+  for (const GapSample& sample : samples) {
+    report.in_contact += sample.contact ? 1 : 0;
+    if (!report.least || sample.distance < report.least->distance) {
+      report.least = sample;
+    }
+  }
+  return report;
+}
+
+std::string write_result(const LoadedScene& loaded, const SceneResult& result,
+                         const WriteResultOptions& options) {
+  const ResultWriter writer(loaded);
+  JsonObject object = writer.result(result);
+  if (result.closest) {
+    object.emplace_back("closest", writer.closest(result.pairs[*result.closest]));
+  }
+  if (options.all_pairs) {
+    object.emplace_back("pairs", JsonValue{.value = writer.pairs(result)});
+  }
+  writer.append_tolerance(result.tolerance_used, object);
+  if (options.sampling) {
+    object.emplace_back("sampling", writer.sampling(*options.sampling));
+  }
+  object.emplace_back("scene", detail::parse_json(write_scene(loaded.scene), "scene", 1));
+  object.emplace_back("version", to_json(version()));
+  object.emplace_back("input_digest", to_json(loaded.input_digest));
+  object.emplace_back("work", to_json(result.work));
+  return detail::write_json({.value = std::move(object)});
+}
+
+std::string write_error(std::string_view id, std::string_view file, std::optional<std::size_t> line,
+                        std::string_view message) {
+  JsonObject object{{"id", to_json(id)}, {"file", to_json(file)}};
+  if (line) {
+    object.emplace_back("line", to_json(*line));
+  }
+  object.emplace_back("error", to_json(message));
+  return detail::write_json({.value = std::move(object)});
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,58 @@
+/// @file
+/// Writes the answer of a scene as the JSON that users and the viewer read (schema/result.json).
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+
+namespace firstcontact {
+
+/// What sampling at a rate would have seen, to set beside the proven answer.
+struct SamplingReport {
+  double rate = 0.0;  ///< [1/s]
+  std::size_t samples = 0;
+  std::size_t in_contact = 0;
+  std::optional<GapSample> least;  ///< The sample of the least distance, the first of equals.
+};
+
+/// Counts what samples at `rate` [1/s] saw.
+[[nodiscard]] FIRSTCONTACT_API SamplingReport report_sampling(double rate,
+                                                              std::span<const GapSample> samples);
+
+struct WriteResultOptions {
+  bool all_pairs = false;  ///< Also the answer of every pair.
+  std::optional<SamplingReport> sampling;
+};
+
+/// The result as one JSON object on one line, without a line feed. Times in seconds stand beside
+/// normalised ones, normal velocities are in m/s; what is infinite or undefined is null. The same
+/// answer gives the same text, but for `work`.
+[[nodiscard]] FIRSTCONTACT_API std::string write_result(const LoadedScene& loaded,
+                                                        const SceneResult& result,
+                                                        const WriteResultOptions& options = {});
+
+/// What stands in place of a result where a scene could not be answered.
+///
+/// @param id       of the scene, empty if it is not known
+/// @param file     that was read
+/// @param line     of that file, for JSON Lines
+/// @param message  what was wrong
+[[nodiscard]] FIRSTCONTACT_API std::string write_error(std::string_view id, std::string_view file,
+                                                       std::optional<std::size_t> line,
+                                                       std::string_view message);
+
+/// The words of the result file.
+[[nodiscard]] FIRSTCONTACT_API const char* word(Verdict verdict);
+[[nodiscard]] FIRSTCONTACT_API const char* word(UndecidedReason reason);
+[[nodiscard]] FIRSTCONTACT_API const char* word(FeatureType type);
+
+}  // namespace firstcontact
