@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -81,31 +82,28 @@ Body read_body(const JsonValue& value, const SceneFolders& folders, const JsonRe
   return body;
 }
 
-std::vector<std::string_view> names(const std::vector<Body>& bodies) {
-  std::vector<std::string_view> result;
-  for (const Body& body : bodies) {
-    result.emplace_back(body.name);
-  }
-  return result;
-}
-
 std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folders,
                               const JsonReader& read) {
   std::vector<Body> bodies;
+  std::set<std::string> names;
   for (const JsonValue& element : read.array(value, "an array of bodies")) {
     bodies.push_back(read_body(element, folders, read));
+    if (!names.insert(bodies.back().name).second) {
+      read.fail_expected("a name that no other body has", read.member(element, "name"));
+    }
   }
   if (bodies.empty()) {
     read.fail(value, "expected at least one body, got none");
   }
-  std::vector<std::string_view> sorted = names(bodies);
-  std::sort(sorted.begin(), sorted.end());
-  const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-  if (twice != sorted.end()) {
-    read.fail(value, "expected a name of its own for each body, got " + detail::in_quotes(*twice) +
-                         " twice");
-  }
   return bodies;
+}
+
+std::string_view nearest_name(std::string_view name, const std::vector<Body>& bodies) {
+  std::vector<std::string_view> names;
+  for (const Body& body : bodies) {
+    names.emplace_back(body.name);
+  }
+  return detail::nearest_word(name, names);
 }
 
 std::size_t read_body_name(const JsonValue& value, const std::vector<Body>& bodies,
@@ -114,7 +112,7 @@ std::size_t read_body_name(const JsonValue& value, const std::vector<Body>& bodi
   const auto found = std::find_if(bodies.begin(), bodies.end(),
                                   [&](const Body& body) { return body.name == name; });
   if (found == bodies.end()) {
-    const std::string_view nearest = detail::nearest_word(name, names(bodies));
+    const std::string_view nearest = nearest_name(name, bodies);
     read.fail(value,
               "expected the name of a body, got " + detail::in_quotes(name) +
                   (nearest.empty() ? "" : "; did you mean " + detail::in_quotes(nearest) + "?"));
@@ -271,6 +269,9 @@ std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw ParseError(path.string(), "expected a scene file, got a folder");
+  }
+  if (!std::filesystem::exists(path, error)) {
+    throw ParseError(path.string(), "expected a scene file, found none");
   }
   std::ifstream file(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(file), {}};

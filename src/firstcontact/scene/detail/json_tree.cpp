@@ -15,14 +15,16 @@ bool is_word(std::string_view key) {
   return !key.empty() && key.size() <= 60 && std::all_of(key.begin(), key.end(), is_word_character);
 }
 
-std::string member_place(const std::string& key, const std::string& rest) {
-  const std::string dot = rest.empty() || rest.front() == '[' ? "" : ".";
-  return (is_word(key) ? key : "[" + in_quotes(key) + "]") + dot + rest;
+std::string in_brackets(std::string_view inside) {
+  std::string text = "[";
+  text += inside;
+  text += ']';
+  return text;
 }
 
-std::string element_place(std::size_t index, const std::string& rest) {
-  const std::string dot = rest.empty() || rest.front() == '[' ? "" : ".";
-  return "[" + std::to_string(index) + "]" + dot + rest;
+/// `rest` is the place below this one: it follows a dot, unless it is an element of an array.
+std::string join(const std::string& place, const std::string& rest) {
+  return place + (rest.empty() || rest.front() == '[' ? "" : ".") + rest;
 }
 
 std::optional<std::string> search(const JsonValue& value, const JsonValue& below) {
@@ -32,14 +34,14 @@ std::optional<std::string> search(const JsonValue& value, const JsonValue& below
   if (const auto* array = std::get_if<JsonArray>(&below.value)) {
     for (std::size_t i = 0; i < array->size(); ++i) {
       if (const auto rest = search(value, (*array)[i])) {
-        return element_place(i, *rest);
+        return join(in_brackets(std::to_string(i)), *rest);
       }
     }
   }
   if (const auto* object = std::get_if<JsonObject>(&below.value)) {
     for (const auto& [key, member] : *object) {
       if (const auto rest = search(value, member)) {
-        return member_place(key, *rest);
+        return join(is_word(key) ? key : in_brackets(in_quotes(key)), *rest);
       }
     }
   }
