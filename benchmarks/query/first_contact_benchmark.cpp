@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -17,6 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/query/first_contact.h>
 
 #include "benchmarks/support/fcl_peer.h"
@@ -39,10 +41,10 @@ struct Scale {
   int continuous_collide_motions = 20;  // Of these; about a second each.
 };
 
-/// Times of one method, hits and misses apart.
-class Times {
+/// Times of one method, or its ratios to ours; hits and misses apart.
+class Sample {
  public:
-  void add(double time, bool hit) { (hit ? hits_ : misses_).push_back(time); }
+  void add(double value, bool hit) { (hit ? hits_ : misses_).push_back(value); }
 
   [[nodiscard]] json summary() const {
     std::vector<double> all = hits_;
@@ -53,10 +55,10 @@ class Times {
  private:
   static json quantiles(const std::vector<double>& values) {
     return {{"count", values.size()},
-            {"median_us", quantile(values, 0.5)},
-            {"p90_us", quantile(values, 0.9)},
-            {"p99_us", quantile(values, 0.99)},
-            {"max_us", quantile(values, 1.0)}};
+            {"median", quantile(values, 0.5)},
+            {"p90", quantile(values, 0.9)},
+            {"p99", quantile(values, 0.99)},
+            {"max", quantile(values, 1.0)}};
   }
 
   std::vector<double> hits_;
@@ -123,18 +125,19 @@ class Comparison {
     const bool hit = truth.contact;
     times_["firstcontact, cold"].add(cold, hit);
     times_["firstcontact, warm"].add(warm, hit);
-    times_["loop over fcl::distance"].add(loop, hit);
-    times_["FCL oriented advancement"].add(oriented_time, hit);
-    ratios_["loop / firstcontact cold"].push_back(loop / cold);
-    ratios_["loop / firstcontact warm"].push_back(loop / warm);
-    ratios_["oriented / firstcontact cold"].push_back(oriented_time / cold);
+    const auto add_peer = [&](const std::string& peer, double time) {
+      times_[peer].add(time, hit);
+      ratios_[peer]["cold"].add(time / cold, hit);
+      ratios_[peer]["warm"].add(time / warm, hit);
+    };
+    add_peer("loop over fcl::distance", loop);
+    add_peer("FCL oriented advancement", oriented_time);
     verdicts_["FCL oriented advancement"].judge(oriented, truth);
     compare(pair, truth);
     if (with_continuous_collide) {
       PeerAnswer answer;
       const double time = time_of([&] { answer = fcl_.continuous_collide(pair); });
-      times_["fcl::continuousCollide"].add(time, hit);
-      ratios_["continuousCollide / firstcontact cold"].push_back(time / cold);
+      add_peer("fcl::continuousCollide", time);
       verdicts_["fcl::continuousCollide"].judge(answer, truth);
     }
   }
@@ -167,10 +170,12 @@ class Comparison {
                   {"triangle_pairs", quantile(triangle_pairs_, 0.5)},
                   {"steps", quantile(steps_, 0.5)}}}};
     for (const auto& [method, times] : times_) {
-      out["times"][method] = times.summary();
+      out["times_us"][method] = times.summary();
     }
-    for (const auto& [ratio, values] : ratios_) {
-      out["median_of_ratios"][ratio] = quantile(values, 0.5);
+    for (const auto& [peer, ratios] : ratios_) {
+      for (const auto& [caches, values] : ratios) {
+        out["ratios"][peer][caches] = values.summary();
+      }
     }
     for (const auto& [method, verdicts] : verdicts_) {
       out["wrong_answers"][method] = verdicts.summary();
@@ -184,8 +189,8 @@ class Comparison {
   FirstContactOptions options_ = {.tolerance = kTolerance};
   Workspace workspace_;
   FirstContactResult result_;
-  std::map<std::string, Times> times_;
-  std::map<std::string, std::vector<double>> ratios_;
+  std::map<std::string, Sample> times_;
+  std::map<std::string, std::map<std::string, Sample>> ratios_;  // by peer, then cold and warm
   std::map<std::string, Verdicts> verdicts_;
   int disagreements_ = 0;
   double greatest_time_difference_ = 0.0;
@@ -198,13 +203,22 @@ class Comparison {
 json run_all(const Scale& scale) {
   json out = json::array();
   const auto run = [&](const std::string& name, const Mesh& mesh) {
-    std::fprintf(stderr, "%s ...\n", name.c_str());
+    std::fprintf(stderr, "  %s ...\n", name.c_str());
     out.push_back(Comparison(name, mesh).run(scale));
   };
   run("bunny 69K", bunny());
   run("knot 1K", normalised(torus_knot(1'000)));
   run("knot 10K", normalised(torus_knot(10'000)));
   run("knot 70K", normalised(torus_knot(70'000)));
+  for (const auto& [name, file] :
+       {std::pair("cow 6K", "cow.obj"), {"fandisk 13K", "fandisk.obj"}}) {
+    const char* folder = std::getenv("FIRSTCONTACT_DATA_DIR");
+    if (folder == nullptr) {
+      std::fprintf(stderr, "  %s skipped: needs FIRSTCONTACT_DATA_DIR\n", name);
+    } else {
+      run(name, normalised(read_mesh(std::filesystem::path(folder) / "meshes" / "classic" / file)));
+    }
+  }
   return out;
 }
 

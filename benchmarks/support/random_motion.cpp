@@ -3,41 +3,16 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <random>
 
 #include <firstcontact/query/distance.h>
+
+#include "benchmarks/support/random.h"
 
 namespace firstcontact::benchmarks {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-/// Numbers that are the same with every standard library, unlike those of <random>'s distributions.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-
-  Vector3d direction() {
-    const double z = uniform(-1.0, 1.0);
-    const double angle = uniform(0.0, 2.0 * std::numbers::pi);
-    const double r = std::sqrt(1.0 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-  }
-
-  Quaterniond rotation() {
-    const Vector3d axis = direction();
-    return Quaterniond(Eigen::AngleAxisd(uniform(0.0, std::numbers::pi), axis));
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Moves B along `direction` until it is `gap` away from A; none where it slips past A.
 std::optional<double> offset_for_gap(const Shape& A, const Shape& B, const Quaterniond& rotation_A,
