@@ -1,0 +1,39 @@
+/// @file
+/// A file that appears whole or not at all.
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace firstcontact::app {
+
+/// Writes to a temporary file beside the target, which takes the target's name on commit. A
+/// target that is no plain file, such as a pipe or /dev/null, is written directly.
+///
+/// @throws std::runtime_error, one line that names the file, where it cannot be written
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& target);
+
+  /// Without a commit nothing is left behind.
+  ~AtomicFile();
+
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view text);
+  void commit();
+
+ private:
+  [[noreturn]] void fail(const char* what) const;
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;  // Empty where the target is written directly.
+  int descriptor_ = -1;
+};
+
+/// Writes one text.
+void write_file(const std::filesystem::path& target, std::string_view text);
+
+}  // namespace firstcontact::app

@@ -1,0 +1,194 @@
+#include "check_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <firstcontact/geometry/parse_error.h>
+
+#include "atomic_file.h"
+#include "command_line_number.h"
+#include "gap_plot.h"
+#include "interrupt.h"
+#include "print_result.h"
+#include "progress.h"
+#include "scene_answer.h"
+#include "scene_source.h"
+
+namespace firstcontact::app {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> files;
+  std::string output;
+  std::string plot;
+  bool json = false;
+  bool all_pairs = false;
+  Question question;
+};
+
+/// Answers the scenes of a command line one after another.
+class Check {
+ public:
+  explicit Check(const Arguments& arguments)
+      : arguments_(arguments), question_(arguments.question), batch_(is_batch(arguments)) {
+    if (batch_ && !arguments_.plot.empty()) {
+      throw std::invalid_argument("--svg draws one scene; give one .json file");
+    }
+    if (!arguments_.output.empty()) {
+      output_.emplace(arguments_.output);
+    }
+    question_.plot = !arguments_.plot.empty();
+    question_.stop = interrupt_.token();
+    question_.doing = [this](std::string what) { progress_.doing(std::move(what)); };
+  }
+
+  ExitStatus run() {
+    for (const std::string& file : arguments_.files) {
+      check_file(file);
+    }
+    if (output_ && (batch_ || answered_ > 0)) {
+      output_->commit();
+    }
+    if (std::fflush(stdout) != 0) {
+      throw std::runtime_error("standard output: cannot write all of the answer");
+    }
+    return status_;
+  }
+
+ private:
+  /// Whether there may be many scenes: then one bad scene does not keep the rest from an answer.
+  static bool is_batch(const Arguments& arguments) {
+    return arguments.files.size() > 1 || is_json_lines(arguments.files.front());
+  }
+
+  void check_file(const std::string& file) {
+    std::size_t scenes = 0;
+    try {
+      for_each_scene(file, [&](const SceneSource& source) {
+        ++scenes;
+        check_source(source);
+        return !question_.stop.stop_requested();
+      });
+    } catch (const ParseError& error) {
+      take_error("", file, std::nullopt, error);
+      return;
+    }
+    if (scenes == 0) {
+      take_error("", file, std::nullopt, ParseError(file, "expected at least one scene, got none"));
+    }
+  }
+
+  void check_source(const SceneSource& source) {
+    std::string id;
+    try {
+      Scene scene = source.read();
+      id = scene.id;
+      take_answer(source, answer_scene(std::move(scene), question_, cache_, workspace_));
+    } catch (const std::invalid_argument& error) {
+      take_error(id, source.file, source.line, ParseError(source.file, error.what()));
+    } catch (const ParseError& error) {
+      take_error(id, source.file, source.line, error);
+    }
+  }
+
+  void take_answer(const SceneSource& source, const SceneAnswer& answer) {
+    ++answered_;
+    status_ = worse(status_, status_of(answer.result.verdict));
+    write_json(write_result(answer.loaded, answer.result,
+                            {.all_pairs = arguments_.all_pairs, .sampling = answer.sampling}));
+    const std::string title = title_of(source, answer);
+    if (!json_on_stdout()) {
+      fmt::print("{}", describe(title, answer, arguments_.all_pairs));
+    }
+    if (question_.plot) {
+      write_file(arguments_.plot, gap_plot(title, answer));
+    }
+  }
+
+  static std::string title_of(const SceneSource& source, const SceneAnswer& answer) {
+    const std::string& id = answer.loaded.scene.id;
+    if (!id.empty()) {
+      return id;
+    }
+    return source.line ? fmt::format("{}:{}", source.file, *source.line) : source.file;
+  }
+
+  void take_error(const std::string& id, const std::string& file, std::optional<std::size_t> line,
+                  const ParseError& error) {
+    status_ = ExitStatus::bad_input;
+    fmt::print(stderr, "firstcontact: {}\n", error.what());
+    if (batch_) {
+      write_json(write_error(id, file, line, error.what()));
+    }
+  }
+
+  [[nodiscard]] bool json_on_stdout() const { return arguments_.json || (batch_ && !output_); }
+
+  void write_json(std::string text) {
+    text += '\n';
+    if (output_) {
+      output_->write(text);
+    }
+    if (json_on_stdout()) {
+      std::fwrite(text.data(), 1, text.size(), stdout);
+      std::fflush(stdout);  // A line is there as soon as it is known.
+    }
+  }
+
+  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Progress progress_;
+  const Arguments& arguments_;
+  Question question_;
+  bool batch_;
+  std::optional<AtomicFile> output_;
+  ShapeCache cache_;
+  Workspace workspace_;
+  ExitStatus status_ = kSuccess;
+  std::size_t answered_ = 0;
+};
+
+constexpr const char* kFooter = R"(
+Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided; of several
+scenes the worst of these in the order 2, 3, 1, 0.
+Ctrl-C ends with what is proven so far; again, at once.)";
+
+}  // namespace
+
+void add_check_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command = app.add_subcommand(
+      "check", "First contact of the bodies in a scene: when, where, or proven never");
+  auto arguments = std::make_shared<Arguments>();
+  Question& question = arguments->question;
+  command
+      ->add_option("SCENE", arguments->files,
+                   ".json: one scene. .jsonl: one scene in each line; the answers are one line "
+                   "each, in order, and a bad line gets an error as its answer")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "Writes the result as JSON to a file")
+      ->type_name("FILE");
+  command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
+  command->add_option("--svg", arguments->plot, "Draws the gap over time (one scene)")
+      ->type_name("FILE");
+  add_number(*command, "--margin", question.margin, Range::not_negative,
+             "[m] Closer than this counts as contact; in place of the scene's");
+  add_number(
+      *command, "--tolerance", question.tolerance, Range::positive,
+      "[m] A reported contact is no farther than margin + tolerance; in place of the scene's");
+  add_number(*command, "--deadline", question.deadline, Range::positive,
+             "[s] For each scene; then its answer is undecided");
+  add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
+             "[1/s] Also says what sampling at this rate would have seen");
+  command->add_flag("--closest", question.closest, "Also the closest approach over the whole step");
+  command->add_flag("--all-pairs", arguments->all_pairs, "Also the answer of every pair of bodies");
+  command->footer(kFooter);
+  command->callback([arguments, &status] { status = Check(*arguments).run(); });
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,27 @@
+#include "command_line_number.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include <fmt/core.h>
+
+namespace firstcontact::app {
+
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
+                        Range range, const std::string& description) {
+  const auto take = [&number, name, range](const std::string& text) {
+    double value = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const bool in_range = range == Range::positive ? value > 0.0 : value >= 0.0;
+    if (error != std::errc() || rest != end || !std::isfinite(value) || !in_range) {
+      throw CLI::ValidationError(name, fmt::format("expected a number {} 0, got \"{}\"",
+                                                   range == Range::positive ? ">" : ">=", text));
+    }
+    number = value;
+  };
+  return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
+}
+
+}  // namespace firstcontact::app

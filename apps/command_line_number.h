@@ -1,0 +1,19 @@
+/// @file
+/// Numbers on the command line, as strictly as in a scene.
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace firstcontact::app {
+
+enum class Range { positive, not_negative };
+
+/// Adds an option that takes one number: finite, in range, with a decimal point in every locale.
+CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
+                        Range range, const std::string& description);
+
+}  // namespace firstcontact::app

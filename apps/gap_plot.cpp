@@ -1,0 +1,217 @@
+#include "gap_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "print_result.h"
+#include "quantity_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr double kWidth = 800.0;  // [px]
+constexpr double kHeight = 400.0;
+constexpr double kLeft = 76.0;
+constexpr double kRight = 24.0;
+constexpr double kTop = 58.0;
+constexpr double kBottom = 56.0;
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+/// An axis from 0 to a round number, with ticks at round numbers.
+struct Axis {
+  Unit unit;
+  double end;   // In units.
+  double step;  // In units.
+};
+
+/// @param greatest  [SI]  what must fit
+/// @param exact     whether the axis ends there, rather than at the next tick
+Axis make_axis(double greatest, Unit unit, bool exact) {
+  const double end = greatest > 0.0 ? greatest / unit.size : 1.0;
+  const double magnitude = std::pow(10.0, std::floor(std::log10(end / 4.0)));
+  double step = magnitude;
+  for (const double factor : {2.0, 5.0, 10.0}) {
+    step = end / step > 6.0 ? factor * magnitude : step;
+  }
+  return {.unit = unit, .end = exact ? end : std::ceil(end / step - 1e-9) * step, .step = step};
+}
+
+double greatest_distance(const std::vector<GapSample>& curve) {
+  double greatest = 0.0;
+  for (const GapSample& sample : curve) {
+    greatest = std::isfinite(sample.distance) ? std::max(greatest, sample.distance) : greatest;
+  }
+  return greatest;
+}
+
+class Plot {
+ public:
+  explicit Plot(const SceneAnswer& answer)
+      : answer_(answer),
+        duration_(answer.loaded.scene.duration),
+        time_(make_axis(duration_, time_unit(duration_), true)),
+        gap_(make_axis(1.04 * greatest_distance(answer.curve),
+                       length_unit(greatest_distance(answer.curve)), false)) {}
+
+  std::string draw(std::string_view title) {
+    print(
+        R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
+        R"(font-family="Helvetica, Arial, sans-serif" font-size="13" fill="#333">)",
+        kWidth, kHeight);
+    print(R"(<rect width="{}" height="{}" fill="#fff"/>)", kWidth, kHeight);
+    text(kLeft, 24, "start", title, R"( font-size="16" font-weight="bold")");
+    text(kLeft, 44, "start", describe_verdict(answer_), R"( fill="#555")");
+    regions();
+    axes();
+    curve();
+    samples();
+    lines();
+    text_ += "</svg>\n";
+    return text_;
+  }
+
+ private:
+  template <typename... T>
+  void print(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
+    text_ += '\n';
+  }
+
+  void text(double x, double y, const char* anchor, std::string_view what,
+            std::string_view more = "") {
+    print(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}"{}>{}</text>)", x, y, anchor, more,
+          escaped(what));
+  }
+
+  [[nodiscard]] static double x(double t) { return kLeft + t * (kWidth - kLeft - kRight); }
+
+  [[nodiscard]] double y(double distance) const {
+    const double part = std::min(distance / (gap_.end * gap_.unit.size), 1.0);
+    return kHeight - kBottom - part * (kHeight - kTop - kBottom);
+  }
+
+  void region(double from, double to, const char* colour) {
+    if (to > from) {
+      print(R"(<rect x="{:.2f}" y="{:.1f}" width="{:.2f}" height="{:.1f}" fill="{}"/>)", x(from),
+            kTop, x(to) - x(from), kHeight - kTop - kBottom, colour);
+    }
+  }
+
+  /// Proven free; and what lies after it.
+  void regions() {
+    region(0.0, answer_.result.t, "#eaf5ec");
+    region(answer_.result.t, 1.0, "#f6efec");
+  }
+
+  void axes() {
+    for (double tick = 0.0; tick <= gap_.end * (1 + 1e-9); tick += gap_.step) {
+      const double at = y(tick * gap_.unit.size);
+      print(R"(<path d="M{} {:.1f}H{}" stroke="#ccd3d8" stroke-width="0.7"/>)", kLeft, at,
+            kWidth - kRight);
+      text(kLeft - 8, at + 4, "end", fmt::format("{:.4g}", tick));
+    }
+    for (double tick = 0.0; tick <= time_.end * (1 + 1e-9); tick += time_.step) {
+      const double at = x(tick / time_.end);
+      print(R"(<path d="M{:.1f} {}v5" stroke="#333"/>)", at, kHeight - kBottom);
+      text(at, kHeight - kBottom + 20, "middle", fmt::format("{:.4g}", tick));
+    }
+    print(R"(<path d="M{} {}V{}H{}" fill="none" stroke="#333"/>)", kLeft, kTop, kHeight - kBottom,
+          kWidth - kRight);
+    text((kLeft + kWidth - kRight) / 2, kHeight - 14, "middle",
+         fmt::format("time [{}]", time_.unit.name));
+    const double middle = (kTop + kHeight - kBottom) / 2;
+    text(20, middle, "middle", fmt::format("gap [{}]", gap_.unit.name),
+         fmt::format(R"_( transform="rotate(-90 20 {:.1f})")_", middle));
+  }
+
+  void curve() {
+    text_ +=
+        R"(<polyline fill="none" stroke="#1f5fa8" stroke-width="2" stroke-linejoin="round" points=")";
+    for (const GapSample& sample : answer_.curve) {
+      if (std::isfinite(sample.distance)) {
+        fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(sample.t),
+                       y(sample.distance));
+      }
+    }
+    text_ += "\"/>\n";
+  }
+
+  void samples() {
+    for (const GapSample& sample : answer_.samples) {
+      if (std::isfinite(sample.distance)) {
+        print(R"(<circle cx="{:.2f}" cy="{:.2f}" r="3.5" fill="#fff" stroke="#1f5fa8"/>)",
+              x(sample.t), y(sample.distance));
+      }
+    }
+    if (answer_.sampling) {
+      text(kWidth - kRight, 44, "end",
+           fmt::format("circles: {:g} samples a second", answer_.sampling->rate),
+           R"( fill="#555")");
+    }
+  }
+
+  void horizontal(double distance, const std::string& label) {
+    print(R"(<path d="M{} {:.1f}H{}" stroke="#2e7d32" stroke-dasharray="6 4"/>)", kLeft,
+          y(distance), kWidth - kRight);
+    text(kWidth - kRight - 6, y(distance) + 16, "end", label, R"( fill="#2e7d32")");
+  }
+
+  void lines() {
+    const SceneResult& result = answer_.result;
+    const double margin = answer_.loaded.scene.options.margin;
+    if (margin > 0.0) {
+      horizontal(margin, "margin " + length_text(margin));
+    } else if (result.closest) {
+      const double bound = result.pairs[*result.closest].closest_approach->lower_bound;
+      if (bound > 0.0) {
+        horizontal(bound, "proven: never below " + length_text(bound));
+      }
+    }
+    if (result.verdict != Verdict::free) {
+      const bool left = result.t > 0.6;
+      print(R"(<path d="M{0:.2f} {1}V{2}" stroke="#c0392b" stroke-width="1.5"/>)", x(result.t),
+            kTop, kHeight - kBottom);
+      text(x(result.t) + (left ? -6 : 6), kTop + 16, left ? "end" : "start",
+           (result.verdict == Verdict::undecided ? "undecided from " : "first contact at ") +
+               time_text(result.t * duration_),
+           R"( fill="#c0392b")");
+    }
+  }
+
+  const SceneAnswer& answer_;
+  double duration_;
+  Axis time_;
+  Axis gap_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string gap_plot(std::string_view title, const SceneAnswer& answer) {
+  return Plot(answer).draw(title);
+}
+
+}  // namespace firstcontact::app

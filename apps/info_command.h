@@ -1,0 +1,13 @@
+/// @file
+/// `firstcontact info MESH`: counts, defects and bounds of a mesh.
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace firstcontact::app {
+
+/// Adds the command; it runs while the command line is parsed.
+void add_info_command(CLI::App& app);
+
+}  // namespace firstcontact::app

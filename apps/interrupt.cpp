@@ -1,0 +1,38 @@
+#include "interrupt.h"
+
+#include <cstdlib>
+
+namespace firstcontact::app {
+namespace {
+
+void watch(const std::stop_token& over, sigset_t signals, std::stop_source source) {
+  for (bool first = true;; first = false) {
+    int signal = 0;
+    sigwait(&signals, &signal);
+    if (over.stop_requested()) {
+      return;
+    }
+    if (!first) {
+      std::_Exit(128 + signal);  // What the shell says of a process that a signal ended.
+    }
+    source.request_stop();
+  }
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  watcher_ = std::jthread(watch, signals_, source_);
+}
+
+Interrupt::~Interrupt() {
+  watcher_.request_stop();
+  pthread_kill(watcher_.native_handle(), SIGINT);  // Wakes it from its wait.
+  watcher_.join();
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,65 @@
+// The command line tool: parse, call, print.
+
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <fmt/core.h>
+#include <CLI/CLI.hpp>
+
+#include <firstcontact/scene/version.h>
+
+#include "check_command.h"
+#include "exit_status.h"
+#include "info_command.h"
+
+namespace firstcontact::app {
+namespace {
+
+/// Errors are one line, wherever they come from.
+void complain(std::string message) {
+  for (char& c : message) {
+    c = c == '\n' || c == '\r' ? ' ' : c;
+  }
+  fmt::print(stderr, "firstcontact: {}\n", message);
+}
+
+ExitStatus run(int argc, char** argv) {
+  ExitStatus status = kSuccess;
+  CLI::App app("When do moving bodies touch for the first time? Proven, not sampled.",
+               "firstcontact");
+  app.set_version_flag("--version", std::string("firstcontact ") + version());
+  app.require_subcommand(1);
+  add_check_command(app, status);
+  add_info_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // Help or version was asked for.
+      app.exit(error);
+      return kSuccess;
+    }
+    const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
+    complain(
+        (unknown ? fmt::format("unknown command \"{}\"", argv[1]) : std::string(error.what())) +
+        " (see firstcontact --help)");
+    return ExitStatus::bad_input;
+  }
+  return status;
+}
+
+}  // namespace
+}  // namespace firstcontact::app
+
+int main(int argc, char** argv) {
+  using firstcontact::app::ExitStatus;
+  try {
+    return static_cast<int>(firstcontact::app::run(argc, argv));
+  } catch (const std::bad_alloc&) {
+    firstcontact::app::complain("not enough memory");
+  } catch (const std::exception& error) {
+    firstcontact::app::complain(error.what());
+  }
+  return static_cast<int>(ExitStatus::bad_input);
+}

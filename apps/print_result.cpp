@@ -1,0 +1,169 @@
+#include "print_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/core.h>
+
+#include "quantity_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::size_t kMostContacts = 6;
+
+/// Writes the lines of one answer.
+class Description {
+ public:
+  explicit Description(const SceneAnswer& answer)
+      : scene_(answer.loaded.scene), answer_(answer), result_(answer.result) {}
+
+  std::string write(std::string_view title, bool all_pairs) {
+    print("{}: {}\n", title, describe_verdict(answer_));
+    if (result_.first) {
+      line("bodies", names(result_.pairs[*result_.first].bodies));
+    }
+    contacts();
+    if (std::isfinite(result_.clearance) && result_.clearance > 0.0) {
+      line("clearance", fmt::format("more than {}{}", length_text(result_.clearance),
+                                    result_.verdict == Verdict::free ? "" : " before"));
+    }
+    closest();
+    if (result_.tolerance_used > scene_.options.tolerance) {
+      line("tolerance", length_text(result_.tolerance_used) + ": f64 resolves no less here");
+    }
+    sampling();
+    if (all_pairs) {
+      pairs();
+    }
+    return text_;
+  }
+
+ private:
+  template <typename... T>
+  void print(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
+  }
+
+  void line(const char* label, const std::string& value) { print("  {:<10} {}\n", label, value); }
+
+  [[nodiscard]] std::string names(const BodyPair& bodies) const {
+    return scene_.bodies[bodies[0]].name + " and " + scene_.bodies[bodies[1]].name;
+  }
+
+  static std::string feature(const Feature& feature) {
+    return feature.type == FeatureType::face
+               ? fmt::format("triangle {}", feature.index)
+               : fmt::format("{} {} of triangle {}", word(feature.type), feature.index,
+                             feature.triangle);
+  }
+
+  void contact(const BodyPair& bodies, const Contact& found) {
+    print("    {}: {}; {}: {}\n", scene_.bodies[bodies[0]].name, feature(found.feature_A),
+          scene_.bodies[bodies[1]].name, feature(found.feature_B));
+    print("      at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", found.p_WA.x(), found.p_WA.y(),
+          found.p_WA.z(), length_text(found.distance));
+    if (found.n_AB_W) {
+      print(", normal {}, {} {}", direction_text(*found.n_AB_W),
+            found.normal_velocity < 0.0 ? "closing at" : "leaving at",
+            speed_text(std::abs(found.normal_velocity) / scene_.duration));
+    }
+    print("\n");
+  }
+
+  /// Those of every pair that touches at the scene's time.
+  void contacts() {
+    std::size_t count = 0;
+    for (const PairResult& pair : result_.pairs) {
+      if (result_.first && pair.first_contact.t == result_.t) {
+        count += pair.first_contact.contacts.size();
+      }
+    }
+    if (count == 0) {
+      return;
+    }
+    line("contacts", fmt::format("{} feature pair{}", count, count == 1 ? "" : "s"));
+    std::size_t left = std::min(count, kMostContacts);
+    for (const PairResult& pair : result_.pairs) {
+      for (const Contact& found : pair.first_contact.contacts) {
+        if (left > 0 && pair.first_contact.t == result_.t) {
+          contact(pair.bodies, found);
+          --left;
+        }
+      }
+    }
+    if (count > kMostContacts) {
+      print("    and {} more\n", count - kMostContacts);
+    }
+  }
+
+  void closest() {
+    if (!result_.closest) {
+      return;
+    }
+    const PairResult& pair = result_.pairs[*result_.closest];
+    const ClosestApproachResult& found = *pair.closest_approach;
+    std::string text = fmt::format("{} at t = {:.6g}: {}", length_text(found.distance), found.t,
+                                   names(pair.bodies));
+    if (found.reason != UndecidedReason::none) {
+      text += fmt::format("; at least {} ({})", length_text(found.lower_bound), word(found.reason));
+    }
+    line("closest", text);
+  }
+
+  void sampling() {
+    if (!answer_.sampling || !answer_.sampling->least) {
+      return;
+    }
+    const SamplingReport& seen = *answer_.sampling;
+    const bool missed = status_is_contact() && seen.in_contact == 0;
+    line("sampling",
+         fmt::format("{:g} times a second: {} of {} samples in contact, least gap {} at {}{}",
+                     seen.rate, seen.in_contact, seen.samples, length_text(seen.least->distance),
+                     time_text(seen.least->t * scene_.duration),
+                     missed ? ": sampling misses this contact" : ""));
+  }
+
+  [[nodiscard]] bool status_is_contact() const {
+    return result_.verdict == Verdict::contact || result_.verdict == Verdict::contact_at_start;
+  }
+
+  void pairs() {
+    line("pairs", std::to_string(result_.pairs.size()));
+    for (const PairResult& pair : result_.pairs) {
+      const FirstContactResult& found = pair.first_contact;
+      print("    {:<30} {:<16} t = {:.9g}\n", names(pair.bodies), word(found.verdict), found.t);
+    }
+  }
+
+  const Scene& scene_;
+  const SceneAnswer& answer_;
+  const SceneResult& result_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string describe(std::string_view title, const SceneAnswer& answer, bool all_pairs) {
+  return Description(answer).write(title, all_pairs);
+}
+
+std::string describe_verdict(const SceneAnswer& answer) {
+  const SceneResult& result = answer.result;
+  const double duration = answer.loaded.scene.duration;
+  const std::string when = fmt::format("t = {:.9g} ({})", result.t, time_text(result.t * duration));
+  switch (result.verdict) {
+    case Verdict::free:
+      return fmt::format("free for the whole step of {}", time_text(duration));
+    case Verdict::contact:
+      return "contact at " + when;
+    case Verdict::contact_at_start:
+      return "in contact from the start";
+    case Verdict::undecided:
+      break;
+  }
+  return fmt::format("undecided after {} ({}), free before", when, word(result.reason));
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,44 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace firstcontact::app {
+
+Progress::Progress() {
+  if (::isatty(STDERR_FILENO) == 1) {
+    writer_ = std::jthread([this](const std::stop_token& over) { show(over); });
+  }
+}
+
+Progress::~Progress() = default;
+
+void Progress::doing(std::string text) {
+  const std::scoped_lock lock(mutex_);
+  text_ = std::move(text);
+}
+
+void Progress::show(const std::stop_token& over) {
+  using namespace std::chrono_literals;
+  const auto begin = std::chrono::steady_clock::now();
+  bool shown = false;
+  std::unique_lock lock(mutex_);
+  for (auto pause = 1000ms;
+       !wake_.wait_for(lock, over, pause, [&] { return over.stop_requested(); }); pause = 200ms) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    fmt::print(stderr, "\r\x1b[K{} ... {:.1f} s", text_, elapsed.count());
+    std::fflush(stderr);
+    shown = true;
+  }
+  if (shown) {
+    fmt::print(stderr, "\r\x1b[K");
+    std::fflush(stderr);
+  }
+}
+
+}  // namespace firstcontact::app

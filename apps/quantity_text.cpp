@@ -1,0 +1,50 @@
+#include "quantity_text.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <fmt/core.h>
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::array<Unit, 5> kLengths{
+    {{"km", 1e3}, {"m", 1.0}, {"mm", 1e-3}, {"µm", 1e-6}, {"nm", 1e-9}}};
+constexpr std::array<Unit, 4> kTimes{{{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}}};
+
+/// The largest unit of which there is at least one; the base unit for 0, the smallest below all.
+Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
+  const double size = std::abs(quantity);
+  if (!(size > 0.0)) {
+    return base;
+  }
+  for (const Unit& unit : units) {
+    if (size >= unit.size) {
+      return unit;
+    }
+  }
+  return units.back();
+}
+
+std::string in_unit(double quantity, Unit unit) {
+  return fmt::format("{:.4g} {}", quantity / unit.size, unit.name);
+}
+
+}  // namespace
+
+Unit length_unit(double metres) { return fitting(kLengths, metres, kLengths[1]); }
+
+Unit time_unit(double seconds) { return fitting(kTimes, seconds, kTimes[0]); }
+
+std::string length_text(double metres) { return in_unit(metres, length_unit(metres)); }
+
+std::string time_text(double seconds) { return in_unit(seconds, time_unit(seconds)); }
+
+std::string speed_text(double metres_per_second) { return length_text(metres_per_second) + "/s"; }
+
+std::string direction_text(const Eigen::Vector3d& direction) {
+  return fmt::format("({:6.3f}, {:6.3f}, {:6.3f})", direction.x(), direction.y(), direction.z());
+}
+
+}  // namespace firstcontact::app

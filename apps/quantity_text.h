@@ -1,0 +1,33 @@
+/// @file
+/// Quantities as people read them: a unit of a fitting size, few digits.
+
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+namespace firstcontact::app {
+
+/// A unit that suits numbers of some size.
+struct Unit {
+  const char* name;
+  double size;  ///< In SI units.
+};
+
+[[nodiscard]] Unit length_unit(double metres);
+[[nodiscard]] Unit time_unit(double seconds);
+
+/// "0.913 µm"
+[[nodiscard]] std::string length_text(double metres);
+
+/// "12.5 ms"
+[[nodiscard]] std::string time_text(double seconds);
+
+/// "-3.1 mm/s"
+[[nodiscard]] std::string speed_text(double metres_per_second);
+
+/// "(0.000, 0.707, -0.707)"
+[[nodiscard]] std::string direction_text(const Eigen::Vector3d& direction);
+
+}  // namespace firstcontact::app

@@ -1,0 +1,71 @@
+#include "scene_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::size_t kCurveSamples = 241;
+
+void override_options(const Question& question, SceneOptions& options) {
+  options.margin = question.margin.value_or(options.margin);
+  options.tolerance = question.tolerance.value_or(options.tolerance);
+  options.deadline = question.deadline ? question.deadline : options.deadline;
+}
+
+CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
+  const auto name_pair = [&](std::size_t k) {
+    const auto& [first, second] = loaded.pairs[k].bodies;
+    question.doing(fmt::format("{} and {}, pair {} of {}", loaded.scene.bodies[first].name,
+                               loaded.scene.bodies[second].name, k + 1, loaded.pairs.size()));
+  };
+  return {.closest = question.closest, .stop = question.stop, .progress = name_pair};
+}
+
+/// Even times, and more of them the nearer they are to a time that matters.
+std::vector<double> curve_times(double focus) {
+  std::vector<double> times = even_times(kCurveSamples);
+  times.push_back(focus);
+  for (double offset = 0.5 / static_cast<double>(kCurveSamples); offset > 1e-5; offset /= 2.0) {
+    times.push_back(std::max(focus - offset, 0.0));
+    times.push_back(std::min(focus + offset, 1.0));
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+/// Where a plot looks closely: at the contact, or else at the closest approach.
+double focus_of(const SceneResult& result) {
+  return result.closest && !result.first ? result.pairs[*result.closest].closest_approach->t
+                                         : result.t;
+}
+
+}  // namespace
+
+SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
+                         Workspace& workspace) {
+  override_options(question, scene.options);
+  question.doing("loading " + scene.id);
+  SceneAnswer answer;
+  answer.loaded = load_scene(std::move(scene), cache);
+  answer.result = check_scene(answer.loaded, workspace, check_options(answer.loaded, question));
+  if (question.sample_rate) {
+    question.doing("sampling " + answer.loaded.scene.id);
+    const auto times = times_at_rate(*question.sample_rate, answer.loaded.scene.duration);
+    answer.samples = sample_gap(answer.loaded, times, workspace, question.stop);
+    answer.sampling = report_sampling(*question.sample_rate, answer.samples);
+  }
+  if (question.plot) {
+    question.doing("plotting " + answer.loaded.scene.id);
+    answer.curve =
+        sample_gap(answer.loaded, curve_times(focus_of(answer.result)), workspace, question.stop);
+  }
+  return answer;
+}
+
+}  // namespace firstcontact::app

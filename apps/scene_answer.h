@@ -1,0 +1,43 @@
+/// @file
+/// A scene with all that was asked about it.
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+#include <firstcontact/scene/write_result.h>
+
+namespace firstcontact::app {
+
+/// What a command line asks of every scene.
+struct Question {
+  std::optional<double> margin;       ///< [m]    In place of the scene's.
+  std::optional<double> tolerance;    ///< [m]    In place of the scene's.
+  std::optional<double> deadline;     ///< [s]    In place of the scene's.
+  std::optional<double> sample_rate;  ///< [1/s]  Also what sampling would have seen.
+  bool closest = false;
+  bool plot = false;
+  std::stop_token stop;
+  std::function<void(std::string)> doing;  ///< Called with what is being done.
+};
+
+struct SceneAnswer {
+  LoadedScene loaded;
+  SceneResult result;
+  std::vector<GapSample> samples;  ///< At the sample rate; empty where none was asked.
+  std::vector<GapSample> curve;    ///< For a plot; empty where none was asked.
+  std::optional<SamplingReport> sampling;
+};
+
+/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate
+[[nodiscard]] SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
+                                       Workspace& workspace);
+
+}  // namespace firstcontact::app

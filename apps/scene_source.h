@@ -1,0 +1,30 @@
+/// @file
+/// Where the scenes of a command line come from: files, or the lines of JSON Lines files.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::app {
+
+/// One scene that is not read yet.
+struct SceneSource {
+  std::string file;
+  std::optional<std::size_t> line;  ///< Of a file of JSON Lines.
+  std::function<Scene()> read;      ///< Throws ParseError; valid during the visit only.
+};
+
+/// Whether a file has one scene in each line, by the ending of its name: .jsonl or .ndjson.
+[[nodiscard]] bool is_json_lines(const std::filesystem::path& file);
+
+/// Visits the scenes of a file in order until a visit returns false. Blank lines are no scenes.
+void for_each_scene(const std::filesystem::path& file,
+                    const std::function<bool(const SceneSource&)>& visit);
+
+}  // namespace firstcontact::app
