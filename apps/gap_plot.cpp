@@ -168,15 +168,16 @@ class Plot {
     }
     if (answer_.sampling) {
       text(kWidth - kRight, 44, "end",
-           fmt::format("circles: {:g} samples a second", answer_.sampling->rate),
-           R"( fill="#555")");
+           fmt::format("\u25cb {:g} samples a second", answer_.sampling->rate), R"( fill="#555")");
     }
   }
 
   void horizontal(double distance, const std::string& label) {
-    print(R"(<path d="M{} {:.1f}H{}" stroke="#2e7d32" stroke-dasharray="6 4"/>)", kLeft,
-          y(distance), kWidth - kRight);
-    text(kWidth - kRight - 6, y(distance) + 16, "end", label, R"( fill="#2e7d32")");
+    const double at = y(distance);
+    const bool low = at + 20 > kHeight - kBottom;
+    print(R"(<path d="M{} {:.1f}H{}" stroke="#2e7d32" stroke-dasharray="6 4"/>)", kLeft, at,
+          kWidth - kRight);
+    text(kWidth - kRight - 6, low ? at - 8 : at + 16, "end", label, R"( fill="#2e7d32")");
   }
 
   void lines() {

@@ -44,7 +44,9 @@ std::string time_text(double seconds) { return in_unit(seconds, time_unit(second
 std::string speed_text(double metres_per_second) { return length_text(metres_per_second) + "/s"; }
 
 std::string direction_text(const Eigen::Vector3d& direction) {
-  return fmt::format("({:6.3f}, {:6.3f}, {:6.3f})", direction.x(), direction.y(), direction.z());
+  // Without a sign on what is rounded to zero.
+  const Eigen::Vector3d rounded = (direction * 1e3).array().round() / 1e3 + 0.0;
+  return fmt::format("({:6.3f}, {:6.3f}, {:6.3f})", rounded.x(), rounded.y(), rounded.z());
 }
 
 }  // namespace firstcontact::app
