@@ -16,10 +16,10 @@
 namespace firstcontact {
 
 struct CheckOptions {
-  bool closest = false;  ///< Also the closest approach of every pair.
-  std::stop_token stop;  ///< Ends the check with what is proven so far.
+  bool closest = false;       ///< Also the closest approach of every pair.
+  std::stop_token stop = {};  ///< Ends the check with what is proven so far.
   /// Called before each pair with its number; may be empty.
-  std::function<void(std::size_t pair)> progress;
+  std::function<void(std::size_t pair)> progress = {};
 };
 
 /// What one pair of bodies answered.

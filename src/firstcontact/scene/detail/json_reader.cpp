@@ -45,6 +45,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// How far a word is from a known one; half a word that was meant whole is near.
+std::size_t distance(std::string_view word, std::string_view known) {
+  constexpr std::size_t kLongestWord = 60;  // Nothing longer is near; and the search is quadratic.
+  if (word.size() >= 4 && known.starts_with(word)) {
+    return 1;
+  }
+  return word.size() > kLongestWord ? word.size() : edit_distance(word, known);
+}
+
 bool holds(const std::vector<std::string_view>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -62,14 +71,12 @@ std::string mend(std::string_view word, const KnownKeys& known) {
 }  // namespace
 
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& words) {
-  constexpr std::size_t kLongestWord = 60;  // Nothing longer is near; and the search is quadratic.
   std::string_view nearest;
   std::size_t least = word.size() / 3 + 2;  // More changes than this make another word.
   for (const std::string_view candidate : words) {
-    const std::size_t distance =
-        word.size() > kLongestWord ? word.size() : edit_distance(word, candidate);
-    if (distance < least && distance < candidate.size()) {
-      least = distance;
+    const std::size_t changes = distance(word, candidate);
+    if (changes < least && changes < candidate.size()) {
+      least = changes;
       nearest = candidate;
     }
   }

@@ -61,7 +61,8 @@ class JsonReader {
   const std::string& source_;
 };
 
-/// The word that takes the fewest changes of a letter to get to; empty if all are far off.
+/// The word that takes the fewest changes of a letter to get to, or that begins with this one;
+/// empty if all are far off.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             const std::vector<std::string_view>& words);
 

@@ -1,0 +1,164 @@
+#include <firstcontact/scene/check_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/scene/read_scene.h>
+
+#include "scene/scene_text.h"
+
+namespace firstcontact {
+namespace {
+
+using test::body;
+using test::falling;
+using test::scene;
+
+constexpr double kTolerance = 1e-6;  // [m]  The scene format's default.
+
+LoadedScene load(const std::string& text) {
+  ShapeCache cache;
+  return load_scene(parse_scene(text, "s"), cache);
+}
+
+SceneResult check(const std::string& text, const CheckOptions& options = {}) {
+  Workspace workspace;
+  return check_scene(load(text), workspace, options);
+}
+
+// At 4 m/s downwards: `low` begins 1 m above the floor and reaches it at t = 1/4; `high` 2 m at
+// 1/2.
+const std::string kThree =
+    body("floor") + "," + body("high", falling("2", "-4")) + "," + body("low", falling("1", "-4"));
+
+/// Is never late, and early only by what the tolerance explains at a speed of 4 m per step.
+void expect_time(double t, double truth) {
+  EXPECT_LE(t, truth);
+  EXPECT_GE(t, truth - 1.01 * kTolerance / 4.0);
+}
+
+TEST(CheckScene, TheEarliestPairAnswersForAll) {
+  const SceneResult result = check(scene(kThree));
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  expect_time(result.t, 0.25);
+  ASSERT_TRUE(result.first);
+  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 2}));
+  ASSERT_EQ(result.pairs.size(), 3u);
+  expect_time(result.pairs[0].first_contact.t, 0.5);
+  EXPECT_EQ(result.pairs[2].first_contact.verdict, Verdict::free);  // They fall together.
+  EXPECT_EQ(result.t_upper, result.t);
+}
+
+TEST(CheckScene, AnIgnoredPairIsNotAsked) {
+  const SceneResult result = check(scene(kThree, R"("pairs": {"ignore": [["low", "floor"]]})"));
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  expect_time(result.t, 0.5);
+  EXPECT_EQ(result.pairs.size(), 2u);
+  const SceneResult none =
+      check(scene(kThree, R"("pairs": {"ignore": [["low", "floor"], ["floor", "high"]]})"));
+  EXPECT_EQ(none.verdict, Verdict::free);
+  EXPECT_EQ(none.t, 1.0);
+  EXPECT_FALSE(none.first);
+}
+
+TEST(CheckScene, APairsMarginReplacesTheScenes) {
+  const std::string pairs = R"("pairs": {"margin": [["high", "floor", 1.5]]}, )";
+  const SceneResult result = check(scene(kThree, pairs + R"("options": {"margin": 0.5})"));
+  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 1}));
+  expect_time(result.t, 0.125);                                     // 0.5 m at 4 m/s.
+  expect_time(result.pairs[1].first_contact.t, 0.125);              // Also 0.5 m: a tie.
+  EXPECT_EQ(result.pairs[2].first_contact.verdict, Verdict::free);  // 1 m apart all the time.
+}
+
+TEST(CheckScene, ASceneOfOneBodyIsFree) {
+  const SceneResult result = check(scene(body("a")));
+  EXPECT_EQ(result.verdict, Verdict::free);
+  EXPECT_EQ(result.t, 1.0);
+  EXPECT_EQ(result.clearance, std::numeric_limits<double>::infinity());
+}
+
+TEST(CheckScene, AContactAtTheStartDecides) {
+  const SceneResult result = check(scene(kThree + "," + body("rug", R"("pose": {})")));
+  EXPECT_EQ(result.verdict, Verdict::contact_at_start);
+  EXPECT_EQ(result.t, 0.0);
+  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 3}));
+}
+
+TEST(CheckScene, TheClosestPairIsNamed) {
+  const std::string bodies = body("floor") + "," + body("high", falling("9", "-4")) + "," +
+                             body("low", falling("6", "-4"));
+  const SceneResult result = check(scene(bodies), {.closest = true});
+  EXPECT_EQ(result.verdict, Verdict::free);
+  ASSERT_TRUE(result.closest);
+  const PairResult& closest = result.pairs[*result.closest];
+  EXPECT_EQ(closest.bodies, (BodyPair{0, 2}));
+  EXPECT_NEAR(closest.closest_approach->distance, 2.0, kTolerance);
+  EXPECT_LE(closest.closest_approach->lower_bound, 2.0);
+  EXPECT_EQ(closest.closest_approach->t, 1.0);
+}
+
+// The same fall told by waypoints of a longer scene, then rest.
+TEST(CheckScene, NormalisesTimesToTheDuration) {
+  const std::string falls =
+      R"("motion": {"type": "waypoints", "times": [1, 3, 8], "poses": [
+          {"position": [0.1, 0.1, 1]}, {"position": [0.1, 0.1, -1]}, {"position": [0.1, 0.1, -1]}]})";
+  const SceneResult result = check(scene(body("floor") + "," + body("stone", falls)));
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  EXPECT_LE(result.t * 8.0, 2.0);
+  EXPECT_NEAR(result.t * 8.0, 2.0, 1e-5);
+}
+
+TEST(CheckScene, AStopLeavesEveryPairUndecided) {
+  std::stop_source stop;
+  stop.request_stop();
+  const SceneResult result = check(scene(kThree), {.stop = stop.get_token()});
+  EXPECT_EQ(result.verdict, Verdict::undecided);
+  EXPECT_EQ(result.reason, UndecidedReason::cancelled);
+  EXPECT_EQ(result.t, 0.0);
+}
+
+TEST(CheckScene, AStopBetweenPairsKeepsWhatIsKnown) {
+  std::stop_source stop;
+  const SceneResult result =
+      check(scene(kThree), {.stop = stop.get_token(), .progress = [&](std::size_t pair) {
+                              if (pair == 1) {
+                                stop.request_stop();
+                              }
+                            }});
+  EXPECT_EQ(result.verdict, Verdict::undecided);
+  EXPECT_EQ(result.pairs[0].first_contact.verdict, Verdict::contact);
+  ASSERT_TRUE(result.t_upper);  // The first pair's contact.
+  EXPECT_EQ(*result.t_upper, result.pairs[0].first_contact.t);
+}
+
+TEST(CheckScene, ADeadlineLeavesItUndecided) {
+  const SceneResult result = check(scene(kThree, R"("options": {"deadline": 1e-9})"));
+  EXPECT_EQ(result.verdict, Verdict::undecided);
+  EXPECT_EQ(result.reason, UndecidedReason::deadline);
+}
+
+TEST(CheckScene, NumbersThePairs) {
+  std::vector<std::size_t> numbers;
+  (void)check(scene(kThree), {.progress = [&](std::size_t pair) { numbers.push_back(pair); }});
+  EXPECT_EQ(numbers, (std::vector<std::size_t>{0, 1, 2}));
+}
+
+// A law: bodies told in another order give the same time.
+TEST(CheckScene, DoesNotHeedTheOrderOfBodies) {
+  std::vector<std::string> bodies{body("floor"), body("high", falling("2", "-4")),
+                                  body("low", falling("1", "-4"))};
+  const double t = check(scene(kThree)).t;
+  std::sort(bodies.begin(), bodies.end());
+  do {
+    EXPECT_EQ(check(scene(bodies[0] + "," + bodies[1] + "," + bodies[2])).t, t);
+  } while (std::next_permutation(bodies.begin(), bodies.end()));
+}
+
+}  // namespace
+}  // namespace firstcontact

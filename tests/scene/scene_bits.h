@@ -1,0 +1,117 @@
+/// @file
+/// Everything a scene says, comparable bit for bit.
+
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::test {
+
+/// The numbers of a scene as their bits, and its words; without the digest of its text.
+class SceneBits {
+ public:
+  explicit SceneBits(const Scene& scene) {
+    add(scene.id);
+    for (const Body& body : scene.bodies) {
+      add(body.name);
+      std::visit([this](const auto& source) { add(source); }, body.shape.source);
+      add(body.shape.radius);
+      add(static_cast<double>(body.motion.index()));
+      std::visit([this](const auto& motion) { add(motion); }, body.motion);
+    }
+    for (const BodyPair& pair : scene.ignored_pairs) {
+      add(pair);
+    }
+    for (const PairMargin& pair : scene.pair_margins) {
+      add(pair.bodies);
+      add(pair.margin);
+    }
+    add(scene.options);
+    add(scene.duration);
+  }
+
+  friend bool operator==(const SceneBits&, const SceneBits&) = default;
+
+ private:
+  void add(double number) { bits_.push_back(std::bit_cast<std::uint64_t>(number)); }
+  void add(const std::string& word) { words_.push_back(word); }
+  void add(const BodyPair& pair) {
+    add(static_cast<double>(pair[0]));
+    add(static_cast<double>(pair[1]));
+  }
+  void add(const Eigen::Vector3d& v) {
+    for (const double x : v) {
+      add(x);
+    }
+  }
+  void add(const Pose& pose) {
+    add(pose.position);
+    for (const double x : pose.rotation.coeffs()) {
+      add(x);
+    }
+  }
+  void add(Between between) { add(between == Between::screw ? 1.0 : 0.0); }
+
+  void add(const MeshFile& file) {
+    add(file.path.string());
+    add(file.scale);
+  }
+  void add(const Mesh& mesh) {
+    for (const Eigen::Vector3d& vertex : mesh.vertices) {
+      add(vertex);
+    }
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) {
+        add(static_cast<double>(corner));
+      }
+    }
+  }
+
+  void add(const FixedMotion& motion) { add(motion.pose); }
+  void add(const ConstantVelocityMotion& motion) {
+    add(motion.from);
+    add(motion.translation);
+    add(motion.rotation_vector);
+  }
+  void add(const ScrewMotion& motion) {
+    add(motion.from);
+    add(motion.axis_point);
+    add(motion.axis_direction);
+    add(motion.angle);
+    add(motion.translation);
+  }
+  void add(const TwoPoseMotion& motion) {
+    add(motion.from);
+    add(motion.to);
+    add(motion.between);
+  }
+  void add(const WaypointMotion& motion) {
+    for (const double time : motion.times) {
+      add(time);
+    }
+    for (const Pose& pose : motion.poses) {
+      add(pose);
+    }
+    add(motion.between);
+  }
+
+  void add(const SceneOptions& options) {
+    add(options.tolerance);
+    add(options.margin);
+    add(static_cast<double>(options.contacts));
+    add(static_cast<double>(options.start_contacts));
+    add(options.contact_band);
+    add(options.deadline.value_or(-1.0));
+  }
+
+  std::vector<std::uint64_t> bits_;
+  std::vector<std::string> words_;
+};
+
+}  // namespace firstcontact::test

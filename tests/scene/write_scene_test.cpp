@@ -1,0 +1,100 @@
+#include <firstcontact/scene/write_scene.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/scene/read_scene.h>
+
+#include "scene/scene_bits.h"
+
+namespace firstcontact {
+namespace {
+
+using test::SceneBits;
+
+/// Any sign, any size that a scene takes.
+double random_number(std::mt19937_64& rng) {
+  const double mantissa = std::ldexp(static_cast<double>(rng() >> 11), -53);
+  const double size = std::ldexp(mantissa, static_cast<int>(rng() % 390) - 195);
+  return rng() % 2 == 0 ? size : -size;
+}
+
+Eigen::Vector3d random_vector(std::mt19937_64& rng) {
+  return {random_number(rng), random_number(rng), random_number(rng)};
+}
+
+Pose random_pose(std::mt19937_64& rng) {
+  return {.position = random_vector(rng),
+          .rotation = Eigen::Quaterniond(1.0 + std::abs(random_number(rng)), random_number(rng),
+                                         random_number(rng), random_number(rng))};
+}
+
+/// Every kind of motion, with numbers of all sizes where no range forbids them.
+Scene random_scene(std::mt19937_64& rng) {
+  Scene scene;
+  scene.id = "random \"quoted\" \n \xc3\xa4";
+  const Mesh mesh{.vertices = {random_vector(rng), {0.0, -0.0, 5e-324}},
+                  .triangles = {{0, 1, 1}, {0, 0, 0}}};
+  const auto angle = [&] { return std::remainder(random_number(rng), 1e3); };
+  const BodyMotion motions[] = {
+      FixedMotion{random_pose(rng)},
+      ConstantVelocityMotion{random_pose(rng), random_vector(rng), {angle(), angle(), angle()}},
+      ScrewMotion{random_pose(rng), random_vector(rng), {angle(), 1.0, angle()}, angle(), angle()},
+      TwoPoseMotion{random_pose(rng), random_pose(rng), Between::constant_velocity},
+      TwoPoseMotion{random_pose(rng), random_pose(rng), Between::screw},
+      WaypointMotion{{0.1, 1.0 / 3.0, 0.7}, {3, random_pose(rng)}, Between::screw}};
+  for (const BodyMotion& motion : motions) {
+    scene.bodies.push_back({.name = "body " + std::to_string(scene.bodies.size()),
+                            .shape = {.source = mesh, .radius = std::abs(random_number(rng))},
+                            .motion = motion});
+  }
+  scene.ignored_pairs = {{0, 3}, {1, 2}};
+  scene.pair_margins = {{.bodies = {2, 4}, .margin = std::abs(random_number(rng))}};
+  scene.options = {.tolerance = std::abs(random_number(rng)) + 1e-300,
+                   .margin = std::abs(random_number(rng)),
+                   .contacts = ContactState::first,
+                   .start_contacts = StartContacts::keep_half,
+                   .contact_band = 1e-3,
+                   .deadline = 0.1};
+  scene.duration = 0.7;
+  return scene;
+}
+
+TEST(WriteScene, ReadsBackToTheSameBits) {
+  std::mt19937_64 rng(3);
+  for (int i = 0; i < 500; ++i) {
+    const Scene scene = random_scene(rng);
+    const std::string text = write_scene(scene);
+    ASSERT_EQ(SceneBits(parse_scene(text, "s")), SceneBits(scene)) << text;
+  }
+}
+
+// A comparison that saw nothing would pass the test above.
+TEST(WriteScene, ComparesEveryBit) {
+  std::mt19937_64 rng(4);
+  const Scene scene = random_scene(rng);
+  Scene other = scene;
+  double& x = std::get<ScrewMotion>(other.bodies[2].motion).axis_direction.x();
+  x = std::nextafter(x, 1.0);
+  EXPECT_NE(SceneBits(scene), SceneBits(other));
+}
+
+TEST(WriteScene, KeepsTheScenesOfTheCorpus) {
+  const std::filesystem::path good =
+      std::filesystem::path(FIRSTCONTACT_SOURCE_DIR) / "tests/fuzz/corpus/fuzz_scene/good";
+  for (const auto& entry : std::filesystem::directory_iterator(good)) {
+    const Scene scene = read_scene(entry.path());
+    const std::string text = write_scene(scene);
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+    EXPECT_EQ(SceneBits(parse_scene(text, "s")), SceneBits(scene)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact
