@@ -73,8 +73,12 @@ class Check {
     try {
       for_each_scene(file, [&](const SceneSource& source) {
         ++scenes;
+        if (question_.stop.stop_requested()) {
+          status_ = worse(status_, ExitStatus::undecided);
+          return false;
+        }
         check_source(source);
-        return !question_.stop.stop_requested();
+        return true;
       });
     } catch (const ParseError& error) {
       take_error("", file, std::nullopt, error);

@@ -1,0 +1,34 @@
+"""Scenes as text, for tests of the tool."""
+
+import json
+
+TRIANGLE = {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]]}
+
+
+def body(name: str, **more) -> dict:
+    return {"name": name, "shape": TRIANGLE, **more}
+
+
+def falling(height: float) -> dict:
+    """A body that falls 4 m within the step."""
+    return body("stone", motion={"type": "constant_velocity", "from": {"position": [0.1, 0.1, height]},
+                                 "translation": [0, 0, -4]})
+
+
+def scene(*bodies: dict, **more) -> str:
+    return json.dumps({"firstcontact": 1, "bodies": list(bodies), **more})
+
+
+CONTACT = scene(body("floor"), falling(1), id="contact")
+AT_START = scene(body("floor"), falling(0), id="at start")
+FREE = scene(body("floor"), falling(5), id="free")
+UNDECIDED = scene(body("floor"), falling(1), id="undecided", options={"deadline": 1e-9})
+BAD = scene(body("floor", pose={"positon": [0, 0, 0]}))
+
+# A tip that turns sixteen million times, and each time passes a wall at a millionth of a millimetre.
+ENDLESS = scene(
+    {"name": "tip", "shape": {"vertices": [[0, 0, 0], [1, 0, 0]], "triangles": [[0, 1, 1]]},
+     "motion": {"type": "constant_velocity", "rotation_vector": [0, 0, 1e8]}},
+    {"name": "wall", "shape": {"vertices": [[1, -9, -9], [1, 9, -9], [1, 0, 9]], "triangles": [[0, 1, 2]]},
+     "pose": {"position": [1e-9, 0, 0]}},
+    id="endless", options={"tolerance": 1e-12})

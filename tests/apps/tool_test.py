@@ -1,0 +1,351 @@
+"""The tool as a user meets it: exit status, errors, files, signals.
+
+    tool_test.py TOOL [unittest arguments]
+"""
+
+import json
+import os
+import pathlib
+import pty
+import re
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree
+
+import scenes
+
+TOOL = ""
+
+
+class ToolTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def file(self, name: str, content) -> str:
+        """Writes a file; returns its name, relative to where the tool runs."""
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def run_tool(self, *arguments: str) -> subprocess.CompletedProcess:
+        return subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+
+    def start(self, *arguments: str, **more) -> subprocess.Popen:
+        process = subprocess.Popen([TOOL, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                                   **{"stderr": subprocess.PIPE, **more})
+        self.addCleanup(process.kill)
+        return process
+
+    def assert_refused(self, result: subprocess.CompletedProcess, message: str):
+        """Status 2, nothing on stdout, and one line that says it all."""
+        self.assertEqual(result.returncode, 2, result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr, f"firstcontact: {message}\n")
+
+
+class CommandLine(ToolTest):
+    def test_says_its_version(self):
+        result = self.run_tool("--version")
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stdout, r"^firstcontact \d+\.\d+\.\d+\n$")
+
+    def test_helps(self):
+        for arguments in (["--help"], ["check", "--help"], ["info", "--help"]):
+            result = self.run_tool(*arguments)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn("Usage: firstcontact", result.stdout)
+            self.assertEqual(result.stderr, "")
+
+    def test_refuses_what_it_does_not_know(self):
+        see = " (see firstcontact --help)"
+        scene = self.file("scene.json", scenes.FREE)
+        for arguments, message in [
+                ([], "A subcommand is required"),
+                (["chekc"], 'unknown command "chekc"'),
+                (["check"], "SCENE is required"),
+                (["check", scene, "--fast"], "The following argument was not expected: --fast"),
+                (["check", scene, "--tolerance", "-1"], '--tolerance: expected a number > 0, got "-1"'),
+                (["check", scene, "--tolerance", "nan"], '--tolerance: expected a number > 0, got "nan"'),
+                (["check", scene, "--margin", "0,5"], '--margin: expected a number >= 0, got "0,5"'),
+                (["check", scene, "--deadline", "inf"], '--deadline: expected a number > 0, got "inf"')]:
+            self.assert_refused(self.run_tool(*arguments), message + see)
+
+    def test_options_replace_those_of_the_scene(self):
+        # 5 m above the floor, falling 4 m: a margin of 2 m is reached after 3 m.
+        result = self.run_tool("check", "--json", "--margin", "2", "--tolerance", "1e-3",
+                               self.file("s.json", scenes.FREE))
+        self.assertEqual(result.returncode, 1)
+        answer = json.loads(result.stdout)
+        self.assertLessEqual(answer["t"], 0.75)
+        self.assertGreater(answer["t"], 0.749)
+        self.assertEqual(answer["scene"]["options"]["tolerance"], 1e-3)
+
+    def test_says_in_words_what_it_says_in_json(self):
+        result = self.run_tool("check", "--closest", "--all-pairs", "--sample-rate", "2",
+                               self.file("s.json", scenes.CONTACT))
+        self.assertEqual(result.returncode, 1)
+        for words in ("contact: contact at t = 0.2", "floor and stone", "triangle 0", "normal", "closing at",
+                      "closest", "sampling misses this contact"):
+            self.assertIn(words, result.stdout)
+
+
+class ExitStatus(ToolTest):
+    def status(self, *names_of_scenes: str) -> int:
+        files = [self.file(f"{name}.json", getattr(scenes, name)) for name in names_of_scenes]
+        return self.run_tool("check", *files).returncode
+
+    def test_of_one_scene(self):
+        for name, status in [("FREE", 0), ("CONTACT", 1), ("AT_START", 1), ("BAD", 2), ("UNDECIDED", 3)]:
+            self.assertEqual(self.status(name), status, name)
+
+    def test_of_several_scenes_is_the_worst(self):
+        worst_first = [("BAD", 2), ("UNDECIDED", 3), ("CONTACT", 1), ("FREE", 0)]
+        for k, (name, status) in enumerate(worst_first):
+            better = [other for other, _ in worst_first[k:]]
+            self.assertEqual(self.status(*better), status, name)
+            self.assertEqual(self.status(*reversed(better)), status, name)
+
+
+class Errors(ToolTest):
+    def test_are_one_line_that_names_file_line_and_field(self):
+        for text, message in [
+                (scenes.BAD, 's.json:1: bodies[0].pose.positon: unknown key; did you mean "position"?'),
+                (scenes.scene(scenes.body("a", pose={"quaternion_wxyz": [0, 0, 0, 0]})),
+                 "s.json:1: bodies[0].pose.quaternion_wxyz: expected a quaternion [w, x, y, z], not zero, "
+                 "its length in 1e-60 ... 1e60"),
+                (scenes.scene(scenes.body("a", pose={"position": [0, 0, float("nan")]})),
+                 's.json:1: expected a finite number, got "NaN"; JSON has no NaN and no infinity'),
+                (scenes.scene(scenes.body("a"), options={"tolerance": -1}),
+                 "s.json:1: options.tolerance: expected a number > 0, got -1"),
+                ("{\n\"firstcontact\": 1,\n\"bodies\": [}",
+                 's.json:3: expected a value (object, array, string, number, true, false or null), got "}"'),
+        ]:
+            self.assert_refused(self.run_tool("check", self.file("s.json", text)), message)
+
+    def test_name_the_mesh_that_is_wrong(self):
+        stl = bytes(80) + (2).to_bytes(4, "little") + bytes(60)
+        ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n")
+        for name, content, place in [("empty.obj", "", ""), ("cut.stl", stl, ": byte 144"),
+                                     ("cut.ply", ply, ":11"), ("cut.glb", b"glTF\x02\0\0\0", ""),
+                                     ("index.obj", "v 0 0 0\nf 1 2 3\n", ":2"), ("nan.obj", "v 0 0 nan\n", ":1")]:
+            mesh = self.file(name, content)
+            scene = self.file("s.json", scenes.scene({"name": "a", "shape": {"mesh": mesh}}))
+            for arguments in (["check", scene], ["info", mesh]):
+                result = self.run_tool(*arguments)
+                self.assertEqual(result.returncode, 2, result)
+                self.assertEqual(result.stdout, "")
+                self.assertRegex(result.stderr, rf"^firstcontact: {re.escape(name + place)}: [^\n]+\n$")
+
+    def test_name_the_file_that_is_missing(self):
+        self.assert_refused(self.run_tool("check", "no.json"), "no.json: expected a scene file, found none")
+        self.assert_refused(self.run_tool("check", "."), ".: expected a scene file, got a folder")
+        scene = self.file("s.json", scenes.scene({"name": "a", "shape": {"mesh": "no.obj"}}))
+        self.assert_refused(self.run_tool("check", scene), "s.json:1: bodies[0].shape.mesh: "
+                            'expected a mesh file, found none at "no.obj"')
+
+    def test_are_one_line_even_where_a_name_has_two(self):
+        result = self.run_tool("check", "no\nsuch.json")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+
+class JsonLines(ToolTest):
+    LINES = "\n".join([scenes.CONTACT, scenes.BAD, "", scenes.FREE, "{", scenes.AT_START])
+
+    def check_answers(self, text: str):
+        answers = [json.loads(line) for line in text.splitlines()]
+        self.assertEqual([a.get("verdict", "error") for a in answers],
+                         ["contact", "error", "free", "error", "contact_at_start"])
+        self.assertEqual([a.get("line") for a in answers], [None, 2, None, 5, None])
+        self.assertTrue(answers[1]["error"].startswith("s.jsonl:2: bodies[0].pose.positon: unknown key"))
+
+    def test_answers_every_line_in_order(self):
+        result = self.run_tool("check", self.file("s.jsonl", self.LINES))
+        self.assertEqual(result.returncode, 2)
+        self.check_answers(result.stdout)
+        self.assertEqual(len(result.stderr.splitlines()), 2)
+
+    def test_goes_to_a_file_where_one_is_named(self):
+        result = self.run_tool("check", "-o", "out.jsonl", self.file("s.jsonl", self.LINES))
+        self.assertEqual(result.returncode, 2)
+        self.check_answers((self.folder / "out.jsonl").read_text(encoding="utf-8"))
+        self.assertIn("free: free for the whole step", result.stdout)
+
+    def test_needs_a_scene(self):
+        result = self.run_tool("check", self.file("s.jsonl", "\n \n"))
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr, "firstcontact: s.jsonl: expected at least one scene, got none\n")
+
+    def test_loads_a_mesh_once(self):
+        """The file is gone when the second line comes, but its mesh is still there."""
+        mesh = self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        line = scenes.scene({"name": "a", "shape": {"mesh": mesh}}, scenes.falling(1)) + "\n"
+        os.mkfifo(self.folder / "s.jsonl")
+        process = self.start("check", "s.jsonl")
+        with open(self.folder / "s.jsonl", "w", encoding="utf-8") as lines:
+            lines.write(line)
+            lines.flush()
+            first = json.loads(process.stdout.readline())
+            self.file(mesh, "no mesh any more")
+            lines.write(line)
+        second = json.loads(process.stdout.readline())
+        self.assertEqual(process.wait(timeout=60), 1)
+        process.communicate()
+        self.assertEqual(first, second)
+
+
+class OutputFile(ToolTest):
+    def names(self) -> list:
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def test_has_the_result(self):
+        result = self.run_tool("check", "-o", "out.json", self.file("s.json", scenes.CONTACT))
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(json.loads((self.folder / "out.json").read_text())["verdict"], "contact")
+        self.assertEqual(self.names(), ["out.json", "s.json"])
+
+    def test_is_left_alone_by_bad_input(self):
+        self.file("out.json", "old")
+        result = self.run_tool("check", "-o", "out.json", self.file("s.json", scenes.BAD))
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual((self.folder / "out.json").read_text(), "old")
+        self.assertEqual(self.names(), ["out.json", "s.json"])
+
+    def test_is_whole_at_every_instant(self):
+        """While the second scene is not there yet, the file still has what it had before."""
+        self.file("out.jsonl", "old")
+        os.mkfifo(self.folder / "s.jsonl")
+        process = self.start("check", "s.jsonl", "-o", "out.jsonl", "--json")
+        with open(self.folder / "s.jsonl", "w", encoding="utf-8") as lines:
+            lines.write(scenes.FREE + "\n")
+            lines.flush()
+            process.stdout.readline()
+            self.assertEqual((self.folder / "out.jsonl").read_text(), "old")
+            lines.write(scenes.CONTACT + "\n")
+        process.communicate(timeout=60)
+        self.assertEqual(len((self.folder / "out.jsonl").read_text().splitlines()), 2)
+        self.assertEqual(self.names(), ["out.jsonl", "s.jsonl"])
+
+    def test_may_be_read_as_any_new_file(self):
+        self.run_tool("check", "-o", "out.json", self.file("s.json", scenes.FREE))
+        plain = (self.folder / "s.json").stat().st_mode
+        self.assertEqual(stat.S_IMODE((self.folder / "out.json").stat().st_mode), stat.S_IMODE(plain))
+
+    def test_may_be_a_link_or_a_device(self):
+        self.file("target.json", "old")
+        (self.folder / "link.json").symlink_to("target.json")
+        scene = self.file("s.json", scenes.FREE)
+        self.assertEqual(self.run_tool("check", "-o", "link.json", scene).returncode, 0)
+        self.assertTrue((self.folder / "link.json").is_symlink())
+        self.assertEqual(json.loads((self.folder / "target.json").read_text())["verdict"], "free")
+        self.assertEqual(self.run_tool("check", "-o", "/dev/null", scene).returncode, 0)
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+
+    def test_that_cannot_be_written_is_said_so(self):
+        result = self.run_tool("check", "-o", "no/out.json", self.file("s.json", scenes.FREE))
+        self.assert_refused(result, "no/out.json: cannot write this file: No such file or directory")
+
+
+class Interrupt(ToolTest):
+    def interrupted(self, *arguments: str) -> tuple:
+        process = self.start("check", *arguments)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll(), "ended by itself")
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        self.assertEqual(stderr, "")  # No progress where it is no terminal.
+        return stdout
+
+    def test_ends_with_what_is_proven(self):
+        stdout = self.interrupted("--json", "-o", "out.json", self.file("s.json", scenes.ENDLESS))
+        answer = json.loads(stdout)
+        self.assertEqual((answer["verdict"], answer["reason"]), ("undecided", "cancelled"))
+        self.assertLess(answer["t"], 1)
+        self.assertEqual(json.loads((self.folder / "out.json").read_text()), answer)
+
+    def test_is_told_in_words_too(self):
+        stdout = self.interrupted(self.file("s.json", scenes.ENDLESS))
+        self.assertIn("endless: undecided after t = ", stdout)
+        self.assertIn("(cancelled)", stdout)
+
+    def test_leaves_scenes_that_were_not_asked_undecided(self):
+        os.mkfifo(self.folder / "s.jsonl")
+        process = self.start("check", "s.jsonl")
+        with open(self.folder / "s.jsonl", "w", encoding="utf-8") as lines:
+            lines.write(scenes.FREE + "\n")
+            lines.flush()
+            self.assertEqual(json.loads(process.stdout.readline())["verdict"], "free")
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.5)
+            lines.write(scenes.FREE + "\n")
+        self.assertEqual(process.communicate(timeout=60)[0], "")
+        self.assertEqual(process.returncode, 3)
+
+    def test_twice_ends_at_once(self):
+        os.mkfifo(self.folder / "s.jsonl")
+        process = self.start("check", "s.jsonl")
+        with open(self.folder / "s.jsonl", "w", encoding="utf-8"):
+            for _ in range(2):
+                time.sleep(0.5)
+                process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 128 + signal.SIGINT)
+
+    def test_a_deadline_ends_it_too(self):
+        result = self.run_tool("check", "--json", "--deadline", "0.3", self.file("s.json", scenes.ENDLESS))
+        self.assertEqual(result.returncode, 3)
+        self.assertEqual(json.loads(result.stdout)["reason"], "deadline")
+
+
+class Progress(ToolTest):
+    def test_is_shown_on_a_terminal(self):
+        ours, theirs = pty.openpty()
+        process = self.start("check", "--deadline", "2", self.file("s.json", scenes.ENDLESS), stderr=theirs)
+        process.communicate(timeout=60)
+        os.close(theirs)
+        shown = os.read(ours, 10000).decode()
+        self.assertIn("tip and wall, pair 1 of 1 ... 1.0 s", shown)
+        self.assertTrue(shown.endswith("\r\x1b[K"))  # Wiped out in the end.
+
+
+class Plot(ToolTest):
+    def test_is_a_picture_of_the_gap(self):
+        title = json.loads(scenes.CONTACT)
+        title["id"] = "a < b & c"
+        self.run_tool("check", "--svg", "gap.svg", "--sample-rate", "10", self.file("s.json", json.dumps(title)))
+        root = xml.etree.ElementTree.parse(self.folder / "gap.svg").getroot()
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        texts = [element.text for element in root.iter("{http://www.w3.org/2000/svg}text")]
+        self.assertIn("a < b & c", texts)
+        self.assertIn("first contact at 250 ms", texts)
+        self.assertEqual(len(list(root.iter("{http://www.w3.org/2000/svg}circle"))), 11)
+
+    def test_is_of_one_scene(self):
+        result = self.run_tool("check", "--svg", "gap.svg", self.file("s.jsonl", scenes.FREE))
+        self.assert_refused(result, "--svg draws one scene; give one .json file")
+
+
+class Info(ToolTest):
+    def test_counts_and_measures(self):
+        mesh = self.file("m.obj", "v 0 0 0\nv 2 0 0\nv 0 0.001 0\nv 7 7 7\nf 1 2 3\n")
+        result = self.run_tool("info", mesh)
+        self.assertEqual(result.returncode, 0)
+        for line in ("triangles              1", "edges                  3", "open edges             3",
+                     "surface                not closed", "unused vertices        1",
+                     "size                   2 m x 1 mm x 0 m"):
+            self.assertIn(line, result.stdout)
+
+
+if __name__ == "__main__":
+    TOOL = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
