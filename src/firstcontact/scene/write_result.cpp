@@ -77,8 +77,7 @@ class ResultWriter {
                       {"time", to_json(found.t * scene_.duration)},
                       {"reason", to_json(found.reason)}};
     if (found.closest) {
-      object.emplace_back("points",
-                          two(to_json(found.closest->p_WA), to_json(found.closest->p_WB)));
+      object.push_back({"points", two(to_json(found.closest->p_WA), to_json(found.closest->p_WB))});
     }
     return {.value = std::move(object)};
   }
@@ -98,7 +97,7 @@ class ResultWriter {
                       {"clearance", to_json(found.clearance)}};
     append_tolerance(found.tolerance_used, object);
     if (pair.closest_approach) {
-      object.emplace_back("closest", closest(pair));
+      object.push_back({"closest", closest(pair)});
     }
     return {.value = std::move(object)};
   }
@@ -106,7 +105,7 @@ class ResultWriter {
   /// Only where it is not the one that was asked for.
   void append_tolerance(double tolerance_used, JsonObject& object) const {
     if (tolerance_used > scene_.options.tolerance) {
-      object.emplace_back("tolerance_used", to_json(tolerance_used));
+      object.push_back({"tolerance_used", to_json(tolerance_used)});
     }
   }
 
@@ -189,19 +188,19 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
   const ResultWriter writer(loaded);
   JsonObject object = writer.result(result);
   if (result.closest) {
-    object.emplace_back("closest", writer.closest(result.pairs[*result.closest]));
+    object.push_back({"closest", writer.closest(result.pairs[*result.closest])});
   }
   if (options.all_pairs) {
-    object.emplace_back("pairs", JsonValue{.value = writer.pairs(result)});
+    object.push_back({"pairs", JsonValue{.value = writer.pairs(result)}});
   }
   writer.append_tolerance(result.tolerance_used, object);
   if (options.sampling) {
-    object.emplace_back("sampling", writer.sampling(*options.sampling));
+    object.push_back({"sampling", writer.sampling(*options.sampling)});
   }
-  object.emplace_back("scene", detail::parse_json(write_scene(loaded.scene), "scene", 1));
-  object.emplace_back("version", to_json(version()));
-  object.emplace_back("input_digest", to_json(loaded.input_digest));
-  object.emplace_back("work", to_json(result.work));
+  object.push_back({"scene", detail::parse_json(write_scene(loaded.scene), "scene", 1)});
+  object.push_back({"version", to_json(version())});
+  object.push_back({"input_digest", to_json(loaded.input_digest)});
+  object.push_back({"work", to_json(result.work)});
   return detail::write_json({.value = std::move(object)});
 }
 
@@ -209,9 +208,9 @@ std::string write_error(std::string_view id, std::string_view file, std::optiona
                         std::string_view message) {
   JsonObject object{{"id", to_json(id)}, {"file", to_json(file)}};
   if (line) {
-    object.emplace_back("line", to_json(*line));
+    object.push_back({"line", to_json(*line)});
   }
-  object.emplace_back("error", to_json(message));
+  object.push_back({"error", to_json(message)});
   return detail::write_json({.value = std::move(object)});
 }
 

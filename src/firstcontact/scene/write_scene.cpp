@@ -14,6 +14,7 @@ namespace firstcontact {
 namespace {
 
 using detail::JsonArray;
+using detail::JsonMember;
 using detail::JsonObject;
 using detail::JsonValue;
 
@@ -65,28 +66,26 @@ JsonValue to_json(const BodyShape& shape) {
     const Mesh& mesh = std::get<Mesh>(shape.source);
     object = {{"vertices", to_json(mesh.vertices)}, {"triangles", to_json(mesh.triangles)}};
   }
-  object.emplace_back("radius", to_json(shape.radius));
+  object.push_back({"radius", to_json(shape.radius)});
   return {.value = std::move(object)};
 }
 
 /// The key and value that say how a body moves; the overloads are picked by std::visit.
 struct MotionMember {
-  using Member = std::pair<std::string, JsonValue>;
-
-  static Member member(const char* type, JsonObject numbers) {
-    numbers.emplace(numbers.begin(), "type", to_json(type));
+  static JsonMember member(const char* type, JsonObject numbers) {
+    numbers.insert(numbers.begin(), {"type", to_json(type)});
     return {"motion", {.value = std::move(numbers)}};
   }
 
-  Member operator()(const FixedMotion& motion) const { return {"pose", to_json(motion.pose)}; }
+  JsonMember operator()(const FixedMotion& motion) const { return {"pose", to_json(motion.pose)}; }
 
-  Member operator()(const ConstantVelocityMotion& motion) const {
+  JsonMember operator()(const ConstantVelocityMotion& motion) const {
     return member("constant_velocity", {{"from", to_json(motion.from)},
                                         {"translation", to_json(motion.translation)},
                                         {"rotation_vector", to_json(motion.rotation_vector)}});
   }
 
-  Member operator()(const ScrewMotion& motion) const {
+  JsonMember operator()(const ScrewMotion& motion) const {
     return member("screw", {{"from", to_json(motion.from)},
                             {"axis_point", to_json(motion.axis_point)},
                             {"axis_direction", to_json(motion.axis_direction)},
@@ -94,12 +93,12 @@ struct MotionMember {
                             {"translation", to_json(motion.translation)}});
   }
 
-  Member operator()(const TwoPoseMotion& motion) const {
+  JsonMember operator()(const TwoPoseMotion& motion) const {
     return member(motion.between == Between::screw ? "screw" : "constant_velocity",
                   {{"from", to_json(motion.from)}, {"to", to_json(motion.to)}});
   }
 
-  Member operator()(const WaypointMotion& motion) const {
+  JsonMember operator()(const WaypointMotion& motion) const {
     return member("waypoints", {{"times", to_json(motion.times)},
                                 {"poses", to_json(motion.poses)},
                                 {"between", to_json(motion.between)}});
@@ -148,9 +147,9 @@ JsonValue options_to_json(const Scene& scene) {
                     {"start_contacts", to_json(keep_half ? "keep_half" : "report")},
                     {"contact_band", to_json(options.contact_band)}};
   if (options.deadline) {
-    object.emplace_back("deadline", to_json(*options.deadline));
+    object.push_back({"deadline", to_json(*options.deadline)});
   }
-  object.emplace_back("duration", to_json(scene.duration));
+  object.push_back({"duration", to_json(scene.duration)});
   return {.value = std::move(object)};
 }
 

@@ -52,8 +52,8 @@ std::optional<std::string> search(const JsonValue& value, const JsonValue& below
 
 const JsonValue* find(const JsonObject& object, std::string_view key) {
   const auto found = std::find_if(object.begin(), object.end(),
-                                  [&](const auto& member) { return member.first == key; });
-  return found == object.end() ? nullptr : &found->second;
+                                  [&](const JsonMember& member) { return member.key == key; });
+  return found == object.end() ? nullptr : &found->value;
 }
 
 std::string place_of(const JsonValue& value, const JsonValue& root) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -15,15 +14,21 @@
 namespace firstcontact::detail {
 
 struct JsonValue;
+struct JsonMember;
 struct JsonNull {};
 using JsonArray = std::vector<JsonValue>;
-using JsonObject = std::vector<std::pair<std::string, JsonValue>>;  // In the order of the text.
+using JsonObject = std::vector<JsonMember>;  // In the order of the text.
 
 using JsonVariant = std::variant<JsonNull, bool, double, std::string, JsonArray, JsonObject>;
 
 struct JsonValue {
   JsonVariant value;
   std::size_t line = 0;  ///< On which it begins; 0 if it was not read from a text.
+};
+
+struct JsonMember {
+  std::string key;
+  JsonValue value;
 };
 
 /// The value of a key; null if the object has none.

@@ -192,7 +192,7 @@ class JsonParser {
     return members;
   }
 
-  std::pair<std::string, JsonValue> member() {
+  JsonMember member() {
     skip_blanks();
     if (!at('"')) {
       fail("expected a key in double quotes, got " + next_word());
@@ -206,19 +206,19 @@ class JsonParser {
   }
 
   void refuse_repeated_keys(const JsonObject& members) const {
-    std::vector<const std::pair<std::string, JsonValue>*> sorted;
+    std::vector<const JsonMember*> sorted;
     sorted.reserve(members.size());
-    for (const auto& member : members) {
+    for (const JsonMember& member : members) {
       sorted.push_back(&member);
     }
     std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const auto* a, const auto* b) { return a->first < b->first; });
-    const auto same = [](const auto* a, const auto* b) { return a->first == b->first; };
+                     [](const JsonMember* a, const JsonMember* b) { return a->key < b->key; });
+    const auto same = [](const JsonMember* a, const JsonMember* b) { return a->key == b->key; };
     const auto first = std::adjacent_find(sorted.begin(), sorted.end(), same);
     if (first != sorted.end()) {
-      throw ParseError(source_, first[1]->second.line,
-                       "expected each key once, got " + in_quotes(first[0]->first) +
-                           " again (first on line " + std::to_string(first[0]->second.line) + ")");
+      throw ParseError(source_, first[1]->value.line,
+                       "expected each key once, got " + in_quotes(first[0]->key) +
+                           " again (first on line " + std::to_string(first[0]->value.line) + ")");
     }
   }
 
