@@ -29,7 +29,7 @@ Mesh random_soup(std::size_t triangles, double offset, std::mt19937& rng) {
 }
 
 double extent(const HierarchyNode& node, int axis, int slot) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(node.extent[axis][slot]) << 16);
+  return node.half_extent(axis, slot);
 }
 
 /// Visits every box with the triangles below it.

@@ -120,7 +120,7 @@ TEST(CheckScene, AStopLeavesEveryPairUndecided) {
   const SceneResult result = check(scene(kThree), {.stop = stop.get_token()});
   EXPECT_EQ(result.verdict, Verdict::undecided);
   EXPECT_EQ(result.reason, UndecidedReason::cancelled);
-  EXPECT_EQ(result.t, 0.0);
+  EXPECT_LT(result.t, 1.0);  // What the first bounds prove may stand.
 }
 
 TEST(CheckScene, AStopBetweenPairsKeepsWhatIsKnown) {

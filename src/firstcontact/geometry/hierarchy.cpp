@@ -303,19 +303,21 @@ class Builder {
     return bounds(items, best, 1);
   }
 
-  /// Of the 24 ways to name the axes of a box, takes the one with the smallest rotation angle, at
-  /// most 63 degrees, so that the scalar part of the quaternion follows from the vector part.
-  static Eigen::Quaterniond smallest_rotation(const Matrix3d& axes) {
-    static constexpr std::array<std::array<int, 3>, 6> kOrders{
-        {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
-    Matrix3d best = axes;
+  /// Of the eight ways to name the axes of a box with the longest last, takes the one with the
+  /// smallest rotation angle, at most 99 degrees, so that the scalar part of the quaternion follows
+  /// from the vector part.
+  static Eigen::Quaterniond smallest_rotation(const Box& box) {
+    const int longest = box.longest();
+    const std::array<int, 2> others{(longest + 1) % 3, (longest + 2) % 3};
+    Matrix3d best = Matrix3d::Identity();
     double largest_trace = -4.0;
-    for (const auto& order : kOrders) {
+    for (int order = 0; order < 2; ++order) {
       for (int signs = 0; signs < 8; ++signs) {
+        const auto sign = [&](int row) { return (signs >> row & 1) != 0 ? -1.0 : 1.0; };
         Matrix3d m;
-        for (int r = 0; r < 3; ++r) {
-          m.row(r) = ((signs >> r & 1) != 0 ? -1.0 : 1.0) * axes.row(order[r]);
-        }
+        m.row(0) = sign(0) * box.axes.row(others[order]);
+        m.row(1) = sign(1) * box.axes.row(others[1 - order]);
+        m.row(2) = sign(2) * box.axes.row(longest);
         if (m.trace() > largest_trace && m.determinant() > 0.0) {
           largest_trace = m.trace();
           best = m;
@@ -332,7 +334,7 @@ class Builder {
 
   /// Rounds a box outward into its slot: the extents are taken anew for the rounded axes.
   void store(const Box& box, std::span<const Item> items, int slot, HierarchyNode& node) const {
-    const Eigen::Quaterniond q = smallest_rotation(box.axes);
+    const Eigen::Quaterniond q = smallest_rotation(box);
     for (int k = 0; k < 3; ++k) {
       node.centre[k][slot] = static_cast<float>(box.centre[k]);
       node.rotation[k][slot] = static_cast<float>(q.vec()[k]);
@@ -350,14 +352,15 @@ class Builder {
     }
   }
 
-  /// The upper half of the float at or above the value.
+  /// The least extent that can be stored, at or above the value, which is below 2.
   static std::uint16_t round_up(double value) {
-    auto f = static_cast<float>(value);
+    auto f = static_cast<float>(std::max(value, 0x1p-62));
     if (static_cast<double>(f) < value) {
       f = std::nextafter(f, std::numeric_limits<float>::infinity());
     }
-    const auto bits = std::bit_cast<std::uint32_t>(f);
-    return static_cast<std::uint16_t>((bits + 0xffffu) >> 16);
+    const auto bits = std::bit_cast<std::uint32_t>(f) - HierarchyNode::kExtentOrigin;
+    constexpr std::uint32_t kDropped = (1u << HierarchyNode::kExtentShift) - 1u;
+    return static_cast<std::uint16_t>((bits + kDropped) >> HierarchyNode::kExtentShift);
   }
 
   const Mesh& mesh_;

@@ -18,17 +18,26 @@ namespace firstcontact {
 /// Four boxes, each around one child: a node, or a single triangle. Two cache lines.
 ///
 /// Box k has the centre c, the axes R(q) with q = (sqrt(1 - |v|^2), v) exactly, and the half
-/// extents h; it contains its triangles exactly, all roundings outward. Coordinates are relative
-/// to Hierarchy::centre, in units of Hierarchy::unit.
+/// extents h, the longest last; it contains its triangles exactly, all roundings outward.
+/// Coordinates are relative to Hierarchy::centre, in units of Hierarchy::unit.
 struct alignas(64) HierarchyNode {
   static constexpr int kWidth = 4;
+  /// Extents have 6 bits of exponent and 10 of mantissa: (code << shift) + origin is a float's
+  /// code.
+  static constexpr int kExtentShift = 13;
+  static constexpr std::uint32_t kExtentOrigin = 65u << 23;
 
   float centre[3][kWidth];           ///< [unit]
-  float rotation[3][kWidth];         ///< [-]  Vector part v of the unit quaternion, |v|^2 <= 0.75.
-  std::uint16_t extent[3][kWidth];   ///< [unit]  Upper halves of floats, rounded up.
+  float rotation[3][kWidth];         ///< [-]  Vector part v of the unit quaternion, |v|^2 <= 0.58.
+  std::uint16_t extent[3][kWidth];   ///< [unit]  Rounded up; see half_extent().
   std::uint32_t node_base_and_used;  ///< Index of the first child node << 4 | mask of used slots.
   std::uint32_t triangle_base_and_leaf;  ///< First child triangle << 4 | mask of triangle slots.
 
+  /// [unit]
+  [[nodiscard]] float half_extent(int axis, int slot) const {
+    const auto code = static_cast<std::uint32_t>(extent[axis][slot]);
+    return std::bit_cast<float>((code << kExtentShift) + kExtentOrigin);
+  }
   [[nodiscard]] unsigned used() const { return node_base_and_used & 15u; }
   [[nodiscard]] unsigned leaves() const { return triangle_base_and_leaf & 15u; }
   [[nodiscard]] bool is_leaf(int slot) const { return (leaves() >> slot & 1u) != 0; }

@@ -62,11 +62,9 @@ void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPai
   const detail::ContactFrame frame{A.shape, B.shape, pair, result.t, p_WC};
   if (options.contacts == ContactState::first) {
     const RelativeState state = pair.motion().state(result.t);
-    const std::uint32_t ta = detail::triangle(pair.A(), found.a);
-    const std::uint32_t tb = detail::triangle(pair.B(), found.b);
-    const TrianglePair triangles = pair.place(state, ta, tb);
-    result.contacts.push_back(
-        detail::make_contact(frame, state, ta, tb, triangle_distance(triangles.A, triangles.B)));
+    const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
+    result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
+                                                   triangle_distance(triangles.A, triangles.B)));
   } else if (options.contacts == ContactState::all) {
     const double band = options.margin + result.tolerance_used + options.contact_band +
                         A.shape.radius() + B.shape.radius();

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <optional>
+#include <cstdint>
 
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
@@ -16,8 +16,8 @@ struct PieceResult {
   bool contact = false;   ///< At t some pair is within its threshold + tolerance.
   bool finished = false;  ///< Neither: the whole piece is proven free.
   UndecidedReason reason = UndecidedReason::none;
-  BoxId a;  ///< The pair that decided.
-  BoxId b;
+  std::uint32_t triangle_A = 0;  ///< The pair that decided, in the hierarchies' order.
+  std::uint32_t triangle_B = 0;
 };
 
 struct SearchLimits {

@@ -1,7 +1,6 @@
 #include <firstcontact/query/detail/moving_pair.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -27,19 +26,27 @@ PlacedBox place(const Hierarchy& hierarchy, BoxId box, const Matrix3d& R, const 
     Vector3d centre;
     for (int k = 0; k < 3; ++k) {
       centre[k] = static_cast<double>(node.centre[k][slot]);
-      const auto bits = static_cast<std::uint32_t>(node.extent[k][slot]) << 16;
-      placed.extent[k] = static_cast<double>(std::bit_cast<float>(bits)) * hierarchy.unit;
+      placed.extent[k] = static_cast<double>(node.half_extent(k, slot)) * hierarchy.unit;
     }
     placed.centre = origin + R * (centre * hierarchy.unit);
     placed.axes = box_axes(node, slot) * R.transpose();
     placed.radius = placed.extent.norm();
+    placed.is_triangle = node.is_leaf(slot);
+    if (placed.is_triangle) {
+      const auto& corners = hierarchy.triangles[node.child_triangle(slot)];
+      for (int k = 0; k < 3; ++k) {
+        placed.corners.row(k) =
+            (origin + R * hierarchy.vertices[corners[k]] - placed.centre).transpose();
+      }
+    }
   }
   placed.reach = ((placed.centre - pivot).norm() + placed.radius) * (1.0 + 0x1p-48);
   return placed;
 }
 
+/// How far the box reaches from its centre.
 double extent_along(const PlacedBox& box, const Vector3d& n) {
-  return box.extent.dot((box.axes * n).cwiseAbs());
+  return box.is_triangle ? (box.corners * n).maxCoeff() : box.extent.dot((box.axes * n).cwiseAbs());
 }
 
 /// The extent of a whole shape is its radius in every direction.
@@ -57,7 +64,7 @@ void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) 
       n = -n;
       along = -along;
     }
-    use(Separation{n, along - extent_along(a, n) - extent_along(b, n)});
+    use(Separation{n, along - extent_along(a, n) - extent_along(b, -n)});
   };
   const double length = d.norm();
   if (length > 0.0) {
@@ -132,6 +139,47 @@ BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double th
     best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
   });
   return best;
+}
+
+namespace {
+
+/// At or above the value.
+float round_up(double value) { return static_cast<float>(value * (1.0 + 0x1p-22)) + 0x1p-126f; }
+
+}  // namespace
+
+BoxFrame MovingPair::box_frame() const {
+  BoxFrame frame{};
+  const std::array<const ConstantRatePath*, 2> paths{&motion_.A(), &motion_.B()};
+  const std::array<double, 2> units{A_.unit, B_.unit};
+  for (int body = 0; body < 2; ++body) {
+    frame.ratio[body] = units[body] / unit();
+    frame.rate[body] = static_cast<float>(paths[body]->rate());
+    for (int k = 0; k < 3; ++k) {
+      frame.axis[body][k] = static_cast<float>(paths[body]->axis()[k]);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    frame.velocity[1][k] = static_cast<float>(motion_.pivot_velocity()[k] / unit());
+  }
+  frame.speed = round_up(motion_.pivot_velocity().norm() / unit());
+  return frame;
+}
+
+void MovingPair::place(const RelativeState& state, double threshold, double horizon,
+                       BoxFrame& frame) const {
+  const double scale = 1.0 / unit();  // A power of two: exact.
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      frame.rotation[0][3 * i + j] = state.R_WA(i, j);
+      frame.rotation[1][3 * i + j] = state.R_WB(i, j);
+    }
+    frame.origin[1][i] = state.p_AB[i] * scale;
+    frame.pivot[0][i] = state.p_AQa[i] * scale;
+    frame.pivot[1][i] = state.p_AQb[i] * scale;
+  }
+  frame.threshold = round_up(threshold * scale);
+  frame.horizon = round_up(horizon);
 }
 
 double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -11,6 +12,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/relative_motion.h>
 #include <firstcontact/narrowphase/advance.h>
+#include <firstcontact/query/detail/box_bounds.h>
 
 namespace firstcontact::detail {
 
@@ -26,10 +28,13 @@ struct BoxId {
 /// A box at one instant, in the frame of the RelativeState.
 struct PlacedBox {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;      ///< One per row.
-  Eigen::Vector3d extent;    ///< [m]
-  double radius = 0.0;       ///< [m]
-  double reach = 0.0;        ///< [m]  Of any point of the box from its pivot.
+  Eigen::Matrix3d axes;    ///< One per row.
+  Eigen::Vector3d extent;  ///< [m]
+  double radius = 0.0;     ///< [m]
+  bool is_triangle = false;
+  Eigen::Matrix3d
+      corners;         ///< [m]  Of the triangle in the box, relative to the centre; one per row.
+  double reach = 0.0;  ///< [m]  Of any point of the box from its pivot.
   Eigen::Vector3d velocity;  ///< [m per step]  Of the centre, relative to A's pivot.
 };
 
@@ -59,9 +64,21 @@ class MovingPair {
   [[nodiscard]] TrianglePair place(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// Both bounds by the directions of the centre line and of each box's axes.
+  /// Both bounds by the directions of the centre line and of each box's axes; of a triangle's box,
+  /// only the triangle counts.
   [[nodiscard]] BoxPairBound bound(const PlacedBox& a, const PlacedBox& b, double threshold,
                                    double error) const;
+
+  /// What the kernel needs that is the same at all times.
+  [[nodiscard]] BoxFrame box_frame() const;
+  /// Sets the rest of it for one instant.
+  ///
+  /// @param threshold  [m]  the error of the gap included
+  /// @param horizon    [-]  from this instant
+  void place(const RelativeState& state, double threshold, double horizon, BoxFrame& frame) const;
+
+  /// [m]  Of the kernel's lengths.
+  [[nodiscard]] double unit() const { return std::max(A_.unit, B_.unit); }
 
   /// [m]  Lower bound of the distance of two boxes at this instant; negative where none separates.
   [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);

@@ -1,0 +1,480 @@
+#include <firstcontact/query/detail/box_bounds.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "firstcontact/query/detail/box_bounds.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace firstcontact::detail::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Derivation of the two slacks, u = 2^-24, lengths of a pair L = |c_A| + |c_B| + r_A + r_B with
+// centres c relative to a point beside them (formed in double, then rounded).
+//  - Centres: u |c|; their difference u |d|; its dot product with a direction 3 u |d|.
+//  - Axes: the scalar part of the quaternion is at least 0.65 and within 3.5 u, entries of the
+//    matrix within 8 u; after the body's rotation an axis is within 20 u of its box's.
+//  - Directions are what they are, stored; only box extents along them have errors: at most
+//    24 u sqrt(3) r for axes and products. The sum stays below 64 u L.
+//  - Velocities: positions relative to the pivot, cross and dot products add up to 16 u of
+//    |s| + w_A rho_A + w_B rho_B, |n x u| to 8 u of it.
+constexpr float kGapSlack = 0x1p-18f;
+constexpr float kSpeedSlack = 0x1p-19f;
+constexpr float kTimeSlack = 1.0f - 0x1p-18f;
+constexpr float kTiny = 0x1p-60f;         // Above what underflow can lose in a square.
+constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when their unit is scaled.
+constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
+constexpr float kLargest = 1e30f;         // Beyond, products may overflow.
+constexpr float kFar = 0.15f;
+constexpr float kSizeRatio = 1.5f;
+
+/// Boxes placed in the frame: four of A, then four of B.
+struct alignas(64) Placed {
+  float pivot[2][3];  // of the bodies, like centres
+  alignas(64) float centre[3][8];
+  float velocity[3][8];
+  float axes[3][3][8];  // axis, component
+  float extent[3][8];
+  float radius[8];
+  float reach[8];       // distance of any point from the pivot, times the rate
+  float size[8];        // |c| + r
+  float doubt[8];       // of a triangle's box: how much it may be thicker than the triangle
+  float turn[2][2][8];  // for axes 0 and 1: w |n x u| of A, of B
+};
+
+template <class D>
+using V = hn::Vec<D>;
+
+template <class D>
+HWY_INLINE V<D> dot(D, const V<D>* x, const V<D>* y) {
+  return hn::MulAdd(x[0], y[0], hn::MulAdd(x[1], y[1], hn::Mul(x[2], y[2])));
+}
+
+/// |n x u|, u the same in all lanes.
+template <class D>
+HWY_INLINE V<D> length_of_cross(D d, const V<D>* n, const float* u) {
+  const V<D> u0 = hn::Set(d, u[0]);
+  const V<D> u1 = hn::Set(d, u[1]);
+  const V<D> u2 = hn::Set(d, u[2]);
+  const V<D> x = hn::NegMulAdd(n[2], u1, hn::Mul(n[1], u2));
+  const V<D> y = hn::NegMulAdd(n[0], u2, hn::Mul(n[2], u0));
+  const V<D> z = hn::NegMulAdd(n[1], u0, hn::Mul(n[0], u1));
+  return hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+}
+
+/// Centres in double precision, relative to the first of A's.
+HWY_INLINE void place_centres(const BoxFrame& frame, const HierarchyNode* const* nodes,
+                              Placed& placed) {
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> df;
+  HWY_ALIGN double p[3][8];
+  for (int body = 0; body < 2; ++body) {
+    const double* R = frame.rotation[body];
+    const auto ratio = hn::Set(d, frame.ratio[body]);
+    for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
+      const auto& c = nodes[body]->centre;
+      const auto x = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[0] + lane)));
+      const auto y = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[1] + lane)));
+      const auto z = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[2] + lane)));
+      for (int k = 0; k < 3; ++k) {
+        const auto rotated = hn::MulAdd(
+            hn::Set(d, R[3 * k]), x,
+            hn::MulAdd(hn::Set(d, R[3 * k + 1]), y,
+                       hn::MulAdd(hn::Set(d, R[3 * k + 2]), z, hn::Set(d, frame.origin[body][k]))));
+        hn::StoreU(rotated, d, p[k] + 4 * body + lane);
+      }
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double origin = p[k][0];
+    for (std::size_t lane = 0; lane < 8; lane += hn::Lanes(d)) {
+      const auto relative = hn::Sub(hn::LoadU(d, p[k] + lane), hn::Set(d, origin));
+      hn::StoreU(hn::DemoteTo(df, relative), df, placed.centre[k] + lane);
+    }
+    for (int body = 0; body < 2; ++body) {
+      placed.pivot[body][k] = static_cast<float>(frame.pivot[body][k] - origin);
+    }
+  }
+}
+
+/// Everything else, in single precision: the boxes of both bodies at once where the processor has
+/// eight lanes, else of one after the other.
+template <class D>
+struct Placer {
+  D d;
+  static constexpr std::size_t kLanes = hn::MaxLanes(D());
+  static constexpr bool kBoth = kLanes == 8;
+
+  /// One value for the lanes of A, another for those of B.
+  HWY_INLINE V<D> each(std::size_t first, float a, float b) const {
+    if constexpr (kBoth) {
+      const hn::Half<D> half;
+      return Combine(d, hn::Set(half, b), hn::Set(half, a));
+    } else {
+      return hn::Set(d, first < 4 ? a : b);
+    }
+  }
+  HWY_INLINE V<D> load(std::size_t first, const float* a, const float* b) const {
+    if constexpr (kBoth) {
+      const hn::Half<D> half;
+      return Combine(d, hn::LoadU(half, b), hn::LoadU(half, a));
+    } else {
+      return hn::LoadU(d, (first < 4 ? a : b) + first % 4);
+    }
+  }
+  HWY_INLINE hn::Mask<D> each_mask(std::size_t first, unsigned a, unsigned b) const {
+    const auto bits = static_cast<std::uint8_t>((a | b << 4) >> first);
+    std::uint8_t bytes[8] = {bits};
+    return hn::LoadMaskBits(d, bytes);
+  }
+  template <class DF>
+  static HWY_INLINE V<DF> widen(DF df, const std::uint16_t* extent) {
+    const hn::Rebind<std::uint16_t, DF> d16;
+    const hn::Rebind<std::uint32_t, DF> d32;
+    const auto code = hn::PromoteTo(d32, hn::LoadU(d16, extent));
+    return hn::BitCast(df, hn::Add(hn::ShiftLeft<HierarchyNode::kExtentShift>(code),
+                                   hn::Set(d32, HierarchyNode::kExtentOrigin)));
+  }
+  HWY_INLINE V<D> load_extent(std::size_t first, const std::uint16_t* a,
+                              const std::uint16_t* b) const {
+    if constexpr (kBoth) {
+      const hn::Half<D> half;
+      return Combine(d, widen(half, b), widen(half, a));
+    } else {
+      return widen(d, (first < 4 ? a : b) + first % 4);
+    }
+  }
+
+  HWY_INLINE void place(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                        std::size_t first, Placed& placed) const {
+    V<D> v[3];
+    V<D> e[3];
+    V<D> c[3];
+    V<D> lever[3];
+    const V<D> ratio =
+        each(first, static_cast<float>(frame.ratio[0]), static_cast<float>(frame.ratio[1]));
+    for (int k = 0; k < 3; ++k) {
+      v[k] = load(first, a.rotation[k], b.rotation[k]);
+      e[k] = hn::Mul(ratio, load_extent(first, a.extent[k], b.extent[k]));
+      c[k] = hn::Load(d, placed.centre[k] + first);
+      lever[k] = hn::Sub(c[k], each(first, placed.pivot[0][k], placed.pivot[1][k]));
+    }
+    const V<D> radius = hn::Sqrt(dot(d, e, e));
+    const V<D> rate = each(first, frame.rate[0], frame.rate[1]);
+    const V<D> reach = hn::Mul(rate, hn::Add(hn::Sqrt(dot(d, lever, lever)), radius));
+    const V<D> size =
+        hn::Add(hn::Add(hn::Abs(c[0]), hn::Abs(c[1])), hn::Add(hn::Abs(c[2]), radius));
+    place_axes(frame, first, v, placed);
+    place_velocity(frame, first, rate, lever, placed);
+    for (int k = 0; k < 3; ++k) {
+      hn::Store(e[k], d, placed.extent[k] + first);
+    }
+    hn::Store(radius, d, placed.radius + first);
+    hn::Store(reach, d, placed.reach + first);
+    hn::Store(size, d, placed.size + first);
+    const auto leaves = each_mask(first, a.leaves(), b.leaves());
+    hn::Store(hn::IfThenElseZero(leaves, hn::Mul(hn::Set(d, kExtentDoubt), radius)), d,
+              placed.doubt + first);
+  }
+
+  HWY_INLINE void place_velocity(const BoxFrame& frame, std::size_t first, V<D> rate,
+                                 const V<D>* lever, Placed& placed) const {
+    V<D> w[3];
+    for (int k = 0; k < 3; ++k) {
+      w[k] = hn::Mul(rate, each(first, frame.axis[0][k], frame.axis[1][k]));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3;
+      const int j = (k + 2) % 3;
+      const V<D> turning = hn::NegMulAdd(w[j], lever[i], hn::Mul(w[i], lever[j]));
+      const V<D> pivot = each(first, frame.velocity[0][k], frame.velocity[1][k]);
+      hn::Store(hn::Add(pivot, turning), d, placed.velocity[k] + first);
+    }
+  }
+
+  /// Box axes from the quaternion (w, x, y, z), turned by the body's rotation.
+  HWY_INLINE void place_axes(const BoxFrame& frame, std::size_t first, const V<D>* v,
+                             Placed& placed) const {
+    const V<D> one = hn::Set(d, 1.0f);
+    const V<D> x = v[0];
+    const V<D> y = v[1];
+    const V<D> z = v[2];
+    const V<D> w = hn::Sqrt(hn::Sub(one, dot(d, v, v)));
+    const V<D> x2 = hn::Add(x, x);
+    const V<D> y2 = hn::Add(y, y);
+    const V<D> z2 = hn::Add(z, z);
+    const V<D> xx = hn::Mul(x, x2);
+    const V<D> yy = hn::Mul(y, y2);
+    const V<D> zz = hn::Mul(z, z2);
+    const V<D> xy = hn::Mul(x, y2);
+    const V<D> xz = hn::Mul(x, z2);
+    const V<D> yz = hn::Mul(y, z2);
+    const V<D> wx = hn::Mul(w, x2);
+    const V<D> wy = hn::Mul(w, y2);
+    const V<D> wz = hn::Mul(w, z2);
+    // Rows of the rotation matrix of q are the axes, as in box_axes().
+    const V<D> rows[3][3] = {{hn::Sub(one, hn::Add(yy, zz)), hn::Sub(xy, wz), hn::Add(xz, wy)},
+                             {hn::Add(xy, wz), hn::Sub(one, hn::Add(xx, zz)), hn::Sub(yz, wx)},
+                             {hn::Sub(xz, wy), hn::Add(yz, wx), hn::Sub(one, hn::Add(xx, yy))}};
+    V<D> R[3][3];
+    for (int k = 0; k < 3; ++k) {
+      for (int m = 0; m < 3; ++m) {
+        R[k][m] = each(first, static_cast<float>(frame.rotation[0][3 * k + m]),
+                       static_cast<float>(frame.rotation[1][3 * k + m]));
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      V<D> n[3];
+      for (int k = 0; k < 3; ++k) {
+        n[k] = dot(d, R[k], rows[axis]);
+        hn::Store(n[k], d, placed.axes[axis][k] + first);
+      }
+      if (axis < 2) {
+        for (int other = 0; other < 2; ++other) {
+          const V<D> turn =
+              hn::Mul(hn::Set(d, frame.rate[other]), length_of_cross(d, n, frame.axis[other]));
+          hn::Store(turn, d, placed.turn[axis][other] + first);
+        }
+      }
+    }
+  }
+};
+
+/// The pairs of lanes [first, first + N).
+template <class D>
+struct Pairs {
+  D d;
+
+  /// The four values of A's boxes, each for four lanes.
+  HWY_INLINE V<D> box_of_a(const float* field, std::size_t first) const {
+    if constexpr (hn::MaxLanes(D()) == 1) {
+      return hn::Set(d, field[first / 4]);
+    } else {
+      alignas(64) static constexpr std::int32_t kBoxOfLane[16] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                                  2, 2, 2, 2, 3, 3, 3, 3};
+      return hn::TableLookupLanes(hn::LoadDup128(d, field),
+                                  hn::SetTableIndices(d, kBoxOfLane + first));
+    }
+  }
+  /// The four values of B's boxes, again and again.
+  HWY_INLINE V<D> box_of_b(const float* field, std::size_t first) const {
+    if constexpr (hn::MaxLanes(D()) == 1) {
+      return hn::Set(d, field[first % 4]);
+    } else {
+      return hn::LoadDup128(d, field);
+    }
+  }
+
+  struct Best {
+    V<D> estimate;  // of the time, only to choose by
+    V<D> gap;       // net of threshold and slack
+    V<D> speed;
+    V<D> half_acceleration;
+    V<D> raw_gap;   // largest of any direction
+    V<D> nearness;  // least distance of any gap from the middle of the band of doubt
+  };
+
+  struct Sizes {
+    V<D> radius_a;
+    V<D> radius_b;
+    V<D> reach_a;
+    V<D> reach_b;
+    V<D> charge;  // threshold and slack
+    V<D> slip;
+    V<D> slip_half_acceleration;
+    V<D> doubt_middle;
+  };
+
+  HWY_INLINE void consider(const Sizes& s, V<D> raw_gap, V<D> opening, V<D> turn_a, V<D> turn_b,
+                           Best& best) const {
+    const V<D> gap = hn::Sub(raw_gap, s.charge);
+    const V<D> speed =
+        hn::MulAdd(turn_a, s.radius_a, hn::MulAdd(turn_b, s.radius_b, hn::Sub(s.slip, opening)));
+    const V<D> half_acceleration =
+        hn::MulAdd(hn::Mul(turn_a, s.reach_a), hn::Set(d, 0.5f * (1.0f + 0x1p-16f)),
+                   hn::MulAdd(hn::Mul(turn_b, s.reach_b), hn::Set(d, 0.5f * (1.0f + 0x1p-16f)),
+                              s.slip_half_acceleration));
+    const V<D> open = hn::Max(gap, hn::Zero(d));
+    const V<D> square = hn::MulAdd(
+        speed, speed,
+        hn::MulAdd(hn::Mul(half_acceleration, open), hn::Set(d, 4.0f), hn::Set(d, kTiny * kTiny)));
+    const V<D> root = hn::Mul(square, hn::ApproximateReciprocalSqrt(square));
+    const V<D> closing = hn::Max(hn::Add(speed, root),
+                                 hn::MulAdd(hn::Abs(speed), hn::Set(d, 1e-3f), hn::Set(d, kTiny)));
+    const V<D> estimate = hn::Mul(open, hn::ApproximateReciprocal(closing));
+    const auto better = hn::Gt(estimate, best.estimate);
+    best.estimate = hn::IfThenElse(better, estimate, best.estimate);
+    best.gap = hn::IfThenElse(better, gap, best.gap);
+    best.speed = hn::IfThenElse(better, speed, best.speed);
+    best.half_acceleration = hn::IfThenElse(better, half_acceleration, best.half_acceleration);
+    best.raw_gap = hn::Max(best.raw_gap, raw_gap);
+    best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
+  }
+
+  /// x with its sign turned where y is negative.
+  HWY_INLINE V<D> with_sign(V<D> x, V<D> y) const { return hn::Xor(x, hn::And(y, hn::SignBit(d))); }
+
+  /// time_to_close() of narrowphase/advance.h, in single precision.
+  HWY_INLINE V<D> time_to_close(const Best& best) const {
+    const V<D> open = hn::Max(best.gap, hn::Zero(d));
+    const V<D> root = hn::Sqrt(hn::MulAdd(
+        best.speed, best.speed, hn::Mul(hn::Mul(best.half_acceleration, open), hn::Set(d, 4.0f))));
+    const V<D> closing =
+        hn::Add(hn::Add(best.speed, root),
+                hn::MulAdd(hn::Abs(best.speed), hn::Set(d, 0x1p-20f), hn::Set(d, kTiny)));
+    const V<D> time = hn::Div(hn::Mul(open, hn::Set(d, 2.0f * kTimeSlack)), closing);
+    // NaN compares false: then nothing is proven.
+    const auto proven = hn::And(hn::Gt(best.gap, hn::Zero(d)), hn::Ge(time, hn::Zero(d)));
+    return hn::IfThenElseZero(proven, hn::Min(time, hn::Set(d, 4.0f)));
+  }
+
+  template <class Mask>
+  HWY_INLINE void store_bits(Mask mask, std::size_t first, std::uint16_t& bits) const {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    const unsigned value = bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+    bits = static_cast<std::uint16_t>(bits | value << first);
+  }
+
+  HWY_INLINE void bound(const BoxFrame& frame, const Placed& placed, std::size_t first,
+                        BoxBounds& bounds) const {
+    const auto of_a = [&](const float* field) HWY_ATTR { return box_of_a(field, first); };
+    const auto of_b = [&](const float* field) HWY_ATTR { return box_of_b(field + 4, first); };
+
+    Sizes s;
+    s.radius_a = of_a(placed.radius);
+    s.radius_b = of_b(placed.radius);
+    s.reach_a = of_a(placed.reach);
+    s.reach_b = of_b(placed.reach);
+    const V<D> slack = hn::MulAdd(hn::Add(of_a(placed.size), of_b(placed.size)),
+                                  hn::Set(d, kGapSlack), hn::Set(d, kTinyLength));
+    s.charge = hn::MulAdd(hn::Set(d, frame.threshold), hn::Set(d, 1.0f + kGapSlack), slack);
+    s.slip = hn::Mul(hn::Set(d, kSpeedSlack),
+                     hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)));
+    s.slip_half_acceleration = hn::Mul(s.slip, hn::Set(d, frame.rate[0] + frame.rate[1]));
+
+    const V<D> doubt = hn::Add(of_a(placed.doubt), of_b(placed.doubt));
+    s.doubt_middle = hn::Mul(hn::Set(d, 0.5f), hn::Add(slack, doubt));
+
+    V<D> between[3];
+    V<D> velocity[3];
+    V<D> axes_a[3][3];
+    V<D> axes_b[3][3];
+    V<D> extent_a[3];
+    V<D> extent_b[3];
+    for (int k = 0; k < 3; ++k) {
+      between[k] = hn::Sub(of_b(placed.centre[k]), of_a(placed.centre[k]));
+      velocity[k] = hn::Sub(of_b(placed.velocity[k]), of_a(placed.velocity[k]));
+      extent_a[k] = of_a(placed.extent[k]);
+      extent_b[k] = of_b(placed.extent[k]);
+      for (int m = 0; m < 3; ++m) {
+        axes_a[k][m] = of_a(placed.axes[k][m]);
+        axes_b[k][m] = of_b(placed.axes[k][m]);
+      }
+    }
+
+    Best best;
+    best.estimate = hn::Zero(d);
+    best.gap = hn::Zero(d);
+    best.speed = hn::Zero(d);
+    best.half_acceleration = hn::Zero(d);
+    best.raw_gap = hn::Set(d, -1e38f);
+    best.nearness = hn::Set(d, 1e38f);
+    V<D> extent_b_along[2] = {hn::Zero(d), hn::Zero(d)};
+    V<D> extent_a_along[2] = {hn::Zero(d), hn::Zero(d)};
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        if (i == 2 && j == 2) {
+          continue;
+        }
+        const V<D> cosine = hn::Abs(dot(d, axes_a[i], axes_b[j]));
+        if (i < 2) {
+          extent_b_along[i] = hn::MulAdd(cosine, extent_b[j], extent_b_along[i]);
+        }
+        if (j < 2) {
+          extent_a_along[j] = hn::MulAdd(cosine, extent_a[i], extent_a_along[j]);
+        }
+      }
+    }
+    for (int k = 0; k < 2; ++k) {
+      const V<D> along_a = dot(d, axes_a[k], between);
+      consider(s, hn::Sub(hn::Abs(along_a), hn::Add(extent_a[k], extent_b_along[k])),
+               with_sign(dot(d, axes_a[k], velocity), along_a), of_a(placed.turn[k][0]),
+               of_a(placed.turn[k][1]), best);
+      const V<D> along_b = dot(d, axes_b[k], between);
+      consider(s, hn::Sub(hn::Abs(along_b), hn::Add(extent_b[k], extent_a_along[k])),
+               with_sign(dot(d, axes_b[k], velocity), along_b), of_b(placed.turn[k][0]),
+               of_b(placed.turn[k][1]), best);
+    }
+    consider_centre_line(frame, s, between, velocity, axes_a, axes_b, extent_a, extent_b, best);
+
+    const V<D> time = time_to_close(best);
+    hn::Store(time, d, bounds.time + first);
+    hn::Store(hn::Sub(best.raw_gap, slack), d, bounds.gap + first);
+    store_bits(hn::Not(hn::Ge(time, hn::Set(d, frame.horizon))), first, bounds.live);
+    store_bits(hn::Gt(best.raw_gap, hn::Mul(hn::Set(d, kFar), hn::Add(s.radius_a, s.radius_b))),
+               first, bounds.far);
+    store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, kSizeRatio), s.radius_b)), first,
+               bounds.larger_a);
+    store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, kSizeRatio), s.radius_a)), first,
+               bounds.larger_b);
+    // A gap of -(slack + doubt) to 2 slack may be one that double precision finds open.
+    const auto sure = hn::And(hn::Gt(best.nearness, hn::Add(s.doubt_middle, slack)),
+                              hn::Lt(s.charge, hn::Set(d, kLargest)));
+    store_bits(hn::Not(sure), first, bounds.unsure);
+  }
+
+  HWY_INLINE void consider_centre_line(const BoxFrame& frame, const Sizes& s, const V<D>* between,
+                                       const V<D>* velocity, const V<D> (*axes_a)[3],
+                                       const V<D> (*axes_b)[3], const V<D>* extent_a,
+                                       const V<D>* extent_b, Best& best) const {
+    const V<D> length = hn::Sqrt(dot(d, between, between));
+    const V<D> scale = hn::Div(hn::Set(d, 1.0f), hn::Max(length, hn::Set(d, kTiny)));
+    V<D> n[3];
+    for (int k = 0; k < 3; ++k) {
+      n[k] = hn::Mul(between[k], scale);
+    }
+    V<D> extent = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      extent = hn::MulAdd(hn::Abs(dot(d, n, axes_a[k])), extent_a[k], extent);
+      extent = hn::MulAdd(hn::Abs(dot(d, n, axes_b[k])), extent_b[k], extent);
+    }
+    const V<D> turn_a = hn::Mul(hn::Set(d, frame.rate[0]), length_of_cross(d, n, frame.axis[0]));
+    const V<D> turn_b = hn::Mul(hn::Set(d, frame.rate[1]), length_of_cross(d, n, frame.axis[1]));
+    consider(s, hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), turn_a, turn_b, best);
+  }
+};
+
+void BoundBoxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                BoxBounds& bounds) {
+  Placed placed;
+  const HierarchyNode* const nodes[2] = {&a, &b};
+  place_centres(frame, nodes, placed);
+  const Placer<hn::CappedTag<float, 8>> placer;
+  for (std::size_t first = 0; first < 8; first += hn::Lanes(placer.d)) {
+    placer.place(frame, a, b, first, placed);
+  }
+  bounds.live = bounds.far = bounds.larger_a = bounds.larger_b = bounds.unsure = 0;
+  const Pairs<hn::CappedTag<float, 16>> pairs;
+  for (std::size_t first = 0; first < 16; first += hn::Lanes(pairs.d)) {
+    pairs.bound(frame, placed, first, bounds);
+  }
+}
+
+}  // namespace firstcontact::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace firstcontact::detail {
+
+HWY_EXPORT(BoundBoxes);
+
+void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                 BoxBounds& bounds) {
+  HWY_DYNAMIC_DISPATCH(BoundBoxes)(frame, a, b, bounds);
+}
+
+std::int64_t box_bounds_targets() { return HWY_TARGETS & hwy::SupportedTargets(); }
+
+}  // namespace firstcontact::detail
+#endif

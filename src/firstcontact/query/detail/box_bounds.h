@@ -1,0 +1,50 @@
+/// @file
+/// Bounds of 16 pairs of boxes at once: each box of one node with each box of another.
+
+#pragma once
+
+#include <cstdint>
+
+#include <firstcontact/geometry/hierarchy.h>
+
+namespace firstcontact::detail {
+
+/// Two bodies at one instant, as the kernel reads them; plain numbers, so that it can be compiled
+/// for several instruction sets. Lengths in units of the larger hierarchy, a power of two; world
+/// axes, origin at A's centre; index 0 is A, 1 is B.
+struct BoxFrame {
+  double rotation[2][9];  ///< Row-major.
+  double origin[2][3];    ///< Centres of the hierarchies.
+  double pivot[2][3];
+  double ratio[2];       ///< Unit of the hierarchy.
+  float axis[2][3];      ///< Zero where the body does not turn.
+  float rate[2];         ///< [rad per step]
+  float velocity[2][3];  ///< Of the pivots: zero for A, relative to A's for B.
+  float speed;           ///< At least the length of the latter.
+  float threshold;       ///< Closer is contact; the error of positions in double is included.
+  float horizon;         ///< Pairs apart for this long are done with.
+};
+
+/// Of lane 4 i + j, for box i of A's node and box j of B's.
+struct BoxBounds {
+  alignas(64) float time[16];  ///< [-]  Provably farther apart than the threshold for this long.
+  alignas(64) float gap[16];   ///< [unit]  Lower bound of the distance at this instant; may be < 0.
+  std::uint16_t live;          ///< Time is below the horizon.
+  std::uint16_t far;           ///< The gap is large for the size of the boxes.
+  std::uint16_t larger_a;      ///< A's box is so much larger that it alone should be opened.
+  std::uint16_t larger_b;
+  std::uint16_t unsure;  ///< Double precision may find a direction that separates for longer.
+};
+
+/// The bounds of docs/algorithm.md, section 2, along five directions: the line of centres and the
+/// two thinner axes of each box. In single precision: gaps are reduced by 64 and speeds raised by
+/// 32 units in the last place of everything that enters them (derived in the source). Lanes of
+/// slots that are not used hold anything.
+void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                 BoxBounds& bounds);
+
+/// The instruction sets that bound_boxes was compiled for and that this processor has, as bits of
+/// Highway's HWY_TARGETS; for tests.
+std::int64_t box_bounds_targets();
+
+}  // namespace firstcontact::detail
