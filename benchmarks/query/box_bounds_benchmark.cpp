@@ -1,0 +1,63 @@
+// The kernel of the search, on each instruction set that this processor has: 16 pairs of boxes.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <benchmark/benchmark.h>
+#include <hwy/targets.h>
+
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+#include "benchmarks/support/normalised_mesh.h"
+#include "benchmarks/support/torus_knot.h"
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using Eigen::Vector3d;
+
+void choose(std::int64_t targets) {
+  hwy::SetSupportedTargetsForTest(targets);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+/// Nodes of two knots that move and turn, different ones each time, all of them in the cache.
+void bound_knots(benchmark::State& state, std::int64_t target) {
+  choose(target);
+  const Hierarchy knot = build_hierarchy(normalised(torus_knot(1'000)));
+  const Motion motion_A = Motion::constant_velocity({}, Vector3d::Zero(), {0.3, 0.2, 1.0});
+  const Motion motion_B =
+      Motion::constant_velocity({.position = {1.5, 0.2, 0.1}}, {-1.0, 0.1, 0.0}, {0.8, 0.1, -0.2});
+  const RelativeMotion motion(motion_A.path(0, knot.centre), motion_B.path(0, knot.centre), 1e-6);
+  const detail::MovingPair pair(knot, knot, motion);
+  detail::BoxFrame frame = pair.box_frame();
+  pair.place(motion.state(0.5), 1e-9, 0.5, frame);
+  detail::BoxBounds bounds;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::size_t count = knot.nodes.size();
+    detail::bound_boxes(frame, knot.nodes[i % count], knot.nodes[i * 7 % count], bounds);
+    benchmark::DoNotOptimize(bounds);
+    ++i;
+  }
+  state.SetItemsProcessed(state.iterations() * 16);
+  choose(0);  // All that the processor has.
+}
+
+}  // namespace
+}  // namespace firstcontact::benchmarks
+
+int main(int argc, char** argv) {
+  for (std::int64_t all = firstcontact::detail::box_bounds_targets(); all != 0; all &= all - 1) {
+    const std::int64_t target = all & -all;
+    benchmark::RegisterBenchmark(hwy::TargetName(target), [target](benchmark::State& state) {
+      firstcontact::benchmarks::bound_knots(state, target);
+    });
+  }
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,0 +1,219 @@
+// The bounds of boxes in single precision, for every instruction set that this processor has,
+// against where the boxes really are.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+#include "query/moving_boxes.h"
+
+namespace firstcontact::detail {
+namespace {
+
+using test::Approach;
+using test::MovingBoxes;
+using test::Random;
+using test::random_moving_boxes;
+using test::Real;
+using test::real_box;
+using test::RealBox;
+using test::RealVector;
+
+BoxFrame frame_of(const MovingBoxes& c) {
+  const RelativeMotion motion(c.A.motion().path(0, c.A.hierarchy.centre),
+                              c.B.motion().path(0, c.B.hierarchy.centre), 1e-6);
+  const MovingPair pair(c.A.hierarchy, c.B.hierarchy, motion);
+  const RelativeState state = motion.state(c.t);
+  BoxFrame frame = pair.box_frame();
+  pair.place(state, c.threshold + pair.gap_error(state), 1.0 - c.t, frame);
+  return frame;
+}
+
+struct Bounds : BoxBounds {
+  double unit = 1.0;  // [m]
+};
+
+Bounds bounds_of(const MovingBoxes& c) {
+  Bounds bounds;
+  bounds.unit = std::max(c.A.hierarchy.unit, c.B.hierarchy.unit);
+  bound_boxes(frame_of(c), c.A.node(), c.B.node(), bounds);
+  return bounds;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Runs on one instruction set, named by Highway.
+class BoxBoundsOn : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override { choose(GetParam()); }
+  void TearDown() override { choose(0); }  // All that the processor has.
+
+ private:
+  static void choose(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+// Sound: until the bound has passed, the boxes are farther apart than the threshold.
+TEST_P(BoxBoundsOn, TimeIsNeverLate) {
+  Random random(1);
+  for (int trial = 0; trial < 1500; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const Bounds bounds = bounds_of(c);
+    for (int lane = 0; lane < 16; ++lane) {
+      const Real proven = std::min<Real>(bounds.time[lane], 1.0L - c.t);
+      if (!(proven > 0.0L)) {
+        continue;
+      }
+      for (const double part : {1.0, random.uniform(0.0, 1.0), random.uniform(0.9, 1.0)}) {
+        ASSERT_GT(c.distance(lane / 4, lane % 4, c.t + part * proven), c.threshold)
+            << "trial " << trial << ", lane " << lane << ", part " << part;
+      }
+    }
+  }
+}
+
+TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistance) {
+  Random random(2);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const Bounds bounds = bounds_of(c);
+    for (int lane = 0; lane < 16; ++lane) {
+      ASSERT_LE(bounds.gap[lane] * Real{bounds.unit}, c.distance(lane / 4, lane % 4, c.t))
+          << "trial " << trial << ", lane " << lane;
+    }
+  }
+}
+
+// Tight: without turning, most pairs are let go for nearly as long as they have.
+TEST_P(BoxBoundsOn, TimeIsMostOfTheTimeToContact) {
+  Random random(3);
+  std::vector<double> ratios;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random, Approach::straight);
+    const Real speed = (c.B.translation - c.A.translation).cast<Real>().norm();
+    // Conservative advancement, until the gap no longer matters.
+    Real at = c.t;
+    const Real enough = c.threshold + 1e-4L * c.distance(0, 0, at);
+    for (int i = 0; i < 1000 && at < 1.0L; ++i) {
+      const Real distance = c.distance(0, 0, at);
+      if (distance <= enough) {
+        ratios.push_back(static_cast<double>(bounds_of(c).time[0] / (at - c.t)));
+        break;
+      }
+      at += (distance - c.threshold) / speed;
+    }
+  }
+  ASSERT_GT(ratios.size(), 500u);
+  RecordProperty("median_ratio", std::to_string(median(ratios)));
+  EXPECT_GT(median(ratios), 0.6);
+}
+
+TEST_P(BoxBoundsOn, GapIsMostOfTheDistance) {
+  Random random(4);
+  std::vector<double> ratios;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const Real distance = c.distance(0, 0, c.t);
+    const Bounds bounds = bounds_of(c);
+    if (distance > 0.0L) {
+      ratios.push_back(static_cast<double>(bounds.gap[0] * Real{bounds.unit} / distance));
+    }
+  }
+  RecordProperty("median_ratio", std::to_string(median(ratios)));
+  EXPECT_GT(median(ratios), 0.6);
+}
+
+// A law, up to rounding: each pair of boxes, whichever body is named first.
+TEST_P(BoxBoundsOn, IsTheSameForSwappedBodies) {
+  Random random(5);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const Bounds bounds = bounds_of(c);
+    const Bounds swapped = bounds_of({c.B, c.A, c.t, c.threshold});
+    const RealVector origin = c.A.position.cast<Real>();
+    const RealVector first_A = real_box(c.A, 0, c.t, origin).centre;
+    const RealVector first_B = real_box(c.B, 0, c.t, origin).centre;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        const RealBox a = real_box(c.A, i, c.t, origin);
+        const RealBox b = real_box(c.B, j, c.t, origin);
+        const Real length = (a.centre - first_A).norm() + (b.centre - first_B).norm() +
+                            (a.centre - b.centre).norm() + a.extent.norm() + b.extent.norm();
+        ASSERT_NEAR(bounds.gap[4 * i + j], swapped.gap[4 * j + i],
+                    0x1p-15 * static_cast<double>(length / bounds.unit))
+            << "trial " << trial << ", boxes " << i << ", " << j;
+      }
+    }
+  }
+}
+
+TEST_P(BoxBoundsOn, FlagsSayWhatTheNumbersSay) {
+  Random random(6);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const Bounds bounds = bounds_of(c);
+    for (int lane = 0; lane < 16; ++lane) {
+      const auto flag = [lane](std::uint16_t bits) { return (bits >> lane & 1) != 0; };
+      const Real a = real_box(c.A, lane / 4, c.t, RealVector::Zero()).extent.norm();
+      const Real b = real_box(c.B, lane % 4, c.t, RealVector::Zero()).extent.norm();
+      ASSERT_TRUE(flag(bounds.live) || bounds.time[lane] >= 1.0 - c.t) << trial << ", " << lane;
+      ASSERT_FALSE(flag(bounds.larger_a) && flag(bounds.larger_b)) << trial << ", " << lane;
+      ASSERT_TRUE(flag(bounds.larger_a) || a < 1.51L * b) << trial << ", " << lane;
+      ASSERT_TRUE(flag(bounds.larger_b) || b < 1.51L * a) << trial << ", " << lane;
+    }
+  }
+}
+
+// What is not a number proves nothing.
+TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  Random random(7);
+  for (int field = 0; field < 7; ++field) {
+    const MovingBoxes c = random_moving_boxes(random, Approach::any);
+    BoxFrame frame = frame_of(c);
+    double* const doubles[] = {&frame.rotation[1][4], &frame.origin[1][0], &frame.ratio[0]};
+    float* const floats[] = {&frame.axis[1][1], &frame.rate[0], &frame.velocity[1][2],
+                             &frame.threshold};
+    if (field < 3) {
+      *doubles[field] = kNaN;
+    } else {
+      *floats[field - 3] = static_cast<float>(kNaN);
+    }
+    BoxBounds bounds;
+    bound_boxes(frame, c.A.node(), c.B.node(), bounds);
+    EXPECT_EQ(bounds.live, 0xffff) << "field " << field;
+    for (int lane = 0; lane < 16; ++lane) {
+      EXPECT_EQ(bounds.time[lane], 0.0f) << "field " << field << ", lane " << lane;
+    }
+  }
+}
+
+std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> single;
+  for (std::int64_t all = box_bounds_targets(); all != 0; all &= all - 1) {
+    single.push_back(all & -all);
+  }
+  return single;
+}
+
+INSTANTIATE_TEST_SUITE_P(, BoxBoundsOn, testing::ValuesIn(targets()), [](const auto& target) {
+  return std::string(hwy::TargetName(target.param));
+});
+
+}  // namespace
+}  // namespace firstcontact::detail

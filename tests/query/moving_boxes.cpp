@@ -1,0 +1,179 @@
+#include "query/moving_boxes.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace firstcontact::test {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// The least code of an extent at or above the value.
+std::uint16_t extent_code(double value) {
+  HierarchyNode node{};
+  std::uint32_t low = 0;
+  std::uint32_t high = std::numeric_limits<std::uint16_t>::max();
+  while (low < high) {
+    const std::uint32_t middle = (low + high) / 2;
+    node.extent[0][0] = static_cast<std::uint16_t>(middle);
+    if (static_cast<double>(node.half_extent(0, 0)) >= value) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return static_cast<std::uint16_t>(low);
+}
+
+/// Boxes of like size near each other, the longest side last: thick, flat, needles and points.
+HierarchyNode random_node(Random& random) {
+  HierarchyNode node{};
+  node.node_base_and_used = 1u << 4 | 15u;
+  const double size = random.logarithmic(1e-4, 0.5);
+  const Vector3d middle = random.uniform(0.0, 0.9) * random.direction();
+  for (int slot = 0; slot < HierarchyNode::kWidth; ++slot) {
+    const Vector3d centre = middle + random.uniform(0.0, size) * random.direction();
+    const Vector3d v = random.uniform(0.0, 0.76) * random.direction();
+    std::array<double, 3> extent;
+    for (double& e : extent) {
+      e = random.chance(0.1) ? 0.0 : size * random.logarithmic(1e-5, 1.0);
+    }
+    std::sort(extent.begin(), extent.end());
+    for (int k = 0; k < 3; ++k) {
+      node.centre[k][slot] = static_cast<float>(centre[k]);
+      node.rotation[k][slot] = static_cast<float>(v[k]);
+      node.extent[k][slot] = extent_code(extent[k]);
+    }
+  }
+  return node;
+}
+
+Vector3d random_turn(Random& random) {
+  return random.chance(0.2) ? Vector3d(Vector3d::Zero())
+                            : Vector3d(random.logarithmic(1e-3, 20.0) * random.direction());
+}
+
+Body random_body(Random& random) {
+  Body body;
+  body.hierarchy.unit = std::exp2(std::round(random.uniform(-20.0, 20.0)));
+  body.hierarchy.radius = body.hierarchy.unit;
+  body.hierarchy.centre = random.chance(0.5)
+                              ? random.uniform(0.0, 5.0) * body.hierarchy.unit * random.direction()
+                              : Vector3d(Vector3d::Zero());
+  body.hierarchy.nodes = {random_node(random)};
+  body.rotation = Eigen::AngleAxisd(random.uniform(0.0, std::numbers::pi), random.direction());
+  return body;
+}
+
+RealMatrix turn(const RealVector& rotation_vector) {
+  const Real angle = rotation_vector.norm();
+  return angle > 0.0L ? RealMatrix(Eigen::AngleAxis<Real>(angle, rotation_vector / angle))
+                      : RealMatrix(RealMatrix::Identity());
+}
+
+/// Sets all but the positions; returns the direction from A's first box to B's.
+Vector3d set_motion(Random& random, Approach approach, MovingBoxes& c) {
+  const Vector3d normal = real_box(c.A, 0, c.t, RealVector::Zero()).axes.col(0).cast<double>();
+  const double length = c.size() * random.logarithmic(0.1, 100.0);
+  const double path = random.uniform(0.0, 1.0) * length;
+  switch (approach) {
+    case Approach::any: {
+      const Vector3d heading = random.direction();
+      c.A.rotation_vector = random_turn(random);
+      c.B.rotation_vector = random_turn(random);
+      c.A.translation = path * heading;
+      c.B.translation = (path - length) * heading + 0.5 * length * random.direction();
+      return heading;
+    }
+    case Approach::spinning:
+      c.B.rotation_vector = random.logarithmic(0.01, 20.0) * normal;
+      [[fallthrough]];
+    case Approach::straight:
+      c.A.translation = path * normal;
+      c.B.translation = (path - length) * normal;
+      return normal;
+    case Approach::swinging: {
+      const Vector3d axis = normal.cross(random.direction()).normalized();
+      c.B.rotation_vector = random.logarithmic(0.1, 20.0) * axis;
+      // The lever is along the normal at t, and long for the box.
+      const Matrix3d R_t =
+          (Eigen::AngleAxisd(c.t * c.B.rotation_vector.norm(), axis) * c.B.rotation)
+              .toRotationMatrix();
+      const HierarchyNode& node = c.B.node();
+      c.B.hierarchy.centre =
+          c.B.hierarchy.unit * (10.0 * R_t.transpose() * normal -
+                                Vector3d(node.centre[0][0], node.centre[1][0], node.centre[2][0]));
+      return normal;
+    }
+  }
+  return normal;
+}
+
+}  // namespace
+
+RealBox real_box(const Body& body, int slot, Real t, const RealVector& origin) {
+  const HierarchyNode& node = body.node();
+  RealVector centre;
+  RealVector v;
+  RealVector extent;
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = node.centre[k][slot];
+    v[k] = node.rotation[k][slot];
+    extent[k] = node.half_extent(k, slot);
+  }
+  const Eigen::Quaternion<Real> q(std::sqrt(1.0L - v.squaredNorm()), v.x(), v.y(), v.z());
+  const Real unit = body.hierarchy.unit;
+  const RealMatrix R = turn(t * body.rotation_vector.cast<Real>()) *
+                       body.rotation.cast<Real>().normalized().toRotationMatrix();
+  const RealVector p = (body.position.cast<Real>() - origin) + t * body.translation.cast<Real>();
+  // The rows of the rotation matrix of q are the axes: box_axes().
+  return {p + R * (body.hierarchy.centre.cast<Real>() + unit * centre),
+          R * q.toRotationMatrix().transpose(), unit * extent};
+}
+
+Real distance_of_points(const RealBox& a, const RealBox& b) {
+  RealVector p = a.centre;
+  Real distance = std::numeric_limits<Real>::infinity();
+  for (int i = 0; i < 200; ++i) {
+    const RealVector q = b.nearest(p);
+    p = a.nearest(q);
+    const Real next = (p - q).norm();
+    if (!(next < distance * (1.0L - 1e-9L))) {
+      break;
+    }
+    distance = next;
+  }
+  return distance;
+}
+
+MovingBoxes random_moving_boxes(Random& random, Approach approach) {
+  MovingBoxes c;
+  c.A = random_body(random);
+  c.B = random_body(random);
+  c.t = random.uniform(0.0, 0.9);
+  const double gap = c.size() * random.logarithmic(1e-5, 10.0);
+  c.threshold = random.chance(0.5) ? 0.0 : gap * random.logarithmic(1e-3, 0.5);
+  const Vector3d heading = set_motion(random, approach, c);
+  if (random.chance(0.3)) {
+    c.A.position = random.logarithmic(1.0, 1e6) * c.size() * random.direction();
+  }
+  // B's box is put where the gap between the first boxes is about as wanted.
+  Real apart = c.size() + gap;
+  for (int i = 0; i < 8; ++i) {
+    const RealVector origin = c.A.position.cast<Real>();
+    const RealVector offset = real_box(c.A, 0, c.t, origin).centre + apart * heading.cast<Real>() -
+                              real_box(c.B, 0, c.t, origin).centre;
+    c.B.position += offset.cast<double>();
+    apart = std::max(0.0L, apart + gap - c.distance(0, 0, c.t));
+  }
+  return c;
+}
+
+MovingBoxes random_moving_boxes(Random& random) {
+  const int style = static_cast<int>(random.uniform(0.0, 4.0));
+  return random_moving_boxes(random, static_cast<Approach>(style));
+}
+
+}  // namespace firstcontact::test

@@ -1,0 +1,110 @@
+/// @file
+/// Pairs of bodies made of boxes that come near each other, and where their boxes really are:
+/// computed from the numbers that define the motion, in extended precision, by no code of ours.
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/motion/motion.h>
+
+namespace firstcontact::test {
+
+using Real = long double;
+using RealVector = Eigen::Matrix<Real, 3, 1>;
+using RealMatrix = Eigen::Matrix<Real, 3, 3>;
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  double logarithmic(double low, double high) {
+    return low * std::pow(high / low, uniform(0.0, 1.0));
+  }
+  Eigen::Vector3d direction() {
+    const double z = uniform(-1.0, 1.0);
+    const double angle = uniform(0.0, 2.0 * std::numbers::pi);
+    return {std::sqrt(1.0 - z * z) * std::cos(angle), std::sqrt(1.0 - z * z) * std::sin(angle), z};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A body of one node: four boxes, and its motion as the numbers that define it.
+struct Body {
+  Hierarchy hierarchy;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the body origin at t = 0
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] const HierarchyNode& node() const { return hierarchy.nodes[0]; }
+  [[nodiscard]] Motion motion() const {
+    return Motion::constant_velocity({position, rotation}, translation, rotation_vector);
+  }
+};
+
+struct RealBox {
+  RealVector centre;
+  RealMatrix axes;  // one per column
+  RealVector extent;
+
+  [[nodiscard]] RealVector nearest(const RealVector& p) const {
+    const RealVector local = axes.transpose() * (p - centre);
+    return centre + axes * local.cwiseMax(-extent).cwiseMin(extent);
+  }
+};
+
+/// The box at time t; positions relative to `origin`.
+[[nodiscard]] RealBox real_box(const Body& body, int slot, Real t, const RealVector& origin);
+
+/// The distance of a point of each, the nearest that alternating projections find: never below the
+/// distance of the boxes.
+[[nodiscard]] Real distance_of_points(const RealBox& a, const RealBox& b);
+
+/// Two bodies of which the first boxes come near each other at t.
+struct MovingBoxes {
+  Body A;
+  Body B;
+  double t = 0.0;
+  double threshold = 0.0;  // [m]
+
+  [[nodiscard]] Real distance(int i, int j, Real at) const {
+    const RealVector origin = A.position.cast<Real>();
+    return distance_of_points(real_box(A, i, at, origin), real_box(B, j, at, origin));
+  }
+
+  /// [m]  Of the first boxes together.
+  [[nodiscard]] double size() const {
+    const RealVector a = real_box(A, 0, 0.0L, RealVector::Zero()).extent;
+    const RealVector b = real_box(B, 0, 0.0L, RealVector::Zero()).extent;
+    return static_cast<double>(a.norm() + b.norm()) + 1e-6 * (A.hierarchy.unit + B.hierarchy.unit);
+  }
+};
+
+/// How B comes to a face of A. But for `any`, the bounds have no room but their slack.
+enum class Approach {
+  any,
+  straight,
+  spinning,  ///< About the face's normal, so that points are fast, but not towards the face.
+  swinging,  ///< Around an axis in the face, at first along it: only the acceleration counts.
+};
+
+/// Sizes from 1e-6 m to 1e6 m, some pairs far from the origin; thick and flat boxes, needles,
+/// points.
+[[nodiscard]] MovingBoxes random_moving_boxes(Random& random, Approach approach);
+[[nodiscard]] MovingBoxes random_moving_boxes(Random& random);
+
+}  // namespace firstcontact::test
