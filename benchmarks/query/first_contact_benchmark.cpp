@@ -117,6 +117,13 @@ class Comparison {
     evict_caches();
     const double cold = time_of(query);
     const double warm = quantile({time_of(query), time_of(query), time_of(query)}, 0.5);
+    const auto query_without_list = [&] {
+      first_contact({shape_, motion_A}, {shape_, motion_B}, workspace_, without_list_,
+                    result_without_list_);
+    };
+    const double without_list = quantile(
+        {time_of(query_without_list), time_of(query_without_list), time_of(query_without_list)},
+        0.5);
     PeerAnswer truth;
     const double loop = time_of([&] { truth = fcl_.distance_loop(pair, kTolerance); });
     PeerAnswer oriented;
@@ -125,6 +132,7 @@ class Comparison {
     const bool hit = truth.contact;
     times_["firstcontact, cold"].add(cold, hit);
     times_["firstcontact, warm"].add(warm, hit);
+    times_["firstcontact, warm, without the list of contacts"].add(without_list, hit);
     const auto add_peer = [&](const std::string& peer, double time) {
       times_[peer].add(time, hit);
       ratios_[peer]["cold"].add(time / cold, hit);
@@ -189,6 +197,8 @@ class Comparison {
   FirstContactOptions options_ = {.tolerance = kTolerance};
   Workspace workspace_;
   FirstContactResult result_;
+  FirstContactOptions without_list_ = {.tolerance = kTolerance, .contacts = ContactState::first};
+  FirstContactResult result_without_list_;
   std::map<std::string, Sample> times_;
   std::map<std::string, std::map<std::string, Sample>> ratios_;  // by peer, then cold and warm
   std::map<std::string, Verdicts> verdicts_;
