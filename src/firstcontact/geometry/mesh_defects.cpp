@@ -81,7 +81,7 @@ void count_edges(const Mesh& mesh, MeshDefects& defects) {
   defects.consistently_oriented = true;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const std::size_t end = table.first[v + 1];
-    std::sort(table.runs.begin() + table.first[v], table.runs.begin() + end);
+    std::sort(table.runs.data() + table.first[v], table.runs.data() + end);
     for (std::size_t i = table.first[v]; i < end;) {
       const std::size_t begin = i;
       std::size_t backward = 0;
