@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "plot_axis.h"
 #include "print_result.h"
 #include "quantity_text.h"
 
@@ -40,25 +41,6 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// An axis from 0 to a round number, with ticks at round numbers.
-struct Axis {
-  Unit unit;
-  double end;   // In units.
-  double step;  // In units.
-};
-
-/// @param greatest  [SI]  what must fit
-/// @param exact     whether the axis ends there, rather than at the next tick
-Axis make_axis(double greatest, Unit unit, bool exact) {
-  const double end = greatest > 0.0 ? greatest / unit.size : 1.0;
-  const double magnitude = std::pow(10.0, std::floor(std::log10(end / 4.0)));
-  double step = magnitude;
-  for (const double factor : {2.0, 5.0, 10.0}) {
-    step = end / step > 6.0 ? factor * magnitude : step;
-  }
-  return {.unit = unit, .end = exact ? end : std::ceil(end / step - 1e-9) * step, .step = step};
-}
-
 double greatest_distance(const std::vector<GapSample>& curve) {
   double greatest = 0.0;
   for (const GapSample& sample : curve) {
@@ -72,9 +54,9 @@ class Plot {
   explicit Plot(const SceneAnswer& answer)
       : answer_(answer),
         duration_(answer.loaded.scene.duration),
-        time_(make_axis(duration_, time_unit(duration_), true)),
+        time_(make_axis(duration_, time_unit(duration_), AxisEnd::at_greatest)),
         gap_(make_axis(1.04 * greatest_distance(answer.curve),
-                       length_unit(greatest_distance(answer.curve)), false)) {}
+                       length_unit(greatest_distance(answer.curve)), AxisEnd::at_tick)) {}
 
   std::string draw(std::string_view title) {
     print(
@@ -127,13 +109,13 @@ class Plot {
   }
 
   void axes() {
-    for (double tick = 0.0; tick <= gap_.end * (1 + 1e-9); tick += gap_.step) {
+    for (const double tick : gap_.ticks) {
       const double at = y(tick * gap_.unit.size);
       print(R"(<path d="M{} {:.1f}H{}" stroke="#ccd3d8" stroke-width="0.7"/>)", kLeft, at,
             kWidth - kRight);
       text(kLeft - 8, at + 4, "end", fmt::format("{:.4g}", tick));
     }
-    for (double tick = 0.0; tick <= time_.end * (1 + 1e-9); tick += time_.step) {
+    for (const double tick : time_.ticks) {
       const double at = x(tick / time_.end);
       print(R"(<path d="M{:.1f} {}v5" stroke="#333"/>)", at, kHeight - kBottom);
       text(at, kHeight - kBottom + 20, "middle", fmt::format("{:.4g}", tick));
@@ -204,8 +186,8 @@ class Plot {
 
   const SceneAnswer& answer_;
   double duration_;
-  Axis time_;
-  Axis gap_;
+  PlotAxis time_;
+  PlotAxis gap_;
   std::string text_;
 };
 

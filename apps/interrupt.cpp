@@ -1,11 +1,12 @@
 #include "interrupt.h"
 
 #include <cstdlib>
+#include <functional>
 
 namespace firstcontact::app {
 namespace {
 
-void watch(const std::stop_token& over, sigset_t signals, std::stop_source source) {
+void watch(const std::stop_token& over, const sigset_t& signals, std::stop_source& source) {
   for (bool first = true;; first = false) {
     int signal = 0;
     sigwait(&signals, &signal);
@@ -26,7 +27,7 @@ Interrupt::Interrupt() {
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  watcher_ = std::jthread(watch, signals_, source_);
+  watcher_ = std::jthread(watch, std::cref(signals_), std::ref(source_));
 }
 
 Interrupt::~Interrupt() {

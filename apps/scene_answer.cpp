@@ -10,6 +10,7 @@ namespace firstcontact::app {
 namespace {
 
 constexpr std::size_t kCurveSamples = 241;
+constexpr int kHalvings = 8;  // Down to 1/100 of what is seen.
 
 void override_options(const Question& question, SceneOptions& options) {
   options.margin = question.margin.value_or(options.margin);
@@ -30,7 +31,8 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
 std::vector<double> curve_times(double focus) {
   std::vector<double> times = even_times(kCurveSamples);
   times.push_back(focus);
-  for (double offset = 0.5 / static_cast<double>(kCurveSamples); offset > 1e-5; offset /= 2.0) {
+  for (int halvings = 0; halvings < kHalvings; ++halvings) {
+    const double offset = std::ldexp(0.5 / static_cast<double>(kCurveSamples), -halvings);
     times.push_back(std::max(focus - offset, 0.0));
     times.push_back(std::min(focus + offset, 1.0));
   }

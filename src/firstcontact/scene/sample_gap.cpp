@@ -28,7 +28,7 @@ GapSample sample(const LoadedScene& loaded, double t, Workspace& workspace) {
 }  // namespace
 
 std::vector<GapSample> sample_gap(const LoadedScene& loaded, std::span<const double> times,
-                                  Workspace& workspace, std::stop_token stop) {
+                                  Workspace& workspace, const std::stop_token& stop) {
   std::vector<GapSample> samples;
   samples.reserve(times.size());
   for (const double t : times) {

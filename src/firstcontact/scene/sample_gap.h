@@ -29,7 +29,7 @@ struct GapSample {
 [[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> sample_gap(const LoadedScene& loaded,
                                                                  std::span<const double> times,
                                                                  Workspace& workspace,
-                                                                 std::stop_token stop = {});
+                                                                 const std::stop_token& stop = {});
 
 /// `count` times from 0 to 1 at equal distances; at least 2.
 [[nodiscard]] FIRSTCONTACT_API std::vector<double> even_times(std::size_t count);

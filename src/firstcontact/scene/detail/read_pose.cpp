@@ -14,8 +14,8 @@ Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& rea
   if (elements.size() != 4) {
     read.fail_expected(expected, value);
   }
-  const Eigen::Quaterniond q(read.number(elements[0]), read.number(elements[1]),
-                             read.number(elements[2]), read.number(elements[3]));
+  Eigen::Quaterniond q(read.number(elements[0]), read.number(elements[1]), read.number(elements[2]),
+                       read.number(elements[3]));
   const double largest = q.coeffs().cwiseAbs().maxCoeff();
   // What a motion can normalise exactly.
   if (!(largest >= 1e-60 && largest <= 1e60)) {

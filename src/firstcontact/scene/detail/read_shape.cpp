@@ -46,7 +46,7 @@ std::filesystem::path read_mesh_path(const JsonValue& value, const SceneFolders&
   if (name.starts_with(kPackage)) {
     return find_in_packages(value, name, folders, read);
   }
-  const std::filesystem::path path = folders.scene / name;
+  std::filesystem::path path = folders.scene / name;
   if (!is_file(path)) {
     read.fail(value, "expected a mesh file, found none at " + in_quotes(path.string()));
   }

@@ -1,0 +1,36 @@
+#include "plot_axis.h"
+
+#include <cmath>
+
+namespace firstcontact::app {
+namespace {
+
+constexpr double kMostSteps = 6.0;
+
+/// The least round number that divides a length into a few steps.
+double round_step(double length) {
+  const double magnitude = std::pow(10.0, std::floor(std::log10(length / kMostSteps)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (length <= kMostSteps * factor * magnitude) {
+      return factor * magnitude;
+    }
+  }
+  return 10.0 * magnitude;
+}
+
+}  // namespace
+
+PlotAxis make_axis(double greatest, Unit unit, AxisEnd end) {
+  constexpr double kRounding = 1e-9;  // Of a step: what the quotients may be off.
+  const double length = greatest > 0.0 ? greatest / unit.size : 1.0;
+  const double step = round_step(length);
+  const double steps = end == AxisEnd::at_tick ? std::ceil(length / step - kRounding)
+                                               : std::floor(length / step + kRounding);
+  PlotAxis axis{.unit = unit, .end = end == AxisEnd::at_tick ? steps * step : length, .ticks = {}};
+  for (int k = 0; k <= static_cast<int>(steps); ++k) {
+    axis.ticks.push_back(k * step);
+  }
+  return axis;
+}
+
+}  // namespace firstcontact::app
