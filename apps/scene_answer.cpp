@@ -6,10 +6,12 @@
 
 #include <fmt/core.h>
 
+#include "parallel_sampling.h"
+
 namespace firstcontact::app {
 namespace {
 
-constexpr std::size_t kCurveSamples = 241;
+constexpr std::size_t kCurveSamples = 161;
 constexpr int kHalvings = 8;  // Down to 1/100 of what is seen.
 
 void override_options(const Question& question, SceneOptions& options) {
@@ -59,13 +61,13 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
   if (question.sample_rate) {
     question.doing("sampling " + answer.loaded.scene.id);
     const auto times = times_at_rate(*question.sample_rate, answer.loaded.scene.duration);
-    answer.samples = sample_gap(answer.loaded, times, workspace, question.stop);
+    answer.samples = sample_in_parallel(answer.loaded, times, question.stop);
     answer.sampling = report_sampling(*question.sample_rate, answer.samples);
   }
   if (question.plot) {
     question.doing("plotting " + answer.loaded.scene.id);
     answer.curve =
-        sample_gap(answer.loaded, curve_times(focus_of(answer.result)), workspace, question.stop);
+        sample_in_parallel(answer.loaded, curve_times(focus_of(answer.result)), question.stop);
   }
   return answer;
 }

@@ -13,4 +13,6 @@ run(${CMAKE_COMMAND} --build ${build})
 run(${build}/consumer)
 
 # The installed tool finds its library.
-run(${prefix}/bin/firstcontact --version)
+if(WITH_TOOL)
+  run(${prefix}/bin/firstcontact --version)
+endif()

@@ -1,0 +1,42 @@
+#include "parallel_sampling.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <future>
+#include <thread>
+
+namespace firstcontact::app {
+namespace {
+
+/// Every `stride`-th of the times.
+std::vector<double> every(std::span<const double> times, std::size_t first, std::size_t stride) {
+  std::vector<double> some;
+  for (std::size_t k = first; k < times.size(); k += stride) {
+    some.push_back(times[k]);
+  }
+  return some;
+}
+
+}  // namespace
+
+std::vector<GapSample> sample_in_parallel(const LoadedScene& loaded, std::span<const double> times,
+                                          const std::stop_token& stop) {
+  const std::size_t count = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::future<std::vector<GapSample>>> parts;
+  for (std::size_t k = 0; k < count; ++k) {
+    parts.push_back(std::async(std::launch::async, [&, k] {
+      Workspace workspace;
+      return sample_gap(loaded, every(times, k, count), workspace, stop);
+    }));
+  }
+  std::vector<GapSample> samples;
+  for (auto& part : parts) {
+    const std::vector<GapSample> some = part.get();
+    samples.insert(samples.end(), some.begin(), some.end());
+  }
+  std::sort(samples.begin(), samples.end(),
+            [](const GapSample& a, const GapSample& b) { return a.t < b.t; });
+  return samples;
+}
+
+}  // namespace firstcontact::app

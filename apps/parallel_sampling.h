@@ -1,0 +1,20 @@
+/// @file
+/// Samples of the gap, by all processors.
+
+#pragma once
+
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+
+namespace firstcontact::app {
+
+/// As sample_gap; the same for every number of processors. A stop leaves samples out.
+[[nodiscard]] std::vector<GapSample> sample_in_parallel(const LoadedScene& loaded,
+                                                        std::span<const double> times,
+                                                        const std::stop_token& stop);
+
+}  // namespace firstcontact::app
