@@ -9,11 +9,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <firstcontact/query/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
+#include "query/instruction_sets.h"
 #include "query/moving_boxes.h"
 
 namespace firstcontact::detail {
@@ -55,18 +55,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Runs on one instruction set, named by Highway.
-class BoxBoundsOn : public testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { choose(GetParam()); }
-  void TearDown() override { choose(0); }  // All that the processor has.
-
- private:
-  static void choose(std::int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
+using BoxBoundsOn = test::OnInstructionSet;
 
 // Sound: until the bound has passed, the boxes are farther apart than the threshold.
 TEST_P(BoxBoundsOn, TimeIsNeverLate) {
@@ -203,17 +192,8 @@ TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
   }
 }
 
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> single;
-  for (std::int64_t all = box_bounds_targets(); all != 0; all &= all - 1) {
-    single.push_back(all & -all);
-  }
-  return single;
-}
-
-INSTANTIATE_TEST_SUITE_P(, BoxBoundsOn, testing::ValuesIn(targets()), [](const auto& target) {
-  return std::string(hwy::TargetName(target.param));
-});
+INSTANTIATE_TEST_SUITE_P(, BoxBoundsOn, testing::ValuesIn(test::instruction_sets()),
+                         test::instruction_set_name);
 
 }  // namespace
 }  // namespace firstcontact::detail

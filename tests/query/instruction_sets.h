@@ -1,0 +1,42 @@
+/// @file
+/// The instruction sets that the kernel was compiled for and this processor has, one at a time.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <firstcontact/query/detail/box_bounds.h>
+
+namespace firstcontact::test {
+
+/// Runs a test on one of them, its parameter.
+class OnInstructionSet : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override { choose(GetParam()); }
+  void TearDown() override { choose(0); }  // All that the processor has.
+
+ private:
+  static void choose(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+inline std::vector<std::int64_t> instruction_sets() {
+  std::vector<std::int64_t> sets;
+  for (std::int64_t all = detail::box_bounds_targets(); all != 0; all &= all - 1) {
+    sets.push_back(all & -all);
+  }
+  return sets;
+}
+
+inline std::string instruction_set_name(const testing::TestParamInfo<std::int64_t>& set) {
+  return hwy::TargetName(set.param);
+}
+
+}  // namespace firstcontact::test
