@@ -95,20 +95,6 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
 
 }  // namespace
 
-double time_to_close(double gap, double speed, double half_acceleration) {
-  if (!(gap > 0.0)) {
-    return 0.0;
-  }
-  const double denominator = speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
-  if (speed <= 0.0 && half_acceleration == 0.0) {
-    return kInfinity;
-  }
-  // A receding pair's denominator cancels: speed and root agree in their leading digits. Its own
-  // rounding, 4 units of the larger term, then goes to the safe side.
-  const double tau = 2.0 * gap / (denominator + 0x1p-50 * std::abs(speed)) * (1.0 - 0x1p-44);
-  return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
-}
-
 double advance(const RelativeMotion& motion, const RelativeState& state, const TrianglePair& pair,
                const Vector3d& n, double threshold, double error, double t, double t_end) {
   const Reach reach = reach_of(pair, state);

@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include <Eigen/Core>
 
 #include <firstcontact/math/export.h>
@@ -16,7 +19,19 @@ namespace firstcontact {
 ///
 /// In the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)), which does not cancel for closing pairs and also
 /// holds for receding ones.
-FIRSTCONTACT_API double time_to_close(double gap, double speed, double half_acceleration);
+inline double time_to_close(double gap, double speed, double half_acceleration) {
+  if (!(gap > 0.0)) {
+    return 0.0;
+  }
+  if (speed <= 0.0 && half_acceleration == 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double denominator = speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
+  // A receding pair's denominator cancels: speed and root agree in their leading digits. Its own
+  // rounding, 4 units of the larger term, then goes to the safe side.
+  const double tau = 2.0 * gap / (denominator + 0x1p-50 * std::abs(speed)) * (1.0 - 0x1p-44);
+  return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
+}
 
 /// Two triangles at one instant of a relative motion, in the frame of the state.
 struct TrianglePair {

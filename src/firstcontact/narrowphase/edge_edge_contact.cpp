@@ -7,93 +7,86 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/narrowphase/detail/elementary_search.h>
+#include <firstcontact/narrowphase/detail/gap_bounds.h>
 #include <firstcontact/narrowphase/detail/seen_vector.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::CoplanarityValue;
-using detail::Gap;
 using detail::kUp;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 double clamp_to_unit(double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; }
+
+/// [-]  Squared sine of the angle of two edges whose product is not worth using as a direction.
+constexpr double kParallel = 1e-12;
 
 /// Edge a + u of A at rest and edge c + v of B that moves, from A's pivot in A's axes at the start.
 class TwoEdges {
  public:
   TwoEdges(const ElementaryMotion& motion, const Edge& edge_A, const Edge& edge_B)
       : motion_(motion),
-        a_(motion.A().lever + motion.A().rotation * edge_A[0]),
-        u_(motion.A().rotation * (edge_A[1] - edge_A[0])),
-        lever_B_(motion.B().lever + motion.B().rotation * edge_B[0]),
-        start_v_(motion.B().rotation * (edge_B[1] - edge_B[0])),
+        a_(motion.A.lever + motion.A.rotation * edge_A[0]),
+        u_(motion.A.rotation * (edge_A[1] - edge_A[0])),
+        lever_B_(motion.B.lever + motion.B.rotation * edge_B[0]),
+        start_v_(motion.B.rotation * (edge_B[1] - edge_B[0])),
         path_c_(detail::seen_point(motion, lever_B_)),
-        path_v_(detail::seen_vector(motion, start_v_)) {
-    bound_motion(edge_A, edge_B);
-  }
+        path_v_(detail::seen_vector(motion, start_v_)),
+        uu_(u_.squaredNorm()),
+        vv_(start_v_.squaredNorm()),
+        reach_B_(detail::longest(edge_B[0], edge_B[1])),
+        circle_B_(detail::longest(path_c_.cosine, Vector3d(path_c_.cosine + path_v_.cosine))),
+        gap_(motion, detail::longest(edge_A[0], edge_A[1]), reach_B_,
+             detail::longest(Vector2d(a_.head<2>()), Vector2d((a_ + u_).head<2>())), circle_B_) {}
 
   void move_to(double t) {
-    const detail::Turns turns = detail::turns_at(motion_, t);
-    const detail::SeenVector::State c = path_c_.at(motion_, turns);
-    const detail::SeenVector::State v = path_v_.at(motion_, turns);
-    e_ = c.value - a_;
-    v_ = v.value;
+    const detail::Turns turns(motion_, t);
+    seen_c_ = path_c_.at(turns, motion_.B.rate);
+    seen_v_ = path_v_.at(turns, motion_.B.rate);
+    e_ = seen_c_.value - a_;
+    v_ = seen_v_.value;
     normal_ = u_.cross(v_);
-    world_rate_c_ = c.rate;
-    world_rate_v_ = v.rate;
-    spin_c_ = spin_.cross(c.value);
-    spin_v_ = spin_.cross(v_);
+    axis_B_ = turns.back(motion_.axis_B);
   }
 
-  [[nodiscard]] CoplanarityValue coplanarity() const {
-    const Vector3d rate_e = world_rate_c_ - spin_c_;
-    const Vector3d rate_v = world_rate_v_ - spin_v_;
-    return {e_.dot(normal_), rate_e.dot(normal_) + e_.cross(u_).dot(rate_v), value_error_,
-            rate_error_, curvature_};
+  [[nodiscard]] detail::Taylor coplanarity() const {
+    const double w_A = motion_.A.rate;
+    const Vector3d rate_e = detail::relative_rate(seen_c_, w_A);
+    const Vector3d rate_v = detail::relative_rate(seen_v_, w_A);
+    return {e_.dot(normal_), rate_e.dot(normal_) + e_.cross(u_).dot(rate_v)};
+  }
+  /// f = u . (v x c) - (a x u) . v + (offset + tau drift) . (u x v), c here from B's pivot.
+  [[nodiscard]] const detail::TaylorBounds& coplanarity_bounds() {
+    if (!bounded_) {
+      bound_coplanarity();
+      bounded_ = true;
+    }
+    return bounds_;
   }
 
-  /// Along the nearest points' direction, which stands still in the world.
-  [[nodiscard]] double separated_for() const {
+  /// Along the direction between the nearest points, which stands still in the world.
+  [[nodiscard]] detail::Gaps<4> gaps() const {
     const Vector3d d = between_nearest_points();
-    const double distance = d.norm();
-    if (!(distance > position_error_)) {
-      return 0.0;
-    }
-    const Vector3d n = d / distance;
-    const Vector3d turn = spin_.cross(n);  // A point p of A moves along n at -p . turn.
-    const double half_acceleration =
-        0.5 * (fixed_acceleration_ + motion_.A().rate * turn.norm() * reach_A_ + unsteadiness_) *
-        kUp;
-    const double gap = n.dot(e_) - position_error_;
-    const double speed = slip_ - n.dot(world_rate_c_) - turn.dot(a_);
-    const double gap_u = -n.dot(u_);
-    const double speed_u = -turn.dot(u_);
-    const double gap_v = n.dot(v_);
-    const double speed_v = -n.dot(world_rate_v_);
-    double time = std::numeric_limits<double>::infinity();
-    for (const Gap& corners :
-         {Gap{gap, speed, half_acceleration}, Gap{gap + gap_u, speed + speed_u, half_acceleration},
-          Gap{gap + gap_v, speed + speed_v, half_acceleration},
-          Gap{gap + gap_u + gap_v, speed + speed_u + speed_v, half_acceleration}}) {
-      if (!corners.open_for(time)) {
-        time = corners.time_open();
-      }
-    }
-    return time;
+    // A point p of A moves at rate z x p, along d at -p . turn.
+    const Vector3d turn(-motion_.A.rate * d.y(), motion_.A.rate * d.x(), 0.0);
+    const detail::Taylor ac{d.dot(e_), d.dot(seen_c_.rate) + turn.dot(a_)};
+    const detail::Taylor u{-d.dot(u_), turn.dot(u_)};
+    const detail::Taylor v{d.dot(v_), d.dot(seen_v_.rate)};
+    return {{ac, ac + u, ac + v, ac + u + v}, gap_.along(d, axis_B_)};
   }
 
   /// Derivation: coplanar lines that are not parallel cross at a + s u = c + r v with
   /// s |N|^2 = (e x v) . N, r |N|^2 = (e x u) . N, N = u x v. Each product changes by no more than
   /// the product of its factors' greatest lengths times the sum of their relative changes.
   [[nodiscard]] bool meet_if_coplanar(double duration) const {
-    const double e_change = speed_bound_ * duration * kUp + position_error_;
+    const double e_change = speed_bound_ * duration * kUp + gap_.position_error;
     const double turn_change =
-        2.0 * (motion_.A().rate + motion_.B().rate) * duration * kUp + 8.0 * motion_.rounding();
+        2.0 * (motion_.A.rate + motion_.B.rate) * duration * kUp + 8.0 * motion_.rounding;
     const double e_length = e_.norm() + e_change;
     const double grown = (1.0 + turn_change) * (1.0 + turn_change) * kUp;
-    const double uu = u_.squaredNorm() * grown;
-    const double vv = v_.squaredNorm() * grown;
+    const double uu = uu_ * grown;
+    const double vv = vv_ * grown;
     const double uv = std::sqrt(uu * vv);
     const double change = (e_change + e_length * turn_change) * uv * kUp;
     const double nn = normal_.squaredNorm();
@@ -107,60 +100,52 @@ class TwoEdges {
   }
 
  private:
-  /// All bounds that hold to the end of the piece.
-  void bound_motion(const Edge& edge_A, const Edge& edge_B) {
-    const Vector3d& u_A = motion_.A().axis;
-    const Vector3d& u_B = motion_.B().axis;
-    const double w_A = motion_.A().rate;
-    const double w_B = motion_.B().rate;
-    const double length_u = u_.norm();
-    const double length_v = start_v_.norm();
-    const double drift = motion_.drift().norm();
-    const double body_reach_A =
-        motion_.A().lever.norm() + std::max(edge_A[0].norm(), edge_A[1].norm());
-    const double body_reach_B =
-        motion_.B().lever.norm() + std::max(edge_B[0].norm(), edge_B[1].norm());
-    reach_A_ = std::max(a_.norm(), (a_ + u_).norm());
-    const double swing_B = std::max(path_c_.swing, (path_c_.cosine + path_v_.cosine).norm());
-    const double size = (body_reach_A + body_reach_B + motion_.offset_bound()) * kUp;
-    const double speed = drift + w_B * swing_B;
-    spin_ = w_A * u_A;
-    speed_bound_ = (speed + w_A * (motion_.offset_bound() + lever_B_.norm())) * kUp;
-    position_error_ = motion_.rounding() * size + motion_.position_error() +
-                      motion_.A().rotation_error * body_reach_A +
-                      motion_.B().rotation_error * body_reach_B;
-    slip_ = motion_.rounding() * (speed + (w_A + w_B) * size) + (w_A + w_B) * position_error_;
-    unsteadiness_ = slip_ * (w_A + w_B);
-    fixed_acceleration_ = w_B * w_B * swing_B * kUp;
-    // The rounding of N = u x v and of e' are relative to their factors.
-    const double lengths = length_u * length_v * kUp;
-    value_error_ = lengths * (position_error_ + 4.0 * motion_.rounding() * size);
-    rate_error_ =
-        lengths * (2.0 * slip_ + 4.0 * motion_.rounding() * (speed_bound_ + (w_A + w_B) * size));
-    // f = u . (v x c_B) - (a x u) . v + (offset + tau drift) . (u x v).
-    const detail::Oscillation oscillation(motion_);
-    const detail::Parts u = detail::parts(u_, u_A);
-    const detail::Parts v = detail::parts(start_v_, u_B);
-    curvature_ = (oscillation.of_dot(u, detail::parts(start_v_.cross(lever_B_), u_B)) +
-                  oscillation.of_dot(detail::parts(a_.cross(u_), u_A), v) +
-                  motion_.offset_bound() * oscillation.of_cross(u, v) +
-                  2.0 * drift * oscillation.rate_of_cross(u, v) + 8.0 * lengths * unsteadiness_) *
-                 kUp;
+  void bound_coplanarity() {
+    const double w_A = motion_.A.rate;
+    const double w_B = motion_.B.rate;
+    speed_bound_ = (motion_.drift_length + w_B * circle_B_ +
+                    w_A * (motion_.offset_bound + motion_.B.lever_length + reach_B_)) *
+                   kUp;
+    // The rounding of u x v and of e' is relative to their factors.
+    const double lengths = std::sqrt(uu_ * vv_) * kUp;
+    bounds_.value_error = lengths * (gap_.position_error + 4.0 * motion_.rounding * gap_.size);
+    bounds_.rate_error = lengths * (2.0 * gap_.slip + 4.0 * motion_.rounding *
+                                                          (speed_bound_ + (w_A + w_B) * gap_.size));
+    const AxialParts u = axial_parts(u_, Vector3d::UnitZ());
+    const AxialParts v = axial_parts(start_v_, motion_.axis_B);
+    const AxialParts moment_u = axial_parts(a_.cross(u_), Vector3d::UnitZ());
+    const AxialParts moment_v = axial_parts(start_v_.cross(lever_B_), motion_.axis_B);
+    const Oscillation& oscillation = motion_.oscillation;
+    bounds_.curvature =
+        (oscillation.dot_derivative(2, u, moment_v) + oscillation.dot_derivative(2, moment_u, v) +
+         motion_.offset_bound * oscillation.cross_derivative(2, u, v) +
+         2.0 * motion_.drift_length * oscillation.cross_derivative(1, u, v) +
+         8.0 * lengths * gap_.unsteadiness) *
+        kUp;
   }
 
-  /// From the point of A's edge to that of B's. One parameter comes from the normal equations, then
-  /// each is made the best for the other, which also serves near-parallel edges.
+  /// Between the nearest features: along the product of the edges, or across one from a corner, or
+  /// between two corners; of any length. Stays accurate where they touch. One parameter comes from
+  /// the normal equations, then each is made the best for the other, which also serves
+  /// near-parallel edges.
   [[nodiscard]] Vector3d between_nearest_points() const {
-    const double uu = u_.squaredNorm();
-    const double vv = v_.squaredNorm();
     const double uv = u_.dot(v_);
     const double ue = u_.dot(e_);
     const double ve = v_.dot(e_);
-    const double determinant = uu * vv - uv * uv;
-    double s = determinant > 0.0 ? clamp_to_unit((ue * vv - ve * uv) / determinant) : 0.0;
-    const double r = vv > 0.0 ? clamp_to_unit((s * uv - ve) / vv) : 0.0;
-    s = uu > 0.0 ? clamp_to_unit((r * uv + ue) / uu) : 0.0;
-    return e_ + r * v_ - s * u_;
+    const double determinant = uu_ * vv_ - uv * uv;
+    double s = determinant > 0.0 ? clamp_to_unit((ue * vv_ - ve * uv) / determinant) : 0.0;
+    const double r = vv_ > 0.0 ? clamp_to_unit((s * uv - ve) / vv_) : 0.0;
+    s = uu_ > 0.0 ? clamp_to_unit((r * uv + ue) / uu_) : 0.0;
+    const bool inside_u = s > 0.0 && s < 1.0;
+    const bool inside_v = r > 0.0 && r < 1.0;
+    if (inside_u && inside_v && determinant > kParallel * uu_ * vv_) {
+      return e_.dot(normal_) < 0.0 ? Vector3d(-normal_) : normal_;
+    }
+    const Vector3d d = e_ + r * v_ - s * u_;
+    if (inside_u) {
+      return d - (d.dot(u_) / uu_) * u_;
+    }
+    return inside_v ? Vector3d(d - (d.dot(v_) / vv_) * v_) : d;
   }
 
   const ElementaryMotion& motion_;
@@ -171,24 +156,21 @@ class TwoEdges {
   detail::SeenVector path_c_;
   detail::SeenVector path_v_;
 
-  Vector3d spin_;
-  double reach_A_;
-  double fixed_acceleration_;
-  double unsteadiness_;
-  double speed_bound_;
-  double position_error_;
-  double slip_;
-  double value_error_;
-  double rate_error_;
-  double curvature_;
+  double uu_;
+  double vv_;
+  double reach_B_;
+  double circle_B_;
+  detail::GapBounds gap_;
+  bool bounded_ = false;
+  double speed_bound_ = 0.0;
+  detail::TaylorBounds bounds_;
 
+  detail::SeenVector::State seen_c_;
+  detail::SeenVector::State seen_v_;
   Vector3d e_;
   Vector3d v_;
   Vector3d normal_;
-  Vector3d world_rate_c_;
-  Vector3d world_rate_v_;
-  Vector3d spin_c_;
-  Vector3d spin_v_;
+  Vector3d axis_B_;
 };
 
 }  // namespace
@@ -196,7 +178,7 @@ class TwoEdges {
 ElementaryContact edge_edge_contact(const ElementaryMotion& motion, const Edge& edge_A,
                                     const Edge& edge_B, const ElementaryOptions& options) {
   TwoEdges pair(motion, edge_A, edge_B);
-  return detail::search_contact(pair, motion, options);
+  return detail::ElementarySearch(pair, motion, options).run();
 }
 
 }  // namespace firstcontact

@@ -14,12 +14,12 @@ namespace firstcontact {
 /// When does vertex p of body B first lie on a face abc of body A?
 ///
 /// The coplanarity function f(t) = (p - a) . ((b - a) x (c - a)) is seen from A, where the face
-/// stands still: f(t') lies above its tangent at t less K (t' - t)^2 / 2, where K bounds |f''| in
-/// closed form for any number of turns (detail/seen_vector.h). Each step goes to where that
-/// parabola, or the gap along another direction, closes; near a simple root the steps are
-/// Newton's. A root of f is a contact where p is inside the face on all of the isolating interval.
-/// Exact contacts with the face's border, tangential ones and slides within the plane (f = 0
-/// throughout) cannot be proven in rounded arithmetic; `existence_proven` and `degenerate` say so.
+/// stands still. A bound K of |f''| (oscillation.h) puts f between two parabolas; where these fall
+/// through 0, the root of f is isolated, and f keeps its sign back to twice as far as |f'| / K.
+/// Steps along the gap from the face's nearest point lead there; near the root they are Newton's.
+/// It is a contact where p is inside the face on all of the isolating interval. Exact contacts with
+/// the face's border, tangential ones and slides within the plane (f = 0 throughout) cannot be
+/// proven in rounded arithmetic; `existence_proven` and `degenerate` say so.
 ///
 /// Sources: J. Canny, "Collision detection for moving polyhedra", IEEE Trans. PAMI 8 (1986), for
 /// the equations; S. Redon, A. Kheddar, S. Coquillart, "Fast continuous collision detection between

@@ -1,127 +1,225 @@
 /// @file
-/// The search that the elementary tests share: advance along a coplanarity function and along
-/// separating directions, whichever reaches farther, until the first root is isolated.
+/// The search that the elementary tests share.
 
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <firstcontact/math/interval.h>
-#include <firstcontact/narrowphase/advance.h>
+#include <firstcontact/narrowphase/detail/taylor.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
 
 namespace firstcontact::detail {
 
-/// A coplanarity function f at one time, with what is known about it there.
-struct CoplanarityValue {
-  double value = 0.0;
-  double rate = 0.0;         ///< f'
-  double value_error = 0.0;  ///< Bounds of |computed - exact|.
-  double rate_error = 0.0;
-  double curvature = 0.0;  ///< Bound of |f''| up to the end of the piece.
-};
+/// Gaps of pairs of corners along one direction, at one time.
+template <std::size_t N>
+struct Gaps {
+  std::array<Taylor, N> corners;
+  TaylorBounds bounds;
 
-/// What a parabola on either side says about the first root of g = side f after t.
-struct RootBracket {
-  double lower = 0.0;  ///< g > 0 on [t, t + lower].
-  double upper = 0.0;  ///< Where `closes`: g' < 0 on [t, t + upper] and g(t + upper) <= 0.
-  bool closes = false;
-};
-
-/// g(t + x) lies between g +- (c x +- K x^2 / 2), c = -g'. The upper parabola reaches 0 at
-/// x = 2 g / (c + sqrt(c^2 - 2 K g)) <= c / K, so that g' < 0 until there.
-inline RootBracket root_bracket(const CoplanarityValue& f, int side) {
-  const double g = side * f.value;
-  const double closing = -side * f.rate;
-  RootBracket bracket;
-  bracket.lower = time_to_close(g - f.value_error, closing + f.rate_error, 0.5 * f.curvature);
-  const double c = (closing - f.rate_error) * (1.0 - 0x1p-50);
-  const double g_upper = std::max(g + f.value_error, 0.0) * (1.0 + 0x1p-50);
-  const double discriminant = c * c * (1.0 - 0x1p-48) - 2.0 * f.curvature * g_upper;
-  if (c > 0.0 && discriminant > 0.0) {
-    bracket.closes = true;
-    bracket.upper = 2.0 * g_upper / (c + std::sqrt(discriminant)) * (1.0 + 0x1p-44);
+  /// For how long all provably stay open.
+  [[nodiscard]] double time_open() const {
+    double time = time_positive(corners[0], bounds);
+    for (std::size_t k = 1; k < N; ++k) {
+      if (!positive_for(corners[k], bounds, time)) {
+        time = std::min(time, time_positive(corners[k], bounds));
+      }
+    }
+    return time;
   }
-  return bracket;
-}
 
-/// A gap along a direction: its value now less its error, the speed at which it closes, and half
-/// the bound of its acceleration.
-struct Gap {
-  double clear;
-  double speed;
-  double half_acceleration;
-
-  /// Whether the gap provably stays open for `time`; a parabola that opens downwards is least at an
-  /// end.
-  [[nodiscard]] bool open_for(double time) const {
-    const double fall = speed * time + half_acceleration * time * time;
-    return clear > 0.0 &&
-           clear - fall > 0x1p-50 * (clear + std::abs(speed) * time + std::abs(fall));
+  /// Whether all provably have been open for `duration` already.
+  [[nodiscard]] bool open_since(double duration) const {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Taylor& gap) { return positive_for(gap, bounds, -duration); });
   }
-  [[nodiscard]] double time_open() const { return time_to_close(clear, speed, half_acceleration); }
 };
 
-/// Finds where the features of `pair` first meet.
+/// Finds where the features of `Pair` first meet: goes from t to where a gap, or the sign of f, is
+/// no longer certain; near a root of f it leaps ahead, isolates the root and looks back.
 ///
-/// Pair offers: move_to(t), places the features; coplanarity(), f there; separated_for(), for how
-/// long some direction provably keeps them apart; meet_if_coplanar(duration), whether coplanar
-/// features provably meet at any time from t to t + duration.
-///
-/// Invariants: the features do not meet in [t_begin, t); side f(t) >= 0, exactly, where side != 0.
+/// Pair offers: move_to(t), places the features; coplanarity() and coplanarity_bounds(), of their
+/// function f there; gaps(), along a direction that may keep them apart;
+/// meet_if_coplanar(duration), whether the features provably meet where they are coplanar within
+/// `duration` of t.
 template <class Pair>
-ElementaryContact search_contact(Pair& pair, const ElementaryMotion& motion,
-                                 const ElementaryOptions& options) {
-  double t = std::max(options.t_begin, motion.t_begin());
-  const double t_end = std::min(options.t_end, motion.t_end());
-  int side = 0;
-  double t_upper = t_end;
-  bool meets = false;  // Proven: the root that the bracket isolates is a contact.
-  ElementaryContact result;
-  while (result.steps < options.maximum_steps && t <= t_end) {
-    ++result.steps;
-    pair.move_to(t);
-    const CoplanarityValue f = pair.coplanarity();
-    const bool known = side != 0 || std::abs(f.value) > f.value_error;
-    if (side == 0) {
-      // Within rounding of 0 the root is taken as ahead, whichever way f goes.
-      side = (known ? f.value > 0.0 : f.rate < 0.0) ? 1 : -1;
+class ElementarySearch {
+ public:
+  ElementarySearch(Pair& pair, const ElementaryMotion& motion, const ElementaryOptions& options)
+      : pair_(pair),
+        options_(options),
+        t_begin_(std::max(options.t_begin, motion.t_begin)),
+        t_end_(std::min(options.t_end, motion.t_end)),
+        t_(t_begin_),
+        t_checked_(t_begin_) {}
+
+  ElementaryContact run() {
+    if (!(t_ <= t_end_)) {
+      finish(ElementaryVerdict::free, t_end_, t_end_);
     }
-    const RootBracket bracket = root_bracket(f, side);
-    const bool isolated = known && bracket.closes && above(t + bracket.upper) <= t_end;
-    if (!meets && isolated) {
-      meets = pair.meet_if_coplanar(bracket.upper);
+    while (!done_ && may_step() && !stalls()) {
+      step();
     }
-    if (bracket.closes) {
-      t_upper = meets ? std::min(t_upper, above(t + bracket.upper)) : above(t + bracket.upper);
+    if (!done_) {
+      finish(ElementaryVerdict::degenerate, t_, t_);
     }
-    const double apart = meets ? 0.0 : pair.separated_for();
-    const double next = below(t + std::max(bracket.lower, apart));
-    if (meets) {
-      const double t_lower = std::max(t, next);
-      if (t_upper - t_lower <= options.time_tolerance || !(next > t)) {
-        return {ElementaryVerdict::contact, t_lower, t_upper, true, result.steps};
-      }
-    } else if (next >= t_end) {
-      return {ElementaryVerdict::free, t_end, t_end, false, result.steps};
-    } else if (!(next > t)) {
-      // Touching up to rounding. At most one root follows before t_upper, or the window ends.
-      result.t_lower = result.t_upper = t;
-      if (bracket.closes) {
-        result.verdict = ElementaryVerdict::contact;
-        result.t_upper = std::min(t_upper, t_end);
-      }
-      return result;
-    }
-    if (!(bracket.lower >= apart)) {
-      side = 0;
-    }
-    t = next;
+    result_.steps = steps_;
+    return result_;
   }
-  result.t_lower = result.t_upper = std::min(t, t_end);
-  return result;
-}
+
+ private:
+  /// [-]  Where the gap leads as far, f would rarely lead farther.
+  static constexpr double kFar = 1.0 / 32.0;
+  /// Steps that are to gain more than the tolerance together.
+  static constexpr int kPatience = 64;
+
+  void step() {
+    const double t = t_;
+    move_to(t);
+    const double open = pair_.gaps().time_open();
+    if (open >= kFar) {
+      proceed_to(later(t, open));
+      return;
+    }
+    const Taylor f = pair_.coplanarity();
+    const Taylor g = f.value > 0.0 ? f : -f;
+    const TaylorBounds& bounds = pair_.coplanarity_bounds();
+    proceed_to(later(t, std::max(open, time_positive(g, bounds))));
+    if (done_) {
+      return;
+    }
+    // Seen from a root, its own side reaches back by 2 |f'| / K; the rate here guesses that there.
+    const double root = g.value > bounds.value_error ? t - g.value / g.rate : t;
+    if (root >= t && (root - t_) * bounds.curvature <= std::abs(g.rate)) {
+      follow_root(std::clamp(root, t_, t_end_));
+    }
+    if (!done_ && !(t_ > t)) {
+      finish(ElementaryVerdict::degenerate, t_, t_);
+    }
+  }
+
+  /// Looks at x >= t_ for a root whose own side reaches back to t_. Shrinks its bracket until the
+  /// features provably meet, or a gap leads past it, or rounding allows no more.
+  void follow_root(double x) {
+    const TaylorBounds& bounds = pair_.coplanarity_bounds();
+    Taylor g = falling(evaluate(x));
+    RootView view = root_view(g, bounds);
+    if (!(view.isolated && x - t_ <= view.reach)) {
+      proceed_along_gap(x, x);
+      return;
+    }
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
+    double curvature = 0.0;  // Of g, an estimate.
+    bool meets = false;
+    bool halved = false;
+    while (true) {
+      const double width = upper - lower;
+      if (view.isolated) {
+        lower = std::max(lower, below(x - view.behind));
+        upper = std::min(upper, above(x + view.ahead));
+      }
+      if (lower > t_end_) {
+        proceed_to(t_end_);
+        return;
+      }
+      t_ = std::max(t_, lower);
+      meets = meets || pair_.meet_if_coplanar(above(std::max(x - lower, upper - x)));
+      if (!meets && proceed_along_gap(x, upper)) {
+        return;
+      }
+      const bool shrunk = upper - lower < 0.75 * width;
+      if ((meets && upper - lower <= options_.time_tolerance) || (halved && !shrunk)) {
+        finish(ElementaryVerdict::contact, t_, std::max(t_, std::min(upper, t_end_)));
+        result_.existence_proven = meets && lower >= t_begin_ && upper <= t_end_;
+        return;
+      }
+      if (!may_step()) {
+        return;
+      }
+      const double guess = shrunk ? x + newton_step(g, curvature) : 0.5 * (lower + upper);
+      const double next = std::max(t_, std::min({guess, upper, t_end_}));
+      const Taylor g_next = falling(evaluate(next));
+      curvature = next != x ? (g_next.rate - g.rate) / (next - x) : 0.0;
+      g = g_next;
+      x = next;
+      view = root_view(g, bounds);
+      halved = !shrunk;
+    }
+  }
+
+  /// If the gap at x leads from t_ beyond `to`.
+  bool proceed_along_gap(double x, double to) {
+    const auto gaps = pair_.gaps();
+    const double beyond = std::max(x, later(x, gaps.time_open()));
+    if (!(beyond >= to && gaps.open_since(above(x - t_)))) {
+      return false;
+    }
+    proceed_to(beyond);
+    return true;
+  }
+
+  /// t + duration, rounded down; the step ends before 2.
+  static double later(double t, double duration) { return below(t + std::min(duration, 2.0)); }
+
+  /// To the root of g + g' y + curvature y^2 / 2, to second order.
+  static double newton_step(const Taylor& g, double curvature) {
+    const double y = -g.value / g.rate;
+    return y - 0.5 * curvature * y * y / g.rate;
+  }
+
+  static Taylor falling(const Taylor& f) { return f.rate < 0.0 ? f : -f; }
+
+  /// Whether many steps have gained no time: a touch within rounding, slid along.
+  bool stalls() {
+    if (steps_ < next_check_) {
+      return false;
+    }
+    const bool gained = t_ - t_checked_ > options_.time_tolerance;
+    t_checked_ = t_;
+    next_check_ = steps_ + kPatience;
+    return !gained;
+  }
+
+  [[nodiscard]] bool may_step() const { return steps_ < options_.maximum_steps; }
+
+  void move_to(double t) {
+    ++steps_;
+    pair_.move_to(t);
+  }
+
+  Taylor evaluate(double t) {
+    move_to(t);
+    return pair_.coplanarity();
+  }
+
+  /// Proven: no contact up to `time`.
+  void proceed_to(double time) {
+    t_ = std::max(t_, time);
+    if (time >= t_end_) {
+      finish(ElementaryVerdict::free, t_end_, t_end_);
+    }
+  }
+
+  void finish(ElementaryVerdict verdict, double t_lower, double t_upper) {
+    result_ = {verdict, t_lower, t_upper, false, steps_};
+    done_ = true;
+  }
+
+  Pair& pair_;
+  const ElementaryOptions& options_;
+  double t_begin_;
+  double t_end_;
+  double t_;  ///< Proven: the features do not meet before.
+  double t_checked_;  ///< t_ when stalls() last looked.
+  int next_check_ = kPatience;
+  int steps_ = 0;
+  bool done_ = false;
+  ElementaryContact result_;
+};
 
 }  // namespace firstcontact::detail
