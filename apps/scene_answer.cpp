@@ -1,18 +1,14 @@
 #include "scene_answer.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "gap_curve.h"
 #include "parallel_sampling.h"
 
 namespace firstcontact::app {
 namespace {
-
-constexpr std::size_t kCurveSamples = 161;
-constexpr int kHalvings = 8;  // Down to 1/100 of what is seen.
 
 void override_options(const Question& question, SceneOptions& options) {
   options.margin = question.margin.value_or(options.margin);
@@ -27,20 +23,6 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
                                loaded.scene.bodies[second].name, k + 1, loaded.pairs.size()));
   };
   return {.closest = question.closest, .stop = question.stop, .progress = name_pair};
-}
-
-/// Even times, and more of them the nearer they are to a time that matters.
-std::vector<double> curve_times(double focus) {
-  std::vector<double> times = even_times(kCurveSamples);
-  times.push_back(focus);
-  for (int halvings = 0; halvings < kHalvings; ++halvings) {
-    const double offset = std::ldexp(0.5 / static_cast<double>(kCurveSamples), -halvings);
-    times.push_back(std::max(focus - offset, 0.0));
-    times.push_back(std::min(focus + offset, 1.0));
-  }
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
 }
 
 /// Where a plot looks closely: at the contact, or else at the closest approach.
@@ -66,8 +48,7 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
   }
   if (question.plot) {
     question.doing("plotting " + answer.loaded.scene.id);
-    answer.curve =
-        sample_in_parallel(answer.loaded, curve_times(focus_of(answer.result)), question.stop);
+    answer.curve = gap_curve(answer.loaded, focus_of(answer.result), question.stop);
   }
   return answer;
 }

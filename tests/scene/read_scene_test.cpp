@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/write_scene.h>
 
 #include "scene/scene_bits.h"
 #include "scene/scene_text.h"
@@ -163,19 +164,22 @@ TEST(ReadScene, RefusesEveryBadSceneOfTheCorpus) {
   }
 }
 
-TEST(ReadScene, DoesNotHeedTheLocale) {
+TEST(ReadScene, DoesNotHeedTheLocaleNorDoesWriteScene) {
   struct CommaDecimal : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }
     std::string do_grouping() const override { return "\3"; }
   };
-  const test::SceneBits plain(read_scene(kCorpus / "good/all.json"));
+  const Scene plain = read_scene(kCorpus / "good/all.json");
+  const std::string written = write_scene(plain);
   const std::locale before = std::locale::global(std::locale(std::locale(), new CommaDecimal));
   std::setlocale(LC_ALL, "de_DE.UTF-8");  // Where it is installed.
-  const test::SceneBits with_comma(read_scene(kCorpus / "good/all.json"));
+  const Scene with_comma = read_scene(kCorpus / "good/all.json");
+  const std::string written_with_comma = write_scene(plain);
   std::setlocale(LC_ALL, "C");
   std::locale::global(before);
-  EXPECT_EQ(plain, with_comma);
+  EXPECT_EQ(test::SceneBits(plain), test::SceneBits(with_comma));
+  EXPECT_EQ(written, written_with_comma);
 }
 
 TEST(ReadScene, NamesItsTextByADigest) {
