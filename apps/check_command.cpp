@@ -1,11 +1,12 @@
 #include "check_command.h"
 
-#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -41,6 +42,7 @@ class Check {
     if (batch_ && !arguments_.plot.empty()) {
       throw std::invalid_argument("--svg draws one scene; give one .json file");
     }
+    keep_scenes();
     if (!arguments_.output.empty()) {
       output_.emplace(arguments_.output);
     }
@@ -66,6 +68,18 @@ class Check {
   /// Whether there may be many scenes: then one bad scene does not keep the rest from an answer.
   static bool is_batch(const Arguments& arguments) {
     return arguments.files.size() > 1 || is_json_lines(arguments.files.front());
+  }
+
+  /// Nobody wants an answer in the place of the question.
+  void keep_scenes() const {
+    for (const std::string& file : arguments_.files) {
+      for (const std::string& written : {arguments_.output, arguments_.plot}) {
+        std::error_code missing;
+        if (std::filesystem::equivalent(file, written, missing)) {
+          throw std::invalid_argument(written + ": this would overwrite the scene");
+        }
+      }
+    }
   }
 
   void check_file(const std::string& file) {

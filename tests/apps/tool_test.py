@@ -250,6 +250,13 @@ class OutputFile(ToolTest):
         self.assertEqual(self.run_tool("check", "-o", "/dev/null", scene).returncode, 0)
         self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
 
+    def test_is_never_the_scene(self):
+        scene = self.file("s.json", scenes.FREE)
+        for option in ("-o", "--svg"):
+            self.assert_refused(self.run_tool("check", scene, option, "./s.json"),
+                                "./s.json: this would overwrite the scene")
+        self.assertEqual((self.folder / "s.json").read_text(), scenes.FREE)
+
     def test_that_cannot_be_written_is_said_so(self):
         result = self.run_tool("check", "-o", "no/out.json", self.file("s.json", scenes.FREE))
         self.assert_refused(result, "no/out.json: cannot write this file: No such file or directory")
