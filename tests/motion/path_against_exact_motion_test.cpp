@@ -9,6 +9,7 @@
 #include <firstcontact/motion/motion.h>
 
 #include "support/exact_motion.h"
+#include "support/exact_state.h"
 #include "support/generated_case.h"
 #include "support/library_case.h"
 
@@ -20,32 +21,6 @@ Wide wide(const DoubleDouble& d) { return Wide(d.hi) + Wide(d.lo); }
 Vector3<Wide> wide(const DoubleDoubleVector3& v) {
   return {wide(v.c[0]), wide(v.c[1]), wide(v.c[2])};
 }
-
-/// A piece of an exact motion at one time.
-class ExactState {
- public:
-  ExactState(const MotionPiece& piece, double t)
-      : piece_(piece),
-        s_((Wide(t) - Wide(piece.t_begin)) / (Wide(piece.t_end) - Wide(piece.t_begin))) {}
-
-  [[nodiscard]] Vector3<Wide> center() const {
-    return piece_.pivot + s_ * piece_.travel + rotated(piece_.lever);
-  }
-  [[nodiscard]] Vector3<Wide> column(std::size_t j) const { return rotated(piece_.R.column[j]); }
-
- private:
-  [[nodiscard]] Vector3<Wide> rotated(const Vector3<Wide>& v) const {
-    if (piece_.angle.is_zero()) {
-      return v;
-    }
-    const Wide angle = s_ * piece_.angle;
-    const Vector3<Wide> along = dot(piece_.axis, v) * piece_.axis;
-    return along + cos(angle) * (v - along) + sin(angle) * cross(piece_.axis, v);
-  }
-
-  const MotionPiece& piece_;
-  Wide s_;
-};
 
 void expect_agreement(const MotionPiece& piece, const ConstantRatePath& path, double t) {
   const ExactState exact_state(piece, t);
