@@ -3,35 +3,14 @@
 
 #pragma once
 
-#include <cmath>
-#include <limits>
-
 #include <Eigen/Core>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/math/root_isolation.h>
 #include <firstcontact/motion/relative_motion.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
 namespace firstcontact {
-
-/// The longest tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau], rounded down;
-/// infinity where the gap never closes; 0 where it is not open or anything is NaN.
-///
-/// In the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)), which does not cancel for closing pairs and also
-/// holds for receding ones.
-inline double time_to_close(double gap, double speed, double half_acceleration) {
-  if (!(gap > 0.0)) {
-    return 0.0;
-  }
-  if (speed <= 0.0 && half_acceleration == 0.0) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double denominator = speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
-  // A receding pair's denominator cancels: speed and root agree in their leading digits. Its own
-  // rounding, 4 units of the larger term, then goes to the safe side.
-  const double tau = 2.0 * gap / (denominator + 0x1p-50 * std::abs(speed)) * (1.0 - 0x1p-44);
-  return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
-}
 
 /// Two triangles at one instant of a relative motion, in the frame of the state.
 struct TrianglePair {

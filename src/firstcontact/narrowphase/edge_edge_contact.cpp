@@ -50,14 +50,14 @@ class TwoEdges {
     axis_B_ = turns.back(motion_.axis_B);
   }
 
-  [[nodiscard]] detail::Taylor coplanarity() const {
+  [[nodiscard]] ValueAndRate coplanarity() const {
     const double w_A = motion_.A.rate;
     const Vector3d rate_e = detail::relative_rate(seen_c_, w_A);
     const Vector3d rate_v = detail::relative_rate(seen_v_, w_A);
     return {e_.dot(normal_), rate_e.dot(normal_) + e_.cross(u_).dot(rate_v)};
   }
   /// f = u . (v x c) - (a x u) . v + (offset + tau drift) . (u x v), c here from B's pivot.
-  [[nodiscard]] const detail::TaylorBounds& coplanarity_bounds() {
+  [[nodiscard]] const CurvatureBound& coplanarity_bounds() {
     if (!bounded_) {
       bound_coplanarity();
       bounded_ = true;
@@ -70,9 +70,9 @@ class TwoEdges {
     const Vector3d d = between_nearest_points();
     // A point p of A moves at rate z x p, along d at -p . turn.
     const Vector3d turn(-motion_.A.rate * d.y(), motion_.A.rate * d.x(), 0.0);
-    const detail::Taylor ac{d.dot(e_), d.dot(seen_c_.rate) + turn.dot(a_)};
-    const detail::Taylor u{-d.dot(u_), turn.dot(u_)};
-    const detail::Taylor v{d.dot(v_), d.dot(seen_v_.rate)};
+    const ValueAndRate ac{d.dot(e_), d.dot(seen_c_.rate) + turn.dot(a_)};
+    const ValueAndRate u{-d.dot(u_), turn.dot(u_)};
+    const ValueAndRate v{d.dot(v_), d.dot(seen_v_.rate)};
     return {{ac, ac + u, ac + v, ac + u + v}, gap_.along(d, axis_B_)};
   }
 
@@ -163,7 +163,7 @@ class TwoEdges {
   detail::GapBounds gap_;
   bool bounded_ = false;
   double speed_bound_ = 0.0;
-  detail::TaylorBounds bounds_;
+  CurvatureBound bounds_;
 
   detail::SeenVector::State seen_c_;
   detail::SeenVector::State seen_v_;

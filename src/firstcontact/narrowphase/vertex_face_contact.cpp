@@ -49,12 +49,12 @@ class VertexAndFace {
     axis_B_ = turns.back(motion_.axis_B);
   }
 
-  [[nodiscard]] detail::Taylor coplanarity() const {
+  [[nodiscard]] ValueAndRate coplanarity() const {
     return {normal_.dot(p_ - corner_), normal_.dot(detail::relative_rate(seen_, motion_.A.rate))};
   }
 
   /// f = Rot(z) normal . (line + Rot(axis_B) swing) - normal . a.
-  [[nodiscard]] const detail::TaylorBounds& coplanarity_bounds() {
+  [[nodiscard]] const CurvatureBound& coplanarity_bounds() {
     if (!bounded_) {
       bound_coplanarity();
       bounded_ = true;
@@ -154,7 +154,7 @@ class VertexAndFace {
   detail::GapBounds gap_;
   bool bounded_ = false;
   double speed_bound_ = 0.0;
-  detail::TaylorBounds bounds_;
+  CurvatureBound bounds_;
 
   detail::SeenVector::State seen_;
   Vector3d p_;

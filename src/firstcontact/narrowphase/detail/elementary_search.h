@@ -10,7 +10,7 @@
 #include <limits>
 
 #include <firstcontact/math/interval.h>
-#include <firstcontact/narrowphase/detail/taylor.h>
+#include <firstcontact/math/root_isolation.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
 
 namespace firstcontact::detail {
@@ -18,8 +18,8 @@ namespace firstcontact::detail {
 /// Gaps of pairs of corners along one direction, at one time.
 template <std::size_t N>
 struct Gaps {
-  std::array<Taylor, N> corners;
-  TaylorBounds bounds;
+  std::array<ValueAndRate, N> corners;
+  CurvatureBound bounds;
 
   /// For how long all provably stay open.
   [[nodiscard]] double time_open() const {
@@ -34,8 +34,9 @@ struct Gaps {
 
   /// Whether all provably have been open for `duration` already.
   [[nodiscard]] bool open_since(double duration) const {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Taylor& gap) { return positive_for(gap, bounds, -duration); });
+    return std::all_of(corners.begin(), corners.end(), [&](const ValueAndRate& gap) {
+      return positive_for(gap, bounds, -duration);
+    });
   }
 };
 
@@ -85,9 +86,9 @@ class ElementarySearch {
       proceed_to(later(t, open));
       return;
     }
-    const Taylor f = pair_.coplanarity();
-    const Taylor g = f.value > 0.0 ? f : -f;
-    const TaylorBounds& bounds = pair_.coplanarity_bounds();
+    const ValueAndRate f = pair_.coplanarity();
+    const ValueAndRate g = f.value > 0.0 ? f : -f;
+    const CurvatureBound& bounds = pair_.coplanarity_bounds();
     proceed_to(later(t, std::max(open, time_positive(g, bounds))));
     if (done_) {
       return;
@@ -105,10 +106,10 @@ class ElementarySearch {
   /// Looks at x >= t_ for a root whose own side reaches back to t_. Shrinks its bracket until the
   /// features provably meet, or a gap leads past it, or rounding allows no more.
   void follow_root(double x) {
-    const TaylorBounds& bounds = pair_.coplanarity_bounds();
-    Taylor g = falling(evaluate(x));
-    RootView view = root_view(g, bounds);
-    if (!(view.isolated && x - t_ <= view.reach)) {
+    const CurvatureBound& bounds = pair_.coplanarity_bounds();
+    ValueAndRate g = falling(evaluate(x));
+    IsolatedRoot root = isolate_root(g, bounds);
+    if (!(root.exists && x - t_ <= root.reach)) {
       proceed_along_gap(x, x);
       return;
     }
@@ -119,9 +120,9 @@ class ElementarySearch {
     bool halved = false;
     while (true) {
       const double width = upper - lower;
-      if (view.isolated) {
-        lower = std::max(lower, below(x - view.behind));
-        upper = std::min(upper, above(x + view.ahead));
+      if (root.exists) {
+        lower = std::max(lower, below(x - root.behind));
+        upper = std::min(upper, above(x + root.ahead));
       }
       if (lower > t_end_) {
         proceed_to(t_end_);
@@ -143,11 +144,11 @@ class ElementarySearch {
       }
       const double guess = shrunk ? x + newton_step(g, curvature) : 0.5 * (lower + upper);
       const double next = std::max(t_, std::min({guess, upper, t_end_}));
-      const Taylor g_next = falling(evaluate(next));
+      const ValueAndRate g_next = falling(evaluate(next));
       curvature = next != x ? (g_next.rate - g.rate) / (next - x) : 0.0;
       g = g_next;
       x = next;
-      view = root_view(g, bounds);
+      root = isolate_root(g, bounds);
       halved = !shrunk;
     }
   }
@@ -167,12 +168,12 @@ class ElementarySearch {
   static double later(double t, double duration) { return below(t + std::min(duration, 2.0)); }
 
   /// To the root of g + g' y + curvature y^2 / 2, to second order.
-  static double newton_step(const Taylor& g, double curvature) {
+  static double newton_step(const ValueAndRate& g, double curvature) {
     const double y = -g.value / g.rate;
     return y - 0.5 * curvature * y * y / g.rate;
   }
 
-  static Taylor falling(const Taylor& f) { return f.rate < 0.0 ? f : -f; }
+  static ValueAndRate falling(const ValueAndRate& f) { return f.rate < 0.0 ? f : -f; }
 
   /// Whether many steps have gained no time: a touch within rounding, slid along.
   bool stalls() {
@@ -192,7 +193,7 @@ class ElementarySearch {
     pair_.move_to(t);
   }
 
-  Taylor evaluate(double t) {
+  ValueAndRate evaluate(double t) {
     move_to(t);
     return pair_.coplanarity();
   }
@@ -214,7 +215,7 @@ class ElementarySearch {
   const ElementaryOptions& options_;
   double t_begin_;
   double t_end_;
-  double t_;  ///< Proven: the features do not meet before.
+  double t_;          ///< Proven: the features do not meet before.
   double t_checked_;  ///< t_ when stalls() last looked.
   int next_check_ = kPatience;
   int steps_ = 0;

@@ -9,10 +9,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <firstcontact/narrowphase/detail/taylor.h>
+#include <firstcontact/math/root_isolation.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
 
 namespace firstcontact::detail {
+
+/// Outweighs the roundings of the few operations in a bound.
+inline constexpr double kUp = 1.0 + 0x1p-40;
 
 /// What holds throughout the piece for all points of two features.
 class GapBounds {
@@ -39,7 +42,8 @@ class GapBounds {
   /// its axis u has the acceleration -w^2 rho, and |d . rho| <= |d x u| |rho|.
   ///
   /// @param axis_B  as seen from A now
-  [[nodiscard]] TaylorBounds along(const Eigen::Vector3d& d, const Eigen::Vector3d& axis_B) const {
+  [[nodiscard]] CurvatureBound along(const Eigen::Vector3d& d,
+                                     const Eigen::Vector3d& axis_B) const {
     const double across2 = d.x() * d.x() + d.y() * d.y();
     const double length = std::sqrt(across2 + d.z() * d.z()) * kUp;
     return {position_error * length, slip * length,

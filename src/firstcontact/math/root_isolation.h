@@ -1,0 +1,102 @@
+/// @file
+/// What a function's value and rate at one time prove about the time around it: where it stays
+/// positive, and where its only root lies.
+///
+/// Derivation: with |g''| <= K, g(t + y) lies between g + g' y - K y^2 / 2 and g + g' y + K y^2
+/// / 2. These one-sided parabolas take the place of interval Newton steps (R. E. Moore, R. B.
+/// Kearfott, M. J. Cloud, "Introduction to Interval Analysis", SIAM 2009, chapter 8): no interval
+/// of f is evaluated, only f at one time.
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace firstcontact {
+
+/// A function g of time, at one time.
+struct ValueAndRate {
+  double value = 0.0;
+  double rate = 0.0;
+
+  friend ValueAndRate operator+(const ValueAndRate& a, const ValueAndRate& b) {
+    return {a.value + b.value, a.rate + b.rate};
+  }
+  friend ValueAndRate operator-(const ValueAndRate& a) { return {-a.value, -a.rate}; }
+};
+
+/// The errors of both, and a bound of |g''| wherever conclusions are drawn; all >= 0.
+struct CurvatureBound {
+  double value_error = 0.0;
+  double rate_error = 0.0;
+  double curvature = 0.0;
+};
+
+/// The longest tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau], rounded down;
+/// infinity where the gap never closes; 0 where it is not open or anything is NaN.
+///
+/// In the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)), which does not cancel for closing pairs and also
+/// holds for receding ones.
+inline double time_to_close(double gap, double speed, double half_acceleration) {
+  if (!(gap > 0.0)) {
+    return 0.0;
+  }
+  if (speed <= 0.0 && half_acceleration == 0.0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double denominator = speed + std::sqrt(speed * speed + 4.0 * half_acceleration * gap);
+  // A receding pair's denominator cancels: speed and root agree in their leading digits. Its own
+  // rounding, 4 units of the larger term, then goes to the safe side.
+  const double tau = 2.0 * gap / (denominator + 0x1p-50 * std::abs(speed)) * (1.0 - 0x1p-44);
+  return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
+}
+
+/// For how long g provably stays positive.
+inline double time_positive(const ValueAndRate& g, const CurvatureBound& bound) {
+  return time_to_close(g.value - bound.value_error, bound.rate_error - g.rate,
+                       0.5 * bound.curvature);
+}
+
+/// Whether g provably stays positive for `duration`, or, where that is negative, has been for as
+/// long: a parabola that opens downwards is least at an end.
+inline bool positive_for(const ValueAndRate& g, const CurvatureBound& bound, double duration) {
+  const double length = std::abs(duration);
+  const double clear = g.value - bound.value_error;
+  const double way = g.rate * duration;
+  const double loss = (bound.rate_error + 0.5 * bound.curvature * length) * length;
+  return clear > 0.0 && clear + way - loss > 0x1p-49 * (clear + std::abs(way) + loss);
+}
+
+/// Where `exists`: g has one root on [x - behind, x + ahead] and falls there throughout, and g > 0
+/// on [x - reach, x - behind).
+struct IsolatedRoot {
+  bool exists = false;
+  double behind = 0.0;
+  double ahead = 0.0;
+  double reach = 0.0;
+};
+
+/// Isolates the root of g near x, from g at x; g falls there (else negate it).
+///
+/// Derivation: let c = -g'(x) > 0. Where c^2 > 2 K |g|, the outer parabolas through g have roots at
+/// |y| = 2 |g| / (c + sqrt(c^2 - 2 K |g|)) < c / K, up to where g' < 0, and the lower one another
+/// at y = -(c + sqrt(c^2 - 2 K |g|)) / K. The inner one bounds the near end.
+inline IsolatedRoot isolate_root(const ValueAndRate& g, const CurvatureBound& bound) {
+  const double K = bound.curvature;
+  const double c = (-g.rate - bound.rate_error) * (1.0 - 0x1p-50);
+  const double most_g = (std::abs(g.value) + bound.value_error) * (1.0 + 0x1p-50);
+  const double discriminant = c * c * (1.0 - 0x1p-48) - 2.0 * K * most_g;
+  if (!(c > 0.0 && discriminant > 0.0)) {
+    return {};
+  }
+  const double sum = c + std::sqrt(discriminant);
+  const double most = 2.0 * most_g / sum * (1.0 + 0x1p-44);
+  const double least_g = std::abs(g.value) - bound.value_error;
+  const double least =
+      least_g > 0.0 ? time_to_close(least_g, bound.rate_error - g.rate, 0.5 * K) : -most;
+  return {true, g.value < 0.0 ? most : -least, g.value < 0.0 ? -least : most,
+          sum / K * (1.0 - 0x1p-44)};
+}
+
+}  // namespace firstcontact
