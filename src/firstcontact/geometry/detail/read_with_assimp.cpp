@@ -13,28 +13,12 @@
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
 
-#include <firstcontact/geometry/detail/byte_cursor.h>
+#include <firstcontact/geometry/detail/check_assimp_input.h>
 #include <firstcontact/geometry/detail/mesh_builder.h>
 #include <firstcontact/geometry/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// Assimp reads past the end of some files that are cut off; their header tells.
-void check_glb_length(const std::string& path, std::string_view bytes) {
-  constexpr std::size_t kHeader = 12;
-  if (bytes.size() < kHeader || bytes.substr(0, 4) != "glTF") {
-    throw ParseError::at_byte(path, 0, "expected the header 'glTF' of 12 bytes");
-  }
-  ByteCursor cursor(bytes, path, /*big_endian=*/false);
-  cursor.skip(8, "the header");
-  const auto length = cursor.read<std::uint32_t>("the length");
-  if (length > bytes.size()) {
-    throw ParseError::at_byte(
-        path, bytes.size(),
-        "expected " + std::to_string(length) + " bytes, got the end of the file");
-  }
-}
 
 /// Leaves only the reader of one format, so that the content cannot choose another.
 void keep_reader(Assimp::Importer& importer, std::string_view extension) {
@@ -100,7 +84,9 @@ void add_scene(const std::string& path, const aiScene& scene, MeshBuilder& mesh)
 
 Mesh read_with_assimp(const std::string& path, std::string_view bytes, std::string_view extension) {
   if (extension == "glb") {
-    check_glb_length(path, bytes);
+    check_glb_chunks(path, bytes);
+  } else if (extension == "dae") {
+    check_dae_numbers(path, bytes);
   }
   Assimp::Importer importer;
   keep_reader(importer, extension);
