@@ -1,0 +1,271 @@
+// Distance and closest features of two triangles against brute force in exact rational numbers.
+
+#include <firstcontact/narrowphase/triangle_distance.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/closest_points.h"
+#include "support/rational.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::Rational;
+using Type = TriangleFeature::Type;
+
+oracle::Vector3<Rational> exact(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+oracle::Triangle<Rational> exact(const Triangle& T) {
+  return {exact(T[0]), exact(T[1]), exact(T[2])};
+}
+
+oracle::ClosestPoints<Rational> exact_closest(const Triangle& A, const Triangle& B) {
+  return oracle::closest_points<Rational>(exact(A), exact(B));
+}
+
+double exact_distance(const Triangle& A, const Triangle& B) {
+  return std::sqrt(exact_closest(A, B).distance2.nearest());
+}
+
+Triangle point(const Vector3d& p) { return {p, p, p}; }
+
+double size(const Triangle& A, const Triangle& B) {
+  double largest = 0.0;
+  for (const Triangle* T : {&A, &B}) {
+    for (const Vector3d& corner : *T) {
+      largest = std::max(largest, corner.norm());
+    }
+  }
+  return largest;
+}
+
+/// The feature in whose interior a point of such weights lies.
+TriangleFeature feature(const std::array<Rational, 3>& weights) {
+  std::vector<int> positive;
+  for (int k = 0; k < 3; ++k) {
+    if (weights[static_cast<std::size_t>(k)] > Rational()) {
+      positive.push_back(k);
+    }
+  }
+  if (positive.size() == 3) {
+    return {Type::face, 0};
+  }
+  if (positive.size() == 1) {
+    return {Type::vertex, positive[0]};
+  }
+  return {Type::edge, positive[1] == positive[0] + 1 ? positive[0] : 2};
+}
+
+class Random {
+ public:
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double whole() { return static_cast<double>(std::uniform_int_distribution<int>(-2, 2)(random_)); }
+  Vector3d vector() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
+  Triangle triangle() { return {vector(), vector(), vector()}; }
+  Triangle grid_triangle() {
+    const auto corner = [this] { return Vector3d(whole(), whole(), whole()); };
+    return {corner(), corner(), corner()};
+  }
+
+ private:
+  std::mt19937_64 random_{1};
+};
+
+using Pair = std::pair<Triangle, Triangle>;
+
+struct Kind {
+  const char* name;
+  std::function<Pair(Random&)> draw;
+  double tolerance;  ///< Of the distance, relative to the size.
+};
+
+Triangle moved(Triangle T, const Vector3d& by) {
+  for (Vector3d& corner : T) {
+    corner += by;
+  }
+  return T;
+}
+
+Triangle needle(Random& random) {
+  const double thin = std::pow(10.0, random.uniform(-16.0, -3.0));
+  const Vector3d a = random.vector();
+  const Vector3d b = random.vector();
+  return {a, b, a + random.uniform(-0.5, 1.5) * (b - a) + thin * random.vector()};
+}
+
+Triangle flat(Triangle T, double height) {
+  for (Vector3d& corner : T) {
+    corner.z() = height;
+  }
+  return T;
+}
+
+std::vector<Kind> kinds() {
+  return {
+      {"apart", [](Random& r) { return Pair(r.triangle(), moved(r.triangle(), 2.0 * r.vector())); },
+       2e-15},
+      {"near",
+       [](Random& r) {
+         const Triangle A = r.triangle();
+         const Triangle B = r.triangle();
+         return Pair(A, moved(B, A[0] - B[0] + 1e-6 * r.vector()));
+       },
+       2e-15},
+      {"on a grid", [](Random& r) { return Pair(r.grid_triangle(), r.grid_triangle()); }, 2e-15},
+      {"parallel",
+       [](Random& r) {
+         return Pair(flat(r.triangle(), 0.0), flat(r.triangle(), r.uniform(0.0, 1.0)));
+       },
+       2e-15},
+      {"coplanar",
+       [](Random& r) {
+         return Pair(flat(r.triangle(), 0.25), flat(moved(r.triangle(), 2.0 * r.vector()), 0.25));
+       },
+       2e-15},
+      {"the same, moved",
+       [](Random& r) {
+         const Triangle T = r.triangle();
+         return Pair(T, moved(T, r.uniform(0.0, 1e-3) * r.vector()));
+       },
+       2e-15},
+      {"needles", [](Random& r) { return Pair(needle(r), moved(needle(r), r.vector())); }, 1e-12},
+      {"a needle and a triangle",
+       [](Random& r) { return Pair(needle(r), moved(r.triangle(), r.vector())); }, 1e-12},
+      {"points and edges",
+       [](Random& r) {
+         const Vector3d p = r.vector();
+         return Pair(point(r.vector()), Triangle{p, r.vector(), p});
+       },
+       2e-15},
+      {"far from the origin",
+       [](Random& r) {
+         const Vector3d far = 1e6 * r.vector();
+         return Pair(moved(r.triangle(), far), moved(r.triangle(), far + r.vector()));
+       },
+       2e-15},
+      {"tiny",
+       [](Random& r) {
+         Pair pair(r.triangle(), moved(r.triangle(), r.vector()));
+         for (Triangle* T : {&pair.first, &pair.second}) {
+           for (Vector3d& corner : *T) {
+             corner *= 1e-9;
+           }
+         }
+         return pair;
+       },
+       2e-15},
+  };
+}
+
+template <class Judge>
+void for_each_pair(int count, const Judge& judge) {
+  for (const Kind& kind : kinds()) {
+    Random random;
+    for (int i = 0; i < count; ++i) {
+      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(i));
+      const auto [A, B] = kind.draw(random);
+      judge(kind, A, B);
+    }
+  }
+}
+
+constexpr int kPairs = 300;
+
+TEST(TriangleDistance, IsExactUpToRounding) {
+  for_each_pair(kPairs, [](const Kind& kind, const Triangle& A, const Triangle& B) {
+    const double truth = exact_distance(A, B);
+    const double error = std::abs(triangle_distance(A, B).distance - truth);
+    EXPECT_LE(error, kind.tolerance * size(A, B)) << truth;
+  });
+}
+
+TEST(TriangleDistance, IsThatOfItsPointsWhichLieOnTheTriangles) {
+  for_each_pair(kPairs / 2, [](const Kind&, const Triangle& A, const Triangle& B) {
+    const ClosestFeatures c = triangle_distance(A, B);
+    const double rounding = 1e-15 * size(A, B);
+    EXPECT_NEAR(c.distance, (c.p_B - c.p_A).norm(), 4.0 * rounding);
+    EXPECT_LE(exact_distance(A, point(c.p_A)), 4.0 * rounding);
+    EXPECT_LE(exact_distance(B, point(c.p_B)), 4.0 * rounding);
+  });
+}
+
+/// Where the closest points are unique: none of the tie-ridden kinds.
+TEST(TriangleDistance, NamesTheFeaturesThatHoldTheClosestPoints) {
+  Random random;
+  std::array<int, 6> met{};  // Of each pair of types.
+  for (int i = 0; i < 8 * kPairs; ++i) {
+    SCOPED_TRACE(i);
+    const Triangle A = random.triangle();
+    const Triangle B = moved(random.triangle(), random.uniform(0.5, 2.0) * random.vector());
+    const oracle::ClosestPoints<Rational> truth = exact_closest(A, B);
+    if (!(truth.distance2 > Rational())) {
+      EXPECT_EQ(triangle_distance(A, B).distance, 0.0);
+      continue;
+    }
+    const ClosestFeatures c = triangle_distance(A, B);
+    EXPECT_EQ(c.feature_A, feature(truth.weights_A));
+    EXPECT_EQ(c.feature_B, feature(truth.weights_B));
+    const int least = static_cast<int>(std::min(c.feature_A.type, c.feature_B.type));
+    const int most = static_cast<int>(std::max(c.feature_A.type, c.feature_B.type));
+    met[static_cast<std::size_t>(least * 3 + most - least * (least + 1) / 2)] += 1;
+  }
+  // Vertex and vertex, edge, face; edge and edge. A face meets nothing else without piercing.
+  for (const std::size_t pair : {0u, 1u, 2u, 3u}) {
+    EXPECT_GE(met[pair], 50) << pair;
+  }
+}
+
+TEST(TriangleDistance, IsZeroWhereTheTrianglesPierce) {
+  Random random;
+  int pierced = 0;
+  for (int i = 0; i < 4 * kPairs; ++i) {
+    SCOPED_TRACE(i);
+    const Triangle A = random.triangle();
+    const Triangle B = random.triangle();
+    if (!(exact_closest(A, B).distance2 > Rational())) {
+      ++pierced;
+      EXPECT_EQ(triangle_distance(A, B).distance, 0.0);
+    } else {
+      EXPECT_GT(triangle_distance(A, B).distance, 0.0);
+    }
+  }
+  EXPECT_GE(pierced, kPairs / 2);
+}
+
+TEST(TriangleDistance, IsTheSameForSwappedTriangles) {
+  for_each_pair(kPairs, [](const Kind&, const Triangle& A, const Triangle& B) {
+    const double rounding = 1e-15 * size(A, B);
+    EXPECT_NEAR(triangle_distance(A, B).distance, triangle_distance(B, A).distance,
+                100.0 * rounding);
+  });
+}
+
+TEST(FeaturePairsWithin, HoldsTheClosestAndNothingBeyondTheBand) {
+  for_each_pair(kPairs / 2, [](const Kind& kind, const Triangle& A, const Triangle& B) {
+    const double truth = exact_distance(A, B);
+    const double band = 1.5 * truth + 1e-12 * size(A, B);
+    const FeaturePairs found = feature_pairs_within(A, B, band);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < found.count; ++k) {
+      EXPECT_LE(found.pairs[k].distance, band);
+      least = std::min(least, found.pairs[k].distance);
+    }
+    EXPECT_NEAR(least, truth, kind.tolerance * size(A, B));
+  });
+}
+
+}  // namespace
+}  // namespace firstcontact
