@@ -9,9 +9,9 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr std::size_t kFirstSamples = 33;
-constexpr int kRounds = 5;      // Each halves the intervals that it refines.
-constexpr double kSeen = 5e-3;  // Of the height: what an eye can see.
+constexpr std::size_t kFirstSamples = 129;  // Several for each ripple of a nut in five turns.
+constexpr int kRounds = 4;                  // Each halves the intervals that it refines.
+constexpr double kSeen = 2e-2;              // Of the height; half way the line is off by a quarter.
 
 /// How far a sample is from the straight line between its neighbours.
 double bend(const GapSample& before, const GapSample& sample, const GapSample& after) {

@@ -41,7 +41,7 @@ SECTION = """<h2 id="{name}">{title}</h2>
 <p><a href="{name}.json">{name}.json</a></p>
 """
 
-COLUMNS = ("scene", "answer", "time", "triangles", "normal", "closest")
+COLUMNS = ("scene", "answer", "time", "triangles", "normal", "least gap")
 
 
 def length(metres: float) -> str:
@@ -51,7 +51,7 @@ def length(metres: float) -> str:
 
 def row(result: dict) -> tuple:
     contact = result["contacts"][0] if result["contacts"] else None
-    triangles = normal = closest = time = ""
+    triangles = normal = least_gap = time = ""
     if result["verdict"] != "free":
         time = f"{result['time']:.6g} s"
     if contact:
@@ -59,8 +59,10 @@ def row(result: dict) -> tuple:
         if contact["normal"]:
             normal = "({:.3f}, {:.3f}, {:.3f})".format(*(round(x, 3) + 0.0 for x in contact["normal"]))
     if "closest" in result:
-        closest = length(result["closest"]["distance"])
-    return result["id"], result["verdict"], time, triangles, normal, closest
+        least_gap = length(result["closest"]["distance"])
+    elif result["verdict"] == "free" and result["clearance"]:
+        least_gap = "> " + length(result["clearance"])
+    return result["id"], result["verdict"], time, triangles, normal, least_gap
 
 
 def sampling_note(result: dict) -> str:
