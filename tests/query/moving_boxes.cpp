@@ -154,7 +154,8 @@ MovingBoxes random_moving_boxes(Random& random, Approach approach) {
   c.B = random_body(random);
   c.t = random.uniform(0.0, 0.9);
   const double gap = c.size() * random.logarithmic(1e-5, 10.0);
-  c.threshold = random.chance(0.5) ? 0.0 : gap * random.logarithmic(1e-3, 0.5);
+  // Near the gap, a direction that is not quite unit would pass for farther apart.
+  c.threshold = random.chance(0.5) ? 0.0 : gap * (1.0 - random.logarithmic(1e-5, 1.0));
   const Vector3d heading = set_motion(random, approach, c);
   if (random.chance(0.3)) {
     c.A.position = random.logarithmic(1.0, 1e6) * c.size() * random.direction();
