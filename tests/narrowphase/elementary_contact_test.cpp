@@ -23,6 +23,7 @@ using oracle::MotionPiece;
 using oracle::Wide;
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr int kCases = 4'000;
 
 const Triangle kFace = {Vector3d(-1.0, -1.0, 0.0), Vector3d(1.0, -1.0, 0.0),
                         Vector3d(0.0, 1.0, 0.0)};
@@ -253,6 +254,58 @@ class ExactPoints {
   MotionPiece piece_;
 };
 
+/// The distance of two body points as the elementary motion states it.
+double computed_distance(const ElementaryMotion& motion, double t, const Vector3d& p_A,
+                         const Vector3d& p_B) {
+  const double tau = t - motion.t_begin;
+  const auto turned = [](const Vector3d& axis, double angle, const Vector3d& v) {
+    const Vector3d along = axis.dot(v) * axis;
+    return Vector3d(along + std::cos(angle) * (v - along) + std::sin(angle) * axis.cross(v));
+  };
+  const Vector3d a =
+      turned(Vector3d::UnitZ(), motion.A.rate * tau, motion.A.lever + motion.A.rotation * p_A);
+  const Vector3d b =
+      turned(motion.axis_B, motion.B.rate * tau, motion.B.lever + motion.B.rotation * p_B);
+  return (motion.offset + tau * motion.drift + b - a).norm();
+}
+
+TEST(ElementaryMotion, PlacesPointsWithinItsRounding) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&](double scale) {
+    return oracle::Vector3<double>{scale * uniform(random), scale * uniform(random),
+                                   scale * uniform(random)};
+  };
+  double worst = 0.0;
+  for (int i = 0; i < kCases; ++i) {
+    SCOPED_TRACE(i);
+    MotionInput A;
+    MotionInput B;
+    for (MotionInput* m : {&A, &B}) {
+      m->kind = oracle::MotionKind::screw;
+      m->poses[0] = {vector(3.0), {1.0, uniform(random), uniform(random), uniform(random)}};
+      m->axis_point = vector(3.0);
+      m->axis_direction = vector(1.0);
+      m->angle = (i % 3 == 0 ? 100.0 : 3.0) * uniform(random);
+      m->along = uniform(random);
+    }
+    const ElementaryMotion motion = elementary(oracle::to_motion(A), oracle::to_motion(B));
+    const Vector3d p_A(uniform(random), uniform(random), uniform(random));
+    const Vector3d p_B(uniform(random), uniform(random), uniform(random));
+    const double t = std::abs(uniform(random));
+    const double computed = computed_distance(motion, t, p_A, p_B);
+    const Wide exact = norm(ExactPoints(B).at(t, p_B) - ExactPoints(A).at(t, p_A));
+    const Wide difference = exact - Wide(computed);
+    const double error = std::max(std::abs(difference.lower()), std::abs(difference.upper()));
+    const double size = motion.A.lever_length + p_A.norm() + motion.B.lever_length + p_B.norm() +
+                        motion.offset_bound;
+    const double allowed = motion.rounding * size + motion.position_error;
+    ASSERT_LE(error, allowed);
+    worst = std::max(worst, error / allowed);
+  }
+  EXPECT_GE(worst, 0.01);  // Else the bound is idle.
+}
+
 /// (b - a) . (c - a) x (d - a), whose sign changes where four points become coplanar.
 Wide volume(const oracle::Vector3<Wide>& a, const oracle::Vector3<Wide>& b,
             const oracle::Vector3<Wide>& c, const oracle::Vector3<Wide>& d) {
@@ -285,8 +338,6 @@ struct Tally {
     (answer.verdict == ElementaryVerdict::free ? free_steps : contact_steps) += answer.steps;
   }
 };
-
-constexpr int kCases = 4'000;
 
 TEST(VertexFaceContact, BracketsARootInsideTheFaceInFewSteps) {
   RandomCases cases(1);
