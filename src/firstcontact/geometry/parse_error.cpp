@@ -13,6 +13,12 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
+std::string numbered(const char* place, std::size_t number) {
+  std::string text = place;
+  text += std::to_string(number);
+  return text;
+}
+
 }  // namespace
 
 ParseError::ParseError(const std::string& path, const std::string& place,
@@ -25,13 +31,13 @@ ParseError::ParseError(const std::string& path, const std::string& message)
     : ParseError(path, std::string(), message) {}
 
 ParseError::ParseError(const std::string& path, std::size_t line, const std::string& message)
-    : ParseError(path, ":" + std::to_string(line), message) {
+    : ParseError(path, numbered(":", line), message) {
   line_ = line;
 }
 
 ParseError ParseError::at_byte(const std::string& path, std::size_t offset,
                                const std::string& message) {
-  ParseError error(path, ": byte " + std::to_string(offset), message);
+  ParseError error(path, numbered(": byte ", offset), message);
   error.offset_ = offset;
   return error;
 }
