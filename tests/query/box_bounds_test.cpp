@@ -97,7 +97,10 @@ TEST_P(BoxBoundsOn, TimeIsMostOfTheTimeToContact) {
     const Real speed = (c.B.translation - c.A.translation).cast<Real>().norm();
     // Conservative advancement, until the gap no longer matters.
     Real at = c.t;
-    const Real enough = c.threshold + 1e-4L * c.distance(0, 0, at);
+    const Real enough = c.threshold + 1e-4L * (c.distance(0, 0, at) - c.threshold);
+    if (!(enough > c.threshold)) {
+      continue;  // In contact from the start.
+    }
     for (int i = 0; i < 1000 && at < 1.0L; ++i) {
       const Real distance = c.distance(0, 0, at);
       if (distance <= enough) {
