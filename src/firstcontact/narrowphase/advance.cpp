@@ -1,6 +1,7 @@
 #include <firstcontact/narrowphase/advance.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,42 +17,71 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Velocities are products of a few rounded numbers: within 2^-48 of their size.
 constexpr double kSpeedError = 0x1p-48;
 
+/// Gaps that change in time by at least gap - speed tau - half_acceleration tau^2.
+template <int kCount>
+struct Gaps {
+  std::array<double, kCount> gap{};
+  std::array<double, kCount> speed{};
+  double half_acceleration = 0.0;
+
+  /// Whether gap k is provably open on [0, tau]: such a parabola is least at an end.
+  [[nodiscard]] bool open_until(int k, double tau) const {
+    const double by_speed = speed[k] * tau;
+    const double by_acceleration = half_acceleration * tau * tau;
+    return gap[k] > 0.0 && gap[k] - by_speed - by_acceleration >
+                               0x1p-50 * (gap[k] + std::abs(by_speed) + by_acceleration);
+  }
+
+  /// For how long all are open: exactly that, or `enough` where that is less.
+  [[nodiscard]] double time_open(double enough) const {
+    double tau = enough;
+    for (int k = 0; k < kCount && tau > 0.0; ++k) {
+      if (!open_until(k, tau)) {
+        tau = std::min(tau, time_to_close(gap[k], speed[k], half_acceleration));
+      }
+    }
+    return tau;
+  }
+};
+
 struct Reach {
   double A = 0.0;  // greatest distance of a corner from its own pivot
   double B = 0.0;
 };
 
 Reach reach_of(const TrianglePair& pair, const RelativeState& state) {
-  Reach reach;
+  Reach square;
   for (int k = 0; k < 3; ++k) {
-    reach.A = std::max(reach.A, (pair.A[k] - state.p_AQa).norm());
-    reach.B = std::max(reach.B, (pair.B[k] - state.p_AQb).norm());
+    square.A = std::max(square.A, (pair.A[k] - state.p_AQa).squaredNorm());
+    square.B = std::max(square.B, (pair.B[k] - state.p_AQb).squaredNorm());
   }
-  return {reach.A * (1.0 + 0x1p-48), reach.B * (1.0 + 0x1p-48)};
+  return {std::sqrt(square.A) * (1.0 + 0x1p-48), std::sqrt(square.B) * (1.0 + 0x1p-48)};
 }
 
 double along_direction_fixed(const RelativeMotion& motion, const RelativeState& state,
                              const TrianglePair& pair, const Vector3d& n, double clearance_error,
-                             const Reach& reach) {
+                             const Reach& reach, double enough) {
   const double wA = motion.A().rate();
   const double wB = motion.B().rate();
   // n . (w u x r) = r . (n x u) w.
   const Vector3d turn_A = wA * n.cross(motion.A().axis());
   const Vector3d turn_B = wB * n.cross(motion.B().axis());
   const double slip = kSpeedError * (motion.pivot_velocity().norm() + wA * reach.A + wB * reach.B);
-  const double half_acceleration =
+  Gaps<9> gaps;
+  gaps.half_acceleration =
       0.5 * (1.0 + 0x1p-46) *
       (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B + slip * (wA + wB));
   const double drift = n.dot(motion.pivot_velocity());
-  double least = kInfinity;
+  int k = 0;
   for (const Vector3d& a : pair.A) {
+    const double opening_a = slip - drift + turn_A.dot(a - state.p_AQa);
     for (const Vector3d& b : pair.B) {
-      const double gap = n.dot(b - a) - clearance_error;
-      const double opening = drift + turn_B.dot(b - state.p_AQb) - turn_A.dot(a - state.p_AQa);
-      least = std::min(least, time_to_close(gap, slip - opening, half_acceleration));
+      gaps.gap[k] = n.dot(b - a) - clearance_error;
+      gaps.speed[k] = opening_a - turn_B.dot(b - state.p_AQb);
+      ++k;
     }
   }
-  return least;
+  return gaps.time_open(enough);
 }
 
 /// What a body that carries the direction sees of the other one.
@@ -69,7 +99,7 @@ struct CarriedView {
 /// n points from the carrier to the other.
 double along_direction_carried(const CarriedView& view, const Triangle& carrier,
                                const Triangle& other, const Vector3d& n, double clearance_error,
-                               double time_left) {
+                               double time_left, double enough) {
   const double spin = view.rate * n.cross(view.axis).norm();
   const double other_speed = view.other_velocity.norm() + view.other_rate * view.other_reach;
   const Vector3d apart = view.other_pivot - view.carrier_pivot;
@@ -77,20 +107,21 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
   const double distance =
       std::max(apart.norm(), (apart + time_left * view.other_velocity).norm()) + view.other_reach;
   const double slip = kSpeedError * (other_speed + view.rate * distance);
-  const double half_acceleration =
+  Gaps<3> gaps;
+  gaps.half_acceleration =
       0.5 * (1.0 + 0x1p-46) *
       (view.other_rate * view.other_rate * view.other_reach + 2.0 * spin * other_speed +
        view.rate * spin * distance + slip * (view.rate + view.other_rate));
   const double wall = std::max({n.dot(carrier[0]), n.dot(carrier[1]), n.dot(carrier[2])});
-  double least = kInfinity;
-  for (const Vector3d& b : other) {
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d& b = other[k];
     const Vector3d velocity = view.other_velocity +
                               view.other_rate * view.other_axis.cross(b - view.other_pivot) -
                               view.rate * view.axis.cross(b - view.carrier_pivot);
-    const double gap = n.dot(b) - wall - clearance_error;
-    least = std::min(least, time_to_close(gap, slip - n.dot(velocity), half_acceleration));
+    gaps.gap[k] = n.dot(b) - wall - clearance_error;
+    gaps.speed[k] = slip - n.dot(velocity);
   }
-  return least;
+  return gaps.time_open(enough);
 }
 
 }  // namespace
@@ -103,17 +134,24 @@ double advance(const RelativeMotion& motion, const RelativeState& state, const T
   const ConstantRatePath& A = motion.A();
   const ConstantRatePath& B = motion.B();
   const Vector3d& s = motion.pivot_velocity();
-  const double fixed = along_direction_fixed(motion, state, pair, n, clearance_error, reach);
-  if (fixed >= time_left) {
+  const double enough = time_left * (1.0 + 0x1p-40) + 0x1p-100;
+  const double fixed =
+      along_direction_fixed(motion, state, pair, n, clearance_error, reach, enough);
+  if (fixed >= enough) {
     return fixed;
   }
   const CarriedView by_A{A.rate(), A.axis(),    state.p_AQa, B.rate(),
                          B.axis(), state.p_AQb, s,           reach.B};
+  const double carried_by_A =
+      along_direction_carried(by_A, pair.A, pair.B, n, clearance_error, time_left, enough);
+  if (carried_by_A >= enough) {
+    return carried_by_A;
+  }
   const CarriedView by_B{B.rate(), B.axis(),    state.p_AQb, A.rate(),
                          A.axis(), state.p_AQa, -s,          reach.A};
-  return std::max({fixed,
-                   along_direction_carried(by_A, pair.A, pair.B, n, clearance_error, time_left),
-                   along_direction_carried(by_B, pair.B, pair.A, -n, clearance_error, time_left)});
+  return std::max(
+      {fixed, carried_by_A,
+       along_direction_carried(by_B, pair.B, pair.A, -n, clearance_error, time_left, enough)});
 }
 
 }  // namespace firstcontact

@@ -30,13 +30,13 @@ struct TrianglePair {
 ///   K = w_B^2 rho_B + 2 w_A |n x u_A| (|s| + w_B rho_B) + w_A^2 |n x u_A| D,
 /// the accelerations of B, of Coriolis and of the turning frame, with s the relative velocity of
 /// the pivots and D a bound of |b - Q_A| up to t_end. Every direction certifies; the best of the
-/// three is taken.
+/// three is taken, or the first that holds beyond t_end.
 ///
 /// @param pair       positions at t
 /// @param n          [-]  unit up to rounding, from A towards B
 /// @param threshold  [m]
 /// @param error      [m]  of the gap: positions, transforms and products
-/// @param t_end      end of the piece, only for D
+/// @param t_end      no farther is of interest; at most the end of the piece
 FIRSTCONTACT_API double advance(const RelativeMotion& motion, const RelativeState& state,
                                 const TrianglePair& pair, const Eigen::Vector3d& n,
                                 double threshold, double error, double t, double t_end);

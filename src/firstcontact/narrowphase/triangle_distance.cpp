@@ -23,109 +23,162 @@ TriangleFeature edge_or_end(int edge, double s) {
                   : TriangleFeature{Type::edge, edge};
 }
 
+/// A triangle with what all elementary pairs need of it.
+struct Prepared {
+  explicit Prepared(const Triangle& T) : corners(T), edges{T[1] - T[0], T[2] - T[1], T[0] - T[2]} {
+    for (int k = 0; k < 3; ++k) {
+      square[k] = edges[k].squaredNorm();
+      inverse_square[k] = square[k] > 0.0 ? 1.0 / square[k] : 0.0;
+    }
+    normal = edges[0].cross(Vector3d(-edges[2]));
+  }
+
+  [[nodiscard]] Vector3d point(int edge, double s) const {
+    return s == 1.0 ? corners[(edge + 1) % 3] : Vector3d(corners[edge] + s * edges[edge]);
+  }
+  /// Of the three corners of another triangle over this one's plane, times |normal|.
+  [[nodiscard]] Vector3d heights(const Triangle& other) const {
+    return {normal.dot(other[0] - corners[0]), normal.dot(other[1] - corners[0]),
+            normal.dot(other[2] - corners[0])};
+  }
+
+  const Triangle& corners;
+  std::array<Vector3d, 3> edges;
+  std::array<double, 3> square;
+  std::array<double, 3> inverse_square;
+  Vector3d normal;
+};
+
 /// Closest points of edge i of A and edge j of B. One parameter comes from the normal equations,
 /// then each is made the best for the other, which also mends what near-parallel edges lose.
-ClosestFeatures edge_edge(const Triangle& A, int i, const Triangle& B, int j) {
-  const Vector3d& p = A[i];
-  const Vector3d& q = B[j];
-  const Vector3d u = A[(i + 1) % 3] - p;
-  const Vector3d v = B[(j + 1) % 3] - q;
-  const Vector3d r = q - p;
-  const double uu = u.dot(u);
-  const double vv = v.dot(v);
+/// Calls use(squared distance, features) with a function that makes the features.
+template <class Use>
+void edge_edge(const Prepared& A, int i, const Prepared& B, int j, const Use& use) {
+  const Vector3d& u = A.edges[i];
+  const Vector3d& v = B.edges[j];
+  const Vector3d r = B.corners[j] - A.corners[i];
   const double uv = u.dot(v);
   const double ur = u.dot(r);
   const double vr = v.dot(r);
-  const double determinant = uu * vv - uv * uv;
-  double s = determinant > 0.0 ? clamp_to_unit((ur * vv - vr * uv) / determinant) : 0.0;
-  const double t = vv > 0.0 ? clamp_to_unit((s * uv - vr) / vv) : 0.0;
-  s = uu > 0.0 ? clamp_to_unit((t * uv + ur) / uu) : 0.0;
-  ClosestFeatures c;
-  c.p_A = s == 1.0 ? A[(i + 1) % 3] : Vector3d(p + s * u);
-  c.p_B = t == 1.0 ? B[(j + 1) % 3] : Vector3d(q + t * v);
-  c.distance = (c.p_B - c.p_A).norm();
-  c.feature_A = edge_or_end(i, s);
-  c.feature_B = edge_or_end(j, t);
-  return c;
+  const double determinant = A.square[i] * B.square[j] - uv * uv;
+  double s = determinant > 0.0 ? clamp_to_unit((ur * B.square[j] - vr * uv) / determinant) : 0.0;
+  const double t = clamp_to_unit((s * uv - vr) * B.inverse_square[j]);
+  s = clamp_to_unit((t * uv + ur) * A.inverse_square[i]);
+  const Vector3d p_A = A.point(i, s);
+  const Vector3d p_B = B.point(j, t);
+  use((p_B - p_A).squaredNorm(), [&] {
+    return ClosestFeatures{(p_B - p_A).norm(), p_A, p_B, edge_or_end(i, s), edge_or_end(j, t)};
+  });
 }
 
 /// The foot of a point on the plane of a triangle, where it lies inside.
-std::optional<Vector3d> foot_inside(const Vector3d& p, const Triangle& T) {
-  const Vector3d u = T[1] - T[0];
-  const Vector3d v = T[2] - T[0];
-  const Vector3d n = u.cross(v);
+std::optional<Vector3d> foot_inside(const Vector3d& p, const Prepared& T) {
+  const Vector3d& n = T.normal;
+  const Vector3d u = T.edges[0];
+  const Vector3d v = -T.edges[2];
   const double nn = n.dot(n);
-  const Vector3d r = p - T[0];
+  const Vector3d r = p - T.corners[0];
   const double b = r.cross(v).dot(n);
   const double c = u.cross(r).dot(n);
   if (!(nn > 0.0 && b > 0.0 && c > 0.0 && b + c < nn)) {
     return std::nullopt;
   }
-  return T[0] + (b / nn) * u + (c / nn) * v;
+  return T.corners[0] + (b / nn) * u + (c / nn) * v;
 }
 
-/// Where edge i of A pierces B.
-std::optional<Vector3d> piercing_point(const Triangle& A, int i, const Triangle& B) {
-  const Vector3d& p = A[i];
-  const Vector3d& q = A[(i + 1) % 3];
-  const Vector3d n = (B[1] - B[0]).cross(B[2] - B[0]);
-  const double above = n.dot(p - B[0]);
-  const double below = n.dot(q - B[0]);
+/// Where edge i of S, between two heights over T's plane, pierces T.
+std::optional<Vector3d> piercing_point(const Prepared& S, int i, const Vector3d& heights,
+                                       const Prepared& T) {
+  const double above = heights[i];
+  const double below = heights[(i + 1) % 3];
   if ((above > 0.0) == (below > 0.0) || above == below) {
     return std::nullopt;
   }
-  const double s = above / (above - below);
-  return foot_inside(p + s * (q - p), B);
+  return foot_inside(S.corners[i] + above / (above - below) * S.edges[i], T);
 }
 
-ClosestFeatures swapped(ClosestFeatures c) {
-  std::swap(c.p_A, c.p_B);
-  std::swap(c.feature_A, c.feature_B);
+ClosestFeatures in_order(ClosestFeatures c, bool swapped) {
+  if (swapped) {
+    std::swap(c.p_A, c.p_B);
+    std::swap(c.feature_A, c.feature_B);
+  }
   return c;
 }
 
-/// Calls use(pair) for each of the at most 21 elementary pairs.
-template <class Use>
-void for_each_pair(const Triangle& A, const Triangle& B, const Use& use) {
+/// Corners of S over the face of T, and edges of S through it; only feet within a squared distance
+/// of `reach()`.
+template <class Reach, class Use>
+void corners_and_edges(const Prepared& S, const Prepared& T, bool swapped, const Reach& reach,
+                       const Use& use) {
+  const Vector3d heights = T.heights(S.corners);
+  const double nn = T.normal.squaredNorm();
+  const double longest2 = std::max({T.square[0], T.square[1], T.square[2]});
+  const double rounding = 0x1p-96 * longest2 * longest2;  // Squared, of a height per length.
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      use(edge_edge(A, i, B, j));
+    // Twice the squares' sum is at least the square of the sum of reach and rounding.
+    const double r2 = (S.corners[i] - T.corners[0]).squaredNorm();
+    if (heights[i] * heights[i] <= 2.0 * (reach() * nn + rounding * r2)) {
+      if (const auto foot = foot_inside(S.corners[i], T)) {
+        use((*foot - S.corners[i]).squaredNorm(), [&] {
+          return in_order({(*foot - S.corners[i]).norm(),
+                           S.corners[i],
+                           *foot,
+                           {Type::vertex, i},
+                           {Type::face, 0}},
+                          swapped);
+        });
+      }
+    }
+    if (const auto point = piercing_point(S, i, heights, T)) {
+      use(0.0, [&] {
+        return in_order({0.0, *point, *point, {Type::edge, i}, {Type::face, 0}}, swapped);
+      });
     }
   }
-  const auto corners_and_edges = [&use](const Triangle& S, const Triangle& T, const auto& order) {
-    for (int i = 0; i < 3; ++i) {
-      if (const auto foot = foot_inside(S[i], T)) {
-        use(order({(*foot - S[i]).norm(), S[i], *foot, {Type::vertex, i}, {Type::face, 0}}));
-      }
-      if (const auto point = piercing_point(S, i, T)) {
-        use(order({0.0, *point, *point, {Type::edge, i}, {Type::face, 0}}));
-      }
+}
+
+/// Calls use(squared distance, function that makes the features) for each of the at most 21
+/// elementary pairs that may be within a squared distance of reach().
+template <class Reach, class Use>
+void for_each_pair(const Triangle& T_A, const Triangle& T_B, const Reach& reach, const Use& use) {
+  const Prepared A(T_A);
+  const Prepared B(T_B);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      edge_edge(A, i, B, j, use);
     }
-  };
-  corners_and_edges(A, B, [](const ClosestFeatures& c) { return c; });
-  corners_and_edges(B, A, swapped);
+  }
+  corners_and_edges(A, B, false, reach, use);
+  corners_and_edges(B, A, true, reach, use);
 }
 
 }  // namespace
 
 ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
   ClosestFeatures best;
-  best.distance = std::numeric_limits<double>::infinity();
-  for_each_pair(A, B, [&best](const ClosestFeatures& c) {
-    if (c.distance < best.distance) {
-      best = c;
-    }
-  });
+  double least = std::numeric_limits<double>::infinity();
+  for_each_pair(
+      A, B, [&least] { return least; },
+      [&](double squared_distance, const auto& features) {
+        if (squared_distance < least) {
+          least = squared_distance;
+          best = features();
+        }
+      });
   return best;
 }
 
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band) {
   FeaturePairs within;
-  for_each_pair(A, B, [&](const ClosestFeatures& c) {
-    if (c.distance <= band) {
-      within.pairs[within.count++] = c;
-    }
-  });
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  for_each_pair(
+      A, B, [] { return kEverywhere; },
+      [&](double, const auto& features) {
+        const ClosestFeatures c = features();
+        if (c.distance <= band) {
+          within.pairs[within.count++] = c;
+        }
+      });
   return within;
 }
 

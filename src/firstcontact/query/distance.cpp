@@ -6,15 +6,17 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/detail/box_pairs.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/order.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::BoxChildren;
-using detail::BoxId;
 using detail::MovingPair;
+
+/// Above the errors of gaps in single precision, in units.
+constexpr double kDoubt = 0x1p-14;
 
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
@@ -26,38 +28,35 @@ struct Nearest {
 /// Best-first over pairs of boxes by the lower bound of their distance.
 Nearest find_nearest(const MovingPair& pair, const RelativeState& state,
                      detail::WorkspaceData& workspace, WorkCount& work) {
+  const detail::BoxesAtInstant boxes(pair, state);
   auto& queue = workspace.nearest;
   const auto farther = [](const auto& x, const auto& y) { return x.first > y.first; };
   Nearest best;
-  queue.assign(1, {0.0, {BoxId{}, BoxId{}}});
+  queue.assign(1, {0.0, {false, 0, 0, detail::root(pair.A()), detail::root(pair.B())}});
   while (!queue.empty() && queue.front().first < best.distance) {
     std::pop_heap(queue.begin(), queue.end(), farther);
-    const auto [box_A, box_B] = queue.back().second;
+    const detail::BoxPair item = queue.back().second;
     queue.pop_back();
-    if (detail::is_triangle(pair.A(), box_A) && detail::is_triangle(pair.B(), box_B)) {
+    if (item.is_triangle_pair) {
       ++work.triangle_pairs;
-      const std::uint32_t ta = detail::triangle(pair.A(), box_A);
-      const std::uint32_t tb = detail::triangle(pair.B(), box_B);
-      const TrianglePair triangles = pair.place(state, ta, tb);
+      const TrianglePair triangles = pair.place(state, item.triangle_A, item.triangle_B);
       const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
       if (closest.distance < best.distance) {
-        best = {closest.distance, closest, ta, tb};
+        best = {closest.distance, closest, item.triangle_A, item.triangle_B};
       }
       continue;
     }
     ++work.node_groups;
-    const BoxChildren as = detail::children(pair.A(), box_A);
-    const BoxChildren bs = detail::children(pair.B(), box_B);
-    for (int i = 0; i < as.count; ++i) {
-      const detail::PlacedBox a = pair.place_A(state, as.boxes[i]);
-      for (int j = 0; j < bs.count; ++j) {
-        const double gap = MovingPair::gap(a, pair.place_B(state, bs.boxes[j]));
-        if (gap < best.distance) {
-          queue.push_back({gap, {as.boxes[i], bs.boxes[j]}});
-          std::push_heap(queue.begin(), queue.end(), farther);
-        }
+    boxes.open(item.A, item.B, [&](const detail::BoxesAtInstant::Lane& lane) {
+      double gap = lane.gap();
+      if (best.distance - gap < kDoubt * pair.unit()) {
+        gap = lane.precise_gap();  // Many pairs may be nearly as close: of surfaces that lie flat.
       }
-    }
+      if (!(gap >= best.distance)) {
+        queue.emplace_back(gap, lane.inside());
+        std::push_heap(queue.begin(), queue.end(), farther);
+      }
+    });
   }
   return best;
 }

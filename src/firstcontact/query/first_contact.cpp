@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -42,15 +44,45 @@ double resolvable_distance(const MovingPair& pair, double margin) {
 /// Far above the motion between neighbouring times, which ends a search of very fast bodies.
 double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_bound(); }
 
+/// Searches a piece in windows of time. Bodies that stay close for long are opened to their
+/// triangles and never closed again; a new search from the root costs less than to drag these
+/// along. Most pieces are one window.
+detail::PieceResult search_windows(const MovingPair& pair, const detail::SharedPiece& piece,
+                                   detail::SearchLimits limits, detail::WorkspaceData& workspace,
+                                   WorkCount& work) {
+  constexpr std::uint64_t kPatience = 1u << 17;
+  constexpr double kLeastWidth = 0x1p-24;
+  double begin = piece.begin();
+  double width = piece.end() - begin;
+  while (true) {
+    const double end = std::min(begin + width, piece.end());
+    const std::uint64_t before = work.node_groups + work.steps;
+    limits.patience = end - begin > kLeastWidth * (piece.end() - piece.begin())
+                          ? kPatience
+                          : std::numeric_limits<std::uint64_t>::max();
+    const detail::PieceResult found =
+        detail::search_piece(pair, begin, end, limits, workspace, work);
+    if (found.impatient) {
+      width = std::clamp(found.t - begin, width / 16.0, width / 2.0);
+      begin = found.t;
+    } else if (found.finished && end < piece.end()) {
+      const bool quick = work.node_groups + work.steps - before < kPatience / 2;
+      width = quick ? 2.0 * width : width;
+      begin = end;
+    } else {
+      return found;
+    }
+  }
+}
+
 /// Searches a piece with the tolerance in use; where time is too coarse for it, with a larger one.
 detail::PieceResult search(const MovingPair& pair, const detail::SharedPiece& piece,
                            detail::SearchLimits limits, detail::WorkspaceData& workspace,
                            FirstContactResult& result) {
-  detail::PieceResult found =
-      detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+  detail::PieceResult found = search_windows(pair, piece, limits, workspace, result.work);
   if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
     limits.tolerance = result.tolerance_used = resolvable_motion(pair);
-    found = detail::search_piece(pair, piece.begin(), piece.end(), limits, workspace, result.work);
+    found = search_windows(pair, piece, limits, workspace, result.work);
   }
   return found;
 }

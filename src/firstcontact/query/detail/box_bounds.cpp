@@ -21,6 +21,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kGapSlack = 0x1p-18f;
 constexpr float kSpeedSlack = 0x1p-19f;
 constexpr float kTimeSlack = 1.0f - 0x1p-18f;
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+constexpr float kRoughness = HWY_TARGET <= HWY_AVX3 ? 0x1p-13f : 0x1p-11f;
+#else
+constexpr float kRoughness = 0x1p-18f;
+#endif
 constexpr float kTiny = 0x1p-60f;         // Above what underflow can lose in a square.
 constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when their unit is scaled.
 constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
@@ -50,7 +55,35 @@ HWY_INLINE V<D> dot(D, const V<D>* x, const V<D>* y) {
   return hn::MulAdd(x[0], y[0], hn::MulAdd(x[1], y[1], hn::Mul(x[2], y[2])));
 }
 
-/// |n x u|, u the same in all lanes.
+/// Within 3/4 kRoughness of 1 / x and 1 / sqrt(x): x86 promises 2^-14 with AVX-512 and 1.5 x 2^-12
+/// before; elsewhere they are exact up to rounding.
+template <class D>
+HWY_INLINE V<D> reciprocal(D d, V<D> x) {
+  if constexpr (kRoughness > 0x1p-15f) {
+    (void)d;
+    return hn::ApproximateReciprocal(x);
+  } else {
+    return hn::Div(hn::Set(d, 1.0f), x);
+  }
+}
+template <class D>
+HWY_INLINE V<D> reciprocal_root(D d, V<D> x) {
+  if constexpr (kRoughness > 0x1p-15f) {
+    (void)d;
+    return hn::ApproximateReciprocalSqrt(x);
+  } else {
+    return hn::Div(hn::Set(d, 1.0f), hn::Sqrt(x));
+  }
+}
+
+/// At least sqrt(x), and hardly more; x >= 0.
+template <class D>
+HWY_INLINE V<D> root_up(D d, V<D> x) {
+  const V<D> positive = hn::Add(x, hn::Set(d, kTiny * kTiny));
+  return hn::Mul(hn::Mul(positive, hn::Set(d, 1.0f + kRoughness)), reciprocal_root(d, positive));
+}
+
+/// At least |n x u|, u the same in all lanes.
 template <class D>
 HWY_INLINE V<D> length_of_cross(D d, const V<D>* n, const float* u) {
   const V<D> u0 = hn::Set(d, u[0]);
@@ -59,7 +92,7 @@ HWY_INLINE V<D> length_of_cross(D d, const V<D>* n, const float* u) {
   const V<D> x = hn::NegMulAdd(n[2], u1, hn::Mul(n[1], u2));
   const V<D> y = hn::NegMulAdd(n[0], u2, hn::Mul(n[2], u0));
   const V<D> z = hn::NegMulAdd(n[1], u0, hn::Mul(n[0], u1));
-  return hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+  return root_up(d, hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
 }
 
 /// Centres in double precision, relative to the first of A's.
@@ -159,9 +192,9 @@ struct Placer {
       c[k] = hn::Load(d, placed.centre[k] + first);
       lever[k] = hn::Sub(c[k], each(first, placed.pivot[0][k], placed.pivot[1][k]));
     }
-    const V<D> radius = hn::Sqrt(dot(d, e, e));
+    const V<D> radius = root_up(d, dot(d, e, e));
     const V<D> rate = each(first, frame.rate[0], frame.rate[1]);
-    const V<D> reach = hn::Mul(rate, hn::Add(hn::Sqrt(dot(d, lever, lever)), radius));
+    const V<D> reach = hn::Mul(rate, hn::Add(root_up(d, dot(d, lever, lever)), radius));
     const V<D> size =
         hn::Add(hn::Add(hn::Abs(c[0]), hn::Abs(c[1])), hn::Add(hn::Abs(c[2]), radius));
     place_axes(frame, first, v, placed);
@@ -266,12 +299,12 @@ struct Pairs {
   }
 
   struct Best {
-    V<D> estimate;  // of the time, only to choose by
-    V<D> gap;       // net of threshold and slack
+    V<D> estimate;  // of the time, only to choose a direction by
+    V<D> gap;       // along that direction, net of slack
     V<D> speed;
-    V<D> half_acceleration;
-    V<D> raw_gap;   // largest of any direction
-    V<D> nearness;  // least distance of any gap from the middle of the band of doubt
+    V<D> twice_acceleration;
+    V<D> largest_gap;  // of any direction, net of slack
+    V<D> nearness;     // least distance of any gap from the middle of the band of doubt
   };
 
   struct Sizes {
@@ -281,51 +314,48 @@ struct Pairs {
     V<D> reach_b;
     V<D> charge;  // threshold and slack
     V<D> slip;
-    V<D> slip_half_acceleration;
+    V<D> slip_acceleration;
     V<D> doubt_middle;
   };
 
+  /// Takes in a direction n, |n| within kRoughness of 1; its length does not enter the time, as
+  /// gap, speed and acceleration are all in proportion to it.
   HWY_INLINE void consider(const Sizes& s, V<D> raw_gap, V<D> opening, V<D> turn_a, V<D> turn_b,
                            Best& best) const {
     const V<D> gap = hn::Sub(raw_gap, s.charge);
     const V<D> speed =
         hn::MulAdd(turn_a, s.radius_a, hn::MulAdd(turn_b, s.radius_b, hn::Sub(s.slip, opening)));
-    const V<D> half_acceleration =
-        hn::MulAdd(hn::Mul(turn_a, s.reach_a), hn::Set(d, 0.5f * (1.0f + 0x1p-16f)),
-                   hn::MulAdd(hn::Mul(turn_b, s.reach_b), hn::Set(d, 0.5f * (1.0f + 0x1p-16f)),
-                              s.slip_half_acceleration));
-    const V<D> open = hn::Max(gap, hn::Zero(d));
-    const V<D> square = hn::MulAdd(
-        speed, speed,
-        hn::MulAdd(hn::Mul(half_acceleration, open), hn::Set(d, 4.0f), hn::Set(d, kTiny * kTiny)));
-    const V<D> root = hn::Mul(square, hn::ApproximateReciprocalSqrt(square));
-    const V<D> closing = hn::Max(hn::Add(speed, root),
+    const V<D> twice_acceleration =
+        hn::MulAdd(turn_a, s.reach_a, hn::MulAdd(turn_b, s.reach_b, s.slip_acceleration));
+    const V<D> twice_open = hn::Max(hn::Add(gap, gap), hn::Zero(d));
+    const V<D> square = hn::MulAdd(twice_acceleration, twice_open, hn::Mul(speed, speed));
+    const V<D> closing = hn::Max(hn::Add(speed, root_up(d, square)),
                                  hn::MulAdd(hn::Abs(speed), hn::Set(d, 1e-3f), hn::Set(d, kTiny)));
-    const V<D> estimate = hn::Mul(open, hn::ApproximateReciprocal(closing));
+    const V<D> estimate = hn::Mul(twice_open, reciprocal(d, closing));
     const auto better = hn::Gt(estimate, best.estimate);
     best.estimate = hn::IfThenElse(better, estimate, best.estimate);
     best.gap = hn::IfThenElse(better, gap, best.gap);
     best.speed = hn::IfThenElse(better, speed, best.speed);
-    best.half_acceleration = hn::IfThenElse(better, half_acceleration, best.half_acceleration);
-    best.raw_gap = hn::Max(best.raw_gap, raw_gap);
+    best.twice_acceleration = hn::IfThenElse(better, twice_acceleration, best.twice_acceleration);
+    best.largest_gap = hn::Max(best.largest_gap, gap);
     best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
   }
 
   /// x with its sign turned where y is negative.
   HWY_INLINE V<D> with_sign(V<D> x, V<D> y) const { return hn::Xor(x, hn::And(y, hn::SignBit(d))); }
 
-  /// time_to_close() of narrowphase/advance.h, in single precision.
+  /// time_to_close() of narrowphase/advance.h for half the acceleration, in single precision:
+  /// 2 g / (m + sqrt(m^2 + 2 K g)); 0 where the gap is not open, or not a number. Exact roots and
+  /// quotients, as tied pairs must stay tied.
   HWY_INLINE V<D> time_to_close(const Best& best) const {
-    const V<D> open = hn::Max(best.gap, hn::Zero(d));
-    const V<D> root = hn::Sqrt(hn::MulAdd(
-        best.speed, best.speed, hn::Mul(hn::Mul(best.half_acceleration, open), hn::Set(d, 4.0f))));
+    const V<D> twice_open = hn::Max(hn::Add(best.gap, best.gap), hn::Zero(d));
+    const V<D> root =
+        hn::Sqrt(hn::MulAdd(best.twice_acceleration, twice_open, hn::Mul(best.speed, best.speed)));
     const V<D> closing =
         hn::Add(hn::Add(best.speed, root),
                 hn::MulAdd(hn::Abs(best.speed), hn::Set(d, 0x1p-20f), hn::Set(d, kTiny)));
-    const V<D> time = hn::Div(hn::Mul(open, hn::Set(d, 2.0f * kTimeSlack)), closing);
-    // NaN compares false: then nothing is proven.
-    const auto proven = hn::And(hn::Gt(best.gap, hn::Zero(d)), hn::Ge(time, hn::Zero(d)));
-    return hn::IfThenElseZero(proven, hn::Min(time, hn::Set(d, 4.0f)));
+    const V<D> time = hn::Div(hn::Mul(twice_open, hn::Set(d, kTimeSlack)), closing);
+    return hn::IfThenElseZero(hn::Gt(time, hn::Zero(d)), hn::Min(time, hn::Set(d, 4.0f)));
   }
 
   template <class Mask>
@@ -348,10 +378,10 @@ struct Pairs {
     s.reach_b = of_b(placed.reach);
     const V<D> slack = hn::MulAdd(hn::Add(of_a(placed.size), of_b(placed.size)),
                                   hn::Set(d, kGapSlack), hn::Set(d, kTinyLength));
-    s.charge = hn::MulAdd(hn::Set(d, frame.threshold), hn::Set(d, 1.0f + kGapSlack), slack);
+    s.charge = hn::MulAdd(hn::Set(d, frame.threshold), hn::Set(d, 1.0f + 2.0f * kRoughness), slack);
     s.slip = hn::Mul(hn::Set(d, kSpeedSlack),
                      hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)));
-    s.slip_half_acceleration = hn::Mul(s.slip, hn::Set(d, frame.rate[0] + frame.rate[1]));
+    s.slip_acceleration = hn::Mul(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])));
 
     const V<D> doubt = hn::Add(of_a(placed.doubt), of_b(placed.doubt));
     s.doubt_middle = hn::Mul(hn::Set(d, 0.5f), hn::Add(slack, doubt));
@@ -377,8 +407,8 @@ struct Pairs {
     best.estimate = hn::Zero(d);
     best.gap = hn::Zero(d);
     best.speed = hn::Zero(d);
-    best.half_acceleration = hn::Zero(d);
-    best.raw_gap = hn::Set(d, -1e38f);
+    best.twice_acceleration = hn::Zero(d);
+    best.largest_gap = hn::Set(d, -1e38f);
     best.nearness = hn::Set(d, 1e38f);
     V<D> extent_b_along[2] = {hn::Zero(d), hn::Zero(d)};
     V<D> extent_a_along[2] = {hn::Zero(d), hn::Zero(d)};
@@ -410,10 +440,13 @@ struct Pairs {
 
     const V<D> time = time_to_close(best);
     hn::Store(time, d, bounds.time + first);
-    hn::Store(hn::Sub(best.raw_gap, slack), d, bounds.gap + first);
+    // A direction may be longer than 1, and the gap along it by as much.
+    const V<D> gap =
+        hn::MulAdd(best.largest_gap, hn::Set(d, 1.0f - kRoughness), hn::Set(d, frame.threshold));
+    hn::Store(gap, d, bounds.gap + first);
     store_bits(hn::Not(hn::Ge(time, hn::Set(d, frame.horizon))), first, bounds.live);
-    store_bits(hn::Gt(best.raw_gap, hn::Mul(hn::Set(d, kFar), hn::Add(s.radius_a, s.radius_b))),
-               first, bounds.far);
+    store_bits(hn::Gt(gap, hn::Mul(hn::Set(d, kFar), hn::Add(s.radius_a, s.radius_b))), first,
+               bounds.far);
     store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, kSizeRatio), s.radius_b)), first,
                bounds.larger_a);
     store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, kSizeRatio), s.radius_a)), first,
@@ -428,8 +461,8 @@ struct Pairs {
                                        const V<D>* velocity, const V<D> (*axes_a)[3],
                                        const V<D> (*axes_b)[3], const V<D>* extent_a,
                                        const V<D>* extent_b, Best& best) const {
-    const V<D> length = hn::Sqrt(dot(d, between, between));
-    const V<D> scale = hn::Div(hn::Set(d, 1.0f), hn::Max(length, hn::Set(d, kTiny)));
+    const V<D> square = dot(d, between, between);
+    const V<D> scale = reciprocal_root(d, hn::Add(square, hn::Set(d, kTiny * kTiny)));
     V<D> n[3];
     for (int k = 0; k < 3; ++k) {
       n[k] = hn::Mul(between[k], scale);

@@ -10,14 +10,6 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Lane 4 i + j for each used box i of one node and j of another.
-std::uint16_t lanes_of(unsigned boxes_a, unsigned boxes_b) {
-  // Bit i of A's boxes moves to bit 4 i, where the product puts B's.
-  const unsigned spread =
-      (boxes_a & 1u) | (boxes_a & 2u) << 3 | (boxes_a & 4u) << 6 | (boxes_a & 8u) << 9;
-  return static_cast<std::uint16_t>(spread * boxes_b);
-}
-
 /// t + tau rounded down (T. J. Dekker's two-sum tells the direction), for t, tau >= 0.
 double after(double t, double tau) {
   const double sum = t + tau;
@@ -26,7 +18,24 @@ double after(double t, double tau) {
   return error < 0.0 ? std::nextafter(sum, 0.0) : sum;
 }
 
-/// At most the value.
+/// Boxes are not moved for less than this fraction of the shapes' size: a bound from a little
+/// earlier loses only what is of second order in time.
+constexpr double kBoxesWindow = 0x1p-11;
+
+/// Below this ratio of squared lengths the direction between two closest points is worse than the
+/// one that the features define.
+constexpr double kNearlyCoinciding = 0x1p-40;
+
+/// [m^2]  Of the larger triangle, roughly.
+double size2(const TrianglePair& pair) {
+  return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
+                  (pair.B[1] - pair.B[0]).squaredNorm() + (pair.B[2] - pair.B[0]).squaredNorm());
+}
+
+/// At least the value.
+float round_up(double value) { return static_cast<float>(value * (1.0 + 0x1p-22)); }
+
+/// At most the value, and not negative.
 float round_down(double value) {
   return std::max(0.0f, static_cast<float>(value * (1.0 - 0x1p-22)));
 }
@@ -43,27 +52,35 @@ class Search {
         groups_(workspace.groups),
         triangle_pairs_(workspace.triangle_pairs),
         work_(work),
+        steps_before_(work.node_groups + work.steps),
         frame_(pair.box_frame()),
         box_threshold_(box_threshold()),
         // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
+        boxes_window_(kBoxesWindow * pair.unit() / std::max(pair.speed_bound(), 1e-300)),
         tie_window_(0.25 * limits.tolerance / std::max(pair.speed_bound(), 1e-300)) {}
 
   PieceResult run() {
     queue_.clear();
     groups_.clear();
     triangle_pairs_.clear();
-    open(t_begin_, {0, pair_.A().nodes[0].used()}, {0, pair_.B().nodes[0].used()}, 0);
+    open(t_begin_, root(pair_.A()), root(pair_.B()), 0);
     while (!queue_.empty()) {
-      if (best_.contact && queue_.front().priority >= best_.t - stop_window_) {
+      if (best_.contact && queue_.top().priority >= best_.t - stop_window_) {
         break;
       }
       if (const UndecidedReason reason = spent(); reason != UndecidedReason::none) {
         return stopped(reason);
       }
-      const QueueItem item = pop();
+      if (!best_.contact && steps() - steps_before_ > limits_.patience) {
+        PieceResult result = stopped(UndecidedReason::none);
+        result.impatient = true;
+        return result;
+      }
+      const QueueItem item = queue_.top();
       if (!item.is_triangle_pair) {
         process_group(item.index);
       } else {
+        queue_.pop();
         const TriangleEntry entry = triangle_pairs_[item.index];
         triangle_pairs_.release(item.index);
         follow_triangles(entry);
@@ -76,12 +93,6 @@ class Search {
   }
 
  private:
-  /// A node and the boxes of it that take part.
-  struct Boxes {
-    std::uint32_t node = 0;
-    unsigned used = 0;
-  };
-
   /// Boxes must not drop a pair that may be held to half its start distance.
   [[nodiscard]] double box_threshold() const {
     return limits_.start_contacts == StartContacts::keep_half
@@ -90,49 +101,29 @@ class Search {
                : limits_.margin;
   }
 
-  static bool later(const QueueItem& x, const QueueItem& y) { return x.priority > y.priority; }
-
-  void push(const QueueItem& item) {
-    queue_.push_back(item);
-    std::push_heap(queue_.begin(), queue_.end(), later);
-  }
-
-  QueueItem pop() {
-    std::pop_heap(queue_.begin(), queue_.end(), later);
-    const QueueItem item = queue_.back();
-    queue_.pop_back();
-    return item;
-  }
-
   void push_triangles(const TriangleEntry& entry) {
-    push({entry.key, triangle_pairs_.add(entry), true});
+    queue_.push({entry.key, triangle_pairs_.add(entry), true});
   }
 
-  /// Queues a group by its earliest live lane, or forgets it when none is left.
-  void push_group(std::uint32_t index) {
+  /// The group's place in the queue, by its earliest lane.
+  [[nodiscard]] QueueItem item(std::uint32_t index, LaneTime earliest) const {
     const BoxGroup& group = groups_[index];
-    if (group.live == 0) {
+    return {key(group, earliest) - lag(group.level), index, false};
+  }
+
+  /// Moves the group at the top of the queue to its new place, or forgets it when no lane is left.
+  void replace_top_group(std::uint32_t index) {
+    const std::int32_t earliest = groups_[index].earliest();
+    if (earliest == LaneTime::kNone) {
+      queue_.pop();
       groups_.release(index);
-      return;
+    } else {
+      queue_.replace_top(item(index, LaneTime(earliest)));
     }
-    push({key(group, earliest(group)) - lag(group.level), index, false});
   }
 
-  static int earliest(const BoxGroup& group) {
-    float least = std::numeric_limits<float>::infinity();
-    int lane = 0;
-    for (unsigned live = group.live; live != 0; live &= live - 1) {
-      const int k = std::countr_zero(live);
-      if (group.time[k] < least) {
-        least = group.time[k];
-        lane = k;
-      }
-    }
-    return lane;
-  }
-
-  static double key(const BoxGroup& group, int lane) {
-    return after(group.base, static_cast<double>(group.time[lane]));
+  static double key(const BoxGroup& group, LaneTime lane) {
+    return after(group.base, static_cast<double>(lane.time()));
   }
 
   /// Each level comes a little earlier than the last, so that ties are searched depth-first.
@@ -140,10 +131,11 @@ class Search {
     return std::min(tie_window_, static_cast<double>(level) * (tie_window_ / 64.0));
   }
 
+  [[nodiscard]] std::uint64_t steps() const { return work_.node_groups + work_.steps; }
+
   [[nodiscard]] UndecidedReason spent() {
     const WorkBudget& budget = limits_.budget;
-    const std::uint64_t steps = work_.node_groups + work_.steps;
-    if (steps >= budget.steps) {
+    if (steps() >= budget.steps) {
       return UndecidedReason::work;
     }
     if (queue_.size() * sizeof(QueueItem) + groups_.bytes() + triangle_pairs_.bytes() >
@@ -154,8 +146,8 @@ class Search {
       return UndecidedReason::cancelled;
     }
     constexpr std::uint64_t kClockInterval = 64;  // Reading the clock costs as much as a step.
-    if (budget.deadline && steps >= next_clock_) {
-      next_clock_ = steps + kClockInterval;
+    if (budget.deadline && steps() >= next_clock_) {
+      next_clock_ = steps() + kClockInterval;
       if (std::chrono::steady_clock::now() >= *budget.deadline) {
         return UndecidedReason::deadline;
       }
@@ -165,7 +157,7 @@ class Search {
 
   /// All that is left is proven free before the least priority.
   [[nodiscard]] double proven_free() const {
-    const double t = queue_.empty() ? t_end_ : queue_.front().priority;
+    const double t = queue_.empty() ? t_end_ : queue_.top().priority;
     return std::max(t_begin_, best_.contact ? std::min(t, best_.t) : t);
   }
 
@@ -195,132 +187,143 @@ class Search {
   }
 
   void process_group(std::uint32_t index) {
-    const BoxGroup group = groups_[index];  // A copy: opening may move the pool.
-    const int lane = earliest(group);
-    const double t = key(group, lane);
+    BoxGroup& group = groups_[index];
+    const LaneTime earliest(group.earliest());
+    const int lane = earliest.lane();
+    const double t = key(group, earliest);
     if (group.far >> lane & 1u) {
-      bound_again(index, t);
+      bound_again(index, lane, t);
       return;
     }
-    groups_[index].live = static_cast<std::uint16_t>(group.live & ~(1u << lane));
-    push_group(index);
-    const HierarchyNode& a = pair_.A().nodes[group.node_a];
-    const HierarchyNode& b = pair_.B().nodes[group.node_b];
-    const int i = lane / HierarchyNode::kWidth;
-    const int j = lane % HierarchyNode::kWidth;
-    if (a.is_leaf(i) && b.is_leaf(j)) {
-      follow_triangles({t, box_threshold_, 0.0, a.child_triangle(i), b.child_triangle(j), false});
-      return;
+    const BoxPair inside =
+        open_lane(pair_, group.node_a, group.node_b, lane, (group.larger_a >> lane & 1u) != 0,
+                  (group.larger_b >> lane & 1u) != 0);
+    const unsigned level = group.level + 1u;
+    group.lanes[lane] = LaneTime::kNone;
+    replace_top_group(index);
+    if (inside.is_triangle_pair) {
+      follow_triangles({t, box_threshold_, 0.0, inside.triangle_A, inside.triangle_B, false});
+    } else {
+      open(t, inside.A, inside.B, level);
     }
-    const bool keep_a = a.is_leaf(i) || (!b.is_leaf(j) && (group.larger_b >> lane & 1u) != 0);
-    const bool keep_b = b.is_leaf(j) || (!a.is_leaf(i) && (group.larger_a >> lane & 1u) != 0);
-    open(t, opened(pair_.A(), group.node_a, i, keep_a), opened(pair_.B(), group.node_b, j, keep_b),
-         group.level + 1);
-  }
-
-  static Boxes opened(const Hierarchy& hierarchy, std::uint32_t node, int slot, bool keep) {
-    if (keep) {
-      return {node, 1u << slot};
-    }
-    const std::uint32_t child = hierarchy.nodes[node].child_node(slot);
-    return {child, hierarchy.nodes[child].used()};
   }
 
   /// Queues the pairs of boxes that may meet after t.
-  void open(double t, const Boxes& a, const Boxes& b, std::uint32_t level) {
+  void open(double t, const NodeBoxes& a, const NodeBoxes& b, unsigned level) {
     BoxGroup group;
     group.node_a = a.node;
     group.node_b = b.node;
-    group.level = level;
-    group.live = lanes_of(a.used, b.used);
-    bound(t, group);
-    if (group.live != 0) {
-      push_group(groups_.add(group));
+    group.level = static_cast<std::uint16_t>(std::min(level, 0xffffu));
+    bound(t, lanes_of(a.used, b.used), group);
+    const std::int32_t earliest = group.earliest();
+    if (earliest != LaneTime::kNone) {
+      queue_.push(item(groups_.add(group), LaneTime(earliest)));
     }
   }
 
   /// Takes a group of well separated pairs further instead of opening them.
-  void bound_again(std::uint32_t index, double t) {
+  void bound_again(std::uint32_t index, int lane, double t) {
     BoxGroup& group = groups_[index];
     const BoxGroup before = group;
-    bound(t, group);
-    const double elapsed = t - before.base;
-    for (unsigned live = group.live; live != 0; live &= live - 1) {
+    bound(t, before.live(), group);
+    const double elapsed = group.base - before.base;
+    for (unsigned live = group.live(); live != 0; live &= live - 1) {
       const int k = std::countr_zero(live);
-      const float old = round_down(static_cast<double>(before.time[k]) - elapsed);
-      group.time[k] = std::max(group.time[k], old);
+      const double old = static_cast<double>(LaneTime(before.lanes[k]).time()) - elapsed;
+      group.lanes[k] = std::max(group.lanes[k], LaneTime(k, round_down(old)).code());
     }
-    push_group(index);
+    // A step that does not move the key would repeat for ever: such a pair is opened instead.
+    if (!(key(group, LaneTime(group.lanes[lane])) > t)) {
+      group.far &= static_cast<std::uint16_t>(~(1u << lane));
+    }
+    replace_top_group(index);
   }
 
-  /// Bounds the live lanes of a group from t on; lanes that are free for good die.
-  void bound(double t, BoxGroup& group) {
+  /// Bounds some lanes of a group, which are proven free until t; those free for good are done
+  /// with.
+  void bound(double t, unsigned lanes, BoxGroup& group) {
     ++work_.node_groups;
-    const RelativeState state = pair_.motion().state(t);
-    const double error = pair_.gap_error(state);
-    pair_.place(state, box_threshold_ + error, horizon() - t, frame_);
-    BoxBounds bounds;
+    if (!(state_t_ <= t && t < state_t_ + boxes_window_)) {
+      move_to(t);
+    }
+    frame_.horizon = round_up(horizon() - state_t_);
     const HierarchyNode& a = pair_.A().nodes[group.node_a];
     const HierarchyNode& b = pair_.B().nodes[group.node_b];
+    BoxBounds bounds;
     bound_boxes(frame_, a, b, bounds);
-    std::copy(std::begin(bounds.time), std::end(bounds.time), group.time.begin());
-    // Two triangles are as quickly tested themselves.
-    const unsigned worthwhile = group.live & bounds.live & ~lanes_of(a.leaves(), b.leaves());
-    for (unsigned unsure = bounds.unsure & worthwhile; unsure != 0; unsure &= unsure - 1) {
-      bound_in_double(t, state, error, std::countr_zero(unsure), group, bounds);
+    unsigned live = lanes & bounds.live;
+    for (unsigned doubt = live & in_doubt(a, b, bounds); doubt != 0; doubt &= doubt - 1) {
+      const int k = std::countr_zero(doubt);
+      if (!bound_in_double(group, k, bounds.time[k])) {
+        live &= ~(1u << k);
+      }
     }
-    group.base = t;
-    group.live &= bounds.live;
+    group.base = state_t_;
     group.larger_a = bounds.larger_a;
     group.larger_b = bounds.larger_b;
-    group.far = 0;
-    for (unsigned far = bounds.far & group.live; far != 0; far &= far - 1) {
-      // A step that does not move the key would repeat for ever: then the pair is opened.
-      const int k = std::countr_zero(far);
-      group.far |= static_cast<std::uint16_t>(key(group, k) > t ? 1u << k : 0u);
-    }
+    group.far = bounds.far;
+    group.set_times(bounds.time, round_down(t - state_t_), ~live);
   }
 
-  /// Repeats one lane where single precision could not tell.
-  void bound_in_double(double t, const RelativeState& state, double error, int lane,
-                       BoxGroup& group, BoxBounds& bounds) const {
+  /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
+  /// find more. Two triangles are as quickly tested themselves; a large one matters to many small
+  /// boxes.
+  static unsigned in_doubt(const HierarchyNode& a, const HierarchyNode& b,
+                           const BoxBounds& bounds) {
+    const unsigned triangle_pairs = lanes_of(a.leaves(), b.leaves());
+    const unsigned large_triangles = (lanes_of(a.leaves(), b.used()) & bounds.larger_a) |
+                                     (lanes_of(a.used(), b.leaves()) & bounds.larger_b);
+    return (bounds.unsure | large_triangles) & ~triangle_pairs;
+  }
+
+  /// Repeats one lane where single precision could not tell; whether it is still of interest.
+  bool bound_in_double(const BoxGroup& group, int lane, float& time) const {
     const BoxId a{group.node_a, static_cast<std::uint32_t>(lane / HierarchyNode::kWidth)};
     const BoxId b{group.node_b, static_cast<std::uint32_t>(lane % HierarchyNode::kWidth)};
-    const BoxPairBound bound =
-        pair_.bound(pair_.place_A(state, a), pair_.place_B(state, b), box_threshold_, error);
-    const auto bit = static_cast<std::uint16_t>(1u << lane);
-    if (covered(t, bound.time)) {
-      bounds.live &= static_cast<std::uint16_t>(~bit);
+    const double apart = pair_.time_apart(pair_.place_A(state_, a), pair_.place_B(state_, b),
+                                          box_threshold_, error_);
+    if (covered(state_t_, apart)) {
+      return false;
+    }
+    time = std::max(time, round_down(std::min(apart, 4.0)));
+    return true;
+  }
+
+  /// Places both bodies.
+  void move_to(double t) {
+    if (t == state_t_) {
       return;
     }
-    group.time[lane] = std::max(group.time[lane], round_down(std::min(bound.time, 4.0)));
+    state_t_ = t;
+    state_ = pair_.motion().state(t);
+    error_ = pair_.gap_error(state_);
+    pair_.place(state_, box_threshold_ + error_, frame_);
   }
 
   /// Advances a pair of triangles until it is in contact, leaves the step, or another pair is due.
   void follow_triangles(TriangleEntry entry) {
     ++work_.triangle_pairs;
     check_start(entry);
-    const double due = queue_.empty() ? horizon() : queue_.front().priority + tie_window_;
+    const double due = queue_.empty() ? horizon() : queue_.top().priority + tie_window_;
     double t = entry.key;
     do {
       ++work_.steps;
-      const RelativeState state = pair_.motion().state(t);
-      const double error = pair_.gap_error(state);
-      const TrianglePair triangles = pair_.place(state, entry.a, entry.b);
+      move_to(t);
+      const TrianglePair triangles = pair_.place(state_, entry.a, entry.b);
       const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
       const double tolerance = tolerance_of(entry);
-      if (closest.distance + error <= entry.threshold + 0.5 * tolerance) {
-        found(entry, t, entry.threshold + tolerance - closest.distance - error);
+      if (closest.distance + error_ <= entry.threshold + 0.5 * tolerance) {
+        found(entry, t, entry.threshold + tolerance - closest.distance - error_);
         return;
       }
-      const double tau = step(state, triangles, closest, entry.threshold, error, t);
+      const double tau = step(triangles, closest, entry.threshold, t);
       if (covered(t, tau)) {
         return;
       }
       const double next = after(t, tau);
       if (!(next > t)) {
-        if (closest.distance + error <= entry.threshold + tolerance) {
-          found(entry, t, entry.threshold + tolerance - closest.distance - error);
+        if (closest.distance + error_ <= entry.threshold + tolerance) {
+          found(entry, t, entry.threshold + tolerance - closest.distance - error_);
           return;
         }
         unresolved_ = true;  // Doubles cannot take the pair any further.
@@ -333,30 +336,30 @@ class Search {
   }
 
   [[nodiscard]] bool exhausted() const {
-    return work_.node_groups + work_.steps >= limits_.budget.steps ||
-           limits_.budget.stop.stop_requested() ||
-           (limits_.budget.deadline && work_.node_groups + work_.steps >= next_clock_);
+    return steps() >= limits_.budget.steps || limits_.budget.stop.stop_requested() ||
+           (limits_.budget.deadline && steps() >= next_clock_);
   }
 
   /// The longest certificate of the direction between the closest points and of the direction that
   /// the features define, which stays accurate when the points nearly coincide; should both fail,
   /// of any normal and any product of edges.
-  [[nodiscard]] double step(const RelativeState& state, const TrianglePair& triangles,
-                            const ClosestFeatures& closest, double threshold, double error,
-                            double t) const {
+  [[nodiscard]] double step(const TrianglePair& triangles, const ClosestFeatures& closest,
+                            double threshold, double t) const {
     const Eigen::Vector3d d = closest.p_B - closest.p_A;
     double best = 0.0;
     const auto consider = [&](const Eigen::Vector3d& direction) {
       const double length = direction.norm();
-      if (length > 0.0 && best < t_end_ - t) {
+      if (length > 0.0 && best <= horizon() - t) {
         const Eigen::Vector3d n = direction / length;
-        best = std::max(best,
-                        advance(pair_.motion(), state, triangles, n, threshold, error, t, t_end_));
+        best = std::max(
+            best, advance(pair_.motion(), state_, triangles, n, threshold, error_, t, horizon()));
       }
     };
     consider(d);
-    const Eigen::Vector3d by_features = separating_direction(triangles, closest);
-    consider(by_features.dot(d) < 0.0 ? Eigen::Vector3d(-by_features) : by_features);
+    if (d.squaredNorm() < kNearlyCoinciding * size2(triangles)) {
+      const Eigen::Vector3d by_features = separating_direction(triangles, closest);
+      consider(by_features.dot(d) < 0.0 ? Eigen::Vector3d(-by_features) : by_features);
+    }
     if (!(best > 0.0)) {
       for_each_plane_normal(triangles, [&](const Eigen::Vector3d& n) {
         consider(n);
@@ -406,12 +409,17 @@ class Search {
   double t_begin_;
   double t_end_;
   const SearchLimits& limits_;
-  std::vector<QueueItem>& queue_;
+  SearchQueue& queue_;
   Pool<BoxGroup>& groups_;
   Pool<TriangleEntry>& triangle_pairs_;
   WorkCount& work_;
+  std::uint64_t steps_before_;
+  double state_t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next three.
+  RelativeState state_;
+  double error_ = 0.0;
   BoxFrame frame_;
   double box_threshold_;
+  double boxes_window_;
   double tie_window_;
   double stop_window_ = 0.0;
   std::uint64_t next_clock_ = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
@@ -12,9 +13,10 @@ namespace firstcontact::detail {
 
 /// What the search of one piece found.
 struct PieceResult {
-  double t = 0.0;         ///< Proven: no contact of the piece before t.
-  bool contact = false;   ///< At t some pair is within its threshold + tolerance.
-  bool finished = false;  ///< Neither: the whole piece is proven free.
+  double t = 0.0;          ///< Proven: no contact of the piece before t.
+  bool contact = false;    ///< At t some pair is within its threshold + tolerance.
+  bool finished = false;   ///< Neither: the whole piece is proven free.
+  bool impatient = false;  ///< Neither: the work that one search may take was spent.
   UndecidedReason reason = UndecidedReason::none;
   std::uint32_t triangle_A = 0;  ///< The pair that decided, in the hierarchies' order.
   std::uint32_t triangle_B = 0;
@@ -27,6 +29,7 @@ struct SearchLimits {
   StartContacts start_contacts = StartContacts::report;
   const MovingPair& start;  ///< At t = 0, where start distances are taken.
   const WorkBudget& budget;
+  std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
 };
 
 /// Searches [t_begin, t_end].

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/query/detail/box_pairs.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -97,30 +99,25 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
   const MovingPair& pair = frame.pair;
   const RelativeState state = pair.motion().state(frame.t);
   const double reach = band + pair.gap_error(state);
+  const BoxesAtInstant boxes(pair, state);
   auto& stack = workspace.stack;
-  stack.assign(1, {BoxId{}, BoxId{}});
+  stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
   while (!stack.empty()) {
-    const auto [box_A, box_B] = stack.back();
+    const BoxPair top = stack.back();
     stack.pop_back();
-    if (is_triangle(pair.A(), box_A) && is_triangle(pair.B(), box_B)) {
-      const std::uint32_t ta = triangle(pair.A(), box_A);
-      const std::uint32_t tb = triangle(pair.B(), box_B);
-      const TrianglePair triangles = pair.place(state, ta, tb);
-      const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
-      for (std::size_t k = 0; k < close.count; ++k) {
-        contacts.push_back(make_contact(frame, state, ta, tb, close.pairs[k]));
-      }
+    if (!top.is_triangle_pair) {
+      boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
+        if (!(lane.gap() > reach)) {
+          stack.push_back(lane.inside());
+        }
+      });
       continue;
     }
-    const BoxChildren as = children(pair.A(), box_A);
-    const BoxChildren bs = children(pair.B(), box_B);
-    for (int i = 0; i < as.count; ++i) {
-      const PlacedBox a = pair.place_A(state, as.boxes[i]);
-      for (int j = 0; j < bs.count; ++j) {
-        if (MovingPair::gap(a, pair.place_B(state, bs.boxes[j])) <= reach) {
-          stack.emplace_back(as.boxes[i], bs.boxes[j]);
-        }
-      }
+    const TrianglePair triangles = pair.place(state, top.triangle_A, top.triangle_B);
+    const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
+    for (std::size_t k = 0; k < close.count; ++k) {
+      contacts.push_back(
+          make_contact(frame, state, top.triangle_A, top.triangle_B, close.pairs[k]));
     }
   }
   std::sort(contacts.begin(), contacts.end(),

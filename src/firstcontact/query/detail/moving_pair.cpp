@@ -15,29 +15,22 @@ using Eigen::Vector3d;
 PlacedBox place(const Hierarchy& hierarchy, BoxId box, const Matrix3d& R, const Vector3d& origin,
                 const Vector3d& pivot) {
   PlacedBox placed;
-  if (box.is_whole()) {
-    placed.centre = origin;
-    placed.axes.setIdentity();
-    placed.extent.setConstant(hierarchy.radius);
-    placed.radius = hierarchy.radius;
-  } else {
-    const HierarchyNode& node = hierarchy.nodes[box.node];
-    const auto slot = static_cast<int>(box.slot);
-    Vector3d centre;
+  const HierarchyNode& node = hierarchy.nodes[box.node];
+  const auto slot = static_cast<int>(box.slot);
+  Vector3d centre;
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = static_cast<double>(node.centre[k][slot]);
+    placed.extent[k] = static_cast<double>(node.half_extent(k, slot)) * hierarchy.unit;
+  }
+  placed.centre = origin + R * (centre * hierarchy.unit);
+  placed.axes = box_axes(node, slot) * R.transpose();
+  placed.radius = placed.extent.norm();
+  placed.is_triangle = node.is_leaf(slot);
+  if (placed.is_triangle) {
+    const auto& corners = hierarchy.triangles[node.child_triangle(slot)];
     for (int k = 0; k < 3; ++k) {
-      centre[k] = static_cast<double>(node.centre[k][slot]);
-      placed.extent[k] = static_cast<double>(node.half_extent(k, slot)) * hierarchy.unit;
-    }
-    placed.centre = origin + R * (centre * hierarchy.unit);
-    placed.axes = box_axes(node, slot) * R.transpose();
-    placed.radius = placed.extent.norm();
-    placed.is_triangle = node.is_leaf(slot);
-    if (placed.is_triangle) {
-      const auto& corners = hierarchy.triangles[node.child_triangle(slot)];
-      for (int k = 0; k < 3; ++k) {
-        placed.corners.row(k) =
-            (origin + R * hierarchy.vertices[corners[k]] - placed.centre).transpose();
-      }
+      placed.corners.row(k) =
+          (origin + R * hierarchy.vertices[corners[k]] - placed.centre).transpose();
     }
   }
   placed.reach = ((placed.centre - pivot).norm() + placed.radius) * (1.0 + 0x1p-48);
@@ -117,16 +110,14 @@ TrianglePair MovingPair::place(const RelativeState& state, std::uint32_t triangl
   return pair;
 }
 
-BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double threshold,
-                               double error) const {
+double MovingPair::time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
+                              double error) const {
   const double wA = motion_.A().rate();
   const double wB = motion_.B().rate();
   const Vector3d velocity = b.velocity - a.velocity;
   const double slip = 0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach);
-  BoxPairBound best;
-  best.gap = -std::numeric_limits<double>::infinity();
+  double best = 0.0;
   for_each_direction(a, b, [&](const Separation& s) {
-    best.gap = std::max(best.gap, s.gap);
     const double clear = s.gap - threshold - error;
     if (!(clear > 0.0)) {
       return;
@@ -136,8 +127,14 @@ BoxPairBound MovingPair::bound(const PlacedBox& a, const PlacedBox& b, double th
     const double speed = slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius;
     const double half_acceleration =
         0.5 * (1.0 + 0x1p-46) * (wA * turn_A * a.reach + wB * turn_B * b.reach + slip * (wA + wB));
-    best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
+    best = std::max(best, time_to_close(clear, speed, half_acceleration));
   });
+  return best;
+}
+
+double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
+  double best = -std::numeric_limits<double>::infinity();
+  for_each_direction(a, b, [&](const Separation& s) { best = std::max(best, s.gap); });
   return best;
 }
 
@@ -166,8 +163,7 @@ BoxFrame MovingPair::box_frame() const {
   return frame;
 }
 
-void MovingPair::place(const RelativeState& state, double threshold, double horizon,
-                       BoxFrame& frame) const {
+void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& frame) const {
   const double scale = 1.0 / unit();  // A power of two: exact.
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
@@ -179,33 +175,6 @@ void MovingPair::place(const RelativeState& state, double threshold, double hori
     frame.pivot[1][i] = state.p_AQb[i] * scale;
   }
   frame.threshold = round_up(threshold * scale);
-  frame.horizon = round_up(horizon);
-}
-
-double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
-  double best = -std::numeric_limits<double>::infinity();
-  for_each_direction(a, b, [&](const Separation& s) { best = std::max(best, s.gap); });
-  return best;
-}
-
-BoxChildren children(const Hierarchy& hierarchy, BoxId box) {
-  BoxChildren result;
-  if (!box.is_whole() && is_triangle(hierarchy, box)) {
-    result.boxes[result.count++] = box;
-    return result;
-  }
-  const std::uint32_t node =
-      box.is_whole() ? 0 : hierarchy.nodes[box.node].child_node(static_cast<int>(box.slot));
-  for (std::uint32_t slot = 0; slot < 4; ++slot) {
-    if ((hierarchy.nodes[node].used() >> slot & 1u) != 0) {
-      result.boxes[result.count++] = {node, slot};
-    }
-  }
-  return result;
-}
-
-bool is_triangle(const Hierarchy& hierarchy, BoxId box) {
-  return !box.is_whole() && hierarchy.nodes[box.node].is_leaf(static_cast<int>(box.slot));
 }
 
 }  // namespace firstcontact::detail

@@ -16,13 +16,10 @@
 
 namespace firstcontact::detail {
 
-/// A box of a hierarchy: slot `slot` of node `node`; or the whole shape, a ball around its centre.
+/// A box of a hierarchy: slot `slot` of node `node`.
 struct BoxId {
-  static constexpr std::uint32_t kWhole = 4;
   std::uint32_t node = 0;
-  std::uint32_t slot = kWhole;
-
-  [[nodiscard]] bool is_whole() const { return slot == kWhole; }
+  std::uint32_t slot = 0;
 };
 
 /// A box at one instant, in the frame of the RelativeState.
@@ -36,12 +33,6 @@ struct PlacedBox {
       corners;         ///< [m]  Of the triangle in the box, relative to the centre; one per row.
   double reach = 0.0;  ///< [m]  Of any point of the box from its pivot.
   Eigen::Vector3d velocity;  ///< [m per step]  Of the centre, relative to A's pivot.
-};
-
-/// Lower bounds for a pair of boxes.
-struct BoxPairBound {
-  double gap = 0.0;   ///< [m]  Best over the directions; negative: none separates.
-  double time = 0.0;  ///< [-]  Provably farther apart than the threshold for this long.
 };
 
 class MovingPair {
@@ -64,24 +55,24 @@ class MovingPair {
   [[nodiscard]] TrianglePair place(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// Both bounds by the directions of the centre line and of each box's axes; of a triangle's box,
-  /// only the triangle counts.
-  [[nodiscard]] BoxPairBound bound(const PlacedBox& a, const PlacedBox& b, double threshold,
-                                   double error) const;
+  /// [-]  For how long two boxes are provably farther apart than the threshold, by the directions
+  /// of the centre line and of each box's axes; of a triangle's box, only the triangle counts.
+  [[nodiscard]] double time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
+                                  double error) const;
+
+  /// [m]  Lower bound of the distance of two boxes at this instant, by the same directions;
+  /// negative where none separates.
+  [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);
 
   /// What the kernel needs that is the same at all times.
   [[nodiscard]] BoxFrame box_frame() const;
-  /// Sets the rest of it for one instant.
+  /// Sets the rest of it for one instant, but for the horizon.
   ///
   /// @param threshold  [m]  the error of the gap included
-  /// @param horizon    [-]  from this instant
-  void place(const RelativeState& state, double threshold, double horizon, BoxFrame& frame) const;
+  void place(const RelativeState& state, double threshold, BoxFrame& frame) const;
 
   /// [m]  Of the kernel's lengths.
   [[nodiscard]] double unit() const { return std::max(A_.unit, B_.unit); }
-
-  /// [m]  Lower bound of the distance of two boxes at this instant; negative where none separates.
-  [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);
 
   /// [m per step]  Bound of the rate at which any distance can change over the piece.
   [[nodiscard]] double speed_bound() const { return speed_bound_; }
@@ -92,16 +83,5 @@ class MovingPair {
   const RelativeMotion& motion_;
   double speed_bound_;
 };
-
-/// The boxes inside a box: its node's slots, or itself where it is one triangle.
-struct BoxChildren {
-  std::array<BoxId, 4> boxes;
-  int count = 0;
-};
-[[nodiscard]] BoxChildren children(const Hierarchy& hierarchy, BoxId box);
-[[nodiscard]] bool is_triangle(const Hierarchy& hierarchy, BoxId box);
-[[nodiscard]] inline std::uint32_t triangle(const Hierarchy& hierarchy, BoxId box) {
-  return hierarchy.nodes[box.node].child_triangle(static_cast<int>(box.slot));
-}
 
 }  // namespace firstcontact::detail

@@ -3,28 +3,89 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
-#include <firstcontact/query/detail/box_bounds.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/query/detail/box_pairs.h>
 
 namespace firstcontact::detail {
 
+/// A lane with the time for which its boxes are proven apart, in one number that sorts by the time:
+/// the code of the float, its last four bits the lane.
+class LaneTime {
+ public:
+  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
+
+  LaneTime() = default;
+  explicit LaneTime(std::int32_t code) : code_(code) {}
+  LaneTime(int lane, float time) : code_((std::bit_cast<std::int32_t>(time) & ~15) | lane) {}
+
+  [[nodiscard]] std::int32_t code() const { return code_; }
+  [[nodiscard]] int lane() const { return code_ & 15; }
+  [[nodiscard]] float time() const { return std::bit_cast<float>(code_ & ~15); }
+
+ private:
+  std::int32_t code_ = kNone;
+};
+
+/// For each mask of four lanes what turns the codes of those lanes into kNone.
+inline constexpr std::array<std::array<std::int32_t, 4>, 16> kNoneOf = [] {
+  std::array<std::array<std::int32_t, 4>, 16> table{};
+  for (unsigned mask = 0; mask < 16; ++mask) {
+    for (unsigned k = 0; k < 4; ++k) {
+      table[mask][k] = (mask >> k & 1u) != 0 ? LaneTime::kNone : 0;
+    }
+  }
+  return table;
+}();
+
 /// Pairs of boxes that still may come into contact: box i of node a with box j of node b in lane
-/// 4 i + j. No contact of a live lane before base + time is proven.
+/// 4 i + j. No contact of a lane before base + its time is proven.
 struct BoxGroup {
+  std::array<std::int32_t, 16> lanes{};  ///< Codes of LaneTime, kNone where done with.
   double base = 0.0;
-  std::array<float, 16> time{};
   std::uint32_t node_a = 0;
   std::uint32_t node_b = 0;
-  std::uint16_t live = 0;
   std::uint16_t far = 0;  ///< Were well apart at their last bound: bound again before opening.
   std::uint16_t larger_a = 0;
   std::uint16_t larger_b = 0;
-  std::uint32_t level = 0;  ///< How often boxes were opened to get here.
+  std::uint16_t level = 0;  ///< How often boxes were opened to get here.
+
+  [[nodiscard]] unsigned live() const {
+    unsigned live = 0;
+    for (unsigned k = 0; k < lanes.size(); ++k) {
+      live |= lanes[k] != LaneTime::kNone ? 1u << k : 0u;
+    }
+    return live;
+  }
+
+  /// Sets all lanes, to `proven` where that is later; without branches, as this is done for each
+  /// group.
+  void set_times(const float* time, float proven, unsigned dead) {
+    for (int k = 0; k < 16; ++k) {
+      lanes[k] = LaneTime(k, time[k] > proven ? time[k] : proven).code();
+    }
+    for (unsigned four = 0; four < 4; ++four) {
+      for (unsigned k = 0; k < 4; ++k) {
+        lanes[4 * four + k] |= kNoneOf[dead >> (4 * four) & 15u][k];
+      }
+    }
+  }
+
+  /// The lane with the least time; kNone where all are done with.
+  [[nodiscard]] std::int32_t earliest() const {
+    std::int32_t least = LaneTime::kNone;
+    for (const std::int32_t lane : lanes) {
+      least = std::min(least, lane);
+    }
+    return least;
+  }
 };
 
 /// A pair of triangles that still may come into contact, as indices in the hierarchies' order.
@@ -42,6 +103,58 @@ struct QueueItem {
   double priority = 0.0;  ///< [-]  At most the least key of what it stands for.
   std::uint32_t index = 0;
   bool is_triangle_pair = false;
+};
+
+/// A heap with four children to an entry, which are neighbours in memory; least priority first.
+class SearchQueue {
+ public:
+  void clear() { items_.clear(); }
+  [[nodiscard]] bool empty() const { return items_.empty(); }
+  [[nodiscard]] std::size_t size() const { return items_.size(); }
+  [[nodiscard]] const QueueItem& top() const { return items_.front(); }
+
+  void push(const QueueItem& item) {
+    items_.push_back(item);
+    std::size_t hole = items_.size() - 1;
+    while (hole > 0 && item.priority < items_[(hole - 1) / kWidth].priority) {
+      items_[hole] = items_[(hole - 1) / kWidth];
+      hole = (hole - 1) / kWidth;
+    }
+    items_[hole] = item;
+  }
+
+  void pop() {
+    const QueueItem last = items_.back();
+    items_.pop_back();
+    if (!items_.empty()) {
+      replace_top(last);
+    }
+  }
+
+  void replace_top(const QueueItem& item) {
+    std::size_t hole = 0;
+    while (true) {
+      const std::size_t first = kWidth * hole + 1;
+      const std::size_t end = std::min(first + kWidth, items_.size());
+      std::size_t least = hole;
+      double priority = item.priority;
+      for (std::size_t child = first; child < end; ++child) {
+        const bool less = items_[child].priority < priority;
+        least = less ? child : least;
+        priority = less ? items_[child].priority : priority;
+      }
+      if (least == hole) {
+        break;
+      }
+      items_[hole] = items_[least];
+      hole = least;
+    }
+    items_[hole] = item;
+  }
+
+ private:
+  static constexpr std::size_t kWidth = 4;
+  std::vector<QueueItem> items_;
 };
 
 /// Entries at fixed places, reused when they are done.
@@ -74,11 +187,11 @@ class Pool {
 };
 
 struct WorkspaceData {
-  std::vector<QueueItem> queue;
+  SearchQueue queue;
   Pool<BoxGroup> groups;
   Pool<TriangleEntry> triangle_pairs;
-  std::vector<std::pair<BoxId, BoxId>> stack;
-  std::vector<std::pair<double, std::pair<BoxId, BoxId>>> nearest;
+  std::vector<BoxPair> stack;
+  std::vector<std::pair<double, BoxPair>> nearest;
 };
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,116 @@
+/// @file
+/// Walks pairs of boxes of two hierarchies: some boxes of one node with some of another.
+
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+namespace firstcontact::detail {
+
+/// A node and the boxes of it that take part.
+struct NodeBoxes {
+  std::uint32_t node = 0;
+  unsigned used = 0;
+};
+
+inline NodeBoxes root(const Hierarchy& hierarchy) { return {0, hierarchy.nodes[0].used()}; }
+
+/// What box `slot` of a node holds; or that box alone, where it is kept.
+inline NodeBoxes opened(const Hierarchy& hierarchy, std::uint32_t node, int slot, bool keep) {
+  if (keep) {
+    return {node, 1u << slot};
+  }
+  const std::uint32_t child = hierarchy.nodes[node].child_node(slot);
+  return {child, hierarchy.nodes[child].used()};
+}
+
+/// Lane 4 i + j for each used box i of one node and j of another.
+inline std::uint16_t lanes_of(unsigned boxes_a, unsigned boxes_b) {
+  // Bit i of A's boxes moves to bit 4 i, where the product puts B's.
+  const unsigned spread =
+      (boxes_a & 1u) | (boxes_a & 2u) << 3 | (boxes_a & 4u) << 6 | (boxes_a & 8u) << 9;
+  return static_cast<std::uint16_t>(spread * boxes_b);
+}
+
+/// Two triangles, as indices in their hierarchies' order; or two sets of boxes.
+struct BoxPair {
+  bool is_triangle_pair = false;
+  std::uint32_t triangle_A = 0;
+  std::uint32_t triangle_B = 0;
+  NodeBoxes A;
+  NodeBoxes B;
+};
+
+/// What is in one lane: the two triangles; or what opening finds in the boxes, only in the larger
+/// one where their sizes differ much.
+inline BoxPair open_lane(const MovingPair& pair, std::uint32_t node_a, std::uint32_t node_b,
+                         int lane, bool larger_a, bool larger_b) {
+  const HierarchyNode& a = pair.A().nodes[node_a];
+  const HierarchyNode& b = pair.B().nodes[node_b];
+  const int i = lane / HierarchyNode::kWidth;
+  const int j = lane % HierarchyNode::kWidth;
+  const bool leaf_a = a.is_leaf(i);
+  const bool leaf_b = b.is_leaf(j);
+  if (leaf_a && leaf_b) {
+    return {true, a.child_triangle(i), b.child_triangle(j), {}, {}};
+  }
+  return {false, 0, 0, opened(pair.A(), node_a, i, leaf_a || (!leaf_b && larger_b)),
+          opened(pair.B(), node_b, j, leaf_b || (!leaf_a && larger_a))};
+}
+
+/// Opens pairs of boxes at one instant by lower bounds of their distance.
+class BoxesAtInstant {
+ public:
+  BoxesAtInstant(const MovingPair& pair, const RelativeState& state)
+      : pair_(pair), state_(state), frame_(pair.box_frame()) {
+    pair.place(state, 0.0, frame_);
+    frame_.horizon = 0.0f;
+  }
+
+  /// Two of the boxes.
+  struct Lane {
+    const BoxesAtInstant& boxes;
+    const BoxBounds& bounds;
+    std::uint32_t node_a;
+    std::uint32_t node_b;
+    int index;
+
+    /// [m]  No points of the boxes are closer, in positions as computed from the state.
+    [[nodiscard]] double gap() const {
+      return static_cast<double>(bounds.gap[index]) * boxes.pair_.unit();
+    }
+    /// [m]  The same in double precision.
+    [[nodiscard]] double precise_gap() const {
+      const BoxId a{node_a, static_cast<std::uint32_t>(index / HierarchyNode::kWidth)};
+      const BoxId b{node_b, static_cast<std::uint32_t>(index % HierarchyNode::kWidth)};
+      return MovingPair::gap(boxes.pair_.place_A(boxes.state_, a),
+                             boxes.pair_.place_B(boxes.state_, b));
+    }
+    [[nodiscard]] BoxPair inside() const {
+      return open_lane(boxes.pair_, node_a, node_b, index, (bounds.larger_a >> index & 1u) != 0,
+                       (bounds.larger_b >> index & 1u) != 0);
+    }
+  };
+
+  /// Calls use(lane) for each pair of boxes.
+  template <class Use>
+  void open(const NodeBoxes& a, const NodeBoxes& b, const Use& use) const {
+    BoxBounds bounds;
+    bound_boxes(frame_, pair_.A().nodes[a.node], pair_.B().nodes[b.node], bounds);
+    for (unsigned lanes = lanes_of(a.used, b.used); lanes != 0; lanes &= lanes - 1) {
+      use(Lane{*this, bounds, a.node, b.node, std::countr_zero(lanes)});
+    }
+  }
+
+ private:
+  const MovingPair& pair_;
+  const RelativeState& state_;
+  BoxFrame frame_;
+};
+
+}  // namespace firstcontact::detail
