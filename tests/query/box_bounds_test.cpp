@@ -105,9 +105,7 @@ TEST_P(BoxBoundsOn, TimeIsMostOfTheTimeToContact) {
     for (int i = 0; i < 1000 && at < 1.0L; ++i) {
       const Real distance = c.distance(0, 0, at);
       if (distance <= enough) {
-        if (at > c.t) {
-          ratios.push_back(static_cast<double>(bounds_of(c).time[0] / (at - c.t)));
-        }
+        ratios.push_back(static_cast<double>(bounds_of(c).time[0] / (at - c.t)));
         break;
       }
       at += (distance - c.threshold) / speed;
