@@ -401,7 +401,7 @@ void sort_mesh(const Mesh& mesh, std::span<const Item> items, Hierarchy& hierarc
     for (std::uint32_t& v : triangle) {
       if (sorted[v] == kUnseen) {
         sorted[v] = static_cast<std::uint32_t>(hierarchy.vertices.size());
-        hierarchy.vertices.push_back(mesh.vertices[v] - hierarchy.centre);
+        hierarchy.vertices.emplace_back(mesh.vertices[v] - hierarchy.centre);
         hierarchy.vertex_index.push_back(v);
       }
       v = sorted[v];

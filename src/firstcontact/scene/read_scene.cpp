@@ -100,6 +100,7 @@ std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folder
 
 std::string_view nearest_name(std::string_view name, const std::vector<Body>& bodies) {
   std::vector<std::string_view> names;
+  names.reserve(bodies.size());
   for (const Body& body : bodies) {
     names.emplace_back(body.name);
   }

@@ -101,7 +101,7 @@ HWY_INLINE void place_centres(const BoxFrame& frame, const HierarchyNode* const*
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> df;
   HWY_ALIGN double p[3][8];
-  for (int body = 0; body < 2; ++body) {
+  for (std::size_t body = 0; body < 2; ++body) {
     const double* R = frame.rotation[body];
     const auto ratio = hn::Set(d, frame.ratio[body]);
     for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
