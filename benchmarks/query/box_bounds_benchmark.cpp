@@ -33,7 +33,8 @@ void bound_knots(benchmark::State& state, std::int64_t target) {
   const RelativeMotion motion(motion_A.path(0, knot.centre), motion_B.path(0, knot.centre), 1e-6);
   const detail::MovingPair pair(knot, knot, motion);
   detail::BoxFrame frame = pair.box_frame();
-  pair.place(motion.state(0.5), 1e-9, 0.5, frame);
+  pair.place(motion.state(0.5), 1e-9, frame);
+  frame.horizon = 0.5f;
   detail::BoxBounds bounds;
   std::size_t i = 0;
   for (auto _ : state) {
