@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -11,8 +10,6 @@ namespace firstcontact {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Velocities are products of a few rounded numbers: within 2^-48 of their size.
 constexpr double kSpeedError = 0x1p-48;
