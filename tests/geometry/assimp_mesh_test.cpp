@@ -1,6 +1,8 @@
 // DAE, glTF and GLB, whose parser is the assimp library's: good files, and every way to cut them
 // off.
 
+#include <unistd.h>
+
 #include <clocale>
 #include <cstdint>
 #include <filesystem>
@@ -19,8 +21,9 @@
 #include "geometry/mesh_text.h"
 
 /// Assimp leaks what it has read of a file that it then refuses.
-extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }  // NOLINT
+/// Visible, so that a sanitizer in a library of its own finds it.
+extern "C" [[gnu::visibility("default")]] const char* __lsan_default_suppressions();  // NOLINT
+extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }     // NOLINT
 
 namespace firstcontact {
 namespace {
@@ -93,7 +96,7 @@ std::string dae(const std::string& positions = "0 0 0 1 0 0 0 1 0",
 )";
 }
 
-/// A file of the test's own.
+/// A file of the test's own; ctest runs each test in a process of its own.
 class AssimpMesh : public testing::TestWithParam<const char*> {
  protected:
   ~AssimpMesh() override { std::filesystem::remove(path_); }
@@ -101,7 +104,7 @@ class AssimpMesh : public testing::TestWithParam<const char*> {
   Mesh read(const std::string& extension, const std::string& bytes) {
     std::filesystem::remove(path_);
     path_ = std::filesystem::path(testing::TempDir()) /
-            ("assimp_" + std::to_string(reinterpret_cast<std::uintptr_t>(this)) + extension);
+            ("assimp_" + std::to_string(::getpid()) + extension);
     std::ofstream(path_, std::ios::binary) << bytes;
     return read_mesh(path_);
   }
