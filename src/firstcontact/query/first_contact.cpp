@@ -51,15 +51,14 @@ detail::PieceResult search_windows(const MovingPair& pair, const detail::SharedP
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
   constexpr std::uint64_t kPatience = 1u << 17;
-  constexpr double kLeastWidth = 0x1p-24;
+  // Far above the distance of neighbouring times; ties are not told apart by shorter windows.
+  constexpr double kLeastWidth = 0x1p-32;
   double begin = piece.begin();
   double width = piece.end() - begin;
   while (true) {
     const double end = std::min(begin + width, piece.end());
     const std::uint64_t before = work.node_groups + work.steps;
-    limits.patience = end - begin > kLeastWidth * (piece.end() - piece.begin())
-                          ? kPatience
-                          : std::numeric_limits<std::uint64_t>::max();
+    limits.patience = width > kLeastWidth ? kPatience : std::numeric_limits<std::uint64_t>::max();
     const detail::PieceResult found =
         detail::search_piece(pair, begin, end, limits, workspace, work);
     if (found.impatient) {

@@ -32,9 +32,6 @@ double size2(const TrianglePair& pair) {
                   (pair.B[1] - pair.B[0]).squaredNorm() + (pair.B[2] - pair.B[0]).squaredNorm());
 }
 
-/// At least the value.
-float round_up(double value) { return static_cast<float>(value * (1.0 + 0x1p-22)); }
-
 /// At most the value, and not negative.
 float round_down(double value) {
   return std::max(0.0f, static_cast<float>(value * (1.0 - 0x1p-22)));
@@ -55,8 +52,8 @@ class Search {
         steps_before_(work.node_groups + work.steps),
         frame_(pair.box_frame()),
         box_threshold_(box_threshold()),
-        // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
         boxes_window_(kBoxesWindow * pair.unit() / std::max(pair.speed_bound(), 1e-300)),
+        // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
         tie_window_(0.25 * limits.tolerance / std::max(pair.speed_bound(), 1e-300)) {}
 
   PieceResult run() {

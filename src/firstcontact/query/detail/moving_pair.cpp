@@ -138,13 +138,6 @@ double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
   return best;
 }
 
-namespace {
-
-/// At or above the value.
-float round_up(double value) { return static_cast<float>(value * (1.0 + 0x1p-22)) + 0x1p-126f; }
-
-}  // namespace
-
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
   const std::array<const ConstantRatePath*, 2> paths{&motion_.A(), &motion_.B()};

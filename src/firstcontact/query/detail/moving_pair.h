@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -34,6 +35,12 @@ struct PlacedBox {
   double reach = 0.0;  ///< [m]  Of any point of the box from its pivot.
   Eigen::Vector3d velocity;  ///< [m per step]  Of the centre, relative to A's pivot.
 };
+
+/// Above a value >= 0, as the fields of a BoxFrame have to be. Above 0 too: at the very end of a
+/// step the horizon is 0, and a pair that is not proven apart for any time must not be dropped.
+inline float round_up(double value) {
+  return static_cast<float>(value * (1.0 + 0x1p-22)) + std::numeric_limits<float>::min();
+}
 
 class MovingPair {
  public:
