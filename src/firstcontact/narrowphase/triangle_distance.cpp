@@ -170,10 +170,13 @@ ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
 
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band) {
   FeaturePairs within;
-  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  const double reach = band * band * (1.0 + 0x1p-40);  // Not less than rounding takes off.
   for_each_pair(
-      A, B, [] { return kEverywhere; },
-      [&](double, const auto& features) {
+      A, B, [reach] { return reach; },
+      [&](double squared_distance, const auto& features) {
+        if (squared_distance > reach) {
+          return;
+        }
         const ClosestFeatures c = features();
         if (c.distance <= band) {
           within.pairs[within.count++] = c;

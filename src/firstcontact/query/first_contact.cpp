@@ -99,7 +99,11 @@ void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPai
   } else if (options.contacts == ContactState::all) {
     const double band = options.margin + result.tolerance_used + options.contact_band +
                         A.shape.radius() + B.shape.radius();
-    detail::collect_contacts(frame, band, workspace, result.contacts);
+    if (found.all_remembered && options.contact_band == 0.0) {
+      detail::collect_contacts_of(workspace.opened_pairs, frame, band, result.contacts);
+    } else {
+      detail::collect_contacts(frame, band, workspace, result.contacts);
+    }
   }
 }
 

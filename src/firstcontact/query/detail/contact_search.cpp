@@ -26,6 +26,8 @@ constexpr double kBoxesWindow = 0x1p-11;
 /// one that the features define.
 constexpr double kNearlyCoinciding = 0x1p-40;
 
+constexpr std::uint32_t kMostRemembered = 512;
+
 /// [m^2]  Of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
   return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
@@ -48,10 +50,11 @@ class Search {
         queue_(workspace.queue),
         groups_(workspace.groups),
         triangle_pairs_(workspace.triangle_pairs),
+        opened_(workspace.opened_pairs),
         work_(work),
         steps_before_(work.node_groups + work.steps),
         frame_(pair.box_frame()),
-        box_threshold_(box_threshold()),
+        box_threshold_(box_threshold() + limits.tolerance),
         boxes_window_(kBoxesWindow * pair.unit() / std::max(pair.speed_bound(), 1e-300)),
         // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
         tie_window_(0.25 * limits.tolerance / std::max(pair.speed_bound(), 1e-300)) {}
@@ -60,6 +63,7 @@ class Search {
     queue_.clear();
     groups_.clear();
     triangle_pairs_.clear();
+    opened_.clear();
     open(t_begin_, root(pair_.A()), root(pair_.B()), 0);
     while (!queue_.empty()) {
       if (best_.contact && queue_.top().priority >= best_.t - stop_window_) {
@@ -91,6 +95,9 @@ class Search {
 
  private:
   /// Boxes must not drop a pair that may be held to half its start distance.
+  ///
+  /// As long as the tolerance is added, no pair of boxes that is left at the end has anything within
+  /// the contact band: the contacts are among the pairs of triangles that were opened.
   [[nodiscard]] double box_threshold() const {
     return limits_.start_contacts == StartContacts::keep_half
                ? std::max(limits_.margin,
@@ -169,6 +176,7 @@ class Search {
     PieceResult result = best_;
     if (best_.contact) {
       result.t = proven_free();
+      result.all_remembered = all_remembered_;
     } else {
       result.t = t_end_;
       result.finished = true;
@@ -199,10 +207,27 @@ class Search {
     group.lanes[lane] = LaneTime::kNone;
     replace_top_group(index);
     if (inside.is_triangle_pair) {
-      follow_triangles({t, box_threshold_, 0.0, inside.triangle_A, inside.triangle_B, false});
+      TriangleEntry entry;
+      entry.key = t;
+      entry.threshold = limits_.margin;
+      entry.a = inside.triangle_A;
+      entry.b = inside.triangle_B;
+      entry.opened = remember(entry);
+      follow_triangles(entry);
     } else {
       open(t, inside.A, inside.B, level);
     }
+  }
+
+  /// Too many pairs are better found again, by distance, than opened only for the list of contacts.
+  [[nodiscard]] std::uint32_t remember(const TriangleEntry& entry) {
+    if (opened_.size() == kMostRemembered) {
+      all_remembered_ = false;
+      box_threshold_ = box_threshold();
+      return kMostRemembered;
+    }
+    opened_.push_back({entry.a, entry.b, entry.key, 0.0});
+    return static_cast<std::uint32_t>(opened_.size() - 1);
   }
 
   /// Queues the pairs of boxes that may meet after t.
@@ -308,6 +333,10 @@ class Search {
       move_to(t);
       const TrianglePair triangles = pair_.place(state_, entry.a, entry.b);
       const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
+      if (entry.opened < opened_.size()) {
+        opened_[entry.opened].t = t;
+        opened_[entry.opened].distance = closest.distance;
+      }
       const double tolerance = tolerance_of(entry);
       if (closest.distance + error_ <= entry.threshold + 0.5 * tolerance) {
         found(entry, t, entry.threshold + tolerance - closest.distance - error_);
@@ -409,6 +438,7 @@ class Search {
   SearchQueue& queue_;
   Pool<BoxGroup>& groups_;
   Pool<TriangleEntry>& triangle_pairs_;
+  std::vector<OpenedPair>& opened_;
   WorkCount& work_;
   std::uint64_t steps_before_;
   double state_t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next three.
@@ -421,6 +451,7 @@ class Search {
   double stop_window_ = 0.0;
   std::uint64_t next_clock_ = 0;
   bool unresolved_ = false;
+  bool all_remembered_ = true;
   PieceResult best_;
 };
 

@@ -17,6 +17,8 @@ struct PieceResult {
   bool contact = false;    ///< At t some pair is within its threshold + tolerance.
   bool finished = false;   ///< Neither: the whole piece is proven free.
   bool impatient = false;  ///< Neither: the work that one search may take was spent.
+  /// WorkspaceData::opened_pairs holds every pair of triangles within margin + tolerance at t.
+  bool all_remembered = false;
   UndecidedReason reason = UndecidedReason::none;
   std::uint32_t triangle_A = 0;  ///< The pair that decided, in the hierarchies' order.
   std::uint32_t triangle_B = 0;

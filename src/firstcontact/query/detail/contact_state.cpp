@@ -1,6 +1,7 @@
 #include <firstcontact/query/detail/contact_state.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -94,6 +95,40 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   return contact;
 }
 
+namespace {
+
+void append_contacts(const ContactFrame& frame, const RelativeState& state,
+                     std::uint32_t triangle_A, std::uint32_t triangle_B, double band,
+                     std::vector<Contact>& contacts) {
+  const TrianglePair triangles = frame.pair.place(state, triangle_A, triangle_B);
+  const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
+  for (std::size_t k = 0; k < close.count; ++k) {
+    contacts.push_back(make_contact(frame, state, triangle_A, triangle_B, close.pairs[k]));
+  }
+}
+
+/// Sorts, and keeps one of each pair of features.
+void sort_once(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& x, const Contact& y) { return order_key(x) < order_key(y); });
+  contacts.erase(std::unique(contacts.begin(), contacts.end(), same_features), contacts.end());
+}
+
+}  // namespace
+
+void collect_contacts_of(const std::vector<OpenedPair>& opened, const ContactFrame& frame,
+                         double band, std::vector<Contact>& contacts) {
+  const RelativeState state = frame.pair.motion().state(frame.t);
+  const double reach = band + 2.0 * frame.pair.gap_error(state);
+  for (const OpenedPair& pair : opened) {
+    const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
+    if (pair.distance - travel <= reach) {
+      append_contacts(frame, state, pair.a, pair.b, band, contacts);
+    }
+  }
+  sort_once(contacts);
+}
+
 void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
                       std::vector<Contact>& contacts) {
   const MovingPair& pair = frame.pair;
@@ -105,24 +140,17 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
   while (!stack.empty()) {
     const BoxPair top = stack.back();
     stack.pop_back();
-    if (!top.is_triangle_pair) {
-      boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
-        if (!(lane.gap() > reach)) {
-          stack.push_back(lane.inside());
-        }
-      });
+    if (top.is_triangle_pair) {
+      append_contacts(frame, state, top.triangle_A, top.triangle_B, band, contacts);
       continue;
     }
-    const TrianglePair triangles = pair.place(state, top.triangle_A, top.triangle_B);
-    const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
-    for (std::size_t k = 0; k < close.count; ++k) {
-      contacts.push_back(
-          make_contact(frame, state, top.triangle_A, top.triangle_B, close.pairs[k]));
-    }
+    boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
+      if (!(lane.gap() > reach)) {
+        stack.push_back(lane.inside());
+      }
+    });
   }
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& x, const Contact& y) { return order_key(x) < order_key(y); });
-  contacts.erase(std::unique(contacts.begin(), contacts.end(), same_features), contacts.end());
+  sort_once(contacts);
 }
 
 void swap_bodies(Contact& contact) {

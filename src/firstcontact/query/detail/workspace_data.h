@@ -95,7 +95,16 @@ struct TriangleEntry {
   double held_tolerance = 0.0;  ///< [m]  Positive: held to half its start distance, to this.
   std::uint32_t a = 0;
   std::uint32_t b = 0;
+  std::uint32_t opened = 0;    ///< Its place among the opened pairs, if it has one.
   bool start_checked = false;  ///< The threshold accounts for the start distance.
+};
+
+/// A pair of triangles that a search opened, and how far apart it last saw them.
+struct OpenedPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  double t = 0.0;
+  double distance = 0.0;  ///< [m]
 };
 
 /// An entry of the search queue: a group or a pair of triangles, by the order of the search.
@@ -190,6 +199,7 @@ struct WorkspaceData {
   SearchQueue queue;
   Pool<BoxGroup> groups;
   Pool<TriangleEntry> triangle_pairs;
+  std::vector<OpenedPair> opened_pairs;  ///< By the last search.
   std::vector<BoxPair> stack;
   std::vector<std::pair<double, BoxPair>> nearest;
 };
