@@ -111,6 +111,52 @@ TEST(FirstContact, HoldsAPairThatStartsInTheBandToHalfItsDistance) {
   EXPECT_LE(left, 0.75 * start);
 }
 
+// The search lists the contacts among the pairs of triangles that it opened; a wider band, though
+// by nothing that counts, has them found by distance.
+void expect_same_contacts_by_distance(const Shape& A, const Shape& B, const Motion& motion_A,
+                                      const Motion& motion_B, double tolerance) {
+  Workspace workspace;
+  FirstContactOptions options;
+  options.tolerance = tolerance;
+  const FirstContactResult by_search =
+      first_contact({A, motion_A}, {B, motion_B}, workspace, options);
+  options.contact_band = 1e-300;
+  const FirstContactResult by_distance =
+      first_contact({A, motion_A}, {B, motion_B}, workspace, options);
+  ASSERT_EQ(by_search.verdict, by_distance.verdict);
+  ASSERT_EQ(by_search.t, by_distance.t);
+  ASSERT_EQ(by_search.contacts.size(), by_distance.contacts.size());
+  for (std::size_t k = 0; k < by_search.contacts.size(); ++k) {
+    const Contact& x = by_search.contacts[k];
+    const Contact& y = by_distance.contacts[k];
+    EXPECT_TRUE(x.feature_A == y.feature_A && x.feature_B == y.feature_B) << k;
+    EXPECT_EQ(x.distance, y.distance) << k;
+  }
+}
+
+TEST(FirstContact, ListsTheContactsThatAreWithinTheBandAtItsTime) {
+  const Shape A = waves(24, 0.1);
+  const Shape B = waves(17, 0.2);
+  const Motion rest = Motion::fixed(at(0.0));
+  constexpr double kTolerance = 5e-3;  // So wide that it holds pairs which touch much later.
+  for (int k = 0; k < 64; ++k) {
+    const double x = 0.31 * std::sin(1.7 * k);
+    const Pose from{.position = {x, 0.2 * std::cos(k), 0.8}};
+    expect_same_contacts_by_distance(
+        A, B, rest,
+        Motion::constant_velocity(from, {0.1, -x, -1.0}, {0.3 * std::sin(k), 0.2, 0.5 * x}),
+        kTolerance);
+  }
+}
+
+TEST(FirstContact, ListsTheContactsOfAFlatLanding) {
+  const Shape plate = waves(24, 0.0);
+  const Motion rest = Motion::fixed(at(0.0));
+  expect_same_contacts_by_distance(
+      plate, plate, rest, Motion::constant_velocity(at(0.5), {0.03, 0.02, -1.0}, Vector3d::Zero()),
+      1e-6);
+}
+
 TEST(FirstContact, RefusesOptionsOutOfRange) {
   const Shape A = waves(2, 0.0);
   const Motion rest = Motion::fixed();

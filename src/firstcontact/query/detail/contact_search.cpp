@@ -26,7 +26,8 @@ constexpr double kBoxesWindow = 0x1p-11;
 /// one that the features define.
 constexpr double kNearlyCoinciding = 0x1p-40;
 
-constexpr std::uint32_t kMostRemembered = 512;
+/// Opened pairs of triangles; a dozen times what most queries open.
+constexpr std::size_t kMostRemembered = 256;
 
 /// [m^2]  Of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
@@ -60,11 +61,8 @@ class Search {
         tie_window_(0.25 * limits.tolerance / std::max(pair.speed_bound(), 1e-300)) {}
 
   PieceResult run() {
-    queue_.clear();
-    groups_.clear();
-    triangle_pairs_.clear();
     opened_.clear();
-    open(t_begin_, root(pair_.A()), root(pair_.B()), 0);
+    start(t_begin_);
     while (!queue_.empty()) {
       if (best_.contact && queue_.top().priority >= best_.t - stop_window_) {
         break;
@@ -89,6 +87,9 @@ class Search {
       if (unresolved_) {
         return stopped(UndecidedReason::precision);
       }
+      if (all_remembered_ && opened_.size() > kMostRemembered) {
+        forget_opened();
+      }
     }
     return answer();
   }
@@ -96,13 +97,29 @@ class Search {
  private:
   /// Boxes must not drop a pair that may be held to half its start distance.
   ///
-  /// As long as the tolerance is added, no pair of boxes that is left at the end has anything within
-  /// the contact band: the contacts are among the pairs of triangles that were opened.
+  /// As long as the tolerance is added, no pair of boxes that is left at the end has anything
+  /// within the contact band: the contacts are among the pairs of triangles that were opened.
   [[nodiscard]] double box_threshold() const {
     return limits_.start_contacts == StartContacts::keep_half
                ? std::max(limits_.margin,
                           0.5 * (limits_.radii + limits_.margin + limits_.tolerance))
                : limits_.margin;
+  }
+
+  void start(double t) {
+    queue_.clear();
+    groups_.clear();
+    triangle_pairs_.clear();
+    open(t, root(pair_.A()), root(pair_.B()), 0);
+  }
+
+  /// Many pairs come into the band together: they are sooner found again, by distance, than opened
+  /// one by one. Goes on without them from what is proven.
+  void forget_opened() {
+    all_remembered_ = false;
+    box_threshold_ = box_threshold();
+    state_t_ = std::numeric_limits<double>::quiet_NaN();  // The frame holds the threshold.
+    start(proven_free());
   }
 
   void push_triangles(const TriangleEntry& entry) {
@@ -219,15 +236,12 @@ class Search {
     }
   }
 
-  /// Too many pairs are better found again, by distance, than opened only for the list of contacts.
+  /// The place of a pair among those opened; none any more where these are too many.
   [[nodiscard]] std::uint32_t remember(const TriangleEntry& entry) {
-    if (opened_.size() == kMostRemembered) {
-      all_remembered_ = false;
-      box_threshold_ = box_threshold();
-      return kMostRemembered;
+    if (all_remembered_) {
+      opened_.push_back({entry.a, entry.b, entry.key, 0.0});
     }
-    opened_.push_back({entry.a, entry.b, entry.key, 0.0});
-    return static_cast<std::uint32_t>(opened_.size() - 1);
+    return static_cast<std::uint32_t>(opened_.size() - (all_remembered_ ? 1 : 0));
   }
 
   /// Queues the pairs of boxes that may meet after t.
