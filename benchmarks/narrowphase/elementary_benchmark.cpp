@@ -17,13 +17,14 @@
 #include <firstcontact/narrowphase/edge_edge_contact.h>
 #include <firstcontact/narrowphase/vertex_face_contact.h>
 
-#include "benchmarks/support/random.h"
 #include "benchmarks/support/random_motion.h"
+#include "tests/support/random.h"
 
 namespace firstcontact::benchmarks {
 namespace {
 
 using Eigen::Vector3d;
+using test::Random;
 
 constexpr int kPairs = 1000;  // Of each outcome.
 constexpr std::uint64_t kSeed = 20261123;

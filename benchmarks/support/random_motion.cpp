@@ -6,13 +6,14 @@
 
 #include <firstcontact/query/distance.h>
 
-#include "benchmarks/support/random.h"
+#include "tests/support/random.h"
 
 namespace firstcontact::benchmarks {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using test::Random;
 
 /// Moves B along `direction` until it is `gap` away from A; none where it slips past A.
 std::optional<double> offset_for_gap(const Shape& A, const Shape& B, const Quaterniond& rotation_A,

@@ -46,9 +46,9 @@ inline std::string to_obj(const Mesh& mesh) {
   return text;
 }
 
-inline std::string to_off(const Mesh& mesh) {
-  std::string text = "OFF\n" + std::to_string(mesh.vertices.size()) + " " +
-                     std::to_string(mesh.triangles.size()) + " 0\n";
+/// What follows the header of OFF and of ASCII PLY.
+inline std::string vertices_and_faces(const Mesh& mesh) {
+  std::string text;
   for (const auto& p : mesh.vertices) {
     text += coordinates(p);
   }
@@ -57,6 +57,11 @@ inline std::string to_off(const Mesh& mesh) {
             "\n";
   }
   return text;
+}
+
+inline std::string to_off(const Mesh& mesh) {
+  return "OFF\n" + std::to_string(mesh.vertices.size()) + " " +
+         std::to_string(mesh.triangles.size()) + " 0\n" + vertices_and_faces(mesh);
 }
 
 inline std::string to_ascii_stl(const Mesh& mesh) {
@@ -95,15 +100,7 @@ inline std::string ply_header(const Mesh& mesh, const std::string& format) {
 }
 
 inline std::string to_ascii_ply(const Mesh& mesh) {
-  std::string text = ply_header(mesh, "ascii");
-  for (const auto& p : mesh.vertices) {
-    text += coordinates(p);
-  }
-  for (const auto& t : mesh.triangles) {
-    text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
-            "\n";
-  }
-  return text;
+  return ply_header(mesh, "ascii") + vertices_and_faces(mesh);
 }
 
 inline std::string to_binary_ply(const Mesh& mesh, bool big_endian) {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace firstcontact::test {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The least code of an extent at or above the value.
@@ -73,6 +75,15 @@ RealMatrix turn(const RealVector& rotation_vector) {
                       : RealMatrix(RealMatrix::Identity());
 }
 
+/// Moves the body's centre so that its first box is at `lever` [m] from the body origin at t.
+void set_lever(const Vector3d& lever, double t, Body& body) {
+  const double angle = body.rotation_vector.norm();
+  const Eigen::AngleAxisd turned(t * angle, body.rotation_vector / angle);
+  const HierarchyNode& node = body.node();
+  const Vector3d box(node.centre[0][0], node.centre[1][0], node.centre[2][0]);
+  body.hierarchy.centre = (turned * body.rotation).conjugate() * lever - body.hierarchy.unit * box;
+}
+
 /// Sets all but the positions; returns the direction from A's first box to B's.
 Vector3d set_motion(Random& random, Approach approach, MovingBoxes& c) {
   const Vector3d normal = real_box(c.A, 0, c.t, RealVector::Zero()).axes.col(0).cast<double>();
@@ -97,14 +108,17 @@ Vector3d set_motion(Random& random, Approach approach, MovingBoxes& c) {
     case Approach::swinging: {
       const Vector3d axis = normal.cross(random.direction()).normalized();
       c.B.rotation_vector = random.logarithmic(0.1, 20.0) * axis;
-      // The lever is along the normal at t, and long for the box.
-      const Matrix3d R_t =
-          (Eigen::AngleAxisd(c.t * c.B.rotation_vector.norm(), axis) * c.B.rotation)
-              .toRotationMatrix();
-      const HierarchyNode& node = c.B.node();
-      c.B.hierarchy.centre =
-          c.B.hierarchy.unit * (10.0 * R_t.transpose() * normal -
-                                Vector3d(node.centre[0][0], node.centre[1][0], node.centre[2][0]));
+      set_lever(10.0 * c.B.hierarchy.unit * normal, c.t, c.B);
+      return normal;
+    }
+    case Approach::circling: {
+      const Vector3d aside = normal.cross(random.direction()).normalized();
+      const double radius =
+          random.logarithmic(10.0, 1e5) * std::max(c.A.hierarchy.unit, c.B.hierarchy.unit);
+      c.A.rotation_vector = c.B.rotation_vector = random.logarithmic(1e-3, 1.0) * normal;
+      set_lever(radius * aside, c.t, c.A);
+      set_lever(radius * aside, c.t, c.B);
+      c.B.translation = -length * normal;
       return normal;
     }
   }
@@ -173,7 +187,7 @@ MovingBoxes random_moving_boxes(Random& random, Approach approach) {
 }
 
 MovingBoxes random_moving_boxes(Random& random) {
-  const int style = static_cast<int>(random.uniform(0.0, 4.0));
+  const int style = static_cast<int>(random.uniform(0.0, 5.0));
   return random_moving_boxes(random, static_cast<Approach>(style));
 }
 

@@ -4,43 +4,19 @@
 
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <numbers>
-#include <random>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/motion/motion.h>
 
+#include "support/random.h"
+
 namespace firstcontact::test {
 
 using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
-  double logarithmic(double low, double high) {
-    return low * std::pow(high / low, uniform(0.0, 1.0));
-  }
-  Eigen::Vector3d direction() {
-    const double z = uniform(-1.0, 1.0);
-    const double angle = uniform(0.0, 2.0 * std::numbers::pi);
-    return {std::sqrt(1.0 - z * z) * std::cos(angle), std::sqrt(1.0 - z * z) * std::sin(angle), z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// A body of one node: four boxes, and its motion as the numbers that define it.
 struct Body {
@@ -100,6 +76,7 @@ enum class Approach {
   straight,
   spinning,  ///< About the face's normal, so that points are fast, but not towards the face.
   swinging,  ///< Around an axis in the face, at first along it: only the acceleration counts.
+  circling,  ///< Both together, about a far axis along the normal: fast, but not for each other.
 };
 
 /// Sizes from 1e-6 m to 1e6 m, some pairs far from the origin; thick and flat boxes, needles,

@@ -57,12 +57,30 @@ class TwoEdges {
     return {e_.dot(normal_), rate_e.dot(normal_) + e_.cross(u_).dot(rate_v)};
   }
   /// f = u . (v x c) - (a x u) . v + (offset + tau drift) . (u x v), c here from B's pivot.
-  [[nodiscard]] const CurvatureBound& coplanarity_bounds() {
-    if (!bounded_) {
-      bound_coplanarity();
-      bounded_ = true;
-    }
-    return bounds_;
+  [[nodiscard]] CurvatureBound coplanarity_bounds() {
+    const double w_A = motion_.A.rate;
+    const double w_B = motion_.B.rate;
+    speed_bound_ = (motion_.drift_length + w_B * circle_B_ +
+                    w_A * (motion_.offset_bound + motion_.B.lever_length + reach_B_)) *
+                   kUp;
+    // The rounding of u x v and of e' is relative to their factors.
+    const double lengths = std::sqrt(uu_ * vv_) * kUp;
+    CurvatureBound bounds;
+    bounds.value_error = lengths * (gap_.position_error + 4.0 * motion_.rounding * gap_.size);
+    bounds.rate_error = lengths * (2.0 * gap_.slip + 4.0 * motion_.rounding *
+                                                         (speed_bound_ + (w_A + w_B) * gap_.size));
+    const AxialParts u = axial_parts(u_, Vector3d::UnitZ());
+    const AxialParts v = axial_parts(start_v_, motion_.axis_B);
+    const AxialParts moment_u = axial_parts(a_.cross(u_), Vector3d::UnitZ());
+    const AxialParts moment_v = axial_parts(start_v_.cross(lever_B_), motion_.axis_B);
+    const Oscillation& oscillation = motion_.oscillation;
+    bounds.curvature =
+        (oscillation.dot_derivative(2, u, moment_v) + oscillation.dot_derivative(2, moment_u, v) +
+         motion_.offset_bound * oscillation.cross_derivative(2, u, v) +
+         2.0 * motion_.drift_length * oscillation.cross_derivative(1, u, v) +
+         8.0 * lengths * gap_.unsteadiness) *
+        kUp;
+    return bounds;
   }
 
   /// Along the direction between the nearest points, which stands still in the world.
@@ -100,30 +118,6 @@ class TwoEdges {
   }
 
  private:
-  void bound_coplanarity() {
-    const double w_A = motion_.A.rate;
-    const double w_B = motion_.B.rate;
-    speed_bound_ = (motion_.drift_length + w_B * circle_B_ +
-                    w_A * (motion_.offset_bound + motion_.B.lever_length + reach_B_)) *
-                   kUp;
-    // The rounding of u x v and of e' is relative to their factors.
-    const double lengths = std::sqrt(uu_ * vv_) * kUp;
-    bounds_.value_error = lengths * (gap_.position_error + 4.0 * motion_.rounding * gap_.size);
-    bounds_.rate_error = lengths * (2.0 * gap_.slip + 4.0 * motion_.rounding *
-                                                          (speed_bound_ + (w_A + w_B) * gap_.size));
-    const AxialParts u = axial_parts(u_, Vector3d::UnitZ());
-    const AxialParts v = axial_parts(start_v_, motion_.axis_B);
-    const AxialParts moment_u = axial_parts(a_.cross(u_), Vector3d::UnitZ());
-    const AxialParts moment_v = axial_parts(start_v_.cross(lever_B_), motion_.axis_B);
-    const Oscillation& oscillation = motion_.oscillation;
-    bounds_.curvature =
-        (oscillation.dot_derivative(2, u, moment_v) + oscillation.dot_derivative(2, moment_u, v) +
-         motion_.offset_bound * oscillation.cross_derivative(2, u, v) +
-         2.0 * motion_.drift_length * oscillation.cross_derivative(1, u, v) +
-         8.0 * lengths * gap_.unsteadiness) *
-        kUp;
-  }
-
   /// Between the nearest features: along the product of the edges, or across one from a corner, or
   /// between two corners; of any length. Stays accurate where they touch. One parameter comes from
   /// the normal equations, then each is made the best for the other, which also serves
@@ -161,9 +155,7 @@ class TwoEdges {
   double reach_B_;
   double circle_B_;
   detail::GapBounds gap_;
-  bool bounded_ = false;
-  double speed_bound_ = 0.0;
-  CurvatureBound bounds_;
+  double speed_bound_ = 0.0;  // From coplanarity_bounds().
 
   detail::SeenVector::State seen_c_;
   detail::SeenVector::State seen_v_;

@@ -54,12 +54,27 @@ class VertexAndFace {
   }
 
   /// f = Rot(z) normal . (line + Rot(axis_B) swing) - normal . a.
-  [[nodiscard]] const CurvatureBound& coplanarity_bounds() {
-    if (!bounded_) {
-      bound_coplanarity();
-      bounded_ = true;
-    }
-    return bounds_;
+  [[nodiscard]] CurvatureBound coplanarity_bounds() {
+    const double w_A = motion_.A.rate;
+    // The point that p turns about moves on a line, which is farthest from A's axis at an end.
+    const Vector2d begin = path_.constant.head<2>();
+    const Vector2d drift = path_.drift.head<2>();
+    const double across =
+        detail::longest(begin, Vector2d(begin + (motion_.t_end - motion_.t_begin) * drift));
+    speed_bound_ =
+        (motion_.drift_length + motion_.B.rate * circle_B_ + w_A * (across + circle_B_)) * kUp;
+    // The normal is a product of edges that are rounded themselves.
+    const double normal_error = motion_.rounding * edges_product_;
+    const AxialParts normal{std::abs(normal_.z()) + normal_error,
+                            normal_.head<2>().norm() + normal_error};
+    CurvatureBound bounds;
+    bounds.value_error = (normal_length_ * gap_.position_error + normal_error * gap_.size) * kUp;
+    bounds.rate_error = (normal_length_ * gap_.slip + normal_error * speed_bound_) * kUp;
+    bounds.curvature = (motion_.oscillation.dot_derivative(2, normal, {0.0, circle_B_}) +
+                        normal.across * w_A * (w_A * across + 2.0 * drift.norm()) +
+                        (normal_length_ + normal_error) * gap_.unsteadiness) *
+                       kUp;
+    return bounds;
   }
 
   /// Along the direction from the nearest point, which stands still in the world.
@@ -95,27 +110,6 @@ class VertexAndFace {
   }
 
  private:
-  void bound_coplanarity() {
-    const double w_A = motion_.A.rate;
-    // The point that p turns about moves on a line, which is farthest from A's axis at an end.
-    const Vector2d begin = path_.constant.head<2>();
-    const Vector2d drift = path_.drift.head<2>();
-    const double across =
-        detail::longest(begin, Vector2d(begin + (motion_.t_end - motion_.t_begin) * drift));
-    speed_bound_ =
-        (motion_.drift_length + motion_.B.rate * circle_B_ + w_A * (across + circle_B_)) * kUp;
-    // The normal is a product of edges that are rounded themselves.
-    const double normal_error = motion_.rounding * edges_product_;
-    const AxialParts normal{std::abs(normal_.z()) + normal_error,
-                            normal_.head<2>().norm() + normal_error};
-    bounds_.value_error = (normal_length_ * gap_.position_error + normal_error * gap_.size) * kUp;
-    bounds_.rate_error = (normal_length_ * gap_.slip + normal_error * speed_bound_) * kUp;
-    bounds_.curvature = (motion_.oscillation.dot_derivative(2, normal, {0.0, circle_B_}) +
-                         normal.across * w_A * (w_A * across + 2.0 * drift.norm()) +
-                         (normal_length_ + normal_error) * gap_.unsteadiness) *
-                        kUp;
-  }
-
   /// From the face's nearest feature: along its normal, or across an edge that p is outside of, or
   /// from a corner; of any length. Stays accurate where p touches.
   [[nodiscard]] Vector3d from_nearest_point() const {
@@ -152,9 +146,7 @@ class VertexAndFace {
   double edges_product_;
   bool flat_;
   detail::GapBounds gap_;
-  bool bounded_ = false;
-  double speed_bound_ = 0.0;
-  CurvatureBound bounds_;
+  double speed_bound_ = 0.0;  // From coplanarity_bounds().
 
   detail::SeenVector::State seen_;
   Vector3d p_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include <firstcontact/math/interval.h>
 #include <firstcontact/math/root_isolation.h>
@@ -43,10 +44,10 @@ struct Gaps {
 /// Finds where the features of `Pair` first meet: goes from t to where a gap, or the sign of f, is
 /// no longer certain; near a root of f it leaps ahead, isolates the root and looks back.
 ///
-/// Pair offers: move_to(t), places the features; coplanarity() and coplanarity_bounds(), of their
-/// function f there; gaps(), along a direction that may keep them apart;
-/// meet_if_coplanar(duration), whether the features provably meet where they are coplanar within
-/// `duration` of t.
+/// Pair offers: move_to(t), places the features; coplanarity(), of their function f there, and
+/// coplanarity_bounds(), of f over the whole piece; gaps(), along a direction that may keep them
+/// apart; meet_if_coplanar(duration), after coplanarity_bounds(): whether the features provably
+/// meet where they are coplanar within `duration` of t.
 template <class Pair>
 class ElementarySearch {
  public:
@@ -88,7 +89,7 @@ class ElementarySearch {
     }
     const ValueAndRate f = pair_.coplanarity();
     const ValueAndRate g = f.value > 0.0 ? f : -f;
-    const CurvatureBound& bounds = pair_.coplanarity_bounds();
+    const CurvatureBound& bounds = coplanarity_bounds();
     proceed_to(later(t, std::max(open, time_positive(g, bounds))));
     if (done_) {
       return;
@@ -106,7 +107,7 @@ class ElementarySearch {
   /// Looks at x >= t_ for a root whose own side reaches back to t_. Shrinks its bracket until the
   /// features provably meet, or a gap leads past it, or rounding allows no more.
   void follow_root(double x) {
-    const CurvatureBound& bounds = pair_.coplanarity_bounds();
+    const CurvatureBound& bounds = coplanarity_bounds();
     ValueAndRate g = falling(evaluate(x));
     IsolatedRoot root = isolate_root(g, bounds);
     if (!(root.exists && x - t_ <= root.reach)) {
@@ -193,6 +194,14 @@ class ElementarySearch {
     pair_.move_to(t);
   }
 
+  /// Only near a root are they worth their cost.
+  const CurvatureBound& coplanarity_bounds() {
+    if (!coplanarity_bounds_) {
+      coplanarity_bounds_ = pair_.coplanarity_bounds();
+    }
+    return *coplanarity_bounds_;
+  }
+
   ValueAndRate evaluate(double t) {
     move_to(t);
     return pair_.coplanarity();
@@ -219,6 +228,7 @@ class ElementarySearch {
   double t_checked_;  ///< t_ when stalls() last looked.
   int next_check_ = kPatience;
   int steps_ = 0;
+  std::optional<CurvatureBound> coplanarity_bounds_;
   bool done_ = false;
   ElementaryContact result_;
 };

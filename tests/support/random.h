@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace firstcontact::benchmarks {
+namespace firstcontact::test {
 
 class Random {
  public:
@@ -21,6 +21,9 @@ class Random {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
+  double logarithmic(double low, double high) {
+    return low * std::pow(high / low, uniform(0.0, 1.0));
+  }
 
   Eigen::Vector3d direction() {
     const double z = uniform(-1.0, 1.0);
@@ -38,4 +41,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace firstcontact::benchmarks
+}  // namespace firstcontact::test
