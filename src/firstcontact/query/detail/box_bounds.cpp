@@ -109,7 +109,7 @@ HWY_INLINE void place_centres(const BoxFrame& frame, const HierarchyNode* const*
       const auto x = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[0] + lane)));
       const auto y = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[1] + lane)));
       const auto z = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[2] + lane)));
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         const auto rotated = hn::MulAdd(
             hn::Set(d, R[3 * k]), x,
             hn::MulAdd(hn::Set(d, R[3 * k + 1]), y,

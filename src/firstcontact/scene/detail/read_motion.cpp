@@ -57,7 +57,7 @@ BodyMotion read_constant_velocity(const JsonValue& value, const JsonReader& read
 }
 
 Eigen::Vector3d read_axis_direction(const JsonValue& value, const JsonReader& read) {
-  const Eigen::Vector3d direction = read.vector3(value);
+  Eigen::Vector3d direction = read.vector3(value);
   if (direction.isZero(0.0)) {
     read.fail(value, "expected a direction of any length but zero");
   }
