@@ -224,11 +224,33 @@ TEST(MalformedMotion, SaysWhatIsWrong) {
 TEST(MalformedShape, SaysWhatIsWrong) {
   expect_messages({
       {shaped("{}"),
-       "s:1: bodies[0].shape: expected either \"mesh\" or \"vertices\" with \"triangles\", "
-       "got neither"},
-      {shaped(R"({"sphere": {"radius": 1}})"),
-       "s:1: bodies[0].shape.sphere: this version does not have \"sphere\" yet; it has \"mesh\", "
-       "\"scale\", \"vertices\", \"triangles\", \"radius\""},
+       "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
+       "\"box\", \"cylinder\", \"cone\", got none"},
+      {shaped(R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})"),
+       "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
+       "\"box\", \"cylinder\", \"cone\", got \"sphere\", \"box\""},
+      {shaped(R"({"shpere": {"radius": 1}})"),
+       "s:1: bodies[0].shape.shpere: unknown key; did you mean \"sphere\"?"},
+      {shaped(R"({"sphere": 1})"),
+       "s:1: bodies[0].shape.sphere: expected an object with \"radius\", got 1"},
+      {shaped(R"({"sphere": {"radius": 0}})"),
+       "s:1: bodies[0].shape.sphere.radius: expected a number > 0, got 0"},
+      {shaped(R"({"capsule": {"radius": 1}})"),
+       "s:1: bodies[0].shape.capsule: expected a key \"length\", got none"},
+      {shaped(R"({"box": {"size": [1, -1, 1]}})"),
+       "s:1: bodies[0].shape.box.size[1]: expected a number > 0, got -1"},
+      {shaped(R"({"cylinder": {"radius": 1, "height": 1}})"),
+       "s:1: bodies[0].shape.cylinder.height: unknown key; did you mean \"length\"?"},
+      {shaped(R"({"cone": {"radius": 1, "length": 1, "enclosure_error": 1e-9}})"),
+       "s:1: bodies[0].shape.cone: enclosure_error must be at least 1e-8 of the radius, got "
+       "0.000000"},
+      {shaped(R"({"box": {"size": [1, 1, 1]}, "radius": 0.1})"),
+       "s:1: bodies[0].shape.radius: expected no \"radius\" beside \"box\""},
+      {shaped(R"({"mesh": "a.obj", "solid": 1})"),
+       "s:1: bodies[0].shape.solid: expected true or false, got 1"},
+      {shaped(R"({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]],
+                  "solid": true})"),
+       "s:1: bodies[0].shape: expected a closed mesh of a solid, got 3 open edges"},
       {shaped(R"({"vertices": [[0, 0, 0]]})"),
        "s:1: bodies[0].shape: expected a key \"triangles\", got none"},
       {shaped(R"({"vertices": [], "triangles": []})"),
@@ -245,7 +267,7 @@ TEST(MalformedShape, SaysWhatIsWrong) {
       {shaped(R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0]]})"),
        "s:1: bodies[0].shape.triangles[0]: expected three vertex indices, got an array of 2"},
       {shaped(R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, 0]], "scale": 2})"),
-       "s:1: bodies[0].shape.scale: expected \"scale\" beside \"mesh\" only"},
+       "s:1: bodies[0].shape.scale: expected no \"scale\" beside \"vertices\""},
       {shaped(R"({"vertices": [[0, 0, 0]], "triangles": [[0, 0, 0]], "radius": -1})"),
        "s:1: bodies[0].shape.radius: expected a number >= 0, got -1"},
       {shaped(R"({"mesh": "none.obj"})"),

@@ -21,7 +21,9 @@ class SceneBits {
     for (const Body& body : scene.bodies) {
       add(body.name);
       std::visit([this](const auto& source) { add(source); }, body.shape.source);
+      add(static_cast<double>(body.shape.source.index()));
       add(body.shape.radius);
+      add(static_cast<double>(body.shape.filling));
       add(static_cast<double>(body.motion.index()));
       std::visit([this](const auto& motion) { add(motion); }, body.motion);
     }
@@ -71,6 +73,23 @@ class SceneBits {
         add(static_cast<double>(corner));
       }
     }
+  }
+
+  void add(const SphereShape& sphere) { add(sphere.radius); }
+  void add(const CapsuleShape& capsule) {
+    add(capsule.radius);
+    add(capsule.length);
+  }
+  void add(const BoxShape& box) { add(box.size); }
+  void add(const CylinderShape& cylinder) {
+    add(cylinder.radius);
+    add(cylinder.length);
+    add(cylinder.enclosure_error.value_or(-1.0));
+  }
+  void add(const ConeShape& cone) {
+    add(cone.radius);
+    add(cone.length);
+    add(cone.enclosure_error.value_or(-1.0));
   }
 
   void add(const FixedMotion& motion) { add(motion.pose); }

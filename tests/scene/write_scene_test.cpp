@@ -54,6 +54,17 @@ Scene random_scene(std::mt19937_64& rng) {
                             .shape = {.source = mesh, .radius = std::abs(random_number(rng))},
                             .motion = motion});
   }
+  const auto size = [&] { return 1e-3 + std::abs(angle()); };
+  const BodyShape shapes[] = {{.source = SphereShape{size()}},
+                              {.source = CapsuleShape{size(), size()}},
+                              {.source = BoxShape{{size(), size(), size()}}},
+                              {.source = CylinderShape{size(), size(), 1e4}},
+                              {.source = ConeShape{size(), size(), {}}}};
+  for (const BodyShape& shape : shapes) {
+    scene.bodies.push_back({.name = "body " + std::to_string(scene.bodies.size()),
+                            .shape = shape,
+                            .motion = FixedMotion{}});
+  }
   scene.ignored_pairs = {{0, 3}, {1, 2}};
   scene.pair_margins = {{.bodies = {2, 4}, .margin = std::abs(random_number(rng))}};
   scene.options = {.tolerance = std::abs(random_number(rng)) + 1e-300,

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/geometry/detail/disjoint_sets.h>
+
 namespace firstcontact {
 namespace {
 
@@ -113,36 +115,12 @@ std::size_t count_doubled(const Mesh& mesh) {
   return static_cast<std::size_t>(sorted.end() - std::unique(sorted.begin(), sorted.end()));
 }
 
-/// Disjoint sets with path halving.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) {
-      parent_[v] = parent_[parent_[v]];
-      v = parent_[v];
-    }
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 void count_vertices(const Mesh& mesh, MeshDefects& defects) {
   std::vector<bool> used(mesh.vertices.size(), false);
-  Components components(mesh.vertices.size());
+  detail::DisjointSets components = detail::vertex_components(mesh);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       used[v] = true;
-      components.join(t[0], v);
     }
   }
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -185,6 +163,22 @@ MeshDefects inspect(const Mesh& mesh) {
     defects.signed_volume = signed_volume(mesh, defects.bounds.center());
   }
   return defects;
+}
+
+std::string why_not_solid(const Mesh& mesh) {
+  check_indices(mesh);
+  MeshDefects found;
+  count_edges(mesh, found);
+  if (found.open_edges > 0) {
+    return std::to_string(found.open_edges) + " open edges";
+  }
+  if (found.nonmanifold_edges > 0) {
+    return std::to_string(found.nonmanifold_edges) + " edges of more than two triangles";
+  }
+  if (!found.closed) {
+    return "no surface";
+  }
+  return found.consistently_oriented ? "" : "neighbouring triangles that face opposite sides";
 }
 
 }  // namespace firstcontact

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -40,5 +41,11 @@ struct MeshDefects {
 /// @param mesh  may be empty or hold vertices that are not finite; indices must be in range
 /// @throws std::invalid_argument if an index is out of range
 [[nodiscard]] FIRSTCONTACT_API MeshDefects inspect(const Mesh& mesh);
+
+/// Why a mesh encloses no space (not closed, or its triangles do not agree on their inner side), as
+/// "12 open edges"; empty if it does.
+///
+/// @throws std::invalid_argument if an index is out of range
+[[nodiscard]] FIRSTCONTACT_API std::string why_not_solid(const Mesh& mesh);
 
 }  // namespace firstcontact

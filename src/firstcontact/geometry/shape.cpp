@@ -8,14 +8,23 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/geometry/detail/disjoint_sets.h>
+#include <firstcontact/geometry/mesh_defects.h>
+
 namespace firstcontact {
 namespace {
 
-void validate(const Mesh& mesh, double radius) {
-  if (!(radius >= 0.0 && std::isfinite(radius))) {
-    throw std::invalid_argument("Shape: radius must be finite and >= 0, got " +
-                                std::to_string(radius));
+using detail::DisjointSets;
+using detail::vertex_components;
+
+void require_length(const char* what, double length) {
+  if (!(length >= 0.0 && std::isfinite(length))) {
+    throw std::invalid_argument(std::string("Shape: ") + what + " must be finite and >= 0, got " +
+                                std::to_string(length));
   }
+}
+
+void validate(const Mesh& mesh) {
   if (mesh.triangles.empty()) {
     throw std::invalid_argument("Shape: the mesh has no triangles");
   }
@@ -37,6 +46,13 @@ void validate(const Mesh& mesh, double radius) {
                                     " is not finite or beyond 1e60 m");
       }
     }
+  }
+}
+
+void require_solid(const Mesh& mesh) {
+  const std::string defect = why_not_solid(mesh);
+  if (!defect.empty()) {
+    throw std::invalid_argument("Shape: a solid needs a closed mesh, this one has " + defect);
   }
 }
 
@@ -92,8 +108,9 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
   return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29);
 }
 
-std::uint64_t content_hash(const Mesh& mesh, double radius) {
+std::uint64_t content_hash(const Mesh& mesh, double radius, Filling filling) {
   std::uint64_t hash = mix(mesh.triangles.size(), std::bit_cast<std::uint64_t>(radius));
+  hash = filling == Filling::solid ? mix(hash, 1) : hash;
   for (const Eigen::Vector3d& v : mesh.vertices) {
     for (int k = 0; k < 3; ++k) {
       hash = mix(hash, std::bit_cast<std::uint64_t>(v[k]));
@@ -106,30 +123,61 @@ std::uint64_t content_hash(const Mesh& mesh, double radius) {
   return hash;
 }
 
+std::vector<std::uint32_t> list_components(const Mesh& mesh, const Hierarchy& hierarchy) {
+  DisjointSets sets = vertex_components(mesh);
+  std::vector<bool> seen(mesh.vertices.size(), false);
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < hierarchy.vertices.size(); ++v) {
+    const std::uint32_t root = sets.root(hierarchy.vertex_index[v]);
+    if (!seen[root]) {
+      seen[root] = true;
+      vertices.push_back(v);
+    }
+  }
+  return vertices;
+}
+
 }  // namespace
 
 struct Shape::Data {
   Mesh mesh;
   double radius = 0.0;
+  Filling filling = Filling::surface;
+  double enclosure_error = 0.0;
   EdgeTable edges;
   Hierarchy hierarchy;
+  std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
 };
 
-Shape::Shape(Mesh mesh, double radius) {
-  validate(mesh, radius);
+Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) {
+  require_length("radius", radius);
+  require_length("enclosure_error", enclosure_error);
+  validate(mesh);
+  if (filling == Filling::solid) {
+    require_solid(mesh);
+  }
   auto data = std::make_shared<Data>();
   data->mesh = std::move(mesh);
   data->radius = radius;
+  data->filling = filling;
+  data->enclosure_error = enclosure_error;
   data->edges = collect_edges(data->mesh);
   data->hierarchy = build_hierarchy(data->mesh);
-  data->hash = content_hash(data->mesh, radius);
+  data->components = list_components(data->mesh, data->hierarchy);
+  data->hash = content_hash(data->mesh, radius, filling);
   data_ = std::move(data);
 }
 
 const Mesh& Shape::mesh() const { return data_->mesh; }
 
 double Shape::radius() const { return data_->radius; }
+
+bool Shape::is_solid() const { return data_->filling == Filling::solid; }
+
+double Shape::enclosure_error() const { return data_->enclosure_error; }
+
+std::span<const std::uint32_t> Shape::component_vertices() const { return data_->components; }
 
 std::size_t Shape::edge_count() const { return data_->edges.larger.size(); }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
@@ -14,20 +15,40 @@
 
 namespace firstcontact {
 
+/// Whether the space that a closed mesh encloses belongs to the shape.
+enum class Filling { surface, solid };
+
 /// A union of simplices thickened by a radius, with its bounding-volume hierarchy.
+///
+/// Of a solid every point belongs to it around which the triangles wind other than zero times:
+/// a cavity, bounded by triangles that face into it, is outside.
+///
 /// Immutable and cheap to copy: copies share their data, also between threads.
 class FIRSTCONTACT_API Shape {
  public:
   /// Builds the hierarchy, in parallel for large meshes; the same on every run.
   ///
-  /// @param mesh    [m]  at least one triangle, all of it finite; welding is the caller's choice
-  /// @param radius  [m]  thickens every simplex; >= 0
+  /// @param mesh     [m]  at least one triangle, all of it finite; welding is the caller's choice
+  /// @param radius   [m]  thickens every simplex; >= 0
+  /// @param filling  a solid needs a closed mesh whose triangles agree on their inner side
+  /// @param enclosure_error  [m]  see enclosure_error(); >= 0
   /// @throws std::invalid_argument on an empty mesh, a non-finite vertex or radius, a negative
-  ///         radius, an index out of range
-  explicit Shape(Mesh mesh, double radius = 0.0);
+  ///         radius, an index out of range, a solid whose mesh is not closed (names the defect)
+  explicit Shape(Mesh mesh, double radius = 0.0, Filling filling = Filling::surface,
+                 double enclosure_error = 0.0);
 
   [[nodiscard]] const Mesh& mesh() const;
   [[nodiscard]] double radius() const;  ///< [m]
+  [[nodiscard]] bool is_solid() const;
+
+  /// [m]  Where the triangles enclose a curved body from outside: no point of theirs is farther
+  /// from that body. 0 where the shape is what it says.
+  [[nodiscard]] double enclosure_error() const;
+
+  /// One vertex of each set of triangles joined by shared vertices; indices into
+  /// hierarchy().vertices.
+  [[nodiscard]] std::span<const std::uint32_t> component_vertices() const;
+
   [[nodiscard]] std::size_t edge_count() const;
 
   /// The two vertices of an edge, smaller index first. A degenerate triangle's repeated corner

@@ -76,6 +76,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   const FloatEnvironmentGuard guard;
   ClosestApproachResult best;
   best.tolerance_used = options.tolerance;
+  best.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
   Descent descent(A, B, workspace, best);
   constexpr int kSamples = 8;
   for (int i = 0; i <= kSamples; ++i) {

@@ -19,7 +19,8 @@ struct ClosestApproachResult {
   double t = 0.0;                                  ///< [-]  A time where `distance` is attained.
   UndecidedReason reason = UndecidedReason::none;  ///< Not `none`: the budget ended the search.
   double tolerance_used = 0.0;                     ///< [m]
-  std::optional<Contact> closest;                  ///< The closest feature pair at t.
+  double enclosure_error = 0.0;  ///< [m]  Of both shapes: the bodies may be farther apart by this.
+  std::optional<Contact> closest;  ///< The closest feature pair at t.
   WorkCount work;
 };
 

@@ -8,6 +8,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/detail/box_pairs.h>
 #include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/order.h>
 
 namespace firstcontact {
@@ -75,13 +76,21 @@ DistanceResult solve(const MovingShape& A, const MovingShape& B, double t,
   const MovingPair pair(hA, hB, motion);
   const RelativeState state = motion.state(t);
   DistanceResult result;
-  const Nearest nearest = find_nearest(pair, state, workspace, result.work);
-  const double radii = A.shape.radius() + B.shape.radius();
-  result.distance = std::max(0.0, nearest.distance - radii);
-  result.lower_bound = std::max(0.0, nearest.distance - radii - pair.gap_error(state));
+  result.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
   const ConstantRatePath& path = motion.A();
   const detail::ContactFrame frame{A.shape, B.shape, pair, t,
                                    (path.pivot(t) + path.precise_lever(t)).value()};
+  const detail::Containment found = detail::find_containment(A.shape, B.shape, pair, state);
+  if (found.inside == detail::Inside::yes) {
+    result.closest = detail::make_contact(frame, state, found);
+    return result;
+  }
+  const Nearest nearest = find_nearest(pair, state, workspace, result.work);
+  const double radii = A.shape.radius() + B.shape.radius();
+  result.distance = std::max(0.0, nearest.distance - radii);
+  result.lower_bound = found.inside == detail::Inside::unsure
+                           ? 0.0
+                           : std::max(0.0, nearest.distance - radii - pair.gap_error(state));
   result.closest =
       detail::make_contact(frame, state, nearest.triangle_A, nearest.triangle_B, nearest.closest);
   return result;

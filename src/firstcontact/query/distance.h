@@ -10,6 +10,7 @@ namespace firstcontact {
 struct DistanceResult {
   double distance = 0.0;           ///< [m]  Of the closest points found, 0 when the shapes meet.
   double lower_bound = 0.0;        ///< [m]  Proven: the shapes are at least this far apart.
+  double enclosure_error = 0.0;    ///< [m]  Of both: the bodies may be farther apart by this.
   std::optional<Contact> closest;  ///< The closest feature pair.
   WorkCount work;
 };

@@ -10,6 +10,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/order.h>
 
 namespace firstcontact {
@@ -145,6 +146,48 @@ void solve(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& wo
   result.verdict = Verdict::free;
 }
 
+/// A contact at t = 0 of a body that lies in another.
+void report_contained(const MovingShape& A, const MovingShape& B, const MovingPair& start,
+                      const RelativeState& state, const detail::Containment& found,
+                      const FirstContactOptions& options, FirstContactResult& result) {
+  result.verdict = Verdict::contact_at_start;
+  result.t_upper = 0.0;
+  result.tolerance_used = options.tolerance;
+  if (options.contacts != ContactState::none) {
+    const ConstantRatePath& path = start.motion().A();
+    const Eigen::Vector3d p_WC = (path.pivot(0.0) + path.precise_lever(0.0)).value();
+    result.contacts.push_back(
+        detail::make_contact({A.shape, B.shape, start, 0.0, p_WC}, state, found));
+  }
+}
+
+/// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
+void solve_solids(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& workspace,
+                  const FirstContactOptions& options, FirstContactResult& result) {
+  if (!A.shape.is_solid() && !B.shape.is_solid()) {
+    solve(A, B, workspace, options, result);
+    return;
+  }
+  const Hierarchy& hA = A.shape.hierarchy();
+  const Hierarchy& hB = B.shape.hierarchy();
+  const RelativeMotion motion(A.X_WS.path(0, hA.centre), B.X_WS.path(0, hB.centre),
+                              options.tolerance);
+  const MovingPair start(hA, hB, motion);
+  const RelativeState state = motion.state(0.0);
+  const detail::Containment found = detail::find_containment(A.shape, B.shape, start, state);
+  if (found.inside == detail::Inside::yes) {
+    report_contained(A, B, start, state, found, options, result);
+    return;
+  }
+  solve(A, B, workspace, options, result);
+  if (found.inside == detail::Inside::unsure && result.verdict != Verdict::contact_at_start) {
+    result.verdict = Verdict::undecided;
+    result.reason = UndecidedReason::precision;
+    result.t = 0.0;
+    result.contacts.clear();
+  }
+}
+
 }  // namespace
 
 void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
@@ -155,13 +198,14 @@ void first_contact(const MovingShape& A, const MovingShape& B, Workspace& worksp
   result.t = 0.0;
   result.t_upper.reset();
   result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
+  result.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
   result.contacts.clear();
   result.work = {};
   if (detail::in_order(A, B)) {
-    solve(A, B, workspace.data(), options, result);
+    solve_solids(A, B, workspace.data(), options, result);
     return;
   }
-  solve(B, A, workspace.data(), options, result);
+  solve_solids(B, A, workspace.data(), options, result);
   for (Contact& contact : result.contacts) {
     detail::swap_bodies(contact);
   }

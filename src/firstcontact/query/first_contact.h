@@ -78,6 +78,7 @@ struct FirstContactResult {
   double clearance = 0.0;  ///< [m]  Proven lower bound of the distance before t.
   double tolerance_used =
       0.0;  ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
+  double enclosure_error = 0.0;   ///< [m]  Of both shapes: adds to the tolerance of a contact.
   std::vector<Contact> contacts;  ///< At t, sorted by features.
   WorkCount work;
 };
@@ -87,6 +88,8 @@ struct FirstContactResult {
 /// Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
 /// Holds for the exact motions that the input defines, in the arithmetic as executed (docs/
 /// algorithm.md has the proof). Symmetric in A and B, and the same on every run.
+/// A body inside a solid one at t = 0 is `contact_at_start`, its contact the pair of a vertex that
+/// lies inside and a face of the solid, at distance 0. Nothing gets inside later without contact.
 /// Thread-safe: the shapes and motions are only read; each thread brings its own workspace.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <variant>
 
 #include <firstcontact/scene/detail/sha256.h>
 
@@ -40,12 +39,10 @@ LoadedScene load_scene(Scene scene, ShapeCache& cache) {
   LoadedScene loaded;
   std::string digests = scene.text_digest + '\n';
   for (const Body& body : scene.bodies) {
-    if (const auto* file = std::get_if<MeshFile>(&body.shape.source)) {
-      const CachedShape& cached = cache.load(*file, body.shape.radius);
-      loaded.shapes.push_back(cached.shape);
+    CachedShape cached = cache.load(body.shape);
+    loaded.shapes.push_back(std::move(cached.shape));
+    if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
-    } else {
-      loaded.shapes.emplace_back(std::get<Mesh>(body.shape.source), body.shape.radius);
     }
     loaded.motions.push_back(normalised_motion(body.motion, scene.duration));
   }

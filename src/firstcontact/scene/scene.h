@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,26 +12,13 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/geometry/mesh.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact {
-
-/// A mesh that lies in a file of its own.
-struct MeshFile {
-  /// As opened: relative to the working directory, or absolute; never to the scene's folder.
-  std::filesystem::path path;
-  double scale = 1.0;  ///< [-]  Multiplies every coordinate; > 0.
-};
-
-/// What a body is made of, in the body frame.
-struct BodyShape {
-  std::variant<MeshFile, Mesh> source;  ///< A Mesh holds what its scene writes inline, not welded.
-  double radius = 0.0;                  ///< [m]  Thickens every triangle; >= 0.
-};
 
 struct FixedMotion {
   Pose pose;

@@ -2,12 +2,11 @@
 
 #include <array>
 #include <fstream>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <variant>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/scene/detail/make_shape.h>
 #include <firstcontact/scene/detail/sha256.h>
 
 namespace firstcontact {
@@ -24,27 +23,44 @@ std::string digest_of(const std::filesystem::path& path) {
   return digest.hexadecimal();
 }
 
-CachedShape read_shape(const MeshFile& file, double radius) {
-  Mesh mesh = read_mesh(file.path);
-  if (file.scale != 1.0) {
-    for (Eigen::Vector3d& vertex : mesh.vertices) {
-      vertex *= file.scale;
-    }
+/// The numbers of each kind of shape, but for its file; the overloads are picked by std::visit.
+struct Numbers {
+  using List = std::vector<double>;
+
+  List operator()(const MeshFile& file) const { return {file.scale}; }
+  List operator()(const SphereShape& sphere) const { return {sphere.radius}; }
+  List operator()(const CapsuleShape& capsule) const { return {capsule.radius, capsule.length}; }
+  List operator()(const BoxShape& box) const { return {box.size.x(), box.size.y(), box.size.z()}; }
+  List operator()(const CylinderShape& cylinder) const {
+    return {cylinder.radius, cylinder.length, cylinder.enclosure_error.value_or(0.0)};
   }
-  try {
-    return {.shape = Shape(std::move(mesh), radius), .digest = digest_of(file.path)};
-  } catch (const std::invalid_argument& error) {
-    throw ParseError(file.path.string(), error.what());
+  List operator()(const ConeShape& cone) const {
+    return {cone.radius, cone.length, cone.enclosure_error.value_or(0.0)};
   }
+  List operator()(const Mesh&) const { return {}; }
+};
+
+bool is_inline(const BodyShape& shape) { return std::holds_alternative<Mesh>(shape.source); }
+
+CachedShape make(const BodyShape& shape) {
+  const std::filesystem::path* file = detail::file_of(shape);
+  return {.shape = detail::make_shape(shape), .digest = file == nullptr ? "" : digest_of(*file)};
 }
 
 }  // namespace
 
-const CachedShape& ShapeCache::load(const MeshFile& file, double radius) {
-  const std::tuple key(file.path.string(), file.scale, radius);
+CachedShape ShapeCache::load(const BodyShape& shape) {
+  if (is_inline(shape)) {
+    return make(shape);
+  }
+  const std::filesystem::path* file = detail::file_of(shape);
+  std::vector<double> numbers = std::visit(Numbers{}, shape.source);
+  numbers.push_back(shape.radius);
+  numbers.push_back(shape.filling == Filling::solid ? 1.0 : 0.0);
+  Key key(shape.source.index(), file == nullptr ? "" : file->string(), std::move(numbers));
   const auto found = shapes_.find(key);
   return found != shapes_.end() ? found->second
-                                : shapes_.emplace(key, read_shape(file, radius)).first->second;
+                                : shapes_.emplace(std::move(key), make(shape)).first->second;
 }
 
 }  // namespace firstcontact

@@ -1,37 +1,41 @@
 /// @file
-/// Shapes read from mesh files, kept from scene to scene.
+/// Shapes of scenes, kept from scene to scene.
 
 #pragma once
 
 #include <map>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact {
 
 /// A shape and the digest of the file that it came from.
 struct CachedShape {
   Shape shape;
-  std::string digest;  ///< SHA-256 of the mesh file, in hexadecimal.
+  std::string digest;  ///< SHA-256 of the file, in hexadecimal; empty where there is none.
 };
 
-/// Loads each mesh file once for every scale and radius, with its hierarchy. A file that changes
-/// after it was loaded is not read again. For one thread at a time.
+/// Makes each shape once, with its hierarchy, but for what a scene writes inline. A file that
+/// changes after it was loaded is not read again. For one thread at a time.
 class FIRSTCONTACT_API ShapeCache {
  public:
-  /// The shape of a mesh file; stays valid for as long as the cache lives. Coordinates are scaled
-  /// in double precision; certificates hold for the rounded products.
+  /// The shape that a scene describes. Coordinates of files are scaled in double precision;
+  /// certificates hold for the rounded products.
   ///
-  /// @param radius  [m]  >= 0
-  /// @throws ParseError as read_mesh, and where no shape can be made of what was read
-  const CachedShape& load(const MeshFile& file, double radius);
+  /// @throws ParseError as read_mesh, and where no shape can be made of what was read;
+  ///         std::invalid_argument if a number is out of its range, or an inline solid not closed
+  CachedShape load(const BodyShape& shape);
 
  private:
-  std::map<std::tuple<std::string, double, double>, CachedShape> shapes_;
+  /// The kind of shape, the file, and all numbers.
+  using Key = std::tuple<std::size_t, std::string, std::vector<double>>;
+
+  std::map<Key, CachedShape> shapes_;
 };
 
 }  // namespace firstcontact

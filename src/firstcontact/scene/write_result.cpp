@@ -96,6 +96,9 @@ class ResultWriter {
                       {"contacts", {.value = std::move(contacts)}},
                       {"clearance", to_json(found.clearance)}};
     append_tolerance(found.tolerance_used, object);
+    append_enclosure_error(loaded_.shapes[pair.bodies[0]].enclosure_error() +
+                               loaded_.shapes[pair.bodies[1]].enclosure_error(),
+                           object);
     if (pair.closest_approach) {
       object.push_back({"closest", closest(pair)});
     }
@@ -106,6 +109,13 @@ class ResultWriter {
   void append_tolerance(double tolerance_used, JsonObject& object) const {
     if (tolerance_used > scene_.options.tolerance) {
       object.push_back({"tolerance_used", to_json(tolerance_used)});
+    }
+  }
+
+  /// Only where a curved body was enclosed by triangles.
+  static void append_enclosure_error(double enclosure_error, JsonObject& object) {
+    if (enclosure_error > 0.0) {
+      object.push_back({"enclosure_error", to_json(enclosure_error)});
     }
   }
 
@@ -170,6 +180,18 @@ JsonValue to_json(const WorkCount& work) {
                               {"steps", to_json(std::size_t{work.steps})}}};
 }
 
+/// [m]  Of any two bodies.
+double greatest_enclosure_error(const LoadedScene& loaded) {
+  double greatest = 0.0;
+  double second = 0.0;
+  for (const Shape& shape : loaded.shapes) {
+    const double error = shape.enclosure_error();
+    second = std::max(second, std::min(error, greatest));
+    greatest = std::max(greatest, error);
+  }
+  return greatest + second;
+}
+
 }  // namespace
 
 SamplingReport report_sampling(double rate, std::span<const GapSample> samples) {
@@ -194,6 +216,7 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
     object.push_back({"pairs", JsonValue{.value = writer.pairs(result)}});
   }
   writer.append_tolerance(result.tolerance_used, object);
+  ResultWriter::append_enclosure_error(greatest_enclosure_error(loaded), object);
   if (options.sampling) {
     object.push_back({"sampling", writer.sampling(*options.sampling)});
   }

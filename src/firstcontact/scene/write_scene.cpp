@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -58,16 +59,59 @@ JsonValue to_json(const std::vector<T>& elements) {
   return {.value = std::move(array)};
 }
 
-JsonValue to_json(const BodyShape& shape) {
-  JsonObject object;
-  if (const auto* file = std::get_if<MeshFile>(&shape.source)) {
-    object = {{"mesh", to_json(file->path.string())}, {"scale", to_json(file->scale)}};
-  } else {
-    const Mesh& mesh = std::get<Mesh>(shape.source);
-    object = {{"vertices", to_json(mesh.vertices)}, {"triangles", to_json(mesh.triangles)}};
+JsonValue numbers(double radius, double length, const std::optional<double>& enclosure_error) {
+  JsonObject object{{"radius", to_json(radius)}, {"length", to_json(length)}};
+  if (enclosure_error) {
+    object.push_back({"enclosure_error", to_json(*enclosure_error)});
   }
-  object.push_back({"radius", to_json(shape.radius)});
   return {.value = std::move(object)};
+}
+
+/// The keys and values that say what a body is made of; the overloads are picked by std::visit.
+struct ShapeMembers {
+  double radius;
+  Filling filling;
+
+  JsonObject operator()(const MeshFile& file) const {
+    return with_thickness({{"mesh", to_json(file.path.string())}, {"scale", to_json(file.scale)}});
+  }
+
+  JsonObject operator()(const Mesh& mesh) const {
+    return with_thickness(
+        {{"vertices", to_json(mesh.vertices)}, {"triangles", to_json(mesh.triangles)}});
+  }
+
+  JsonObject operator()(const SphereShape& sphere) const {
+    return {{"sphere", {.value = JsonObject{{"radius", to_json(sphere.radius)}}}}};
+  }
+
+  JsonObject operator()(const CapsuleShape& capsule) const {
+    return {{"capsule", numbers(capsule.radius, capsule.length, {})}};
+  }
+
+  JsonObject operator()(const BoxShape& box) const {
+    return {{"box", {.value = JsonObject{{"size", to_json(box.size)}}}}};
+  }
+
+  JsonObject operator()(const CylinderShape& cylinder) const {
+    return {{"cylinder", numbers(cylinder.radius, cylinder.length, cylinder.enclosure_error)}};
+  }
+
+  JsonObject operator()(const ConeShape& cone) const {
+    return {{"cone", numbers(cone.radius, cone.length, cone.enclosure_error)}};
+  }
+
+  [[nodiscard]] JsonObject with_thickness(JsonObject object) const {
+    object.push_back({"radius", to_json(radius)});
+    if (filling == Filling::solid) {
+      object.push_back({"solid", {.value = true}});
+    }
+    return object;
+  }
+};
+
+JsonValue to_json(const BodyShape& shape) {
+  return {.value = std::visit(ShapeMembers{shape.radius, shape.filling}, shape.source)};
 }
 
 /// The key and value that say how a body moves; the overloads are picked by std::visit.

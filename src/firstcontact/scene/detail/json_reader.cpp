@@ -138,6 +138,14 @@ const std::string& JsonReader::string(const JsonValue& value, const std::string&
   return *string;
 }
 
+bool JsonReader::boolean(const JsonValue& value) const {
+  const auto* boolean = std::get_if<bool>(&value.value);
+  if (boolean == nullptr) {
+    fail_expected("true or false", value);
+  }
+  return *boolean;
+}
+
 double JsonReader::number(const JsonValue& value) const {
   const auto* number = std::get_if<double>(&value.value);
   if (number == nullptr) {

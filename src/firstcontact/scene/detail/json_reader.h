@@ -42,6 +42,7 @@ class JsonReader {
   [[nodiscard]] const JsonArray& array(const JsonValue& value, const std::string& what) const;
   [[nodiscard]] const std::string& string(const JsonValue& value, const std::string& what) const;
 
+  [[nodiscard]] bool boolean(const JsonValue& value) const;
   [[nodiscard]] double number(const JsonValue& value) const;
   [[nodiscard]] double positive(const JsonValue& value) const;
   [[nodiscard]] double not_negative(const JsonValue& value) const;

@@ -17,7 +17,8 @@ struct SceneFolders {
   std::vector<std::filesystem::path> package_roots;  ///< As opened. For "package://name/...".
 };
 
-/// `mesh` (a file, which must exist) with `scale`, or `vertices` with `triangles`; and `radius`.
+/// One of `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
+/// `capsule`, `box`, `cylinder`, `cone`; a mesh with `radius` and `solid`.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyShape read_shape(const JsonValue& value, const SceneFolders& folders,

@@ -1,0 +1,49 @@
+/// @file
+/// Which vertices hang together.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include <firstcontact/geometry/mesh.h>
+
+namespace firstcontact::detail {
+
+/// Disjoint sets with path halving; the root of a set is its least member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
+  std::uint32_t root(std::uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// The sets of vertices that triangles join.
+inline DisjointSets vertex_components(const Mesh& mesh) {
+  DisjointSets components(mesh.vertices.size());
+  for (const auto& t : mesh.triangles) {
+    components.join(t[0], t[1]);
+    components.join(t[0], t[2]);
+  }
+  return components;
+}
+
+}  // namespace firstcontact::detail

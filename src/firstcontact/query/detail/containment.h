@@ -1,0 +1,44 @@
+/// @file
+/// Whether one body lies inside another that is solid.
+
+#pragma once
+
+#include <cstdint>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+namespace firstcontact::detail {
+
+/// What is known of a point and a solid.
+enum class Inside { no, yes, unsure };
+
+/// A vertex of one body that lies in the other, and a face of that which encloses it.
+struct Containment {
+  Inside inside = Inside::no;
+  bool vertex_of_A = false;  ///< Of B otherwise.
+  std::uint32_t vertex = 0;  ///< In the hierarchy's order.
+  std::uint32_t face = 0;    ///< Triangle of the other body, in its hierarchy's order.
+};
+
+/// Looks for a vertex of A in a solid B, or of B in a solid A, at one instant.
+///
+/// Where the surfaces do not touch, the bodies have a point in common only if a whole component of
+/// one lies in the other: testing one vertex of each is enough. `no` and `yes` are proven;
+/// `unsure` only where a vertex is about as close to the surface as positions are rounded.
+///
+/// Derivation: how often a closed surface winds around a point is the number of times that a ray
+/// from the point leaves through it, less that of entering (any ray that meets no edge). The
+/// signs of the volumes that decide are certified for all points within gap_error of the rounded
+/// ones; a ray that passes an edge too closely is given up for another.
+Containment find_containment(const Shape& A, const Shape& B, const MovingPair& pair,
+                             const RelativeState& state);
+
+/// The contact of a contained body: its vertex and the face, both points at the vertex, distance 0,
+/// no normal.
+Contact make_contact(const ContactFrame& frame, const RelativeState& state,
+                     const Containment& found);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,20 @@
+/// @file
+/// Makes the shape that a scene describes.
+
+#pragma once
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/scene/body_shape.h>
+
+namespace firstcontact::detail {
+
+/// Reads the file that the shape names, if any.
+///
+/// @throws ParseError if the file cannot be used; std::invalid_argument if a number is out of its
+///         range, or a solid not closed
+[[nodiscard]] Shape make_shape(const BodyShape& shape);
+
+/// The file that a shape is in; null where it is in none.
+[[nodiscard]] const std::filesystem::path* file_of(const BodyShape& shape);
+
+}  // namespace firstcontact::detail
