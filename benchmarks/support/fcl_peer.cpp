@@ -1,31 +1,16 @@
 #include "benchmarks/support/fcl_peer.h"
 
 #include <algorithm>
-#include <vector>
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/detail/conservative_advancement_func_matrix.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "benchmarks/support/fcl_model.h"
+
 namespace firstcontact::benchmarks {
 namespace {
-
-using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::shared_ptr<Model> model(const Mesh& mesh) {
-  std::vector<fcl::Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    triangles.emplace_back(a, b, c);
-  }
-  auto result = std::make_shared<Model>();
-  result->beginModel();
-  result->addSubModel(mesh.vertices, triangles);
-  result->endModel();
-  return result;
-}
 
 double radius(const Mesh& mesh) {
   double radius = 0.0;
@@ -38,14 +23,14 @@ double radius(const Mesh& mesh) {
 }  // namespace
 
 struct FclPeer::Models {
-  std::shared_ptr<Model> A;
-  std::shared_ptr<Model> B;
+  std::shared_ptr<FclModel> A;
+  std::shared_ptr<FclModel> B;
   double radius_A;
   double radius_B;
 };
 
 FclPeer::FclPeer(const Mesh& A, const Mesh& B)
-    : models_(std::make_unique<Models>(Models{model(A), model(B), radius(A), radius(B)})) {}
+    : models_(std::make_unique<Models>(Models{fcl_model(A), fcl_model(B), radius(A), radius(B)})) {}
 FclPeer::~FclPeer() = default;
 FclPeer::FclPeer(FclPeer&&) noexcept = default;
 FclPeer& FclPeer::operator=(FclPeer&&) noexcept = default;

@@ -12,26 +12,19 @@
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/order.h>
+#include <firstcontact/query/detail/pair_query.h>
 
 namespace firstcontact {
 namespace {
 
 using detail::MovingPair;
+using detail::Window;
 
 void require_range(bool holds, const char* option, const char* range, double value) {
   if (!holds) {
     throw std::invalid_argument(std::string("FirstContactOptions::") + option + " must be " +
                                 range + ", got " + std::to_string(value));
   }
-}
-
-void validate(const FirstContactOptions& options) {
-  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin", "finite and >= 0",
-                options.margin);
-  require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
-                "finite and > 0", options.tolerance);
-  require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
-                "finite and >= 0", options.contact_band);
 }
 
 /// Eight times the error of a gap near contact: below it doubles cannot tell distances apart.
@@ -45,19 +38,19 @@ double resolvable_distance(const MovingPair& pair, double margin) {
 /// Far above the motion between neighbouring times, which ends a search of very fast bodies.
 double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_bound(); }
 
-/// Searches a piece in windows of time. Bodies that stay close for long are opened to their
-/// triangles and never closed again; a new search from the root costs less than to drag these
+/// Searches a part of a piece in windows of time. Bodies that stay close for long are opened to
+/// their triangles and never closed again; a new search from the root costs less than to drag these
 /// along. Most pieces are one window.
-detail::PieceResult search_windows(const MovingPair& pair, const detail::SharedPiece& piece,
+detail::PieceResult search_windows(const MovingPair& pair, const Window& part,
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
   constexpr std::uint64_t kPatience = 1u << 17;
   // Far above the distance of neighbouring times; ties are not told apart by shorter windows.
   constexpr double kLeastWidth = 0x1p-32;
-  double begin = piece.begin();
-  double width = piece.end() - begin;
+  double begin = part.begin;
+  double width = part.end - begin;
   while (true) {
-    const double end = std::min(begin + width, piece.end());
+    const double end = std::min(begin + width, part.end);
     const std::uint64_t before = work.node_groups + work.steps;
     limits.patience = width > kLeastWidth ? kPatience : std::numeric_limits<std::uint64_t>::max();
     const detail::PieceResult found =
@@ -65,7 +58,7 @@ detail::PieceResult search_windows(const MovingPair& pair, const detail::SharedP
     if (found.impatient) {
       width = std::clamp(found.t - begin, width / 16.0, width / 2.0);
       begin = found.t;
-    } else if (found.finished && end < piece.end()) {
+    } else if (found.finished && end < part.end) {
       const bool quick = work.node_groups + work.steps - before < kPatience / 2;
       width = quick ? 2.0 * width : width;
       begin = end;
@@ -75,14 +68,14 @@ detail::PieceResult search_windows(const MovingPair& pair, const detail::SharedP
   }
 }
 
-/// Searches a piece with the tolerance in use; where time is too coarse for it, with a larger one.
-detail::PieceResult search(const MovingPair& pair, const detail::SharedPiece& piece,
-                           detail::SearchLimits limits, detail::WorkspaceData& workspace,
-                           FirstContactResult& result) {
-  detail::PieceResult found = search_windows(pair, piece, limits, workspace, result.work);
+/// Searches a part of a piece with the tolerance in use; where time is too coarse for it, with a
+/// larger one.
+detail::PieceResult search(const MovingPair& pair, const Window& part, detail::SearchLimits limits,
+                           detail::WorkspaceData& workspace, FirstContactResult& result) {
+  detail::PieceResult found = search_windows(pair, part, limits, workspace, result.work);
   if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
     limits.tolerance = result.tolerance_used = resolvable_motion(pair);
-    found = search_windows(pair, piece, limits, workspace, result.work);
+    found = search_windows(pair, part, limits, workspace, result.work);
   }
   return found;
 }
@@ -108,15 +101,21 @@ void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPai
   }
 }
 
-void solve(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& workspace,
-           const FirstContactOptions& options, FirstContactResult& result) {
+void solve(const MovingShape& A, const MovingShape& B, const Window& window,
+           detail::WorkspaceData& workspace, const FirstContactOptions& options,
+           FirstContactResult& result) {
   const Hierarchy& hA = A.shape.hierarchy();
   const Hierarchy& hB = B.shape.hierarchy();
   const RelativeMotion start_motion(A.X_WS.path(0, hA.centre), B.X_WS.path(0, hB.centre),
                                     options.tolerance);
   const MovingPair start(hA, hB, start_motion);
   result.tolerance_used = options.tolerance;
+  result.t = window.begin;
   for (detail::SharedPiece piece(A.X_WS, B.X_WS); piece.valid(); piece.next()) {
+    const Window part{std::max(piece.begin(), window.begin), std::min(piece.end(), window.end)};
+    if (part.begin > part.end) {
+      continue;
+    }
     const RelativeMotion motion(A.X_WS.path(piece.index_A(), hA.centre),
                                 B.X_WS.path(piece.index_B(), hB.centre), options.tolerance);
     const MovingPair pair(hA, hB, motion);
@@ -125,7 +124,7 @@ void solve(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& wo
         std::max(result.tolerance_used, resolvable_distance(pair, options.margin + radii));
     const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
                                       options.start_contacts, start, options.budget};
-    const detail::PieceResult found = search(pair, piece, limits, workspace, result);
+    const detail::PieceResult found = search(pair, part, limits, workspace, result);
     result.t = found.t;
     if (found.contact) {
       result.t_upper = found.t;
@@ -151,6 +150,7 @@ void report_contained(const MovingShape& A, const MovingShape& B, const MovingPa
                       const RelativeState& state, const detail::Containment& found,
                       const FirstContactOptions& options, FirstContactResult& result) {
   result.verdict = Verdict::contact_at_start;
+  result.t = 0.0;
   result.t_upper = 0.0;
   result.tolerance_used = options.tolerance;
   if (options.contacts != ContactState::none) {
@@ -162,10 +162,11 @@ void report_contained(const MovingShape& A, const MovingShape& B, const MovingPa
 }
 
 /// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
-void solve_solids(const MovingShape& A, const MovingShape& B, detail::WorkspaceData& workspace,
-                  const FirstContactOptions& options, FirstContactResult& result) {
+void solve_solids(const MovingShape& A, const MovingShape& B, const Window& window,
+                  detail::WorkspaceData& workspace, const FirstContactOptions& options,
+                  FirstContactResult& result) {
   if (!A.shape.is_solid() && !B.shape.is_solid()) {
-    solve(A, B, workspace, options, result);
+    solve(A, B, window, workspace, options, result);
     return;
   }
   const Hierarchy& hA = A.shape.hierarchy();
@@ -179,7 +180,7 @@ void solve_solids(const MovingShape& A, const MovingShape& B, detail::WorkspaceD
     report_contained(A, B, start, state, found, options, result);
     return;
   }
-  solve(A, B, workspace, options, result);
+  solve(A, B, window, workspace, options, result);
   if (found.inside == detail::Inside::unsure && result.verdict != Verdict::contact_at_start) {
     result.verdict = Verdict::undecided;
     result.reason = UndecidedReason::precision;
@@ -190,25 +191,46 @@ void solve_solids(const MovingShape& A, const MovingShape& B, detail::WorkspaceD
 
 }  // namespace
 
-void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
-                   const FirstContactOptions& options, FirstContactResult& result) {
+void detail::validate(const FirstContactOptions& options) {
+  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin", "finite and >= 0",
+                options.margin);
+  require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
+                "finite and > 0", options.tolerance);
+  require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
+                "finite and >= 0", options.contact_band);
+}
+
+void detail::first_contact_within(const MovingShape& A, const MovingShape& B, const Window& window,
+                                  Workspace& workspace, const FirstContactOptions& options,
+                                  FirstContactResult& result) {
   validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
-  result.t = 0.0;
   result.t_upper.reset();
   result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
   result.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
   result.contacts.clear();
   result.work = {};
-  if (detail::in_order(A, B)) {
-    solve_solids(A, B, workspace.data(), options, result);
+  const auto ask = [&](const MovingShape& first, const MovingShape& second) {
+    if (window.begin == 0.0) {
+      solve_solids(first, second, window, workspace.data(), options, result);
+    } else {
+      solve(first, second, window, workspace.data(), options, result);
+    }
+  };
+  if (in_order(A, B)) {
+    ask(A, B);
     return;
   }
-  solve_solids(B, A, workspace.data(), options, result);
+  ask(B, A);
   for (Contact& contact : result.contacts) {
-    detail::swap_bodies(contact);
+    swap_bodies(contact);
   }
+}
+
+void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  detail::first_contact_within(A, B, {}, workspace, options, result);
 }
 
 FirstContactResult first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,

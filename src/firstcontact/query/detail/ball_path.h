@@ -1,0 +1,34 @@
+/// @file
+/// The ball around a body on its path: what the broad phase knows of it.
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/motion/constant_rate_path.h>
+#include <firstcontact/query/detail/pair_query.h>
+
+namespace firstcontact::detail {
+
+/// A ball that contains a body at all times, by the path of its centre.
+struct BallPath {
+  const std::vector<ConstantRatePath>& centre;  ///< One for each piece of the motion.
+  double radius = 0.0;                          ///< [m]
+};
+
+/// A box that contains the ball throughout the window, all roundings included.
+///
+/// Between two times the centre stays within min(w^2 l h^2 / 8, 2 l) of the line between its ends:
+/// its acceleration is w^2 l, with l its distance from the axis, and h the time between them.
+[[nodiscard]] Eigen::AlignedBox3d swept_box(const BallPath& ball, const Window& window);
+
+/// [-]  A time before which the two balls are farther apart than the margin; infinite where they
+/// are so on the whole window. At least its begin; takes a few steps of conservative advancement
+/// along the line of centres, then leaves the pair to a search.
+[[nodiscard]] double apart_until(const BallPath& A, const BallPath& B, double margin,
+                                 const Window& window);
+
+}  // namespace firstcontact::detail
