@@ -3,11 +3,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/geometry/weld.h>
 
 #include "quantity_text.h"
 
@@ -39,6 +43,13 @@ std::string point(Eigen::Vector3d p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
+void print_bounds(const Eigen::AlignedBox3d& bounds) {
+  line("bounds", fmt::format("{} ... {} m", point(bounds.min()), point(bounds.max())));
+  const Eigen::Vector3d size = bounds.sizes();
+  line("size", fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()),
+                           length_text(size.z())));
+}
+
 void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) {
   fmt::print("{}\n", name);
   line("triangles", fmt::format("{}", mesh.triangles.size()));
@@ -46,10 +57,7 @@ void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) 
   line("edges", fmt::format("{}", found.edges));
   line("components", fmt::format("{}", found.components));
   line("surface", surface(found));
-  line("bounds", fmt::format("{} ... {} m", point(found.bounds.min()), point(found.bounds.max())));
-  const Eigen::Vector3d size = found.bounds.sizes();
-  line("size", fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()),
-                           length_text(size.z())));
+  print_bounds(found.bounds);
   if (found.signed_volume) {
     line("volume", fmt::format("{:.6g} m^3", *found.signed_volume));
   }
@@ -60,16 +68,51 @@ void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) 
   count("unused vertices", found.unused_vertices);
 }
 
+void print(const std::string& name, const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& p : points) {
+    bounds.extend(p);
+  }
+  fmt::print("{}\n", name);
+  line("points", fmt::format("{}", points.size()));
+  Mesh mesh{.vertices = points, .triangles = {}};
+  count("points at one place", weld(mesh));
+  print_bounds(bounds);
+}
+
+/// Only PLY files may be either.
+bool is_cloud(const std::string& file) {
+  try {
+    (void)read_points(file);
+  } catch (const ParseError&) {
+    return false;
+  }
+  try {
+    (void)read_mesh(file);
+  } catch (const ParseError&) {
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("info", "Counts, defects and bounds of meshes");
+  CLI::App* command =
+      app.add_subcommand("info", "Counts, defects and bounds of meshes and point clouds");
   auto files = std::make_shared<std::vector<std::string>>();
-  command->add_option("MESH", *files, "OBJ, STL, PLY, OFF, DAE, GLB or glTF file")->required();
+  command
+      ->add_option("FILE", *files,
+                   "OBJ, STL, PLY, OFF, DAE, GLB or glTF mesh; PLY, PCD or XYZ cloud")
+      ->required();
   command->callback([files] {
     for (const std::string& file : *files) {
-      const Mesh mesh = read_mesh(file);
-      print(file, mesh, inspect(mesh));
+      if (is_cloud(file)) {
+        print(file, read_points(file));
+      } else {
+        const Mesh mesh = read_mesh(file);
+        print(file, mesh, inspect(mesh));
+      }
     }
   });
 }

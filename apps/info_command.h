@@ -1,5 +1,5 @@
 /// @file
-/// `firstcontact info MESH`: counts, defects and bounds of a mesh.
+/// `firstcontact info FILE`: counts, defects and bounds of a mesh or point cloud.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// What holds for a mesh reader on any bytes: a valid mesh, or a ParseError of one line.
+/// What holds for a reader on any bytes: a valid mesh or cloud, or a ParseError of one line.
 
 #pragma once
 
@@ -31,6 +31,20 @@ void fuzz_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
     require(!mesh.triangles.empty());
     weld(mesh);
     require(inspect(mesh).nonfinite_vertices == 0);
+  } catch (const ParseError& error) {
+    require(std::strchr(error.what(), '\n') == nullptr);
+  }
+}
+
+/// Parses the bytes of a cloud: finite points, at least one.
+template <class Parse>
+void fuzz_point_reader(Parse parse, const std::uint8_t* data, std::size_t size) {
+  try {
+    const auto points = parse(std::string_view(reinterpret_cast<const char*>(data), size), "fuzz");
+    require(!points.empty());
+    for (const auto& point : points) {
+      require(point.allFinite());
+    }
   } catch (const ParseError& error) {
     require(std::strchr(error.what(), '\n') == nullptr);
   }

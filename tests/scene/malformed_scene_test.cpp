@@ -225,10 +225,12 @@ TEST(MalformedShape, SaysWhatIsWrong) {
   expect_messages({
       {shaped("{}"),
        "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
-       "\"box\", \"cylinder\", \"cone\", got none"},
+       "\"box\", \"cylinder\", \"cone\", \"convex_hull\", \"points\", \"heightmap\", got none"},
       {shaped(R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})"),
        "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
-       "\"box\", \"cylinder\", \"cone\", got \"sphere\", \"box\""},
+       "\"box\", \"cylinder\", \"cone\", \"convex_hull\", \"points\", \"heightmap\", got "
+       "\"sphere\", "
+       "\"box\""},
       {shaped(R"({"shpere": {"radius": 1}})"),
        "s:1: bodies[0].shape.shpere: unknown key; did you mean \"sphere\"?"},
       {shaped(R"({"sphere": 1})"),
@@ -242,8 +244,21 @@ TEST(MalformedShape, SaysWhatIsWrong) {
       {shaped(R"({"cylinder": {"radius": 1, "height": 1}})"),
        "s:1: bodies[0].shape.cylinder.height: unknown key; did you mean \"length\"?"},
       {shaped(R"({"cone": {"radius": 1, "length": 1, "enclosure_error": 1e-9}})"),
-       "s:1: bodies[0].shape.cone: enclosure_error must be at least 1e-8 of the radius, got "
-       "0.000000"},
+       "s:1: bodies[0].shape.cone.enclosure_error: expected at least 1e-8 of the radius, got "
+       "1e-09"},
+      {shaped(R"({"convex_hull": {"vertices": [[0, 0, 0]], "mesh": "a.obj"}})"),
+       "s:1: bodies[0].shape.convex_hull: expected either \"mesh\" or \"vertices\", got both"},
+      {shaped(R"({"points": "none.pcd"})"),
+       "s:1: bodies[0].shape.points: expected a point cloud, found none at \"none.pcd\""},
+      {shaped(R"({"points": []})"),
+       "s:1: bodies[0].shape.points: expected at least one point, got none"},
+      {shaped(R"({"points": [[0, 0, 0]], "solid": true})"),
+       "s:1: bodies[0].shape.solid: expected no \"solid\" beside \"points\""},
+      {shaped(R"({"heightmap": {"cell": [1, 0], "heights": [[0, 0], [0, 0]]}})"),
+       "s:1: bodies[0].shape.heightmap.cell[1]: expected a number > 0, got 0"},
+      {shaped(R"({"heightmap": {"cell": [1, 1], "heights": [[0, 0], [0]]}})"),
+       "s:1: bodies[0].shape.heightmap.heights[1]: expected a row of two heights or more, as many "
+       "as in the first, got an array of 1"},
       {shaped(R"({"box": {"size": [1, 1, 1]}, "radius": 0.1})"),
        "s:1: bodies[0].shape.radius: expected no \"radius\" beside \"box\""},
       {shaped(R"({"mesh": "a.obj", "solid": 1})"),

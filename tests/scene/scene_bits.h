@@ -92,6 +92,33 @@ class SceneBits {
     add(cone.enclosure_error.value_or(-1.0));
   }
 
+  void add(const std::vector<Eigen::Vector3d>& points) {
+    for (const Eigen::Vector3d& point : points) {
+      add(point);
+    }
+  }
+  void add(const ConvexHullShape& hull) {
+    std::visit([this](const auto& of) { add(of); }, hull.of);
+  }
+  void add(const PointFile& file) {
+    add(file.path.string());
+    add(file.scale);
+  }
+  void add(const PointCloud& cloud) { add(cloud.points); }
+  void add(const HeightFile& file) {
+    add(file.path.string());
+    add(file.cell.x());
+    add(file.cell.y());
+  }
+  void add(const HeightMap& map) {
+    add(map.cell.x());
+    add(map.cell.y());
+    add(static_cast<double>(map.columns));
+    for (const double height : map.heights) {
+      add(height);
+    }
+  }
+
   void add(const FixedMotion& motion) { add(motion.pose); }
   void add(const ConstantVelocityMotion& motion) {
     add(motion.from);

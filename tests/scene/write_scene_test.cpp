@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,11 +56,15 @@ Scene random_scene(std::mt19937_64& rng) {
                             .motion = motion});
   }
   const auto size = [&] { return 1e-3 + std::abs(angle()); };
-  const BodyShape shapes[] = {{.source = SphereShape{size()}},
-                              {.source = CapsuleShape{size(), size()}},
-                              {.source = BoxShape{{size(), size(), size()}}},
-                              {.source = CylinderShape{size(), size(), 1e4}},
-                              {.source = ConeShape{size(), size(), {}}}};
+  const BodyShape shapes[] = {
+      {.source = SphereShape{size()}},
+      {.source = CapsuleShape{size(), size()}},
+      {.source = BoxShape{{size(), size(), size()}}},
+      {.source = CylinderShape{size(), size(), 1e4}},
+      {.source = ConeShape{size(), size(), {}}},
+      {.source = ConvexHullShape{std::vector{random_vector(rng)}}, .radius = size()},
+      {.source = PointCloud{{random_vector(rng), random_vector(rng)}}},
+      {.source = HeightMap{{size(), size()}, 3, {0, 1, 2, 3, 4, size()}}}};
   for (const BodyShape& shape : shapes) {
     scene.bodies.push_back({.name = "body " + std::to_string(scene.bodies.size()),
                             .shape = shape,

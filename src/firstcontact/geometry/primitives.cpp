@@ -19,12 +19,12 @@ void require(bool holds, const std::string& what, double got) {
   }
 }
 
-/// Within what a vertex can have (shape.h); halves of it lose nothing.
-bool is_size(double length) { return length >= 1e-60 && length <= 1e60; }
+bool is_size(double length) { return length >= kLeastSize && length <= kGreatestSize; }
 
 detail::EnclosingRing make_ring(double radius, std::optional<double> enclosure_error) {
   const double asked = enclosure_error.value_or(1e-4 * radius);
-  require(asked >= 1e-8 * radius, "enclosure_error must be at least 1e-8 of the radius", asked);
+  require(asked >= kLeastEnclosureError * radius,
+          "enclosure_error must be at least 1e-8 of the radius", asked);
   return detail::enclosing_ring(radius, asked);
 }
 
@@ -55,7 +55,8 @@ Shape make_sphere(double radius) {
 
 Shape make_capsule(double radius, double length) {
   require(is_size(radius), "make_capsule: radius must be in 1e-60 ... 1e60", radius);
-  require(length >= 0.0 && length <= 1e60, "make_capsule: length must be in 0 ... 1e60", length);
+  require(length == 0.0 || is_size(length), "make_capsule: length must be 0 or in 1e-60 ... 1e60",
+          length);
   return Shape(
       {.vertices = {{0.0, 0.0, -0.5 * length}, {0.0, 0.0, 0.5 * length}}, .triangles = {{0, 1, 1}}},
       radius);

@@ -12,6 +12,14 @@
 
 namespace firstcontact {
 
+/// [m]  Lengths of primitives lie between these, so that products of three neither over- nor
+/// underflow.
+inline constexpr double kLeastSize = 1e-60;
+inline constexpr double kGreatestSize = 1e60;
+
+/// [-]  Of the radius: no cylinder or cone is enclosed more tightly.
+inline constexpr double kLeastEnclosureError = 1e-8;
+
 /// A ball about the origin. Its one feature is vertex 0, the centre.
 ///
 /// @param radius  [m]  > 0

@@ -1,5 +1,6 @@
 #include <firstcontact/geometry/read_mesh.h>
 
+#include <firstcontact/geometry/detail/file_extension.h>
 #include <firstcontact/geometry/detail/mapped_file.h>
 #include <firstcontact/geometry/detail/read_with_assimp.h>
 #include <firstcontact/geometry/detail/text_cursor.h>
@@ -9,17 +10,9 @@
 namespace firstcontact {
 namespace {
 
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  }
-  return extension.empty() ? extension : extension.substr(1);
-}
-
 Mesh parse(const std::filesystem::path& path) {
   const std::string source = path.string();
-  const std::string extension = extension_of(path);
+  const std::string extension = detail::file_extension(path);
   const detail::MappedFile file(path);
   if (extension == "obj") {
     return parse_obj(file.bytes(), source);

@@ -11,6 +11,7 @@
 #include <firstcontact/geometry/detail/mesh_builder.h>
 #include <firstcontact/geometry/detail/text_cursor.h>
 #include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/geometry/read_points.h>
 
 namespace firstcontact {
 namespace {
@@ -144,7 +145,10 @@ void read_element(TextCursor& text, Header& header) {
   header.elements.push_back(std::move(element));
 }
 
-void check_header(const TextCursor& text, const Header& header) {
+/// What is asked of a file.
+enum class Wanted { mesh, points };
+
+void check_header(const TextCursor& text, const Header& header, Wanted wanted) {
   if (!header.format) {
     text.fail("expected a line 'format' in the header");
   }
@@ -159,13 +163,13 @@ void check_header(const TextCursor& text, const Header& header) {
   if (coordinates != 3) {
     text.fail("expected an element 'vertex' with properties x, y and z");
   }
-  if (corner_lists != 1) {
+  if (corner_lists != 1 && wanted == Wanted::mesh) {
     text.fail("expected an element 'face' with a list vertex_indices");
   }
 }
 
 /// Leaves the text behind the line feed of end_header.
-Header read_header(TextCursor& text) {
+Header read_header(TextCursor& text, Wanted wanted) {
   if (text.word() != "ply") {
     text.fail("expected the header 'ply'");
   }
@@ -174,7 +178,7 @@ Header read_header(TextCursor& text) {
     text.skip_line();
     const std::string_view keyword = text.word();
     if (keyword == "end_header") {
-      check_header(text, header);
+      check_header(text, header, wanted);
       text.skip_line();
       return header;
     }
@@ -349,7 +353,8 @@ void read_items(Body& body, MeshBuilder& mesh, const Element& element) {
 }
 
 template <class Body>
-Mesh read_body(Body body, const std::vector<Element>& elements, const std::string& source) {
+Mesh read_body(Body body, const std::vector<Element>& elements, const std::string& source,
+               Wanted wanted) {
   MeshBuilder mesh;
   for (const Element& element : elements) {
     if (element.name == "vertex") {
@@ -368,23 +373,35 @@ Mesh read_body(Body body, const std::vector<Element>& elements, const std::strin
                      " is out of range: the file has " + std::to_string(mesh.vertex_count()) +
                      " vertices");
   }
-  if (mesh.is_empty()) {
+  if (mesh.is_empty() && wanted == Wanted::mesh) {
     throw ParseError(source, "expected at least one face, found none");
   }
   return mesh.finish();
 }
 
-}  // namespace
-
-Mesh parse_ply(std::string_view data, const std::string& source) {
+Mesh parse(std::string_view data, const std::string& source, Wanted wanted) {
   TextCursor text(data, source, {});
-  const Header header = read_header(text);
+  const Header header = read_header(text, wanted);
   if (header.format == Format::ascii) {
-    return read_body(AsciiBody(text), header.elements, source);
+    return read_body(AsciiBody(text), header.elements, source, wanted);
   }
   const std::size_t begin = data.size() - text.remaining();
   ByteCursor bytes(data.substr(begin), source, header.format == Format::big_endian, begin);
-  return read_body(BinaryBody(std::move(bytes)), header.elements, source);
+  return read_body(BinaryBody(std::move(bytes)), header.elements, source, wanted);
+}
+
+}  // namespace
+
+Mesh parse_ply(std::string_view data, const std::string& source) {
+  return parse(data, source, Wanted::mesh);
+}
+
+std::vector<Eigen::Vector3d> parse_ply_points(std::string_view data, const std::string& source) {
+  Mesh mesh = parse(data, source, Wanted::points);
+  if (mesh.vertices.empty()) {
+    throw ParseError(source, "expected at least one vertex, found none");
+  }
+  return std::move(mesh.vertices);
 }
 
 }  // namespace firstcontact

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
+#include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
@@ -52,13 +54,36 @@ struct ConeShape {
   std::optional<double> enclosure_error;  ///< [m]
 };
 
+/// make_convex_hull
+struct ConvexHullShape {
+  std::variant<MeshFile, std::vector<Eigen::Vector3d>> of;  ///< [m]
+};
+
+/// make_point_cloud of a file
+struct PointFile {
+  std::filesystem::path path;  ///< As MeshFile::path.
+  double scale = 1.0;          ///< [-]  Multiplies every coordinate; > 0.
+};
+
+/// make_point_cloud
+struct PointCloud {
+  std::vector<Eigen::Vector3d> points;  ///< [m]
+};
+
+/// make_height_map of a file
+struct HeightFile {
+  std::filesystem::path path;                      ///< As MeshFile::path.
+  Eigen::Vector2d cell = Eigen::Vector2d::Ones();  ///< [m]
+};
+
 /// What a body is made of, in the body frame.
 struct BodyShape {
   /// A Mesh holds what its scene writes inline, not welded.
-  std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape>
+  std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
+               ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap>
       source;
-  double radius = 0.0;                 ///< [m]  Thickens every triangle of a mesh; >= 0.
-  Filling filling = Filling::surface;  ///< Of a mesh; the other shapes are solid.
+  double radius = 0.0;  ///< [m]  Thickens all but sphere, capsule, box, cylinder, cone; >= 0.
+  Filling filling = Filling::surface;  ///< Of a mesh.
 };
 
 }  // namespace firstcontact

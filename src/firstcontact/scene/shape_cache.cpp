@@ -37,10 +37,26 @@ struct Numbers {
   List operator()(const ConeShape& cone) const {
     return {cone.radius, cone.length, cone.enclosure_error.value_or(0.0)};
   }
-  List operator()(const Mesh&) const { return {}; }
+  List operator()(const PointFile& file) const { return {file.scale}; }
+  List operator()(const HeightFile& file) const { return {file.cell.x(), file.cell.y()}; }
+  List operator()(const ConvexHullShape& hull) const {
+    const auto* file = std::get_if<MeshFile>(&hull.of);
+    return {file != nullptr ? file->scale : 0.0};
+  }
+  template <class Inline>
+  List operator()(const Inline&) const {
+    return {};
+  }
 };
 
-bool is_inline(const BodyShape& shape) { return std::holds_alternative<Mesh>(shape.source); }
+/// Not worth the comparison with what was made before.
+bool is_inline(const BodyShape& shape) {
+  const auto* hull = std::get_if<ConvexHullShape>(&shape.source);
+  return std::holds_alternative<Mesh>(shape.source) ||
+         std::holds_alternative<PointCloud>(shape.source) ||
+         std::holds_alternative<HeightMap>(shape.source) ||
+         (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
+}
 
 CachedShape make(const BodyShape& shape) {
   const std::filesystem::path* file = detail::file_of(shape);

@@ -1,6 +1,7 @@
 #include <firstcontact/scene/write_scene.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -99,6 +100,45 @@ struct ShapeMembers {
 
   JsonObject operator()(const ConeShape& cone) const {
     return {{"cone", numbers(cone.radius, cone.length, cone.enclosure_error)}};
+  }
+
+  JsonObject operator()(const ConvexHullShape& hull) const {
+    const auto* file = std::get_if<MeshFile>(&hull.of);
+    JsonObject of =
+        file != nullptr
+            ? JsonObject{{"mesh", to_json(file->path.string())}, {"scale", to_json(file->scale)}}
+            : JsonObject{{"vertices", to_json(std::get<std::vector<Eigen::Vector3d>>(hull.of))}};
+    return with_thickness({{"convex_hull", {.value = std::move(of)}}});
+  }
+
+  JsonObject operator()(const PointFile& file) const {
+    return with_thickness(
+        {{"points", to_json(file.path.string())}, {"scale", to_json(file.scale)}});
+  }
+
+  JsonObject operator()(const PointCloud& cloud) const {
+    return with_thickness({{"points", to_json(cloud.points)}});
+  }
+
+  JsonObject operator()(const HeightFile& file) const {
+    return height_map(file.cell, to_json(file.path.string()));
+  }
+
+  JsonObject operator()(const HeightMap& map) const {
+    JsonArray rows;
+    for (auto row = map.heights.begin(); row != map.heights.end();
+         row += static_cast<std::ptrdiff_t>(map.columns)) {
+      rows.push_back(
+          to_json(std::vector<double>(row, row + static_cast<std::ptrdiff_t>(map.columns))));
+    }
+    return height_map(map.cell, {.value = std::move(rows)});
+  }
+
+  [[nodiscard]] JsonObject height_map(const Eigen::Vector2d& cell, JsonValue heights) const {
+    return with_thickness(
+        {{"heightmap",
+          {.value = JsonObject{{"cell", {.value = JsonArray{to_json(cell.x()), to_json(cell.y())}}},
+                               {"heights", std::move(heights)}}}}});
   }
 
   [[nodiscard]] JsonObject with_thickness(JsonObject object) const {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -12,7 +12,7 @@
 #include <variant>
 
 #include <firstcontact/geometry/mesh_defects.h>
-#include <firstcontact/scene/detail/make_shape.h>
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact::detail {
@@ -44,28 +44,35 @@ std::filesystem::path find_in_packages(const JsonValue& value, const std::string
                        in_quotes((folders.package_roots.front() / below).string()) + ")");
 }
 
-std::filesystem::path read_mesh_path(const JsonValue& value, const SceneFolders& folders,
-                                     const JsonReader& read) {
-  const std::string& name = read.string(value, "the path of a mesh file");
+/// @param what  "a mesh file"
+std::filesystem::path read_path(const JsonValue& value, const std::string& what,
+                                const SceneFolders& folders, const JsonReader& read) {
+  const std::string& name = read.string(value, "the path of " + what);
   if (name.starts_with(kPackage)) {
     return find_in_packages(value, name, folders, read);
   }
   std::filesystem::path path = folders.scene / name;
   if (!is_file(path)) {
-    read.fail(value, "expected a mesh file, found none at " + in_quotes(path.string()));
+    read.fail(value, "expected " + what + ", found none at " + in_quotes(path.string()));
   }
   return path;
 }
 
+/// @param many  "vertices", and `one` of them "vertex"
+std::vector<Eigen::Vector3d> read_vectors(const JsonValue& value, const std::string& many,
+                                          const std::string& one, const JsonReader& read) {
+  std::vector<Eigen::Vector3d> vectors;
+  for (const JsonValue& vector : read.array(value, "an array of " + many + " [x, y, z]")) {
+    vectors.push_back(read.vector3(vector));
+  }
+  if (vectors.empty()) {
+    read.fail(value, "expected at least one " + one + ", got none");
+  }
+  return vectors;
+}
+
 std::vector<Eigen::Vector3d> read_vertices(const JsonValue& value, const JsonReader& read) {
-  std::vector<Eigen::Vector3d> vertices;
-  for (const JsonValue& vertex : read.array(value, "an array of vertices [x, y, z]")) {
-    vertices.push_back(read.vector3(vertex));
-  }
-  if (vertices.empty()) {
-    read.fail(value, "expected at least one vertex, got none");
-  }
-  return vertices;
+  return read_vectors(value, "vertices", "vertex", read);
 }
 
 std::vector<std::array<std::uint32_t, 3>> read_triangles(const JsonValue& value,
@@ -110,7 +117,10 @@ class ShapeReader {
         {"capsule", {}, &ShapeReader::capsule},
         {"box", {}, &ShapeReader::box},
         {"cylinder", {}, &ShapeReader::cylinder},
-        {"cone", {}, &ShapeReader::cone}};
+        {"cone", {}, &ShapeReader::cone},
+        {"convex_hull", {"radius"}, &ShapeReader::convex_hull},
+        {"points", {"scale", "radius"}, &ShapeReader::points},
+        {"heightmap", {"radius"}, &ShapeReader::height_map}};
     return kKinds;
   }
 
@@ -136,7 +146,7 @@ class ShapeReader {
 
  private:
   static KnownKeys known_keys() {
-    KnownKeys known{.keys = {}, .later = {"convex_hull", "points", "heightmap"}};
+    KnownKeys known{.keys = {}};
     const auto add = [&](std::string_view key) {
       if (std::find(known.keys.begin(), known.keys.end(), key) == known.keys.end()) {
         known.keys.push_back(key);
@@ -167,10 +177,17 @@ class ShapeReader {
     return *only;
   }
 
+  [[nodiscard]] double scale(const JsonObject& object) const {
+    const JsonValue* scale = find(object, "scale");
+    return scale == nullptr ? 1.0 : read_.positive(*scale);
+  }
+
+  [[nodiscard]] MeshFile mesh_file(const JsonObject& object, const JsonValue& path) const {
+    return {.path = read_path(path, "a mesh file", folders_, read_), .scale = scale(object)};
+  }
+
   void mesh_file(const JsonValue& shape, const JsonValue& value, BodyShape& result) {
-    const JsonValue* scale = find(std::get<JsonObject>(shape.value), "scale");
-    result.source = MeshFile{.path = read_mesh_path(value, folders_, read_),
-                             .scale = scale == nullptr ? 1.0 : read_.positive(*scale)};
+    result.source = mesh_file(std::get<JsonObject>(shape.value), value);
   }
 
   void inline_mesh(const JsonValue& shape, const JsonValue& value, BodyShape& result) {
@@ -187,56 +204,130 @@ class ShapeReader {
 
   void sphere(const JsonValue&, const JsonValue& value, BodyShape& result) {
     (void)read_.object(value, {{"radius"}});
-    result.source = SphereShape{read_.positive(read_.member(value, "radius"))};
-    require_makeable(value, result);
+    result.source = SphereShape{size(read_.member(value, "radius"))};
   }
 
   void capsule(const JsonValue&, const JsonValue& value, BodyShape& result) {
     (void)read_.object(value, {{"radius", "length"}});
-    result.source = CapsuleShape{read_.positive(read_.member(value, "radius")),
-                                 read_.not_negative(read_.member(value, "length"))};
-    require_makeable(value, result);
+    const JsonValue& length = read_.member(value, "length");
+    result.source = CapsuleShape{
+        size(read_.member(value, "radius")),
+        read_.not_negative(length) == 0.0 ? 0.0 : size(length),
+    };
   }
 
   void box(const JsonValue&, const JsonValue& value, BodyShape& result) {
     (void)read_.object(value, {{"size"}});
-    const JsonValue& size = read_.member(value, "size");
-    result.source = BoxShape{read_.vector3(size)};
-    for (const JsonValue& length : std::get<JsonArray>(size.value)) {
-      (void)read_.positive(length);
+    const JsonValue& lengths = read_.member(value, "size");
+    result.source = BoxShape{read_.vector3(lengths)};
+    for (const JsonValue& length : std::get<JsonArray>(lengths.value)) {
+      (void)size(length);
     }
-    require_makeable(value, result);
   }
 
   void cylinder(const JsonValue&, const JsonValue& value, BodyShape& result) {
     result.source = round_shape<CylinderShape>(value);
-    require_makeable(value, result);
   }
 
   void cone(const JsonValue&, const JsonValue& value, BodyShape& result) {
     result.source = round_shape<ConeShape>(value);
-    require_makeable(value, result);
   }
 
   template <class Round>
-  Round round_shape(const JsonValue& value) {
+  [[nodiscard]] Round round_shape(const JsonValue& value) const {
     const JsonObject& object = read_.object(value, {{"radius", "length", "enclosure_error"}});
-    Round result{.radius = read_.positive(read_.member(value, "radius")),
-                 .length = read_.positive(read_.member(value, "length")),
+    Round result{.radius = size(read_.member(value, "radius")),
+                 .length = size(read_.member(value, "length")),
                  .enclosure_error = {}};
     if (const JsonValue* enclosure_error = find(object, "enclosure_error")) {
       result.enclosure_error = read_.positive(*enclosure_error);
+      if (!(*result.enclosure_error >= kLeastEnclosureError * result.radius)) {
+        read_.fail_expected("at least 1e-8 of the radius", *enclosure_error);
+      }
     }
     return result;
   }
 
-  /// What only the shapes themselves know to refuse, such as a size too large to square.
-  void require_makeable(const JsonValue& value, const BodyShape& shape) {
-    try {
-      (void)make_shape(shape);
-    } catch (const std::invalid_argument& error) {
-      read_.fail(value, error.what());
+  /// A length that a primitive can have.
+  [[nodiscard]] double size(const JsonValue& value) const {
+    const double length = read_.positive(value);
+    if (!(length >= kLeastSize && length <= kGreatestSize)) {
+      read_.fail_expected("a length in 1e-60 ... 1e60", value);
     }
+    return length;
+  }
+
+  void convex_hull(const JsonValue&, const JsonValue& value, BodyShape& result) {
+    const JsonObject& object = read_.object(value, {{"mesh", "scale", "vertices"}});
+    const JsonValue* mesh = find(object, "mesh");
+    const JsonValue* vertices = find(object, "vertices");
+    if ((mesh != nullptr) == (vertices != nullptr)) {
+      read_.fail(value, std::string("expected either \"mesh\" or \"vertices\", got ") +
+                            (mesh != nullptr ? "both" : "neither"));
+    }
+    if (mesh != nullptr) {
+      result.source = ConvexHullShape{mesh_file(object, *mesh)};
+    } else if (const JsonValue* scale = find(object, "scale")) {
+      read_.fail(*scale, "expected no \"scale\" beside \"vertices\"");
+    } else {
+      result.source = ConvexHullShape{read_vertices(*vertices, read_)};
+    }
+  }
+
+  void points(const JsonValue& shape, const JsonValue& value, BodyShape& result) {
+    const JsonObject& object = std::get<JsonObject>(shape.value);
+    if (std::holds_alternative<std::string>(value.value)) {
+      result.source = PointFile{.path = read_path(value, "a point cloud", folders_, read_),
+                                .scale = scale(object)};
+    } else if (const JsonValue* scale = find(object, "scale")) {
+      read_.fail(*scale, "expected \"scale\" beside the path of a point cloud only");
+    } else {
+      result.source = PointCloud{read_vectors(value, "points", "point", read_)};
+    }
+  }
+
+  void height_map(const JsonValue&, const JsonValue& value, BodyShape& result) {
+    (void)read_.object(value, {{"cell", "heights"}});
+    const Eigen::Vector2d cell = cell_size(read_.member(value, "cell"));
+    const JsonValue& heights = read_.member(value, "heights");
+    if (std::holds_alternative<std::string>(heights.value)) {
+      result.source = HeightFile{.path = read_path(heights, "a file of heights", folders_, read_),
+                                 .cell = cell};
+    } else {
+      result.source = inline_heights(heights, cell);
+    }
+  }
+
+  [[nodiscard]] Eigen::Vector2d cell_size(const JsonValue& value) const {
+    const JsonArray& lengths = read_.array(value, "two lengths [x, y]");
+    if (lengths.size() != 2) {
+      read_.fail_expected("two lengths [x, y]", value);
+    }
+    return {size(lengths[0]), size(lengths[1])};
+  }
+
+  [[nodiscard]] HeightMap inline_heights(const JsonValue& value,
+                                         const Eigen::Vector2d& cell) const {
+    const std::string expected = "the path of a file of heights, or an array of two rows or more";
+    const JsonArray& rows = read_.array(value, expected);
+    HeightMap map{.cell = cell, .columns = 0, .heights = {}};
+    for (const JsonValue& row : rows) {
+      const JsonArray& heights = read_.array(row, "a row of heights");
+      map.columns = map.columns == 0 ? heights.size() : map.columns;
+      if (heights.size() != map.columns || map.columns < 2) {
+        read_.fail_expected("a row of two heights or more, as many as in the first", row);
+      }
+      for (const JsonValue& height : heights) {
+        map.heights.push_back(read_.number(height));
+        if (!(std::abs(map.heights.back()) <= kGreatestSize)) {
+          read_.fail_expected("a number of at most 1e60 in size", height);
+        }
+      }
+    }
+    if (rows.size() < 2) {
+      read_.fail_expected(expected, value);
+    }
+    return map;
   }
 
   const SceneFolders& folders_;

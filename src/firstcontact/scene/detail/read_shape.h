@@ -18,7 +18,8 @@ struct SceneFolders {
 };
 
 /// One of `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
-/// `capsule`, `box`, `cylinder`, `cone`; a mesh with `radius` and `solid`.
+/// `capsule`, `box`, `cylinder`, `cone`, `convex_hull` (of a mesh or vertices), `points` (a file or
+/// inline) with `scale`, `heightmap`; with `radius` and `solid` where they may stand.
 ///
 /// @throws ParseError
 [[nodiscard]] BodyShape read_shape(const JsonValue& value, const SceneFolders& folders,

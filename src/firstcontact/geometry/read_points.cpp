@@ -1,0 +1,79 @@
+#include <firstcontact/geometry/read_points.h>
+
+#include <firstcontact/geometry/detail/file_extension.h>
+#include <firstcontact/geometry/detail/mapped_file.h>
+#include <firstcontact/geometry/detail/text_cursor.h>
+#include <firstcontact/geometry/parse_error.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::TextCursor;
+
+constexpr detail::TextSyntax kComments{.comments = true, .continuation = false};
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> parse_xyz(std::string_view text, const std::string& source) {
+  TextCursor cursor(text, source, kComments);
+  std::vector<Eigen::Vector3d> points;
+  while (cursor.find_line()) {
+    Eigen::Vector3d p;
+    for (double& coordinate : p) {
+      coordinate = cursor.number("a finite coordinate");
+    }
+    points.push_back(p);
+    cursor.skip_line();
+  }
+  if (points.empty()) {
+    throw ParseError(source, "expected at least one point, found none");
+  }
+  return points;
+}
+
+HeightMap parse_heights(std::string_view text, const std::string& source,
+                        const Eigen::Vector2d& cell) {
+  TextCursor cursor(text, source, kComments);
+  HeightMap map{.cell = cell, .columns = 0, .heights = {}};
+  std::size_t rows = 0;
+  for (; cursor.find_line(); ++rows) {
+    const std::size_t before = map.heights.size();
+    while (!cursor.at_line_end()) {
+      map.heights.push_back(cursor.number("a finite height"));
+    }
+    const std::size_t count = map.heights.size() - before;
+    if (rows > 0 && count != map.columns) {
+      cursor.fail("expected " + std::to_string(map.columns) +
+                  " heights as in the rows before, got " + std::to_string(count));
+    }
+    map.columns = count;
+  }
+  if (rows < 2 || map.columns < 2) {
+    throw ParseError(source, "expected at least two rows of two heights");
+  }
+  return map;
+}
+
+HeightMap read_heights(const std::filesystem::path& path, const Eigen::Vector2d& cell) {
+  const detail::MappedFile file(path);
+  return parse_heights(file.bytes(), path.string(), cell);
+}
+
+std::vector<Eigen::Vector3d> read_points(const std::filesystem::path& path) {
+  const std::string source = path.string();
+  const std::string extension = detail::file_extension(path);
+  const detail::MappedFile file(path);
+  if (extension == "ply") {
+    return parse_ply_points(file.bytes(), source);
+  }
+  if (extension == "pcd") {
+    return parse_pcd(file.bytes(), source);
+  }
+  if (extension == "xyz") {
+    return parse_xyz(file.bytes(), source);
+  }
+  throw ParseError(source, "expected a point cloud named .ply, .pcd or .xyz, got " +
+                               detail::quoted("." + extension));
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,11 @@
+#include <cstddef>
+#include <cstdint>
+
+#include <firstcontact/geometry/read_points.h>
+
+#include "fuzz/fuzz_reader.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  firstcontact::test::fuzz_point_reader(firstcontact::parse_ply_points, data, size);
+  return 0;
+}
