@@ -42,6 +42,8 @@ struct Box {
 constexpr std::size_t kSampledTriangles = 48;     // decide between candidate frames
 constexpr std::size_t kParallelTriangles = 8192;  // below this a subtree is built by one task
 
+bool is_point(const std::array<std::uint32_t, 3>& t) { return t[0] == t[1] && t[1] == t[2]; }
+
 class Builder {
  public:
   explicit Builder(const Mesh& mesh, const Hierarchy& hierarchy)
@@ -240,8 +242,11 @@ class Builder {
   template <class Use>
   void for_each_corner(std::span<const Item> items, std::size_t stride, const Use& use) const {
     for (std::size_t i = 0; i < items.size(); i += stride) {
-      for (const std::uint32_t v : mesh_.triangles[items[i].triangle]) {
-        use(vertex(v));
+      const auto& t = mesh_.triangles[items[i].triangle];
+      use(vertex(t[0]));
+      if (!is_point(t)) {
+        use(vertex(t[1]));
+        use(vertex(t[2]));
       }
     }
   }
@@ -265,6 +270,9 @@ class Builder {
   Box fit_triangle(std::span<const Item> items) const {
     const auto& t = mesh_.triangles[items.front().triangle];
     const std::array<Vector3d, 3> p{vertex(t[0]), vertex(t[1]), vertex(t[2])};
+    if (is_point(t)) {
+      return {p[0], Matrix3d::Identity(), Vector3d::Zero()};
+    }
     Box best = bounds(items, edge_frame(p, 0), 1);
     for (int k = 1; k < 3; ++k) {
       const Box box = bounds(items, edge_frame(p, k), 1);
