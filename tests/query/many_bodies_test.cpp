@@ -252,7 +252,7 @@ TEST(ManyBodies, EachPairAnswersAsIfAlone) {
   for (int k = 0; k < 20; ++k) {
     const BodySet bodies = random_set(random, 16, random.uniform(1.5, 8.0));
     ManyBodiesWorkspace workspace;
-    const std::vector<PairAnswer> answers = first_contact_of_each_pair(bodies, workspace);
+    const std::vector<PairAnswer> answers = answer_each_pair(bodies, workspace);
     ASSERT_EQ(answers.size(), 16u * 15u / 2u);
     for (const PairAnswer& answer : answers) {
       const FirstContactResult alone = ask_pair(bodies, answer.bodies, answer.margin);
@@ -271,7 +271,7 @@ TEST(ManyBodies, NumberOfThreadsChangesNothing) {
     ManyBodiesOptions options;
     options.threads = 1;
     const ManyBodiesResult one = first_contact(bodies, workspace, options);
-    const std::vector<PairAnswer> one_each = first_contact_of_each_pair(bodies, workspace, options);
+    const std::vector<PairAnswer> one_each = answer_each_pair(bodies, workspace, options);
     for (const int threads : {2, 8}) {
       options.threads = threads;
       const ManyBodiesResult many = first_contact(bodies, workspace, options);
@@ -283,7 +283,7 @@ TEST(ManyBodies, NumberOfThreadsChangesNothing) {
         EXPECT_EQ(many.first[i].bodies, one.first[i].bodies);
         expect_equal(many.first[i].first_contact, one.first[i].first_contact);
       }
-      const std::vector<PairAnswer> each = first_contact_of_each_pair(bodies, workspace, options);
+      const std::vector<PairAnswer> each = answer_each_pair(bodies, workspace, options);
       for (std::size_t i = 0; i < each.size(); ++i) {
         expect_equal(each[i].first_contact, one_each[i].first_contact);
       }
@@ -363,7 +363,7 @@ TEST(ManyBodies, NothingToTestIsFree) {
   const ManyBodiesResult found = first_contact(bodies, workspace);
   EXPECT_EQ(found.verdict, Verdict::free);
   EXPECT_EQ(found.clearance, std::numeric_limits<double>::infinity());
-  EXPECT_TRUE(first_contact_of_each_pair(bodies, workspace).empty());
+  EXPECT_TRUE(answer_each_pair(bodies, workspace).empty());
 }
 
 TEST(ManyBodies, StopsWithWhatIsProven) {
@@ -402,7 +402,7 @@ TEST(ManyBodies, RefusesOptionsOutOfRange) {
   ManyBodiesOptions options;
   options.pair.tolerance = 0.0;
   EXPECT_THROW((void)first_contact(bodies, workspace, options), std::invalid_argument);
-  EXPECT_THROW((void)first_contact_of_each_pair(bodies, workspace, options), std::invalid_argument);
+  EXPECT_THROW((void)answer_each_pair(bodies, workspace, options), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,45 +2,21 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
-#include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/detail/ball_path.h>
-#include <firstcontact/query/detail/box_join.h>
+#include <firstcontact/query/detail/broad_phase.h>
 #include <firstcontact/query/detail/pair_query.h>
+#include <firstcontact/query/detail/workers.h>
 
 namespace firstcontact {
-namespace {
-
-using detail::BallPath;
-using detail::Window;
-
-/// A pair that may touch in an interval.
-struct Candidate {
-  double free_until = 0.0;  // [-]  Proven, of this pair.
-  BodyPair bodies = {};
-  double margin = 0.0;
-
-  friend bool operator<(const Candidate& x, const Candidate& y) {
-    return x.free_until != y.free_until ? x.free_until < y.free_until : x.bodies < y.bodies;
-  }
-};
-
-}  // namespace
 
 struct ManyBodiesWorkspace::Data {
   tbb::enumerable_thread_specific<Workspace> of_thread;
-  std::vector<Eigen::AlignedBox3d> boxes;
-  detail::BoxJoin join;
-  std::vector<BodyPair> overlaps;
-  std::vector<Candidate> candidates;
-  std::vector<FirstContactResult> results;
+  detail::BroadPhaseData broad_phase;
+  std::vector<PairAnswer> answers;
 };
 
 ManyBodiesWorkspace::ManyBodiesWorkspace() : data_(std::make_unique<Data>()) {}
@@ -50,139 +26,8 @@ ManyBodiesWorkspace& ManyBodiesWorkspace::operator=(ManyBodiesWorkspace&&) noexc
 
 namespace {
 
-constexpr double kFree = std::numeric_limits<double>::infinity();
-
-/// What both queries share: the broad phase and the parallel search of pairs.
-class BroadPhase {
- public:
-  BroadPhase(const BodySet& bodies, ManyBodiesWorkspace::Data& data,
-             const ManyBodiesOptions& options)
-      : bodies_(bodies),
-        data_(data),
-        options_(options),
-        arena_(usable_threads(options.threads)),
-        margins_(bodies.rules().greatest_margins(bodies.size())) {}
-
-  /// Walks the step in intervals, in the order of time, until use(window) returns false; it finds
-  /// the pairs that may touch in data.candidates, by the time until which they are proven free.
-  template <class Use>
-  void for_each_interval(const Use& use) {
-    std::vector<Window> left{{0.0, 1.0}};
-    while (!left.empty()) {
-      const Window window = left.back();
-      left.pop_back();
-      if (!find_overlaps(window)) {
-        const double middle = 0.5 * (window.begin + window.end);
-        left.push_back({middle, window.end});
-        left.push_back({window.begin, middle});
-        continue;
-      }
-      find_candidates(window);
-      if (!use(window)) {
-        return;
-      }
-    }
-  }
-
-  /// Searches a few of the candidates, each in its window; answers are in data.results.
-  template <class WindowOf>
-  void search(std::size_t begin, std::size_t end, const WindowOf& window_of) {
-    data_.results.resize(std::max(data_.results.size(), end - begin));
-    in_parallel(end - begin, 1, [&](std::size_t k) {
-      const Candidate& candidate = data_.candidates[begin + k];
-      FirstContactOptions options = options_.pair;
-      options.margin = candidate.margin;
-      detail::first_contact_within(bodies_.moving_shape(candidate.bodies[0]),
-                                   bodies_.moving_shape(candidate.bodies[1]), window_of(candidate),
-                                   data_.of_thread.local(), options, data_.results[k]);
-    });
-  }
-
- private:
-  static constexpr std::size_t kPairsPerBody = 8;  // More are worth the work of shorter intervals.
-  static constexpr double kShortest = 0x1p-10;
-
-  /// TBB complains about more than it may have.
-  static int usable_threads(int asked) {
-    const auto most = static_cast<int>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    return asked > 0 ? std::min(asked, most) : most;
-  }
-
-  template <class Use>
-  void in_parallel(std::size_t count, std::size_t grain, const Use& use) {
-    arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                        [&](const tbb::blocked_range<std::size_t>& range) {
-                          const FloatEnvironmentGuard guard;
-                          for (std::size_t k = range.begin(); k < range.end(); ++k) {
-                            use(k);
-                          }
-                        });
-    });
-  }
-
-  [[nodiscard]] BallPath ball(std::size_t body, double more) const {
-    const Shape& shape = bodies_.shape(body);
-    return {bodies_.centre_path(body), shape.hierarchy().radius + shape.radius() + more};
-  }
-
-  /// Half of a pair's margin, at least, belongs to each body.
-  void place_boxes(const Window& window) {
-    data_.boxes.resize(bodies_.size());
-    in_parallel(bodies_.size(), 64, [&](std::size_t k) {
-      data_.boxes[k] = detail::swept_box(ball(k, 0.5 * margins_[k]), window);
-    });
-  }
-
-  bool join(const Window& window, std::size_t most) {
-    place_boxes(window);
-    data_.overlaps.clear();
-    return data_.join.join(data_.boxes, most, data_.overlaps);
-  }
-
-  /// False where the interval is better halved: the bodies sweep over many more others than they
-  /// overlap at one time.
-  bool find_overlaps(const Window& window) {
-    const std::size_t usual = kPairsPerBody * bodies_.size();
-    if (join(window, usual)) {
-      return true;
-    }
-    if (window.end - window.begin <= kShortest) {
-      return join(window, kUnlimited);
-    }
-    const double middle = 0.5 * (window.begin + window.end);
-    join({middle, middle}, kUnlimited);
-    const std::size_t at_one_time = data_.overlaps.size();
-    return 2 * at_one_time > usual && join(window, 4 * at_one_time);
-  }
-
-  void find_candidates(const Window& window) {
-    const FloatEnvironmentGuard guard;
-    std::vector<Candidate>& candidates = data_.candidates;
-    candidates.clear();
-    for (const BodyPair& pair : data_.overlaps) {
-      if (const std::optional<double> margin = bodies_.rules().margin(pair)) {
-        candidates.push_back({0.0, pair, *margin});
-      }
-    }
-    in_parallel(candidates.size(), 32, [&](std::size_t k) {
-      Candidate& candidate = candidates[k];
-      candidate.free_until = detail::apart_until(
-          ball(candidate.bodies[0], 0.0), ball(candidate.bodies[1], 0.0), candidate.margin, window);
-    });
-    std::erase_if(candidates, [](const Candidate& c) { return c.free_until == kFree; });
-    std::sort(candidates.begin(), candidates.end());
-  }
-
-  static constexpr std::size_t kUnlimited = std::numeric_limits<std::size_t>::max() / 8;
-
-  const BodySet& bodies_;
-  ManyBodiesWorkspace::Data& data_;
-  const ManyBodiesOptions& options_;
-  tbb::task_arena arena_;
-  std::vector<double> margins_;
-};
+using detail::Candidate;
+using detail::Window;
 
 void add(const WorkCount& work, WorkCount& sum) {
   sum.node_groups += work.node_groups;
@@ -224,9 +69,11 @@ class FirstOfAll {
 
   [[nodiscard]] double horizon() const { return result_.t; }
 
-  void take(const Candidate& candidate, const FirstContactResult& answer) {
+  void take(const PairAnswer& pair) {
+    const FirstContactResult& answer = pair.first_contact;
     add(answer.work, result_.work);
     result_.tolerance_used = std::max(result_.tolerance_used, answer.tolerance_used);
+    result_.enclosure_error = std::max(result_.enclosure_error, answer.enclosure_error);
     if (answer.t_upper) {
       result_.t_upper = std::min(result_.t_upper.value_or(1.0), *answer.t_upper);
     }
@@ -237,7 +84,7 @@ class FirstOfAll {
       result_.t = answer.t;
       result_.first.clear();
     }
-    result_.first.push_back({candidate.bodies, candidate.margin, answer});
+    result_.first.push_back(pair);
   }
 
   /// A contact holds for the set even beside an undecided pair: no pair touches before it.
@@ -259,26 +106,64 @@ class FirstOfAll {
   ManyBodiesResult result_;
 };
 
+/// Pairs searched side by side with the same horizon. Fixed, so that answers do not depend on the
+/// number of threads.
+constexpr std::size_t kRound = 32;
+
+/// Asks pairs, several at once.
+class PairQueries {
+ public:
+  PairQueries(const BodySet& bodies, detail::Workers& workers, ManyBodiesWorkspace::Data& data,
+              const ManyBodiesOptions& options)
+      : bodies_(bodies), workers_(workers), data_(data), options_(options) {}
+
+  /// The answers of some pairs, each searched in the window that window_of(pair) gives.
+  template <class WindowOf>
+  std::span<const PairAnswer> first_contacts(std::span<const Candidate> pairs,
+                                             const WindowOf& window_of) {
+    data_.answers.resize(std::max(data_.answers.size(), pairs.size()));
+    workers_.for_each(pairs.size(), 1, [&](std::size_t k) {
+      PairAnswer& answer = data_.answers[k];
+      answer.bodies = pairs[k].bodies;
+      answer.margin = pairs[k].margin;
+      ask(answer, window_of(pairs[k]));
+    });
+    return {data_.answers.data(), pairs.size()};
+  }
+
+  /// First contact over the whole step, and closest approach where that is asked.
+  void answer_whole_step(std::span<PairAnswer> pairs) {
+    workers_.for_each(pairs.size(), 1, [&](std::size_t k) {
+      ask(pairs[k], {});
+      if (options_.closest) {
+        pairs[k].closest_approach = closest_approach(
+            bodies_.moving_shape(pairs[k].bodies[0]), bodies_.moving_shape(pairs[k].bodies[1]),
+            data_.of_thread.local(),
+            {.tolerance = options_.pair.tolerance, .budget = options_.pair.budget});
+      }
+    });
+  }
+
+ private:
+  void ask(PairAnswer& pair, const Window& window) {
+    FirstContactOptions options = options_.pair;
+    options.margin = pair.margin;
+    detail::first_contact_within(bodies_.moving_shape(pair.bodies[0]),
+                                 bodies_.moving_shape(pair.bodies[1]), window,
+                                 data_.of_thread.local(), options, pair.first_contact);
+  }
+
+  const BodySet& bodies_;
+  detail::Workers& workers_;
+  ManyBodiesWorkspace::Data& data_;
+  const ManyBodiesOptions& options_;
+};
+
 void report(const ManyBodiesOptions& options, double done) {
   if (options.progress) {
     options.progress(done);
   }
 }
-
-/// Of a pair that the balls around its bodies prove free.
-PairAnswer proven_free(const BodyPair& pair, double margin, const ManyBodiesOptions& options) {
-  PairAnswer answer{pair, margin, {}};
-  answer.first_contact.verdict = Verdict::free;
-  answer.first_contact.t = 1.0;
-  answer.first_contact.clearance =
-      options.pair.start_contacts == StartContacts::report ? margin : 0.0;
-  answer.first_contact.tolerance_used = options.pair.tolerance;
-  return answer;
-}
-
-/// Pairs searched side by side with the same horizon. Fixed, so that answers do not depend on the
-/// number of threads.
-constexpr std::size_t kRound = 32;
 
 }  // namespace
 
@@ -286,66 +171,46 @@ ManyBodiesResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& works
                                const ManyBodiesOptions& options) {
   detail::validate(options.pair);
   ManyBodiesWorkspace::Data& data = workspace.data();
-  BroadPhase broad_phase(bodies, data, options);
+  detail::Workers workers(options.threads);
+  PairQueries queries(bodies, workers, data, options);
   FirstOfAll first(bodies, options);
-  broad_phase.for_each_interval([&](const Window& window) {
-    const std::vector<Candidate>& candidates = data.candidates;
-    for (std::size_t begin = 0; begin < candidates.size();) {
-      const double end_of_search = std::min(window.end, first.horizon());
-      std::size_t end = begin;
-      while (end < candidates.size() && end < begin + kRound &&
-             candidates[end].free_until <= end_of_search) {
-        ++end;
-      }
-      if (begin == end) {
+  const auto search = [&](const Window& window, std::span<const Candidate> left) {
+    while (!left.empty()) {
+      const double end = std::min(window.end, first.horizon());
+      const auto may_touch = [end](const Candidate& c) { return c.free_until <= end; };
+      const auto round = left.first(std::min(kRound, left.size()));
+      const auto due = round.first(static_cast<std::size_t>(
+          std::partition_point(round.begin(), round.end(), may_touch) - round.begin()));
+      if (due.empty()) {
         break;
       }
-      report(options, std::min(candidates[begin].free_until, first.horizon()));
-      broad_phase.search(begin, end, [&](const Candidate& candidate) {
-        return Window{candidate.free_until, end_of_search};
-      });
-      for (std::size_t k = begin; k < end; ++k) {
-        first.take(candidates[k], data.results[k - begin]);
+      report(options, std::min(due.front().free_until, first.horizon()));
+      const auto in_window = [end](const Candidate& c) { return Window{c.free_until, end}; };
+      for (const PairAnswer& answer : queries.first_contacts(due, in_window)) {
+        first.take(answer);
       }
-      begin = end;
+      left = left.subspan(due.size());
     }
     return first.horizon() > window.end;
-  });
+  };
+  detail::BroadPhase(bodies, workers, data.broad_phase).for_each_interval(search);
   return first.result();
 }
 
-std::vector<PairAnswer> first_contact_of_each_pair(const BodySet& bodies,
-                                                   ManyBodiesWorkspace& workspace,
-                                                   const ManyBodiesOptions& options) {
+std::vector<PairAnswer> answer_each_pair(const BodySet& bodies, ManyBodiesWorkspace& workspace,
+                                         const ManyBodiesOptions& options) {
   detail::validate(options.pair);
-  ManyBodiesWorkspace::Data& data = workspace.data();
-  BroadPhase broad_phase(bodies, data, options);
-  std::vector<Candidate>& candidates = data.candidates;
-  std::vector<Candidate> close;
-  broad_phase.for_each_interval([&](const Window&) {
-    close.insert(close.end(), candidates.begin(), candidates.end());
-    return true;
-  });
-  const auto by_bodies = [](const auto& x, const auto& y) { return x.bodies < y.bodies; };
-  const auto same_bodies = [](const auto& x, const auto& y) { return x.bodies == y.bodies; };
-  std::sort(close.begin(), close.end(), by_bodies);
-  close.erase(std::unique(close.begin(), close.end(), same_bodies), close.end());
-  candidates = std::move(close);
-
   std::vector<PairAnswer> answers;
   for_each_tested_pair(bodies, [&](const BodyPair& pair, double margin) {
-    answers.push_back(proven_free(pair, margin, options));
+    answers.push_back({pair, margin, {}, {}});
     return true;
   });
-  auto answer = answers.begin();  // Both lists are in the same order.
-  for (std::size_t begin = 0; begin < candidates.size(); begin += kRound) {
-    report(options, static_cast<double>(begin) / static_cast<double>(candidates.size()));
-    const std::size_t end = std::min(begin + kRound, candidates.size());
-    broad_phase.search(begin, end, [](const Candidate&) { return Window{}; });
-    for (std::size_t k = begin; k < end; ++k) {
-      answer = std::lower_bound(answer, answers.end(), candidates[k], by_bodies);
-      answer->first_contact = std::move(data.results[k - begin]);
-    }
+  detail::Workers workers(options.threads);
+  PairQueries queries(bodies, workers, workspace.data(), options);
+  const std::span<PairAnswer> all = answers;
+  for (std::size_t begin = 0; begin < all.size(); begin += kRound) {
+    report(options, static_cast<double>(begin) / static_cast<double>(all.size()));
+    queries.answer_whole_step(all.subspan(begin, std::min(kRound, all.size() - begin)));
   }
   return answers;
 }

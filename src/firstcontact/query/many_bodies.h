@@ -10,6 +10,7 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/body_set.h>
+#include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact {
@@ -17,6 +18,7 @@ namespace firstcontact {
 struct ManyBodiesOptions {
   FirstContactOptions pair;  ///< Of every pair; its margin is not used, the rules have it.
   int threads = 0;           ///< At most; 0 for one on each core. Answers do not depend on it.
+  bool closest = false;      ///< answer_each_pair: also the closest approach of each.
   /// Called now and then from the calling thread with the part that is done, in [0, 1]; for
   /// first_contact the time proven free so far. May be empty.
   std::function<void(double)> progress = {};
@@ -27,6 +29,7 @@ struct PairAnswer {
   BodyPair bodies = {};
   double margin = 0.0;  ///< [m]
   FirstContactResult first_contact;
+  std::optional<ClosestApproachResult> closest_approach = {};
 };
 
 /// The first contact of a set of bodies.
@@ -38,6 +41,7 @@ struct ManyBodiesResult {
   double clearance = 0.0;         ///< [m]  Proven lower bound of every pair's distance up to t;
                                   ///<      infinite where there are no pairs.
   double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
+  double enclosure_error = 0.0;   ///< [m]  The greatest of these.
   std::vector<PairAnswer> first;  ///< The pairs that decide t, by their order; none when free.
   WorkCount work;                 ///< Of all pairs that were searched.
 };
@@ -70,8 +74,9 @@ class FIRSTCONTACT_API ManyBodiesWorkspace {
 [[nodiscard]] FIRSTCONTACT_API ManyBodiesResult first_contact(
     const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
 
-/// The answer of every pair that the rules do not ignore, over the whole step, by their order.
-[[nodiscard]] FIRSTCONTACT_API std::vector<PairAnswer> first_contact_of_each_pair(
+/// The answer of every pair that the rules do not ignore, over the whole step, by their order; each
+/// as if asked alone.
+[[nodiscard]] FIRSTCONTACT_API std::vector<PairAnswer> answer_each_pair(
     const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
 
 }  // namespace firstcontact
