@@ -30,7 +30,6 @@ struct Arguments {
   std::string output;
   std::string plot;
   bool json = false;
-  bool all_pairs = false;
   Question question;
 };
 
@@ -120,10 +119,10 @@ class Check {
     ++answered_;
     status_ = worse(status_, status_of(answer.result.verdict));
     write_json(write_result(answer.loaded, answer.result,
-                            {.all_pairs = arguments_.all_pairs, .sampling = answer.sampling}));
+                            {.all_pairs = question_.all_pairs, .sampling = answer.sampling}));
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
-      fmt::print("{}", describe(title, answer, arguments_.all_pairs));
+      fmt::print("{}", describe(title, answer, question_.all_pairs));
     }
     if (question_.plot) {
       write_file(arguments_.plot, gap_plot(title, answer));
@@ -167,7 +166,7 @@ class Check {
   bool batch_;
   std::optional<AtomicFile> output_;
   ShapeCache cache_;
-  Workspace workspace_;
+  ManyBodiesWorkspace workspace_;
   ExitStatus status_ = kSuccess;
   std::size_t answered_ = 0;
 };
@@ -204,7 +203,11 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
              "[1/s] Also says what sampling at this rate would have seen");
   command->add_flag("--closest", question.closest, "Also the closest approach over the whole step");
-  command->add_flag("--all-pairs", arguments->all_pairs, "Also the answer of every pair of bodies");
+  command->add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
+  command
+      ->add_option("--threads", question.threads,
+                   "At most so many; 0, the default, for one on each core. The answer is the same")
+      ->check(CLI::Range(0, 1024));
   command->footer(kFooter);
   command->callback([arguments, &status] { status = Check(*arguments).run(); });
 }

@@ -75,7 +75,7 @@ class Description {
   /// Those of every pair that touches at the scene's time.
   void contacts() {
     std::size_t count = 0;
-    for (const PairResult& pair : result_.pairs) {
+    for (const PairAnswer& pair : result_.pairs) {
       if (result_.first && pair.first_contact.t == result_.t) {
         count += pair.first_contact.contacts.size();
       }
@@ -85,7 +85,7 @@ class Description {
     }
     line("contacts", fmt::format("{} feature pair{}", count, count == 1 ? "" : "s"));
     std::size_t left = std::min(count, kMostContacts);
-    for (const PairResult& pair : result_.pairs) {
+    for (const PairAnswer& pair : result_.pairs) {
       for (const Contact& found : pair.first_contact.contacts) {
         if (left > 0 && pair.first_contact.t == result_.t) {
           contact(pair.bodies, found);
@@ -102,7 +102,7 @@ class Description {
     if (!result_.closest) {
       return;
     }
-    const PairResult& pair = result_.pairs[*result_.closest];
+    const PairAnswer& pair = result_.pairs[*result_.closest];
     const ClosestApproachResult& found = *pair.closest_approach;
     std::string text = fmt::format("{} at t = {:.6g}: {}", length_text(found.distance), found.t,
                                    names(pair.bodies));
@@ -131,7 +131,7 @@ class Description {
 
   void pairs() {
     line("pairs", std::to_string(result_.pairs.size()));
-    for (const PairResult& pair : result_.pairs) {
+    for (const PairAnswer& pair : result_.pairs) {
       const FirstContactResult& found = pair.first_contact;
       print("    {:<30} {:<16} t = {:.9g}\n", names(pair.bodies), word(found.verdict), found.t);
     }

@@ -17,12 +17,16 @@ void override_options(const Question& question, SceneOptions& options) {
 }
 
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
-  const auto name_pair = [&](std::size_t k) {
-    const auto& [first, second] = loaded.pairs[k].bodies;
-    question.doing(fmt::format("{} and {}, pair {} of {}", loaded.scene.bodies[first].name,
-                               loaded.scene.bodies[second].name, k + 1, loaded.pairs.size()));
+  const bool each_pair = question.all_pairs || question.closest;
+  const auto tell = [&question, each_pair, id = loaded.scene.id](double done) {
+    question.doing(each_pair ? fmt::format("{}: {:.0f} % of the pairs", id, 100.0 * done)
+                             : fmt::format("{}: free until t = {:.4f}", id, done));
   };
-  return {.closest = question.closest, .stop = question.stop, .progress = name_pair};
+  return {.all_pairs = question.all_pairs,
+          .closest = question.closest,
+          .threads = question.threads,
+          .stop = question.stop,
+          .progress = tell};
 }
 
 /// Where a plot looks closely: at the contact, or else at the closest approach.
@@ -34,7 +38,7 @@ double focus_of(const SceneResult& result) {
 }  // namespace
 
 SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
-                         Workspace& workspace) {
+                         ManyBodiesWorkspace& workspace) {
   override_options(question, scene.options);
   question.doing("loading " + scene.id);
   SceneAnswer answer;

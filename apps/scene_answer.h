@@ -22,7 +22,9 @@ struct Question {
   std::optional<double> tolerance;    ///< [m]    In place of the scene's.
   std::optional<double> deadline;     ///< [s]    In place of the scene's.
   std::optional<double> sample_rate;  ///< [1/s]  Also what sampling would have seen.
+  bool all_pairs = false;
   bool closest = false;
+  int threads = 0;  ///< 0 for one on each core.
   bool plot = false;
   std::stop_token stop;
   std::function<void(std::string)> doing;  ///< Called with what is being done.
@@ -38,6 +40,6 @@ struct SceneAnswer {
 
 /// @throws ParseError, std::invalid_argument as load_scene, times_at_rate
 [[nodiscard]] SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
-                                       Workspace& workspace);
+                                       ManyBodiesWorkspace& workspace);
 
 }  // namespace firstcontact::app

@@ -147,6 +147,13 @@ TEST(MalformedOption, SaysItsRange) {
        "s:1: pairs.margin[0][2]: expected a number >= 0, got -1"},
       {scene(body("a") + "," + body("b"), R"("pairs": {"margin": [["a", "b", 1], ["b", "a", 2]]})"),
        "s:1: pairs.margin[1]: expected one margin for each pair, got a second one"},
+      {scene(body("a"), R"("pairs": {"groups": {"g": ["b"]}})"),
+       "s:1: pairs.groups.g[0]: expected the name of a body, got \"b\"; did you mean \"a\"?"},
+      {scene(body("a"), R"("pairs": {"groups": {"a": ["a"]}})"),
+       "s:1: pairs.groups.a: expected for the group a name that no body has"},
+      {scene(body("a"), R"("pairs": {"groups": ["a"]})"),
+       "s:1: pairs.groups: expected an object of groups, such as {\"fixtures\": [\"a\", \"b\"]}, "
+       "got an array of 1"},
       {scene(body("a"), R"("pairs": {"ignore": [["a"]]})"),
        "s:1: pairs.ignore[0]: expected a pair of names, such as [\"a\", \"b\"], got an array of 1"},
   });

@@ -34,6 +34,19 @@ class SceneBits {
       add(pair.bodies);
       add(pair.margin);
     }
+    for (const BodyGroup& group : scene.groups) {
+      add(group.name);
+      for (const std::size_t body : group.bodies) {
+        add(static_cast<double>(body));
+      }
+    }
+    for (const GroupPair& pair : scene.ignored_groups) {
+      add(pair);
+    }
+    for (const GroupMargin& pair : scene.group_margins) {
+      add(pair.groups);
+      add(pair.margin);
+    }
     add(scene.options);
     add(scene.duration);
   }

@@ -71,6 +71,9 @@ Scene random_scene(std::mt19937_64& rng) {
                             .motion = FixedMotion{}});
   }
   scene.ignored_pairs = {{0, 3}, {1, 2}};
+  scene.groups = {{"odd", {1, 3}}, {"even", {0, 2, 4}}};
+  scene.ignored_groups = {{0, 0}};
+  scene.group_margins = {{{1, 0}, std::abs(random_number(rng))}};
   scene.pair_margins = {{.bodies = {2, 4}, .margin = std::abs(random_number(rng))}};
   scene.options = {.tolerance = std::abs(random_number(rng)) + 1e-300,
                    .margin = std::abs(random_number(rng)),

@@ -21,25 +21,16 @@ WorkBudget budget_of(const Scene& scene, const CheckOptions& options) {
   return budget;
 }
 
-PairResult ask(const LoadedScene& loaded, const ScenePair& pair, const WorkBudget& budget,
-               bool closest, Workspace& workspace) {
-  const SceneOptions& asked = loaded.scene.options;
-  const MovingShape A = loaded.moving_shape(pair.bodies[0]);
-  const MovingShape B = loaded.moving_shape(pair.bodies[1]);
-  PairResult result{.bodies = pair.bodies,
-                    .first_contact = first_contact(A, B, workspace,
-                                                   {.margin = pair.margin,
-                                                    .tolerance = asked.tolerance,
-                                                    .start_contacts = asked.start_contacts,
-                                                    .contacts = asked.contacts,
-                                                    .contact_band = asked.contact_band,
-                                                    .budget = budget}),
-                    .closest_approach = {}};
-  if (closest) {
-    result.closest_approach =
-        closest_approach(A, B, workspace, {.tolerance = asked.tolerance, .budget = budget});
-  }
-  return result;
+ManyBodiesOptions query_options(const Scene& scene, const CheckOptions& options) {
+  return {.pair = {.margin = 0.0,
+                   .tolerance = scene.options.tolerance,
+                   .start_contacts = scene.options.start_contacts,
+                   .contacts = scene.options.contacts,
+                   .contact_band = scene.options.contact_band,
+                   .budget = budget_of(scene, options)},
+          .threads = options.threads,
+          .closest = options.closest,
+          .progress = options.progress};
 }
 
 bool is_contact(const FirstContactResult& result) {
@@ -63,14 +54,14 @@ void add(const WorkCount& work, WorkCount& sum) {
 
 /// The index of the least pair by an order, the first of equals.
 template <typename Less>
-std::size_t least(const std::vector<PairResult>& pairs, Less less) {
+std::size_t least(const std::vector<PairAnswer>& pairs, Less less) {
   return static_cast<std::size_t>(std::min_element(pairs.begin(), pairs.end(), less) -
                                   pairs.begin());
 }
 
 /// The pair that answers for the scene gives the verdict and the time.
 void take_verdict(SceneResult& result) {
-  const std::size_t first = least(result.pairs, [](const PairResult& a, const PairResult& b) {
+  const std::size_t first = least(result.pairs, [](const PairAnswer& a, const PairAnswer& b) {
     return decides_before(a.first_contact, b.first_contact);
   });
   const FirstContactResult& deciding = result.pairs[first].first_contact;
@@ -84,7 +75,7 @@ void take_verdict(SceneResult& result) {
 
 /// What holds of all pairs together.
 void gather(SceneResult& result) {
-  for (const PairResult& pair : result.pairs) {
+  for (const PairAnswer& pair : result.pairs) {
     const FirstContactResult& answer = pair.first_contact;
     result.clearance = std::min(result.clearance, answer.clearance);
     result.tolerance_used = std::max(result.tolerance_used, answer.tolerance_used);
@@ -98,33 +89,54 @@ void gather(SceneResult& result) {
   }
 }
 
-}  // namespace
+/// The pair that comes closest.
+std::size_t closest_of(const std::vector<PairAnswer>& pairs) {
+  return least(pairs, [](const PairAnswer& a, const PairAnswer& b) {
+    return a.closest_approach->distance < b.closest_approach->distance;
+  });
+}
 
-SceneResult check_scene(const LoadedScene& loaded, Workspace& workspace,
-                        const CheckOptions& options) {
+SceneResult from_first(ManyBodiesResult found) {
+  SceneResult result;
+  result.verdict = found.verdict;
+  result.reason = found.reason;
+  result.t = found.t;
+  result.t_upper = found.t_upper;
+  result.clearance = found.clearance;
+  result.tolerance_used = found.tolerance_used;
+  result.work = found.work;
+  result.pairs = std::move(found.first);
+  if (!result.pairs.empty()) {
+    result.first = 0;
+  }
+  return result;
+}
+
+SceneResult from_each_pair(std::vector<PairAnswer> pairs, const SceneOptions& asked, bool closest) {
   SceneResult result;
   result.verdict = Verdict::free;
   result.t = 1.0;
   result.clearance = std::numeric_limits<double>::infinity();
-  result.tolerance_used = loaded.scene.options.tolerance;
-  if (loaded.pairs.empty()) {
-    return result;
-  }
-  const WorkBudget budget = budget_of(loaded.scene, options);
-  for (const ScenePair& pair : loaded.pairs) {
-    if (options.progress) {
-      options.progress(result.pairs.size());
-    }
-    result.pairs.push_back(ask(loaded, pair, budget, options.closest, workspace));
-  }
-  take_verdict(result);
-  gather(result);
-  if (options.closest) {
-    result.closest = least(result.pairs, [](const PairResult& a, const PairResult& b) {
-      return a.closest_approach->distance < b.closest_approach->distance;
-    });
+  result.tolerance_used = asked.tolerance;
+  result.pairs = std::move(pairs);
+  if (!result.pairs.empty()) {
+    take_verdict(result);
+    gather(result);
+    result.closest = closest ? std::optional(closest_of(result.pairs)) : std::nullopt;
   }
   return result;
+}
+
+}  // namespace
+
+SceneResult check_scene(const LoadedScene& loaded, ManyBodiesWorkspace& workspace,
+                        const CheckOptions& options) {
+  const ManyBodiesOptions query = query_options(loaded.scene, options);
+  if (options.all_pairs || options.closest) {
+    return from_each_pair(answer_each_pair(loaded.bodies, workspace, query), loaded.scene.options,
+                          options.closest);
+  }
+  return from_first(first_contact(loaded.bodies, workspace, query));
 }
 
 }  // namespace firstcontact

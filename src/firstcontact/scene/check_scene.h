@@ -1,5 +1,5 @@
 /// @file
-/// First contact in a scene: every pair of bodies is asked, the earliest answers for all.
+/// First contact in a scene.
 
 #pragma once
 
@@ -9,24 +9,18 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/closest_approach.h>
-#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/many_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
 
 struct CheckOptions {
-  bool closest = false;       ///< Also the closest approach of every pair.
+  bool all_pairs = false;     ///< The answer of every pair over the whole step.
+  bool closest = false;       ///< So too, with the closest approach of each.
+  int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
   std::stop_token stop = {};  ///< Ends the check with what is proven so far.
-  /// Called before each pair with its number; may be empty.
-  std::function<void(std::size_t pair)> progress = {};
-};
-
-/// What one pair of bodies answered.
-struct PairResult {
-  BodyPair bodies;
-  FirstContactResult first_contact;
-  std::optional<ClosestApproachResult> closest_approach;
+  /// As ManyBodiesOptions::progress.
+  std::function<void(double done)> progress = {};
 };
 
 /// The answer of a scene. Times are normalised to its duration.
@@ -37,25 +31,27 @@ struct SceneResult {
   std::optional<double> t_upper;  ///< [-]  A time that is proven to be in contact, if one is known.
   double clearance = 0.0;         ///< [m]  Proven lower bound of every pair's distance up to t;
                                   ///<      infinite where no pair is tested.
-  double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs.
+  double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
 
   /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
   /// free.
   std::optional<std::size_t> first;
   /// Index into `pairs` of the one that comes closest, where that was asked.
   std::optional<std::size_t> closest;
-  std::vector<PairResult> pairs;  ///< As LoadedScene::pairs.
-  WorkCount work;                 ///< Of all pairs.
+  /// Every tested pair where that was asked, else those that decide `t`; by the order of bodies.
+  std::vector<PairAnswer> pairs;
+  WorkCount work;  ///< Of all pairs that were searched.
 };
 
-/// Answers a scene by asking every pair for its first contact over the whole step.
+/// Answers a scene by the first contact of its bodies, or by that of every pair over the whole
+/// step.
 ///
 /// The scene's deadline starts with this call; loading does not count. A pair that the deadline
-/// or the stop token keeps from being asked is undecided at t = 0. Deterministic without either.
+/// or the stop token keeps from being asked is undecided. Deterministic without either.
 ///
 /// @throws std::invalid_argument if an option of the scene is outside its range
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_scene(const LoadedScene& loaded,
-                                                       Workspace& workspace,
+                                                       ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});
 
 }  // namespace firstcontact

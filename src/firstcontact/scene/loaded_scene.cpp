@@ -9,44 +9,38 @@ namespace firstcontact {
 
 namespace {
 
-bool is_ignored(const Scene& scene, const BodyPair& bodies) {
-  return std::find(scene.ignored_pairs.begin(), scene.ignored_pairs.end(), bodies) !=
-         scene.ignored_pairs.end();
-}
-
-double margin_of(const Scene& scene, const BodyPair& bodies) {
-  const auto own = std::find_if(scene.pair_margins.begin(), scene.pair_margins.end(),
-                                [&](const PairMargin& pair) { return pair.bodies == bodies; });
-  return own != scene.pair_margins.end() ? own->margin : scene.options.margin;
-}
-
-std::vector<ScenePair> list_pairs(const Scene& scene) {
-  std::vector<ScenePair> pairs;
-  for (std::size_t first = 0; first < scene.bodies.size(); ++first) {
-    for (std::size_t second = first + 1; second < scene.bodies.size(); ++second) {
-      const BodyPair bodies = {first, second};
-      if (!is_ignored(scene, bodies)) {
-        pairs.push_back({.bodies = bodies, .margin = margin_of(scene, bodies)});
-      }
-    }
+PairRules rules_of(const Scene& scene) {
+  PairRules rules(scene.options.margin);
+  for (const BodyGroup& group : scene.groups) {
+    rules.add_group(group.bodies);
   }
-  return pairs;
+  for (const BodyPair& pair : scene.ignored_pairs) {
+    rules.ignore(pair);
+  }
+  for (const PairMargin& pair : scene.pair_margins) {
+    rules.set_margin(pair.bodies, pair.margin);
+  }
+  for (const GroupPair& pair : scene.ignored_groups) {
+    rules.ignore_groups(pair[0], pair[1]);
+  }
+  for (const GroupMargin& pair : scene.group_margins) {
+    rules.set_group_margin(pair.groups[0], pair.groups[1], pair.margin);
+  }
+  return rules;
 }
 
 }  // namespace
 
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
-  LoadedScene loaded;
+  LoadedScene loaded{.scene = {}, .bodies = BodySet(rules_of(scene)), .input_digest = {}};
   std::string digests = scene.text_digest + '\n';
   for (const Body& body : scene.bodies) {
     CachedShape cached = cache.load(body.shape);
-    loaded.shapes.push_back(std::move(cached.shape));
     if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
     }
-    loaded.motions.push_back(normalised_motion(body.motion, scene.duration));
+    loaded.bodies.add(std::move(cached.shape), normalised_motion(body.motion, scene.duration));
   }
-  loaded.pairs = list_pairs(scene);
   loaded.input_digest = detail::sha256(digests);
   loaded.scene = std::move(scene);
   return loaded;

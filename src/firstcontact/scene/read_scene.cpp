@@ -18,6 +18,7 @@
 #include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/detail/parse_json.h>
 #include <firstcontact/scene/detail/read_motion.h>
+#include <firstcontact/scene/detail/read_pairs.h>
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_shape.h>
 #include <firstcontact/scene/detail/sha256.h>
@@ -98,83 +99,6 @@ std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folder
   return bodies;
 }
 
-std::string_view nearest_name(std::string_view name, const std::vector<Body>& bodies) {
-  std::vector<std::string_view> names;
-  names.reserve(bodies.size());
-  for (const Body& body : bodies) {
-    names.emplace_back(body.name);
-  }
-  return detail::nearest_word(name, names);
-}
-
-std::size_t read_body_name(const JsonValue& value, const std::vector<Body>& bodies,
-                           const JsonReader& read) {
-  const std::string& name = read.string(value, "the name of a body");
-  const auto found = std::find_if(bodies.begin(), bodies.end(),
-                                  [&](const Body& body) { return body.name == name; });
-  if (found == bodies.end()) {
-    const std::string_view nearest = nearest_name(name, bodies);
-    read.fail(value,
-              "expected the name of a body, got " + detail::in_quotes(name) +
-                  (nearest.empty() ? "" : "; did you mean " + detail::in_quotes(nearest) + "?"));
-  }
-  return static_cast<std::size_t>(found - bodies.begin());
-}
-
-/// The first two elements.
-BodyPair read_pair(const JsonValue& value, const std::vector<Body>& bodies,
-                   const JsonReader& read) {
-  const JsonArray& elements = std::get<JsonArray>(value.value);
-  const std::size_t first = read_body_name(elements[0], bodies, read);
-  const std::size_t second = read_body_name(elements[1], bodies, read);
-  if (first == second) {
-    read.fail(value, "expected two bodies, got one twice");
-  }
-  return {std::min(first, second), std::max(first, second)};
-}
-
-std::vector<BodyPair> read_ignored_pairs(const JsonValue& value, const std::vector<Body>& bodies,
-                                         const JsonReader& read) {
-  const std::string expected = "a pair of names, such as [\"a\", \"b\"]";
-  std::vector<BodyPair> pairs;
-  for (const JsonValue& element : read.array(value, "an array of pairs of names")) {
-    if (read.array(element, expected).size() != 2) {
-      read.fail_expected(expected, element);
-    }
-    pairs.push_back(read_pair(element, bodies, read));
-  }
-  return pairs;
-}
-
-std::vector<PairMargin> read_pair_margins(const JsonValue& value, const std::vector<Body>& bodies,
-                                          const JsonReader& read) {
-  const std::string expected = "two names and a margin, such as [\"a\", \"b\", 0.01]";
-  std::vector<PairMargin> margins;
-  for (const JsonValue& element : read.array(value, "an array of pairs with their margins")) {
-    const JsonArray& elements = read.array(element, expected);
-    if (elements.size() != 3) {
-      read.fail_expected(expected, element);
-    }
-    const BodyPair pair = read_pair(element, bodies, read);
-    const auto same = [&](const PairMargin& other) { return other.bodies == pair; };
-    if (std::any_of(margins.begin(), margins.end(), same)) {
-      read.fail(element, "expected one margin for each pair, got a second one");
-    }
-    margins.push_back({.bodies = pair, .margin = read.not_negative(elements[2])});
-  }
-  return margins;
-}
-
-void read_pairs(const JsonValue& value, Scene& scene, const JsonReader& read) {
-  const JsonObject& object = read.object(value, {{"ignore", "margin"}});
-  if (const JsonValue* ignore = find(object, "ignore")) {
-    scene.ignored_pairs = read_ignored_pairs(*ignore, scene.bodies, read);
-  }
-  if (const JsonValue* margin = find(object, "margin")) {
-    scene.pair_margins = read_pair_margins(*margin, scene.bodies, read);
-  }
-}
-
 SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   SceneOptions options;
   if (const JsonValue* tolerance = find(object, "tolerance")) {
@@ -251,7 +175,7 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   const JsonValue& bodies = read.member(root, "bodies");
   scene.bodies = read_bodies(bodies, read_folders(object, source, read), read);
   if (const JsonValue* pairs = find(object, "pairs")) {
-    read_pairs(*pairs, scene, read);
+    detail::read_pairs(*pairs, scene, read);
   }
   const JsonValue* duration = nullptr;
   if (const JsonValue* options = find(object, "options")) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include <firstcontact/query/distance.h>
@@ -13,14 +14,45 @@ namespace {
 
 constexpr double kGreatestCount = 1e7;
 
+/// A ball around each body at one time.
+struct Ball {
+  Eigen::Vector3d centre;
+  double radius;
+};
+
+std::vector<Ball> balls_at(const BodySet& bodies, double t) {
+  std::vector<Ball> balls;
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Hierarchy& hierarchy = bodies.shape(k).hierarchy();
+    const Pose pose = bodies.motion(k).pose(t);
+    balls.push_back({pose.position + pose.rotation * hierarchy.centre,
+                     hierarchy.radius + bodies.shape(k).radius()});
+  }
+  return balls;
+}
+
+/// A little less than the distance of two balls.
+double ball_distance(const Ball& a, const Ball& b) {
+  const double distance = (a.centre - b.centre).norm();
+  return distance - a.radius - b.radius - 1e-12 * (distance + a.centre.norm() + b.centre.norm());
+}
+
 GapSample sample(const LoadedScene& loaded, double t, Workspace& workspace) {
   GapSample sample{.t = t, .distance = std::numeric_limits<double>::infinity(), .contact = false};
-  for (const ScenePair& pair : loaded.pairs) {
-    const double found = distance(loaded.moving_shape(pair.bodies[0]),
-                                  loaded.moving_shape(pair.bodies[1]), t, workspace)
-                             .distance;
-    sample.distance = std::min(sample.distance, found);
-    sample.contact = sample.contact || found <= pair.margin;
+  const BodySet& bodies = loaded.bodies;
+  const std::vector<Ball> balls = balls_at(bodies, t);
+  for (std::size_t first = 0; first < bodies.size(); ++first) {
+    for (std::size_t second = first + 1; second < bodies.size(); ++second) {
+      const std::optional<double> margin = bodies.rules().margin({first, second});
+      if (!margin ||
+          ball_distance(balls[first], balls[second]) > std::max(sample.distance, *margin)) {
+        continue;
+      }
+      const double found =
+          distance(bodies.moving_shape(first), bodies.moving_shape(second), t, workspace).distance;
+      sample.distance = std::min(sample.distance, found);
+      sample.contact = sample.contact || found <= *margin;
+    }
   }
   return sample;
 }

@@ -16,6 +16,7 @@
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/pair_rules.h>
 #include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact {
@@ -71,11 +72,22 @@ struct Body {
   BodyMotion motion;
 };
 
-/// Two bodies by their index, first < second.
-using BodyPair = std::array<std::size_t, 2>;
-
 struct PairMargin {
   BodyPair bodies;
+  double margin = 0.0;  ///< [m]  In place of the scene's margin; >= 0.
+};
+
+struct BodyGroup {
+  std::string name;  ///< Unique in the scene, bodies included; not empty.
+  std::vector<std::size_t> bodies;
+};
+
+/// Two groups by their index: every body of one with every body of the other; one group twice: all
+/// pairs inside it.
+using GroupPair = std::array<std::size_t, 2>;
+
+struct GroupMargin {
+  GroupPair groups;
   double margin = 0.0;  ///< [m]  In place of the scene's margin; >= 0.
 };
 
@@ -93,8 +105,11 @@ struct SceneOptions {
 struct Scene {
   std::string id;  ///< May be empty.
   std::vector<Body> bodies;
+  std::vector<BodyGroup> groups;
   std::vector<BodyPair> ignored_pairs;
-  std::vector<PairMargin> pair_margins;
+  std::vector<PairMargin> pair_margins;  ///< Prevail over those of groups.
+  std::vector<GroupPair> ignored_groups;
+  std::vector<GroupMargin> group_margins;  ///< Of several the greatest holds.
   SceneOptions options;
   double duration = 1.0;    ///< [s]  Of the step; t = 1 there.
   std::string text_digest;  ///< SHA-256 of the text that was read, in hexadecimal; may be empty.

@@ -68,7 +68,7 @@ class ResultWriter {
             {"clearance", to_json(result.clearance)}};
   }
 
-  [[nodiscard]] JsonValue closest(const PairResult& pair) const {
+  [[nodiscard]] JsonValue closest(const PairAnswer& pair) const {
     const ClosestApproachResult& found = *pair.closest_approach;
     JsonObject object{{"pair", names(pair.bodies)},
                       {"distance", to_json(found.distance)},
@@ -82,12 +82,12 @@ class ResultWriter {
     return {.value = std::move(object)};
   }
 
-  [[nodiscard]] JsonValue pair(const PairResult& pair, double margin) const {
+  [[nodiscard]] JsonValue pair(const PairAnswer& pair) const {
     const FirstContactResult& found = pair.first_contact;
     JsonArray contacts;
     append_contacts(pair, contacts);
     JsonObject object{{"pair", names(pair.bodies)},
-                      {"margin", to_json(margin)},
+                      {"margin", to_json(pair.margin)},
                       {"verdict", to_json(word(found.verdict))},
                       {"reason", to_json(found.reason)},
                       {"t", to_json(found.t)},
@@ -96,8 +96,8 @@ class ResultWriter {
                       {"contacts", {.value = std::move(contacts)}},
                       {"clearance", to_json(found.clearance)}};
     append_tolerance(found.tolerance_used, object);
-    append_enclosure_error(loaded_.shapes[pair.bodies[0]].enclosure_error() +
-                               loaded_.shapes[pair.bodies[1]].enclosure_error(),
+    append_enclosure_error(loaded_.bodies.shape(pair.bodies[0]).enclosure_error() +
+                               loaded_.bodies.shape(pair.bodies[1]).enclosure_error(),
                            object);
     if (pair.closest_approach) {
       object.push_back({"closest", closest(pair)});
@@ -130,8 +130,8 @@ class ResultWriter {
 
   [[nodiscard]] JsonArray pairs(const SceneResult& result) const {
     JsonArray array;
-    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
-      array.push_back(pair(result.pairs[k], loaded_.pairs[k].margin));
+    for (const PairAnswer& answer : result.pairs) {
+      array.push_back(pair(answer));
     }
     return array;
   }
@@ -153,7 +153,7 @@ class ResultWriter {
                 {"normal_velocity", to_json(contact.normal_velocity / scene_.duration)}}};
   }
 
-  void append_contacts(const PairResult& pair, JsonArray& array) const {
+  void append_contacts(const PairAnswer& pair, JsonArray& array) const {
     for (const Contact& found : pair.first_contact.contacts) {
       array.push_back(contact(pair.bodies, found));
     }
@@ -162,7 +162,7 @@ class ResultWriter {
   /// The contacts of every pair that touches at the scene's t.
   [[nodiscard]] JsonArray contacts_at(const SceneResult& result) const {
     JsonArray array;
-    for (const PairResult& pair : result.pairs) {
+    for (const PairAnswer& pair : result.pairs) {
       if (result.first && pair.first_contact.t == result.t) {
         append_contacts(pair, array);
       }
@@ -184,8 +184,8 @@ JsonValue to_json(const WorkCount& work) {
 double greatest_enclosure_error(const LoadedScene& loaded) {
   double greatest = 0.0;
   double second = 0.0;
-  for (const Shape& shape : loaded.shapes) {
-    const double error = shape.enclosure_error();
+  for (std::size_t k = 0; k < loaded.bodies.size(); ++k) {
+    const double error = loaded.bodies.shape(k).enclosure_error();
     second = std::max(second, std::min(error, greatest));
     greatest = std::max(greatest, error);
   }

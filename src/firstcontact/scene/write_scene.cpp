@@ -197,17 +197,37 @@ JsonValue to_json(const Body& body) {
 
 JsonValue pairs_to_json(const Scene& scene) {
   const auto name = [&](std::size_t body) { return to_json(scene.bodies.at(body).name); };
+  const auto group_name = [&](std::size_t group) { return to_json(scene.groups.at(group).name); };
+  JsonObject groups;
+  for (const BodyGroup& group : scene.groups) {
+    JsonArray members;
+    for (const std::size_t body : group.bodies) {
+      members.push_back(name(body));
+    }
+    groups.push_back({group.name, {.value = std::move(members)}});
+  }
   JsonArray ignore;
+  for (const auto& [first, second] : scene.ignored_groups) {
+    ignore.push_back({.value = JsonArray{group_name(first), group_name(second)}});
+  }
   for (const auto& [first, second] : scene.ignored_pairs) {
     ignore.push_back({.value = JsonArray{name(first), name(second)}});
   }
   JsonArray margin;
+  for (const GroupMargin& pair : scene.group_margins) {
+    margin.push_back({.value = JsonArray{group_name(pair.groups[0]), group_name(pair.groups[1]),
+                                         to_json(pair.margin)}});
+  }
   for (const PairMargin& pair : scene.pair_margins) {
     margin.push_back(
         {.value = JsonArray{name(pair.bodies[0]), name(pair.bodies[1]), to_json(pair.margin)}});
   }
-  return {.value = JsonObject{{"ignore", {.value = std::move(ignore)}},
-                              {"margin", {.value = std::move(margin)}}}};
+  JsonObject pairs{{"ignore", {.value = std::move(ignore)}},
+                   {"margin", {.value = std::move(margin)}}};
+  if (!groups.empty()) {
+    pairs.insert(pairs.begin(), {"groups", {.value = std::move(groups)}});
+  }
+  return {.value = std::move(pairs)};
 }
 
 const char* word(ContactState contacts) {

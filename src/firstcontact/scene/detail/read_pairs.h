@@ -1,0 +1,14 @@
+/// @file
+/// Reads which pairs of bodies are tested, and with what margins.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// Reads "pairs" into a scene that has its bodies.
+void read_pairs(const JsonValue& value, Scene& scene, const JsonReader& read);
+
+}  // namespace firstcontact::detail
