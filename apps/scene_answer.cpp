@@ -17,10 +17,16 @@ void override_options(const Question& question, SceneOptions& options) {
 }
 
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
+  const std::vector<Body>& bodies = loaded.scene.bodies;
   const bool each_pair = question.all_pairs || question.closest;
-  const auto tell = [&question, each_pair, id = loaded.scene.id](double done) {
-    question.doing(each_pair ? fmt::format("{}: {:.0f} % of the pairs", id, 100.0 * done)
-                             : fmt::format("{}: free until t = {:.4f}", id, done));
+  const auto tell = [&bodies, &question, each_pair](double done) {
+    if (bodies.size() == 2) {
+      question.doing(bodies[0].name + " and " + bodies[1].name);
+    } else if (each_pair) {
+      question.doing(fmt::format("{} bodies: {:.0f} % of the pairs", bodies.size(), 100.0 * done));
+    } else {
+      question.doing(fmt::format("{} bodies: free until t = {:.4f}", bodies.size(), done));
+    }
   };
   return {.all_pairs = question.all_pairs,
           .closest = question.closest,

@@ -32,7 +32,7 @@ def spoiled(result: dict) -> list:
     """Results that the schema must refuse: each lacks a key, or has a wrong one."""
     wrong = [{**result, "extra": 1}]
     for key in result:
-        if key not in ("closest", "pairs", "sampling", "tolerance_used", "line"):
+        if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line"):
             less = copy.deepcopy(result)
             del less[key]
             wrong.append(less)

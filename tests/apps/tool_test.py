@@ -321,7 +321,7 @@ class Progress(ToolTest):
         process.communicate(timeout=60)
         os.close(theirs)
         shown = os.read(ours, 10000).decode()
-        self.assertIn("tip and wall, pair 1 of 1 ... 1.0 s", shown)
+        self.assertIn("tip and wall ... 1.0 s", shown)
         self.assertTrue(shown.endswith("\r\x1b[K"))  # Wiped out in the end.
 
 

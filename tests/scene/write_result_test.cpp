@@ -48,7 +48,7 @@ struct Written {
 Written write(const std::string& text, const CheckOptions& check = {},
               const WriteResultOptions& options = {}) {
   ShapeCache cache;
-  Workspace workspace;
+  ManyBodiesWorkspace workspace;
   Written written{.loaded = load_scene(parse_scene(text, "s"), cache), .result = {}, .json = {}};
   written.result = check_scene(written.loaded, workspace, check);
   const std::string line = write_result(written.loaded, written.result, options);
@@ -113,8 +113,8 @@ TEST(WriteResult, SaysMoreWhereMoreIsAsked) {
 TEST(WriteResult, IsTheSameOnEveryRun) {
   ShapeCache cache;
   const LoadedScene loaded = load_scene(parse_scene(kFall, "s"), cache);
-  Workspace first;
-  Workspace second;
+  ManyBodiesWorkspace first;
+  ManyBodiesWorkspace second;
   EXPECT_EQ(write_result(loaded, check_scene(loaded, first)),
             write_result(loaded, check_scene(loaded, second)));
 }
