@@ -16,6 +16,7 @@
 #include "atomic_file.h"
 #include "command_line_number.h"
 #include "gap_plot.h"
+#include "gap_table.h"
 #include "interrupt.h"
 #include "print_result.h"
 #include "progress.h"
@@ -29,6 +30,7 @@ struct Arguments {
   std::vector<std::string> files;
   std::string output;
   std::string plot;
+  std::string gap;
   bool json = false;
   Question question;
 };
@@ -41,11 +43,14 @@ class Check {
     if (batch_ && !arguments_.plot.empty()) {
       throw std::invalid_argument("--svg draws one scene; give one .json file");
     }
+    if (batch_ && !arguments_.gap.empty()) {
+      throw std::invalid_argument("--gap is of one scene; give one .json file");
+    }
     keep_scenes();
     if (!arguments_.output.empty()) {
       output_.emplace(arguments_.output);
     }
-    question_.plot = !arguments_.plot.empty();
+    question_.gap_curve = !arguments_.plot.empty() || !arguments_.gap.empty();
     question_.stop = interrupt_.token();
     question_.doing = [this](std::string what) { progress_.doing(std::move(what)); };
   }
@@ -72,7 +77,7 @@ class Check {
   /// Nobody wants an answer in the place of the question.
   void keep_scenes() const {
     for (const std::string& file : arguments_.files) {
-      for (const std::string& written : {arguments_.output, arguments_.plot}) {
+      for (const std::string& written : {arguments_.output, arguments_.plot, arguments_.gap}) {
         std::error_code missing;
         if (std::filesystem::equivalent(file, written, missing)) {
           throw std::invalid_argument(written + ": this would overwrite the scene");
@@ -124,8 +129,11 @@ class Check {
     if (!json_on_stdout()) {
       fmt::print("{}", describe(title, answer, question_.all_pairs));
     }
-    if (question_.plot) {
+    if (!arguments_.plot.empty()) {
       write_file(arguments_.plot, gap_plot(title, answer));
+    }
+    if (!arguments_.gap.empty()) {
+      write_file(arguments_.gap, gap_table(answer));
     }
   }
 
@@ -193,6 +201,10 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_option("--svg", arguments->plot, "Draws the gap over time (one scene)")
       ->type_name("FILE");
+  command
+      ->add_option("--gap", arguments->gap,
+                   "Writes the gap over time and its proven lower bound as a table (one scene)")
+      ->type_name("FILE.csv");
   add_number(*command, "--margin", question.margin, Range::not_negative,
              "[m] Closer than this counts as contact; in place of the scene's");
   add_number(

@@ -7,6 +7,8 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/scene/gap_bound.h>
+
 #include "plot_axis.h"
 #include "print_result.h"
 #include "quantity_text.h"
@@ -67,6 +69,7 @@ class Plot {
     text(kLeft, 24, "start", title, R"( font-size="16" font-weight="bold")");
     text(kLeft, 44, "start", describe_verdict(answer_), R"( fill="#555")");
     regions();
+    lower_bound();
     axes();
     curve();
     samples();
@@ -106,6 +109,22 @@ class Plot {
   void regions() {
     region(0.0, answer_.result.t, "#eaf5ec");
     region(answer_.result.t, 1.0, "#f6efec");
+  }
+
+  /// Below it the gap is proven not to be.
+  void lower_bound() {
+    const std::vector<GapPoint> bound =
+        gap_lower_bound(answer_.loaded, answer_.result, answer_.curve);
+    if (bound.empty()) {
+      return;
+    }
+    text_ += R"(<polygon fill="#cfe6d4" points=")";
+    fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(bound.front().t), y(0.0));
+    for (const GapPoint& point : bound) {
+      fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(point.t), y(point.distance));
+    }
+    fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f}", x(bound.back().t), y(0.0));
+    text_ += "\"/>\n";
   }
 
   void axes() {

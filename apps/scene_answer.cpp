@@ -56,7 +56,7 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
     answer.samples = sample_in_parallel(answer.loaded, times, question.stop);
     answer.sampling = report_sampling(*question.sample_rate, answer.samples);
   }
-  if (question.plot) {
+  if (question.gap_curve) {
     question.doing("plotting " + answer.loaded.scene.id);
     answer.curve = gap_curve(answer.loaded, focus_of(answer.result), question.stop);
   }

@@ -25,7 +25,7 @@ struct Question {
   bool all_pairs = false;
   bool closest = false;
   int threads = 0;  ///< 0 for one on each core.
-  bool plot = false;
+  bool gap_curve = false;
   std::stop_token stop;
   std::function<void(std::string)> doing;  ///< Called with what is being done.
 };
@@ -34,7 +34,7 @@ struct SceneAnswer {
   LoadedScene loaded;
   SceneResult result;
   std::vector<GapSample> samples;  ///< At the sample rate; empty where none was asked.
-  std::vector<GapSample> curve;    ///< For a plot; empty where none was asked.
+  std::vector<GapSample> curve;    ///< Of the gap; empty where none was asked.
   std::optional<SamplingReport> sampling;
 };
 

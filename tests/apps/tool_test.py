@@ -337,6 +337,18 @@ class Plot(ToolTest):
         self.assertIn("first contact at 250 ms", texts)
         self.assertEqual(len(list(root.iter("{http://www.w3.org/2000/svg}circle"))), 11)
 
+    def test_is_a_table_with_a_proven_bound(self):
+        self.run_tool("check", "--gap", "gap.csv", self.file("s.json", scenes.CONTACT))
+        rows = (self.folder / "gap.csv").read_text().splitlines()
+        self.assertEqual(rows[0], "t,time,distance,lower_bound")
+        cells = [row.split(",") for row in rows[1:]]
+        times = [float(row[0]) for row in cells]
+        self.assertEqual(times, sorted(times))
+        self.assertEqual((times[0], times[-1]), (0.0, 1.0))
+        for row in cells:
+            if row[2]:
+                self.assertLessEqual(float(row[3]), float(row[2]))
+
     def test_is_of_one_scene(self):
         result = self.run_tool("check", "--svg", "gap.svg", self.file("s.jsonl", scenes.FREE))
         self.assert_refused(result, "--svg draws one scene; give one .json file")

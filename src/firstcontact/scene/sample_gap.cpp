@@ -38,7 +38,8 @@ double ball_distance(const Ball& a, const Ball& b) {
 }
 
 GapSample sample(const LoadedScene& loaded, double t, Workspace& workspace) {
-  GapSample sample{.t = t, .distance = std::numeric_limits<double>::infinity(), .contact = false};
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  GapSample sample{.t = t, .distance = kNone, .lower_bound = kNone, .contact = false};
   const BodySet& bodies = loaded.bodies;
   const std::vector<Ball> balls = balls_at(bodies, t);
   for (std::size_t first = 0; first < bodies.size(); ++first) {
@@ -48,10 +49,11 @@ GapSample sample(const LoadedScene& loaded, double t, Workspace& workspace) {
           ball_distance(balls[first], balls[second]) > std::max(sample.distance, *margin)) {
         continue;
       }
-      const double found =
-          distance(bodies.moving_shape(first), bodies.moving_shape(second), t, workspace).distance;
-      sample.distance = std::min(sample.distance, found);
-      sample.contact = sample.contact || found <= *margin;
+      const DistanceResult found =
+          distance(bodies.moving_shape(first), bodies.moving_shape(second), t, workspace);
+      sample.distance = std::min(sample.distance, found.distance);
+      sample.lower_bound = std::min(sample.lower_bound, found.lower_bound);
+      sample.contact = sample.contact || found.distance <= *margin;
     }
   }
   return sample;

@@ -18,6 +18,7 @@ namespace firstcontact {
 struct GapSample {
   double t = 0.0;         ///< [-]  Normalised to the scene's duration.
   double distance = 0.0;  ///< [m]  0 where two surfaces meet; infinite where no pair is tested.
+  double lower_bound = 0.0;  ///< [m]  Proven at t; `distance` less its rounding error.
   bool contact = false;   ///< A pair is no farther apart than its margin.
 };
 

@@ -1,0 +1,36 @@
+/// @file
+/// A proven lower bound of a scene's gap at all times, from samples of it.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+
+namespace firstcontact {
+
+/// A corner of a polyline over time.
+struct GapPoint {
+  double t = 0.0;         ///< [-]  Normalised to the scene's duration.
+  double distance = 0.0;  ///< [m]
+};
+
+/// [m per step]  No distance of two bodies of the set changes faster: the sum of the two greatest
+/// speeds of any of their points.
+[[nodiscard]] FIRSTCONTACT_API double greatest_gap_rate(const BodySet& bodies);
+
+/// Proven: the gap of the scene is at no time below this polyline.
+///
+/// Around each sample the gap is at least its lower bound less the greatest rate times the time
+/// between (a Lipschitz bound), and before the result's t at least its clearance. Samples that
+/// are close together make it tight.
+///
+/// @param samples  of this scene, at increasing times
+/// @return nothing where no pair is tested
+[[nodiscard]] FIRSTCONTACT_API std::vector<GapPoint> gap_lower_bound(
+    const LoadedScene& loaded, const SceneResult& result, std::span<const GapSample> samples);
+
+}  // namespace firstcontact
