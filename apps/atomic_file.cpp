@@ -10,6 +10,8 @@
 #include <string>
 #include <system_error>
 
+#include "write_all.h"
+
 namespace firstcontact::app {
 namespace {
 
@@ -57,12 +59,8 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor_, text.data(), text.size());
-    if (written < 0 && errno != EINTR) {
-      fail("cannot write this file");
-    }
-    text.remove_prefix(written < 0 ? 0 : static_cast<std::size_t>(written));
+  if (!write_all(descriptor_, text)) {
+    fail("cannot write this file");
   }
 }
 

@@ -20,6 +20,7 @@
 #include "interrupt.h"
 #include "print_result.h"
 #include "progress.h"
+#include "question_options.h"
 #include "scene_answer.h"
 #include "scene_source.h"
 
@@ -148,7 +149,7 @@ class Check {
   void take_error(const std::string& id, const std::string& file, std::optional<std::size_t> line,
                   const ParseError& error) {
     status_ = ExitStatus::bad_input;
-    fmt::print(stderr, "firstcontact: {}\n", error.what());
+    progress_.say(fmt::format("firstcontact: {}", error.what()));
     if (batch_) {
       write_json(write_error(id, file, line, error.what()));
     }
@@ -205,17 +206,9 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--gap", arguments->gap,
                    "Writes the gap over time and its proven lower bound as a table (one scene)")
       ->type_name("FILE.csv");
-  add_number(*command, "--margin", question.margin, Range::not_negative,
-             "[m] Closer than this counts as contact; in place of the scene's");
-  add_number(
-      *command, "--tolerance", question.tolerance, Range::positive,
-      "[m] A reported contact is no farther than margin + tolerance; in place of the scene's");
-  add_number(*command, "--deadline", question.deadline, Range::positive,
-             "[s] For each scene; then its answer is undecided");
+  add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
              "[1/s] Also says what sampling at this rate would have seen");
-  command->add_flag("--closest", question.closest, "Also the closest approach over the whole step");
-  command->add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
   command
       ->add_option("--threads", question.threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")

@@ -24,4 +24,17 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, std::optiona
   return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
 }
 
+CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
+                       const std::string& description) {
+  const auto take = [&count, name](const std::string& text) {
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, count);
+    if (error != std::errc() || rest != end || count == 0) {
+      throw CLI::ValidationError(name,
+                                 fmt::format("expected a whole number > 0, got \"{}\"", text));
+    }
+  };
+  return command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
+}
+
 }  // namespace firstcontact::app

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -15,5 +16,9 @@ enum class Range { positive, not_negative };
 /// Adds an option that takes one number: finite, in range, with a decimal point in every locale.
 CLI::Option* add_number(CLI::App& command, const std::string& name, std::optional<double>& number,
                         Range range, const std::string& description);
+
+/// Adds an option that takes a whole number > 0.
+CLI::Option* add_count(CLI::App& command, const std::string& name, std::size_t& count,
+                       const std::string& description);
 
 }  // namespace firstcontact::app

@@ -10,6 +10,7 @@
 
 #include <firstcontact/scene/version.h>
 
+#include "batch_command.h"
 #include "check_command.h"
 #include "exit_status.h"
 #include "info_command.h"
@@ -32,6 +33,7 @@ ExitStatus run(int argc, char** argv) {
   app.set_version_flag("--version", std::string("firstcontact ") + version());
   app.require_subcommand(1);
   add_check_command(app, status);
+  add_batch_command(app, status);
   add_info_command(app);
   try {
     app.parse(argc, argv);

@@ -23,21 +23,31 @@ void Progress::doing(std::string text) {
   text_ = std::move(text);
 }
 
+void Progress::say(std::string_view line) {
+  const std::scoped_lock lock(mutex_);
+  wipe();
+  fmt::print(stderr, "{}\n", line);
+}
+
 void Progress::show(const std::stop_token& over) {
   using namespace std::chrono_literals;
   const auto begin = std::chrono::steady_clock::now();
-  bool shown = false;
   std::unique_lock lock(mutex_);
   for (auto pause = 1000ms;
        !wake_.wait_for(lock, over, pause, [&] { return over.stop_requested(); }); pause = 200ms) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     fmt::print(stderr, "\r\x1b[K{} ... {:.1f} s", text_, elapsed.count());
     std::fflush(stderr);
-    shown = true;
+    shown_ = true;
   }
-  if (shown) {
+  wipe();
+}
+
+void Progress::wipe() {
+  if (shown_) {
     fmt::print(stderr, "\r\x1b[K");
     std::fflush(stderr);
+    shown_ = false;
   }
 }
 

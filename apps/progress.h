@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace firstcontact::app {
@@ -23,12 +24,17 @@ class Progress {
   /// What is being done now. From any thread.
   void doing(std::string text);
 
+  /// Prints a line on stderr in the place of the one that is shown. From any thread.
+  void say(std::string_view line);
+
  private:
   void show(const std::stop_token& over);
+  void wipe();
 
   std::mutex mutex_;
   std::condition_variable_any wake_;
   std::string text_;
+  bool shown_ = false;
   std::jthread writer_;  // The last member, so that it ends first.
 };
 

@@ -10,12 +10,6 @@
 namespace firstcontact::app {
 namespace {
 
-void override_options(const Question& question, SceneOptions& options) {
-  options.margin = question.margin.value_or(options.margin);
-  options.tolerance = question.tolerance.value_or(options.tolerance);
-  options.deadline = question.deadline ? question.deadline : options.deadline;
-}
-
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
   const std::vector<Body>& bodies = loaded.scene.bodies;
   const bool each_pair = question.all_pairs || question.closest;
@@ -42,6 +36,12 @@ double focus_of(const SceneResult& result) {
 }
 
 }  // namespace
+
+void override_options(const Question& question, SceneOptions& options) {
+  options.margin = question.margin.value_or(options.margin);
+  options.tolerance = question.tolerance.value_or(options.tolerance);
+  options.deadline = question.deadline ? question.deadline : options.deadline;
+}
 
 SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
                          ManyBodiesWorkspace& workspace) {

@@ -30,6 +30,9 @@ struct Question {
   std::function<void(std::string)> doing;  ///< Called with what is being done.
 };
 
+/// Puts what the command line says in the place of what the scene says.
+void override_options(const Question& question, SceneOptions& options);
+
 struct SceneAnswer {
   LoadedScene loaded;
   SceneResult result;

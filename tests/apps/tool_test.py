@@ -58,7 +58,7 @@ class CommandLine(ToolTest):
         self.assertRegex(result.stdout, r"^firstcontact \d+\.\d+\.\d+\n$")
 
     def test_helps(self):
-        for arguments in (["--help"], ["check", "--help"], ["info", "--help"]):
+        for arguments in (["--help"], ["check", "--help"], ["batch", "--help"], ["info", "--help"]):
             result = self.run_tool(*arguments)
             self.assertEqual(result.returncode, 0)
             self.assertIn("Usage: firstcontact", result.stdout)

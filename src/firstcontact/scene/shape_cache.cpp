@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include <tbb/task_arena.h>
+
 #include <firstcontact/scene/detail/make_shape.h>
 #include <firstcontact/scene/detail/sha256.h>
 
@@ -73,10 +75,17 @@ CachedShape ShapeCache::load(const BodyShape& shape) {
   std::vector<double> numbers = std::visit(Numbers{}, shape.source);
   numbers.push_back(shape.radius);
   numbers.push_back(shape.filling == Filling::solid ? 1.0 : 0.0);
-  Key key(shape.source.index(), file == nullptr ? "" : file->string(), std::move(numbers));
-  const auto found = shapes_.find(key);
-  return found != shapes_.end() ? found->second
-                                : shapes_.emplace(std::move(key), make(shape)).first->second;
+  std::unique_lock map_lock(mutex_);
+  Entry& entry =
+      shapes_[Key(shape.source.index(), file == nullptr ? "" : file->string(), std::move(numbers))];
+  map_lock.unlock();
+  const std::scoped_lock lock(entry.making);
+  if (!entry.shape) {
+    // Isolated: a thread that waits for parts of a hierarchy must not take up a task that asks for
+    // the same shape.
+    tbb::this_task_arena::isolate([&] { entry.shape = make(shape); });
+  }
+  return *entry.shape;
 }
 
 }  // namespace firstcontact

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <map>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -21,7 +23,8 @@ struct CachedShape {
 };
 
 /// Makes each shape once, with its hierarchy, but for what a scene writes inline. A file that
-/// changes after it was loaded is not read again. For one thread at a time.
+/// changes after it was loaded is not read again. Thread-safe: whoever asks for a shape that
+/// another thread is making waits for it; different shapes are made side by side.
 class FIRSTCONTACT_API ShapeCache {
  public:
   /// The shape that a scene describes. Coordinates of files are scaled in double precision;
@@ -35,7 +38,13 @@ class FIRSTCONTACT_API ShapeCache {
   /// The kind of shape, the file, and all numbers.
   using Key = std::tuple<std::size_t, std::string, std::vector<double>>;
 
-  std::map<Key, CachedShape> shapes_;
+  struct Entry {
+    std::mutex making;
+    std::optional<CachedShape> shape;  // None before, or where it cannot be made.
+  };
+
+  std::mutex mutex_;  // Of the map; its entries stay where they are.
+  std::map<Key, Entry> shapes_;
 };
 
 }  // namespace firstcontact

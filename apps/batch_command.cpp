@@ -1,0 +1,236 @@
+#include "batch_command.h"
+
+#include <charconv>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/check_lines.h>
+#include <firstcontact/scene/read_verdict.h>
+#include <firstcontact/scene/scene_lines.h>
+#include <firstcontact/scene/version.h>
+
+#include "batch_tally.h"
+#include "command_line_number.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "question_options.h"
+#include "results_file.h"
+#include "scene_answer.h"
+
+namespace firstcontact::app {
+namespace {
+
+/// The lines i, i + N, i + 2 N, ... of a file; the first line is 1.
+struct Shard {
+  std::size_t index = 1;  ///< i, from 1 to N
+  std::size_t count = 1;  ///< N
+
+  [[nodiscard]] bool has(std::size_t line) const { return line % count == index % count; }
+};
+
+struct Arguments {
+  std::string jobs;
+  std::string results;
+  std::size_t threads = 0;  // As many as there are processors.
+  Shard shard;
+  bool resume = false;
+  Question question;
+};
+
+/// The next scene of a shard.
+std::optional<SceneLine> next_of(const Shard& shard, SceneLines& lines) {
+  std::optional<SceneLine> line = lines.next();
+  while (line && !shard.has(line->number)) {
+    line = lines.next();
+  }
+  return line;
+}
+
+/// What is known of the jobs before the first is answered.
+struct Survey {
+  std::size_t scenes = 0;  ///< Of the shard.
+  std::string digest;      ///< Of the whole file.
+};
+
+Survey survey(const std::string& jobs, const Shard& shard) {
+  std::error_code error;
+  const auto status = std::filesystem::status(jobs, error);
+  if (!std::filesystem::exists(status)) {
+    throw ParseError(jobs, "expected a file of scenes, found none");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    throw ParseError(jobs, "expected a plain file of scenes, which can be read twice");
+  }
+  Survey found;
+  bool any = false;
+  SceneLines lines(jobs);
+  while (const std::optional<SceneLine> line = lines.next()) {
+    any = true;
+    found.scenes += shard.has(line->number) ? 1 : 0;
+  }
+  if (!any) {
+    throw ParseError(jobs, "expected at least one scene, got none");
+  }
+  found.digest = lines.digest();
+  return found;
+}
+
+/// The options that change results, all in one line.
+std::string options_text(const Arguments& arguments) {
+  const Question& question = arguments.question;
+  std::string text;
+  const auto number = [&](const char* name, const std::optional<double>& value) {
+    text += value ? fmt::format(" {} {}", name, *value) : "";
+  };
+  number("--margin", question.margin);
+  number("--tolerance", question.tolerance);
+  number("--deadline", question.deadline);
+  text += question.closest ? " --closest" : "";
+  text += question.all_pairs ? " --all-pairs" : "";
+  return text.empty() ? " none" : text;
+}
+
+/// What the results of a command line are the results of; where any of it differs, so may they.
+std::string origin_of(const Arguments& arguments, const Survey& found) {
+  return fmt::format("firstcontact {}\nthe jobs {}, digest {}\nthe options{}\nthe shard {}/{}\n",
+                     version(), arguments.jobs, found.digest, options_text(arguments),
+                     arguments.shard.index, arguments.shard.count);
+}
+
+class Batch {
+ public:
+  explicit Batch(const Arguments& arguments)
+      : arguments_(arguments),
+        survey_(survey(arguments.jobs, arguments.shard)),
+        tally_(survey_.scenes),
+        lines_(arguments.jobs),
+        results_(open_results()) {}
+
+  ExitStatus run() {
+    keep_results();
+    begin_ = std::chrono::steady_clock::now();
+    const Question& question = arguments_.question;
+    check_lines(
+        arguments_.jobs, [this] { return next_of(arguments_.shard, lines_); },
+        [this](const LineAnswer& answer) { take(answer); },
+        {.threads = arguments_.threads,
+         .closest = question.closest,
+         .all_pairs = question.all_pairs,
+         .stop = interrupt_.token(),
+         .adjust = [&](SceneOptions& options) { override_options(question, options); }});
+    if (!interrupt_.token().stop_requested() && lines_.digest() != survey_.digest) {
+      throw ParseError(arguments_.jobs, "changed while its scenes were answered");
+    }
+    fmt::print("{}", tally_.summary(seconds()));
+    if (std::fflush(stdout) != 0) {
+      throw std::runtime_error("standard output: cannot write all of the summary");
+    }
+    return tally_.status();
+  }
+
+ private:
+  /// Nobody wants the results in the place of the jobs.
+  ResultsFile open_results() const {
+    std::error_code missing;
+    if (std::filesystem::equivalent(arguments_.jobs, arguments_.results, missing)) {
+      throw std::invalid_argument(arguments_.results + ": this would overwrite the jobs");
+    }
+    return {arguments_.results, origin_of(arguments_, survey_), arguments_.resume};
+  }
+
+  /// Counts what an earlier run has done, and passes over its jobs.
+  void keep_results() {
+    results_.for_each_kept([this](std::size_t number, const std::string& line) {
+      tally_.keep(read_verdict(line, arguments_.results, number));
+      if (!next_of(arguments_.shard, lines_)) {
+        throw ParseError(arguments_.results, number, "expected no more results than jobs");
+      }
+    });
+  }
+
+  void take(const LineAnswer& answer) {
+    results_.append(answer.text);
+    tally_.add(answer.verdict);
+    progress_.doing(tally_.progress(seconds()));
+    if (!answer.error.empty()) {
+      progress_.say("firstcontact: " + named(answer));
+    }
+  }
+
+  /// The error, which names the job's line in any case; that of a mesh names only the mesh.
+  [[nodiscard]] std::string named(const LineAnswer& answer) const {
+    const std::string place = fmt::format("{}:{}: ", arguments_.jobs, answer.line);
+    return answer.error.rfind(place, 0) == 0 ? answer.error : place + answer.error;
+  }
+
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Progress progress_;
+  std::chrono::steady_clock::time_point begin_;
+  const Arguments& arguments_;
+  Survey survey_;
+  BatchTally tally_;
+  SceneLines lines_;
+  ResultsFile results_;
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, wrong_index] = std::from_chars(text.data(), end, shard.index);
+  if (wrong_index == std::errc() && slash != end && *slash == '/') {
+    const auto [rest, wrong_count] = std::from_chars(slash + 1, end, shard.count);
+    if (wrong_count == std::errc() && rest == end && 1 <= shard.index &&
+        shard.index <= shard.count) {
+      return shard;
+    }
+  }
+  throw CLI::ValidationError(
+      "--shard", fmt::format("expected i/N, such as 1/4, with i from 1 to N, got \"{}\"", text));
+}
+
+constexpr const char* kFooter = R"(
+Results are written in the order of the jobs, one a line; a job that cannot be answered gets an
+error as its result. However this ends, --resume goes on with the next job: nothing is lost,
+nothing is done twice. RESULTS.batch, beside the results, says what they are of; other jobs or
+options are refused.
+Exit status, over all results: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided or
+interrupted; the worst of these in the order 2, 3, 1, 0.)";
+
+}  // namespace
+
+void add_batch_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command = app.add_subcommand(
+      "batch", "First contact in many scenes, by all processors; can go on later");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("JOBS", arguments->jobs, "A file with one scene in each line (JSON Lines)")
+      ->required();
+  command->add_option("-o,--output", arguments->results, "Where the results go, one in each line")
+      ->required()
+      ->type_name("RESULTS");
+  command->add_flag("--resume", arguments->resume, "Goes on with the results that are there");
+  add_count(*command, "--threads", arguments->threads, "In place of one for each processor");
+  command
+      ->add_option_function<std::string>(
+          "--shard", [arguments](const std::string& text) { arguments->shard = parse_shard(text); },
+          "Only the lines i, i + N, i + 2 N, ... of the jobs, the first line being 1")
+      ->type_name("i/N");
+  add_question_options(*command, arguments->question);
+  command->footer(kFooter);
+  command->callback([arguments, &status] { status = Batch(*arguments).run(); });
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,13 @@
+/// @file
+/// Writing to a file descriptor.
+
+#pragma once
+
+#include <string_view>
+
+namespace firstcontact::app {
+
+/// Writes all of a text, in as many pieces as it takes. Where that fails, errno says why.
+[[nodiscard]] bool write_all(int descriptor, std::string_view text);
+
+}  // namespace firstcontact::app

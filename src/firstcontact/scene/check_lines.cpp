@@ -1,0 +1,113 @@
+#include <firstcontact/scene/check_lines.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/write_result.h>
+
+namespace firstcontact {
+namespace {
+
+/// How many lines each thread may be ahead of the slowest.
+constexpr std::size_t kLead = 64;
+
+class LineChecker {
+ public:
+  LineChecker(const std::filesystem::path& file, const CheckLinesOptions& options)
+      : file_(file), options_(options) {}
+
+  /// The answer of a line; none where the stop token may have cut it short.
+  std::optional<LineAnswer> answer(const SceneLine& line) {
+    LineAnswer answer{.line = line.number, .text = {}, .verdict = {}, .error = {}};
+    std::string id;
+    try {
+      Scene scene = parse_scene(line.text, file_, line.number);
+      id = scene.id;
+      check(std::move(scene), answer);
+    } catch (const std::invalid_argument& error) {
+      answer.error = ParseError(file_.string(), error.what()).what();
+    } catch (const ParseError& error) {
+      answer.error = error.what();
+    }
+    if (!answer.error.empty()) {
+      answer.text = write_error(id, file_.string(), line.number, answer.error);
+    }
+    if (options_.stop.stop_requested()) {
+      return std::nullopt;
+    }
+    return answer;
+  }
+
+ private:
+  void check(Scene scene, LineAnswer& answer) {
+    if (options_.adjust) {
+      options_.adjust(scene.options);
+    }
+    const LoadedScene loaded = load_scene(std::move(scene), cache_);
+    // One thread for each scene: the others have scenes of their own.
+    const SceneResult result = check_scene(loaded, workspaces_.local(),
+                                           {.all_pairs = options_.all_pairs,
+                                            .closest = options_.closest,
+                                            .threads = 1,
+                                            .stop = options_.stop,
+                                            .progress = {}});
+    answer.verdict = result.verdict;
+    answer.text = write_result(loaded, result, {.all_pairs = options_.all_pairs, .sampling = {}});
+  }
+
+  const std::filesystem::path& file_;
+  const CheckLinesOptions& options_;
+  ShapeCache cache_;
+  tbb::enumerable_thread_specific<ManyBodiesWorkspace> workspaces_;
+};
+
+}  // namespace
+
+void check_lines(const std::filesystem::path& file,
+                 const std::function<std::optional<SceneLine>()>& next,
+                 const std::function<void(const LineAnswer&)>& take,
+                 const CheckLinesOptions& options) {
+  const std::size_t threads = options.threads > 0
+                                  ? options.threads
+                                  : static_cast<std::size_t>(tbb::info::default_concurrency());
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(static_cast<int>(threads));
+  LineChecker checker(file, options);
+  bool cut_short = false;
+  const auto read = tbb::make_filter<void, SceneLine>(
+      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
+        std::optional<SceneLine> line;
+        if (!options.stop.stop_requested()) {
+          line = next();
+        }
+        if (!line) {
+          flow.stop();
+        }
+        return std::move(line).value_or(SceneLine{});
+      });
+  const auto answer = tbb::make_filter<SceneLine, std::optional<LineAnswer>>(
+      tbb::filter_mode::parallel, [&](const SceneLine& line) {
+        // Isolated: a thread that waits for parts of its scene must not begin another one, which
+        // would need the same workspace.
+        return tbb::this_task_arena::isolate([&] { return checker.answer(line); });
+      });
+  const auto hand_over = tbb::make_filter<std::optional<LineAnswer>, void>(
+      tbb::filter_mode::serial_in_order, [&](const std::optional<LineAnswer>& answered) {
+        cut_short = cut_short || !answered;
+        if (!cut_short) {
+          take(*answered);
+        }
+      });
+  arena.execute([&] { tbb::parallel_pipeline(kLead * threads, read & answer & hand_over); });
+}
+
+}  // namespace firstcontact

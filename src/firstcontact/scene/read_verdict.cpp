@@ -1,0 +1,39 @@
+#include <firstcontact/scene/read_verdict.h>
+
+#include <string>
+#include <variant>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/write_result.h>
+
+namespace firstcontact {
+namespace {
+
+/// The string of a key; null if the object has none.
+const std::string* find_string(const detail::JsonObject& object, std::string_view key) {
+  const detail::JsonValue* value = detail::find(object, key);
+  return value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
+}
+
+}  // namespace
+
+std::optional<Verdict> read_verdict(std::string_view result, const std::filesystem::path& source,
+                                    std::size_t line) {
+  const detail::JsonValue root = detail::parse_json(result, source.string(), line);
+  if (const auto* object = std::get_if<detail::JsonObject>(&root.value)) {
+    if (find_string(*object, "error") != nullptr) {
+      return std::nullopt;
+    }
+    const std::string* found = find_string(*object, "verdict");
+    for (const Verdict verdict :
+         {Verdict::free, Verdict::contact, Verdict::contact_at_start, Verdict::undecided}) {
+      if (found != nullptr && *found == word(verdict)) {
+        return verdict;
+      }
+    }
+  }
+  throw ParseError(source.string(), line, "expected a result with a \"verdict\" or an \"error\"");
+}
+
+}  // namespace firstcontact

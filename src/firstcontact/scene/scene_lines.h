@@ -1,0 +1,41 @@
+/// @file
+/// A file of scenes, one in each line (JSON Lines).
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+struct SceneLine {
+  std::size_t number = 0;  ///< In the file; the first line is 1.
+  std::string text;        ///< Not read yet: see parse_scene.
+};
+
+/// Reads the lines of a file in order. Blank lines are no scenes.
+class FIRSTCONTACT_API SceneLines {
+ public:
+  explicit SceneLines(std::filesystem::path file);
+
+  /// The next scene; none at the end of the file.
+  ///
+  /// @throws ParseError if the file cannot be read
+  [[nodiscard]] std::optional<SceneLine> next();
+
+  /// Of all lines up to here, in hexadecimal: each line's SHA-256 begins with the one before.
+  [[nodiscard]] const std::string& digest() const { return digest_; }
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream stream_;
+  std::size_t number_ = 0;
+  std::string digest_;
+};
+
+}  // namespace firstcontact

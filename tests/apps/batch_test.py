@@ -1,0 +1,251 @@
+"""Batches as a user meets them: killed, interrupted, split, resumed.
+
+    batch_test.py TOOL [unittest arguments]
+"""
+
+import json
+import os
+import pathlib
+import pty
+import random
+import signal
+import sys
+import time
+import unittest
+
+import scenes
+import tool_test
+
+
+def spinning(name: str, angle: float, gap: float) -> str:
+    """A tip that passes a wall once a turn; many turns take a few milliseconds."""
+    wall = {"vertices": [[1, -9, -9], [1, 9, -9], [1, 0, 9]], "triangles": [[0, 1, 2]]}
+    return scenes.scene(
+        {"name": "tip", "shape": {"vertices": [[0, 0, 0], [1, 0, 0]], "triangles": [[0, 1, 1]]},
+         "motion": {"type": "constant_velocity", "rotation_vector": [0, 0, angle]}},
+        {"name": "wall", "shape": wall, "pose": {"position": [gap, 0, 0]}},
+        id=name, options={"tolerance": 1e-9})
+
+
+def some_jobs(count: int) -> str:
+    """Long and short ones, every tenth bad."""
+    rng = random.Random(1)
+    return "".join((scenes.BAD if k % 10 == 9 else spinning(str(k), rng.choice([10, 300, 3000]), 1e-6)) + "\n"
+                   for k in range(count))
+
+
+class BatchTest(tool_test.ToolTest):
+    def batch(self, *arguments: str, jobs: str = "jobs.jsonl", results: str = "out.jsonl"):
+        return self.run_tool("batch", jobs, "-o", results, *arguments)
+
+    def results(self, name: str = "out.jsonl") -> bytes:
+        return (self.folder / name).read_bytes()
+
+    def undisturbed(self) -> bytes:
+        self.batch(results="whole.jsonl")
+        return self.results("whole.jsonl")
+
+
+class Answers(BatchTest):
+    def test_are_those_of_check_for_every_number_of_threads(self):
+        jobs = self.file("jobs.jsonl", some_jobs(60))
+        expected = self.run_tool("check", jobs).stdout.encode()
+        self.assertEqual(len(expected.splitlines()), 60)
+        for threads in ("1", "2", "8"):
+            result = self.batch("--threads", threads, results=f"{threads}.jsonl")
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(self.results(f"{threads}.jsonl"), expected)
+
+    def test_take_the_options_of_the_command_line(self):
+        jobs = self.file("jobs.jsonl", scenes.FREE)
+        options = ["--margin", "2", "--tolerance", "1e-3", "--closest", "--all-pairs"]
+        self.assertEqual(self.batch(*options).returncode, 1)
+        self.assertEqual(self.results().decode(), self.run_tool("check", jobs, *options).stdout)
+
+    def test_name_the_bad_lines_and_do_the_rest(self):
+        self.file("cut.obj", "v 0 0\n")
+        mesh = scenes.scene({"name": "a", "shape": {"mesh": "cut.obj"}})
+        self.file("jobs.jsonl", "\n".join([scenes.CONTACT, scenes.BAD, "", mesh, scenes.FREE]))
+        result = self.batch()
+        self.assertEqual(result.returncode, 2)
+        complaints = result.stderr.splitlines()
+        self.assertEqual(len(complaints), 2)
+        self.assertTrue(complaints[0].startswith("firstcontact: jobs.jsonl:2: bodies[0].pose.positon: "))
+        self.assertTrue(complaints[1].startswith("firstcontact: jobs.jsonl:4: cut.obj:1: "))
+        answers = [json.loads(line) for line in self.results().splitlines()]
+        self.assertEqual([a.get("verdict", a.get("line")) for a in answers], ["contact", 2, 4, "free"])
+
+    def test_are_summed_up(self):
+        self.file("jobs.jsonl", "\n".join([scenes.CONTACT, scenes.FREE, scenes.FREE, scenes.AT_START, scenes.BAD]))
+        first, second = self.batch().stdout.splitlines()
+        self.assertEqual(first, "5 of 5 scenes answered: 2 free, 1 contact, 1 contact at start, 1 error")
+        self.assertRegex(second, r"^5 in \d+ s, [\d.e+]+ a second$")
+
+    def test_give_the_worst_status(self):
+        worst_first = [("BAD", 2), ("UNDECIDED", 3), ("CONTACT", 1), ("FREE", 0)]
+        for k, (name, status) in enumerate(worst_first):
+            better = "\n".join(getattr(scenes, other) for other, _ in worst_first[k:])
+            jobs, results = self.file(f"{name}.jsonl", better), f"{name}.out"
+            self.assertEqual(self.batch(jobs=jobs, results=results).returncode, status)
+            # Of what is there already, too.
+            self.assertEqual(self.batch("--resume", jobs=jobs, results=results).returncode, status)
+
+    def test_progress_is_shown_on_a_terminal(self):
+        self.file("jobs.jsonl", scenes.FREE + "\n" + scenes.ENDLESS)
+        ours, theirs = pty.openpty()
+        process = self.start("batch", "jobs.jsonl", "-o", "out.jsonl", "--deadline", "2", stderr=theirs)
+        process.communicate(timeout=60)
+        os.close(theirs)
+        shown = os.read(ours, 10000).decode()
+        self.assertRegex(shown, r"\[={10} {10}\]  50 %  1 of 2, [\d.e+]+ a second, \d+ s left \.\.\. 1\.\d s")
+        self.assertTrue(shown.endswith("\r\x1b[K"))
+
+
+class Shards(BatchTest):
+    def test_make_up_the_whole(self):
+        self.file("jobs.jsonl", some_jobs(40))
+        whole = self.undisturbed().splitlines()
+        merged = [b""] * len(whole)
+        for i in (1, 2, 3):
+            self.batch("--shard", f"{i}/3", results=f"{i}.jsonl")
+            merged[i - 1::3] = self.results(f"{i}.jsonl").splitlines()
+        self.assertEqual(merged, whole)
+
+    def test_may_be_empty(self):
+        self.file("jobs.jsonl", scenes.CONTACT)
+        self.assertEqual(self.batch("--shard", "1/2", results="1").returncode, 1)
+        self.assertEqual(self.batch("--shard", "2/2", results="2").returncode, 0)
+        self.assertEqual(self.results("2"), b"")
+
+    def test_need_a_number_of_theirs(self):
+        self.file("jobs.jsonl", scenes.FREE)
+        for text in ("0/3", "4/3", "1", "1/", "/3", "-1/3", "1/3x", "1.5/3", "1/0"):
+            self.assert_refused(self.batch(f"--shard={text}"), "--shard: expected i/N, such as 1/4, with i from "
+                                f'1 to N, got "{text}" (see firstcontact --help)')
+
+
+class Resume(BatchTest):
+    def test_after_twenty_kills_leaves_no_trace_of_them(self):
+        self.file("jobs.jsonl", some_jobs(200))
+        begin = time.monotonic()
+        whole = self.undisturbed()
+        seconds = time.monotonic() - begin
+        rng = random.Random(1)
+        kills = 0
+        lengths = set()
+        while kills < 20:
+            process = self.start("batch", "jobs.jsonl", "-o", "out.jsonl", "--resume")
+            time.sleep(rng.uniform(0, seconds / 4))
+            if process.poll() is None:
+                kills += 1
+                process.kill()
+            process.communicate(timeout=60)
+            found = self.results() if (self.folder / "out.jsonl").exists() else b""
+            self.assertTrue(whole.startswith(found))
+            lengths.add(len(found))
+            if found == whole:
+                (self.folder / "out.jsonl").unlink()
+        self.assertEqual(self.batch("--resume").returncode, 2)
+        self.assertEqual(self.results(), whole)
+        self.assertGreaterEqual(len(lengths - {0, len(whole)}), 3, "hardly ever killed in the middle")
+
+    def test_goes_on_from_every_byte(self):
+        self.file("jobs.jsonl", some_jobs(12))
+        whole = self.undisturbed()
+        self.batch()
+        ends = [k + 1 for k, byte in enumerate(whole) if byte == ord("\n")]
+        for length in [0, 1, len(whole) - 1, len(whole), *ends[:3], *(end - 1 for end in ends[:3]), ends[5] + 100]:
+            os.truncate(self.folder / "out.jsonl", length)
+            self.assertEqual(self.batch("--resume").returncode, 2)
+            self.assertEqual(self.results(), whole, length)
+
+    def test_does_nothing_twice(self):
+        self.file("jobs.jsonl", scenes.FREE)
+        self.batch()
+        self.assertEqual(self.batch("--resume").stdout, "1 of 1 scenes answered: 1 free\n1 of them by an earlier run\n")
+        self.assertEqual(len(self.results().splitlines()), 1)
+
+    def test_goes_on_after_an_interrupt(self):
+        """What the interrupt cut short is done again."""
+        self.file("jobs.jsonl", "\n".join([scenes.FREE, scenes.ENDLESS, scenes.CONTACT]))
+        process = self.start("batch", "jobs.jsonl", "-o", "out.jsonl")
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        stdout, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        self.assertTrue(stdout.startswith("1 of 3 scenes answered: 1 free\n"))
+        self.assertTrue(stdout.endswith("\ninterrupted; go on with --resume\n"))
+        self.assertEqual(len(self.results().splitlines()), 1)
+
+    def test_must_be_asked_for(self):
+        self.file("jobs.jsonl", scenes.FREE)
+        self.file("out.jsonl", "")  # As good as none.
+        self.assertEqual(self.batch().returncode, 0)
+        self.assert_refused(self.batch(), "out.jsonl: there are results already; go on with --resume, or remove them")
+
+    def test_refuses_results_of_something_else(self):
+        self.file("jobs.jsonl", some_jobs(3))
+        self.file("other.jsonl", some_jobs(3))
+        self.batch()
+        before = self.results()
+        go_on = "out.jsonl: cannot go on: these results are of the "
+        for message, arguments, more in [
+                ("jobs jobs.jsonl, ", [], {"jobs": "other.jsonl"}),
+                ("options none, not of the options --margin 0.1", ["--margin", "0.1"], {}),
+                ("options none, not of the options --closest --all-pairs", ["--closest", "--all-pairs"], {}),
+                ("shard 1/1, not of the shard 1/2", ["--shard", "1/2"], {})]:
+            result = self.batch("--resume", *arguments, **more)
+            self.assertEqual(result.returncode, 2)
+            self.assertTrue(result.stderr.startswith("firstcontact: " + go_on + message), result.stderr)
+        self.file("jobs.jsonl", some_jobs(4))
+        self.assertIn(go_on + "jobs jobs.jsonl, digest ", self.batch("--resume").stderr)
+        (self.folder / "out.jsonl.batch").unlink()
+        self.assert_refused(self.batch("--resume"), "out.jsonl: cannot go on: out.jsonl.batch, which says what these "
+                            "results are of, is missing")
+        self.assertEqual(self.results(), before)
+
+    def test_refuses_what_is_no_result(self):
+        self.file("jobs.jsonl", some_jobs(3))
+        self.batch()
+        self.file("out.jsonl", "{}\n")
+        self.assert_refused(self.batch("--resume"), 'out.jsonl:1: expected a result with a "verdict" or an "error"')
+        self.file("out.jsonl", 4 * '{"error": ""}\n')
+        self.assert_refused(self.batch("--resume"), "out.jsonl:4: expected no more results than jobs")
+
+
+class Files(BatchTest):
+    def test_that_cannot_be_used_are_said_so(self):
+        self.file("jobs.jsonl", scenes.FREE)
+        self.file("empty.jsonl", "\n\n")
+        os.mkfifo(self.folder / "fifo.jsonl")
+        for arguments, message in [
+                ({"jobs": "no.jsonl"}, "no.jsonl: expected a file of scenes, found none"),
+                ({"jobs": "fifo.jsonl"}, "fifo.jsonl: expected a plain file of scenes, which can be read twice"),
+                ({"jobs": "empty.jsonl"}, "empty.jsonl: expected at least one scene, got none"),
+                ({"results": "./jobs.jsonl"}, "./jobs.jsonl: this would overwrite the jobs"),
+                ({"results": "/dev/null"}, "/dev/null: expected a plain file for the results, got something else"),
+                ({"results": "no/out"}, "no/out: cannot write this file: No such file or directory")]:
+            self.assert_refused(self.batch(**arguments), message)
+
+    def test_have_one_writer(self):
+        self.file("jobs.jsonl", scenes.ENDLESS)
+        process = self.start("batch", "jobs.jsonl", "-o", "out.jsonl")
+        time.sleep(1)
+        self.assert_refused(self.batch("--resume"), "out.jsonl: another batch is writing this file")
+        process.kill()
+        process.communicate(timeout=60)
+
+    def test_of_jobs_must_stay_as_they_are(self):
+        jobs = self.file("jobs.jsonl", scenes.ENDLESS + "\n" + 1000 * (scenes.FREE + "\n"))
+        process = self.start("batch", jobs, "-o", "out.jsonl", "--threads", "1", "--deadline", "2")
+        time.sleep(1)
+        with open(self.folder / jobs, "a", encoding="utf-8") as lines:
+            lines.write(scenes.FREE + "\n")
+        _, stderr = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2)
+        self.assertEqual(stderr, "firstcontact: jobs.jsonl: changed while its scenes were answered\n")
+
+
+if __name__ == "__main__":
+    tool_test.TOOL = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

@@ -1,0 +1,44 @@
+#include <firstcontact/scene/read_verdict.h>
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/write_result.h>
+
+#include "scene/scene_text.h"
+
+namespace firstcontact {
+namespace {
+
+using test::body;
+using test::falling;
+using test::scene;
+
+TEST(ReadVerdict, ReadsBackWhatWasWritten) {
+  for (const std::string height : {"1", "5", "0"}) {
+    ShapeCache cache;
+    ManyBodiesWorkspace workspace;
+    const std::string text = scene(body("floor") + "," + body("stone", falling(height, "-4")));
+    const LoadedScene loaded = load_scene(parse_scene(text, "s"), cache);
+    const SceneResult result = check_scene(loaded, workspace);
+    EXPECT_EQ(read_verdict(write_result(loaded, result), "r"), result.verdict);
+  }
+  EXPECT_EQ(read_verdict(write_error("a", "s.jsonl", 3, "wrong"), "r"), std::nullopt);
+}
+
+TEST(ReadVerdict, RefusesWhatIsNoResult) {
+  for (const std::string text : {"", "{", "[]", "{}", R"({"verdict": "maybe"})"}) {
+    try {
+      (void)read_verdict(text, "r.jsonl", 7);
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const ParseError& error) {
+      EXPECT_EQ(error.line(), 7) << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact
