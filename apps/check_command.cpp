@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/write_page.h>
 
 #include "atomic_file.h"
 #include "command_line_number.h"
@@ -23,6 +24,7 @@
 #include "question_options.h"
 #include "scene_answer.h"
 #include "scene_source.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -32,6 +34,7 @@ struct Arguments {
   std::string output;
   std::string plot;
   std::string gap;
+  std::string page;
   bool json = false;
   Question question;
 };
@@ -47,11 +50,18 @@ class Check {
     if (batch_ && !arguments_.gap.empty()) {
       throw std::invalid_argument("--gap is of one scene; give one .json file");
     }
+    if (batch_ && !arguments_.page.empty()) {
+      throw std::invalid_argument("--html shows one scene; give one .json file");
+    }
+    if (!arguments_.page.empty()) {
+      page_ = viewer_page();  // Missing is better known before the work than after it.
+    }
     keep_scenes();
     if (!arguments_.output.empty()) {
       output_.emplace(arguments_.output);
     }
-    question_.gap_curve = !arguments_.plot.empty() || !arguments_.gap.empty();
+    question_.gap_curve =
+        !arguments_.plot.empty() || !arguments_.gap.empty() || !arguments_.page.empty();
     question_.stop = interrupt_.token();
     question_.doing = [this](std::string what) { progress_.doing(std::move(what)); };
   }
@@ -78,7 +88,8 @@ class Check {
   /// Nobody wants an answer in the place of the question.
   void keep_scenes() const {
     for (const std::string& file : arguments_.files) {
-      for (const std::string& written : {arguments_.output, arguments_.plot, arguments_.gap}) {
+      for (const std::string& written :
+           {arguments_.output, arguments_.plot, arguments_.gap, arguments_.page}) {
         std::error_code missing;
         if (std::filesystem::equivalent(file, written, missing)) {
           throw std::invalid_argument(written + ": this would overwrite the scene");
@@ -124,8 +135,7 @@ class Check {
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
     ++answered_;
     status_ = worse(status_, status_of(answer.result.verdict));
-    write_json(write_result(answer.loaded, answer.result,
-                            {.all_pairs = question_.all_pairs, .sampling = answer.sampling}));
+    write_json(result_text(answer, question_.all_pairs));
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
       fmt::print("{}", describe(title, answer, question_.all_pairs));
@@ -136,6 +146,15 @@ class Check {
     if (!arguments_.gap.empty()) {
       write_file(arguments_.gap, gap_table(answer));
     }
+    if (!arguments_.page.empty()) {
+      const std::string result = result_text(answer, /*all_pairs=*/true);
+      write_file(arguments_.page, write_page(page_, answer.loaded, result, answer.curve));
+    }
+  }
+
+  static std::string result_text(const SceneAnswer& answer, bool all_pairs) {
+    return write_result(answer.loaded, answer.result,
+                        {.all_pairs = all_pairs, .sampling = answer.sampling});
   }
 
   static std::string title_of(const SceneSource& source, const SceneAnswer& answer) {
@@ -173,6 +192,7 @@ class Check {
   const Arguments& arguments_;
   Question question_;
   bool batch_;
+  std::string page_;  // Without a result.
   std::optional<AtomicFile> output_;
   ShapeCache cache_;
   ManyBodiesWorkspace workspace_;
@@ -206,6 +226,8 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--gap", arguments->gap,
                    "Writes the gap over time and its proven lower bound as a table (one scene)")
       ->type_name("FILE.csv");
+  command->add_option("--html", arguments->page, "Makes a page that plays the answer (one scene)")
+      ->type_name("FILE");
   add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
              "[1/s] Also says what sampling at this rate would have seen");

@@ -1,0 +1,126 @@
+#include "view_command.h"
+
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <fmt/core.h>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/write_page.h>
+
+#include "atomic_file.h"
+#include "gap_curve.h"
+#include "interrupt.h"
+#include "viewer_page.h"
+
+extern char** environ;
+
+namespace firstcontact::app {
+namespace {
+
+struct Arguments {
+  std::string result;
+  std::string output;
+  bool no_open = false;
+};
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) {
+    throw ParseError(path, "cannot be read");
+  }
+  return text;
+}
+
+/// A result as far as its page needs to know it; the page takes the rest as text.
+struct StoredResult {
+  Scene scene;
+  double t = 0.0;
+};
+
+StoredResult parse_result(const std::string& text, const std::string& path) {
+  const detail::JsonValue root = detail::parse_json(text, path);
+  const auto* object = std::get_if<detail::JsonObject>(&root.value);
+  const detail::JsonValue* scene = object ? find(*object, "scene") : nullptr;
+  const detail::JsonValue* t = object ? find(*object, "t") : nullptr;
+  if (scene == nullptr || t == nullptr || !std::holds_alternative<double>(t->value)) {
+    throw ParseError(path, "expected one result, as `firstcontact check SCENE -o FILE` writes it");
+  }
+  // The paths of a result are as they were opened, not relative to the folder of the result.
+  return {parse_scene(detail::write_json(*scene), "scene of the result"),
+          std::get<double>(t->value)};
+}
+
+/// In the user's browser. The page is written whether or not this works.
+void open(const std::string& page) {
+  std::string program = "xdg-open";
+  std::string argument = page;
+  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  pid_t process = 0;
+  int status = -1;
+  if (posix_spawnp(&process, program.c_str(), nullptr, nullptr, arguments.data(), environ) == 0) {
+    waitpid(process, &status, 0);
+  }
+  if (status != 0) {
+    fmt::print(stderr, "firstcontact: cannot open a browser here; open {} yourself\n", page);
+  }
+}
+
+void view(const Arguments& arguments) {
+  const std::string page = viewer_page();
+  const std::string text = read_text(arguments.result);
+  StoredResult result = parse_result(text, arguments.result);
+  const std::string output =
+      arguments.output.empty()
+          ? std::filesystem::path(arguments.result).replace_extension(".html").string()
+          : arguments.output;
+  std::error_code missing;
+  if (std::filesystem::equivalent(arguments.result, output, missing)) {
+    throw std::invalid_argument(output + ": this would overwrite the result");
+  }
+  const Interrupt interrupt;
+  ShapeCache cache;
+  const LoadedScene loaded = load_scene(std::move(result.scene), cache);
+  const std::vector<GapSample> gap = gap_curve(loaded, result.t, interrupt.token());
+  write_file(output, write_page(page, loaded, text, gap));
+  fmt::print("{}\n", output);
+  if (!arguments.no_open) {
+    open(output);
+  }
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("view", "Makes a page that plays a result, and opens it in the browser");
+  auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option("RESULT", arguments->result,
+                   "What `firstcontact check SCENE -o RESULT` wrote; run this in the same folder "
+                   "as that, its mesh files are read again")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Where the page goes; beside the result where this is not given")
+      ->type_name("FILE");
+  command->add_flag("--no-open", arguments->no_open, "Does not open the page");
+  command->callback([arguments] { view(*arguments); });
+}
+
+}  // namespace firstcontact::app

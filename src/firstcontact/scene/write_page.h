@@ -1,0 +1,31 @@
+/// @file
+/// Writes the page that plays a result: one HTML file that needs nothing else.
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+
+namespace firstcontact {
+
+/// Fills the viewer's page (share/firstcontact/viewer.html) with a result.
+///
+/// The page holds the result word for word, the mesh of every body (each once, however many bodies
+/// share it; vertices in single precision, relative to the middle of the mesh) and the gap.
+///
+/// @param page_template  the viewer's page
+/// @param loaded         the scene of the result
+/// @param result         JSON, as write_result makes it
+/// @param gap            samples of the gap in the order of their times, for the chart
+/// @throws std::invalid_argument if the template has no place for a result
+[[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
+                                                      const LoadedScene& loaded,
+                                                      std::string_view result,
+                                                      std::span<const GapSample> gap);
+
+}  // namespace firstcontact

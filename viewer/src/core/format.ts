@@ -1,0 +1,60 @@
+/// Quantities as people read them.
+
+import type { Vector3 } from "../data/result";
+
+export interface Unit {
+  readonly name: string;
+  readonly size: number;
+}
+
+const lengths: readonly Unit[] = [
+  { name: "km", size: 1e3 },
+  { name: "m", size: 1 },
+  { name: "mm", size: 1e-3 },
+  { name: "µm", size: 1e-6 },
+  { name: "nm", size: 1e-9 },
+];
+const times: readonly Unit[] = [
+  { name: "s", size: 1 },
+  { name: "ms", size: 1e-3 },
+  { name: "µs", size: 1e-6 },
+];
+
+const unitFor = (units: readonly Unit[], base: Unit, value: number): Unit =>
+  value === 0 ? base : (units.find(({ size }) => Math.abs(value) >= size) ?? units.at(-1)!);
+
+/// The unit in which numbers of this size are best read.
+export const lengthUnit = (value: number): Unit => unitFor(lengths, lengths[1]!, value);
+export const timeUnit = (value: number): Unit => unitFor(times, times[0]!, value);
+
+/// A true minus sign, and no more digits than asked.
+export function number(value: number, digits = 4): string {
+  if (value === 0) {
+    return "0";
+  }
+  const size = Math.abs(value);
+  const text =
+    size >= 1e-4 && size < 1e7
+      ? String(Number(value.toPrecision(digits)))
+      : value.toExponential(digits - 1);
+  return text.replace("-", "−");
+}
+
+function quantity(value: number | null, unit: Unit, digits: number): string {
+  return value === null ? "—" : `${number(value / unit.size, digits)} ${unit.name}`;
+}
+
+export const lengthText = (value: number | null, digits = 4): string =>
+  quantity(value, lengthUnit(value ?? 0), digits);
+export const timeText = (value: number | null, digits = 5): string =>
+  quantity(value, timeUnit(value ?? 0), digits);
+
+/// "(x, y, z) mm", all in the unit of the greatest.
+export function pointText(point: Vector3, digits = 6): string {
+  const unit = lengthUnit(Math.max(...point.map(Math.abs)));
+  return `(${point.map((x) => number(x / unit.size, digits)).join(", ")}) ${unit.name}`;
+}
+
+/// Unit vectors have no unit.
+export const directionText = (direction: Vector3): string =>
+  `(${direction.map((x) => x.toFixed(3).replace("-0.000", "0.000").replace("-", "−")).join(", ")})`;

@@ -1,0 +1,66 @@
+/// What the tool leaves in the page: the result, and what the page needs to draw it.
+
+import type { Result, Vector3 } from "./result";
+
+export interface MeshData {
+  /// Vertices are relative to this point of the body frame.
+  readonly origin: Vector3;
+  readonly positions: Float32Array;
+  readonly triangles: Uint32Array;
+}
+
+export interface GapSamples {
+  readonly t: readonly number[];
+  readonly distance: readonly number[];
+  /// Certified; as many as times, where the tool knows it.
+  readonly lower_bound?: readonly number[];
+}
+
+export interface PageData {
+  readonly result: Result;
+  readonly meshes: readonly MeshData[];
+  /// Of each body: the index of its mesh.
+  readonly bodies: readonly number[];
+  readonly gap: GapSamples;
+}
+
+interface StoredMesh {
+  readonly origin: Vector3;
+  readonly positions: string;
+  readonly triangles: string;
+}
+
+interface StoredPage {
+  readonly result: Result;
+  readonly view: {
+    readonly meshes: readonly StoredMesh[];
+    readonly bodies: readonly number[];
+    readonly gap: GapSamples;
+  };
+}
+
+/// The bytes of a base64 text, as a buffer that typed arrays can share.
+export function bytesOf(base64: string): ArrayBuffer {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) {
+    bytes[i] = text.charCodeAt(i);
+  }
+  return bytes.buffer;
+}
+
+/// @throws Error where the text is not what the tool leaves
+export function readPageData(text: string): PageData {
+  const stored = JSON.parse(text) as StoredPage | string;
+  if (typeof stored === "string" || !stored.result || !stored.view) {
+    throw new Error(
+      "This page holds no result. Make one with: firstcontact check SCENE --html PAGE",
+    );
+  }
+  const meshes = stored.view.meshes.map((mesh) => ({
+    origin: mesh.origin,
+    positions: new Float32Array(bytesOf(mesh.positions)),
+    triangles: new Uint32Array(bytesOf(mesh.triangles)),
+  }));
+  return { result: stored.result, meshes, bodies: stored.view.bodies, gap: stored.view.gap };
+}

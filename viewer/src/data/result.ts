@@ -1,0 +1,101 @@
+/// The JSON that `firstcontact check` writes, as far as the page shows it (see docs/formats.md).
+
+export type Vector3 = readonly [number, number, number];
+export type QuaternionWxyz = readonly [number, number, number, number];
+
+export interface PoseData {
+  readonly position: Vector3;
+  readonly quaternion_wxyz: QuaternionWxyz;
+}
+
+export type Between = "constant_velocity" | "screw";
+
+export type MotionData =
+  | { readonly type: "fixed"; readonly pose: PoseData }
+  | {
+      readonly type: "constant_velocity";
+      readonly from: PoseData;
+      readonly translation: Vector3;
+      readonly rotation_vector: Vector3;
+    }
+  | {
+      readonly type: "screw";
+      readonly from: PoseData;
+      readonly axis_point: Vector3;
+      readonly axis_direction: Vector3;
+      readonly angle: number;
+      readonly translation: number;
+    }
+  | { readonly type: Between; readonly from: PoseData; readonly to: PoseData }
+  | {
+      readonly type: "waypoints";
+      readonly times: readonly number[];
+      readonly poses: readonly PoseData[];
+      readonly between: Between;
+    }
+  | { readonly type: "vertices"; readonly to: readonly Vector3[] };
+
+export interface BodyData {
+  readonly name: string;
+  readonly shape: Readonly<Record<string, unknown>>;
+  readonly pose?: PoseData;
+  readonly motion?: MotionData;
+}
+
+export interface SceneData {
+  readonly id: string;
+  readonly bodies: readonly BodyData[];
+  readonly options: { readonly duration: number; readonly margin: number };
+}
+
+export type Verdict = "free" | "contact" | "contact_at_start" | "undecided";
+export type Names = readonly [string, string];
+
+export interface Feature {
+  readonly type: "vertex" | "edge" | "face";
+  readonly index: number;
+}
+
+export interface Contact {
+  readonly bodies: Names;
+  readonly features: readonly [Feature, Feature];
+  readonly triangles: readonly [number, number];
+  readonly points: readonly [Vector3, Vector3];
+  readonly normal: Vector3 | null;
+  readonly distance: number;
+  readonly normal_velocity: number | null;
+}
+
+export interface Closest {
+  readonly pair: Names;
+  readonly distance: number;
+  readonly lower_bound: number;
+  readonly t: number;
+  readonly time: number;
+  readonly points?: readonly [Vector3, Vector3];
+}
+
+/// What is said of the scene, and in the same words of each pair.
+export interface Answer {
+  readonly verdict: Verdict;
+  readonly reason: string | null;
+  readonly t: number;
+  readonly t_upper: number | null;
+  readonly time: number;
+  readonly pair: Names | null;
+  readonly contacts: readonly Contact[];
+  readonly clearance: number | null;
+  readonly closest?: Closest;
+}
+
+export interface PairAnswer extends Answer {
+  readonly pair: Names;
+  readonly margin: number;
+}
+
+export interface Result extends Answer {
+  readonly id: string;
+  readonly pairs?: readonly PairAnswer[];
+  readonly scene: SceneData;
+  readonly version: string;
+}

@@ -1,0 +1,95 @@
+/// The scene in motion as binary glTF, for other programs.
+
+import {
+  AnimationClip,
+  BufferGeometry,
+  Mesh,
+  MeshStandardMaterial,
+  NumberKeyframeTrack,
+  Object3D,
+  QuaternionKeyframeTrack,
+  VectorKeyframeTrack,
+  type KeyframeTrack,
+} from "three";
+import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
+import type { Body, Model } from "../model";
+import { totalAngle } from "../motion/motion";
+import type { BodyView } from "../view/body_view";
+
+const leastKeys = 61;
+const mostKeys = 2401;
+const keyAngle = Math.PI / 24; // Between two keys a player turns by the shortest way.
+
+/// Enough keys for the body that turns most, the first contact among them.
+export function keyTimes(model: Model): number[] {
+  const angle = Math.max(
+    ...model.bodies.map(({ data }) => (data.motion ? totalAngle(data.motion) : 0)),
+  );
+  const count = Math.min(Math.max(leastKeys, Math.ceil(angle / keyAngle) + 1), mostKeys);
+  const times = new Set(Array.from({ length: count }, (_, k) => k / (count - 1)));
+  if (model.contactTime !== null) {
+    times.add(model.contactTime);
+  }
+  return [...times].sort((a, b) => a - b);
+}
+
+function tracksOf(
+  body: Body,
+  name: string,
+  keys: readonly number[],
+  duration: number,
+): KeyframeTrack[] {
+  const seconds = keys.map((t) => t * duration);
+  if (body.data.motion?.type === "vertices") {
+    return [
+      new NumberKeyframeTrack(`${name}-surface.morphTargetInfluences[0]`, seconds, [...keys]),
+    ];
+  }
+  const poses = keys.map((t) => body.motion(t));
+  return [
+    new VectorKeyframeTrack(
+      `${name}.position`,
+      seconds,
+      poses.flatMap(({ position }) => [...position]),
+    ),
+    new QuaternionKeyframeTrack(
+      `${name}.quaternion`,
+      seconds,
+      poses.flatMap(({ rotation: [w, x, y, z] }) => [x, y, z, w]),
+    ),
+  ];
+}
+
+export async function animationOf(model: Model, views: readonly BodyView[]): Promise<Blob> {
+  const keys = keyTimes(model);
+  const root = new Object3D();
+  root.name = model.result.id || "scene";
+  root.rotation.x = -0.5 * Math.PI; // Up is z in scenes, and y in glTF.
+  const tracks: KeyframeTrack[] = [];
+  for (const { body, color, surface } of views) {
+    const name = `body${body.index}`;
+    const material = new MeshStandardMaterial({
+      color,
+      roughness: 0.6,
+      metalness: 0.1,
+      flatShading: true,
+    });
+    const mesh = new Mesh<BufferGeometry, MeshStandardMaterial>(surface.geometry, material);
+    mesh.name = `${name}-surface`;
+    mesh.position.copy(surface.position);
+    const node = new Object3D();
+    node.name = name;
+    node.userData = { body: body.name };
+    const { position, rotation } = body.motion(0);
+    node.position.set(...position);
+    node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
+    node.add(mesh);
+    root.add(node);
+    if (!body.atRest) {
+      tracks.push(...tracksOf(body, name, keys, model.duration));
+    }
+  }
+  const animations = tracks.length > 0 ? [new AnimationClip("motion", model.duration, tracks)] : [];
+  const glb = await new GLTFExporter().parseAsync(root, { binary: true, animations });
+  return new Blob([glb as ArrayBuffer], { type: "model/gltf-binary" });
+}

@@ -1,0 +1,71 @@
+/// Keys that do what buttons do.
+
+import type { Commands } from "./commands";
+import type { Signal } from "./core/signal";
+import { coarseStep, fineStep } from "./panels/transport";
+
+const flip = (signal: Signal<boolean>): void => {
+  signal.value = !signal.value;
+};
+
+function isTyping(target: EventTarget | null): boolean {
+  return target instanceof HTMLInputElement
+    ? target.type !== "range"
+    : target instanceof HTMLSelectElement;
+}
+
+export function listenToKeys({ player, display, commands }: Commands): void {
+  const actions: Readonly<Record<string, () => void>> = {
+    " ": () => player.toggle(),
+    Home: () => player.seek(0),
+    End: () => player.seek(1),
+    Enter: commands.toContact,
+    f: commands.fit,
+    w: () => flip(display.wireframe),
+    x: () => flip(display.xray),
+    k: () => flip(display.cutaway),
+    e: () => flip(display.edges),
+    g: () => flip(display.ghosts),
+    o: () => flip(display.onion),
+    c: () => flip(display.contacts),
+    m: () => flip(display.measure),
+    l: () => flip(player.loop),
+    s: commands.savePicture,
+    t: commands.switchTheme,
+    p: commands.togglePanel,
+    "?": commands.help,
+  };
+
+  const digit = ({ code }: KeyboardEvent): number =>
+    Number(/^(?:Digit|Numpad)([1-9])$/.exec(code)?.[1]);
+
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) {
+      return;
+    }
+    // A button that has the focus is pressed by these keys, as everywhere.
+    const onButton =
+      event.target instanceof HTMLButtonElement ||
+      (event.target instanceof HTMLElement && event.target.tagName === "SUMMARY");
+    if (
+      (onButton && (event.key === " " || event.key === "Enter")) ||
+      document.querySelector("dialog[open]")
+    ) {
+      return;
+    }
+    const step = event.shiftKey ? fineStep : coarseStep;
+    const body = digit(event) - 1;
+    if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
+      player.step(event.key === "ArrowLeft" ? -step : step);
+    } else if (body >= 0 && event.shiftKey) {
+      display.setVisible(body, !display.isVisible(body));
+    } else if (body >= 0) {
+      commands.focusBody(body);
+    } else if (actions[event.key]) {
+      actions[event.key]!();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  });
+}

@@ -1,0 +1,118 @@
+/// The pairs of bodies with their verdicts: sorted by what is clicked, a pair looked at by a click.
+
+import { element } from "../core/dom";
+import { lengthText, timeText } from "../core/format";
+import type { PairAnswer } from "../data/result";
+import type { Model } from "../model";
+import type { Player } from "../player";
+import type { SceneView } from "../view/scene_view";
+
+interface Column {
+  readonly title: string;
+  readonly key: (pair: PairAnswer) => number | string;
+  readonly text: (pair: PairAnswer) => string;
+}
+
+const order = ["contact_at_start", "contact", "undecided", "free"] as const;
+const shortWords = {
+  contact_at_start: "at start",
+  contact: "contact",
+  undecided: "undecided",
+  free: "free",
+} as const;
+
+/// The proven least distance, or what the closest approach says of it.
+const clearanceOf = (pair: PairAnswer): number =>
+  pair.closest?.lower_bound ?? pair.clearance ?? Infinity;
+
+const columns: readonly Column[] = [
+  { title: "Pair", key: ({ pair }) => pair.join(" "), text: ({ pair }) => pair.join(" · ") },
+  {
+    title: "Verdict",
+    key: ({ verdict }) => order.indexOf(verdict),
+    text: ({ verdict }) => shortWords[verdict],
+  },
+  {
+    title: "Time",
+    key: ({ verdict, t }) => (verdict === "free" ? 2 : t),
+    text: ({ verdict, time }) => (verdict === "free" ? "—" : timeText(time, 4)),
+  },
+  { title: "Clear", key: clearanceOf, text: (pair) => lengthText(finite(clearanceOf(pair)), 3) },
+];
+
+const mostRows = 300;
+
+const finite = (x: number): number | null => (Number.isFinite(x) ? x : null);
+
+function compare(a: number | string, b: number | string): number {
+  return a < b ? -1 : a > b ? 1 : 0;
+}
+
+/// Null where the result says nothing of its pairs.
+export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLElement | null {
+  if (model.pairs.length === 0) {
+    return null;
+  }
+  const body = element("tbody");
+  const heads = columns.map(({ title }, index) => {
+    const button = element("button.sort", { type: "button" }, title);
+    button.addEventListener("click", () => sortBy(index));
+    return element("th", { scope: "col" }, button);
+  });
+  let sorted = { column: 2, down: false };
+
+  const focus = (pair: PairAnswer): void => {
+    if (pair.verdict !== "free") {
+      player.seek(pair.t);
+    } else if (pair.closest) {
+      player.seek(pair.closest.t);
+    }
+    view.showContacts(pair.contacts);
+    const contact = pair.contacts[0];
+    if (contact) {
+      view.focusContact(contact);
+    } else {
+      view.focusBody(model.body(pair.pair[0]));
+    }
+  };
+
+  const row = (pair: PairAnswer): HTMLElement => {
+    const [first, ...others] = columns.map(({ text }) => text(pair));
+    const button = element(
+      "button.row-name",
+      { type: "button", title: `Look at ${first}` },
+      first!,
+    );
+    button.addEventListener("click", () => focus(pair));
+    return element(
+      "tr",
+      { "data-verdict": pair.verdict },
+      element("td", {}, button),
+      ...others.map((text) => element("td", {}, text)),
+    );
+  };
+
+  const show = (): void => {
+    const { key } = columns[sorted.column]!;
+    const sign = sorted.down ? -1 : 1;
+    const rows = [...model.pairs].sort((a, b) => sign * compare(key(a), key(b)));
+    body.replaceChildren(...rows.slice(0, mostRows).map(row));
+    heads.forEach((head, index) => {
+      const direction = sorted.down ? "descending" : "ascending";
+      head.setAttribute("aria-sort", index === sorted.column ? direction : "none");
+    });
+  };
+
+  const sortBy = (column: number): void => {
+    sorted = { column, down: column === sorted.column && !sorted.down };
+    show();
+  };
+
+  show();
+  return element(
+    "section.card",
+    { "aria-label": "Pairs" },
+    element("h2", {}, "Pairs ", element("span.count", {}, String(model.pairs.length))),
+    element("table.pairs", {}, element("thead", {}, element("tr", {}, ...heads)), body),
+  );
+}

@@ -1,0 +1,39 @@
+/// What can be switched on, and what can be taken away from the page.
+
+import { element, iconButton } from "../core/dom";
+import { icons } from "../core/icons";
+import type { Signal } from "../core/signal";
+import type { Commands } from "../commands";
+
+function toggle(path: string, label: string, key: string | null, signal: Signal<boolean>) {
+  const button = iconButton(path, label, key, () => (signal.value = !signal.value));
+  signal.subscribe((on) => button.setAttribute("aria-pressed", String(on)));
+  return button;
+}
+
+export function toolbar({ display, commands }: Commands, panelOpen: Signal<boolean>): HTMLElement {
+  const panel = toggle(icons.panel, "Side panel", "p", panelOpen);
+  const look = element(
+    "div.tool-group",
+    { role: "group", "aria-label": "Look" },
+    iconButton(icons.fit, "Show everything", "f", commands.fit),
+    toggle(icons.wireframe, "Wireframe", "w", display.wireframe),
+    toggle(icons.xray, "X-ray", "x", display.xray),
+    toggle(icons.cutaway, "Cut away what is in front", "k", display.cutaway),
+    toggle(icons.edges, "Edges", "e", display.edges),
+    toggle(icons.ghosts, "Ghosts of start and end", "g", display.ghosts),
+    toggle(icons.onion, "Onion skin of the sweep", "o", display.onion),
+    toggle(icons.marker, "Contact points", "c", display.contacts),
+    toggle(icons.measure, "Measure a distance", "m", display.measure),
+  );
+  const page = element(
+    "div.tool-group",
+    { role: "group", "aria-label": "Page" },
+    iconButton(icons.image, "Save a picture (PNG)", "s", commands.savePicture),
+    iconButton(icons.export, "Save the animation (GLB)", null, commands.saveAnimation),
+    iconButton(icons.theme, "Dark or light", "t", commands.switchTheme),
+    iconButton(icons.help, "Help", "?", commands.help),
+    panel,
+  );
+  return element("div.toolbar", {}, look, page);
+}

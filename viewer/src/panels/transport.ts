@@ -1,0 +1,130 @@
+/// Play, pause, scrub, and the gap over time above the slider.
+
+import { element, icon, iconButton } from "../core/dom";
+import { number, timeUnit } from "../core/format";
+import { icons } from "../core/icons";
+import type { Commands } from "../commands";
+import type { Model } from "../model";
+import { speeds } from "../player";
+
+const fineStep = 1 / 1000;
+const coarseStep = 1 / 100;
+
+function slider(model: Model, { player }: Commands): HTMLElement {
+  const input = element("input", {
+    type: "range",
+    min: 0,
+    max: 1,
+    step: "any",
+    "aria-label": "Time",
+  });
+  const track = element("div.slider", {}, input);
+  const unit = timeUnit(model.duration);
+  input.addEventListener("input", () => player.seek(Number(input.value)));
+  player.t.subscribe((t) => {
+    input.value = String(t);
+    track.style.setProperty("--done", `${100 * t}%`);
+    input.setAttribute(
+      "aria-valuetext",
+      `${number((t * model.duration) / unit.size, 5)} ${unit.name}`,
+    );
+  });
+  track.style.setProperty("--free", `${100 * model.result.t}%`);
+  if (model.contactTime !== null) {
+    const mark = element("span.contact-mark", { "aria-hidden": "true" });
+    mark.style.left = `${100 * model.contactTime}%`;
+    track.prepend(mark);
+  }
+  return track;
+}
+
+function speedChoice({ player }: Commands): HTMLElement {
+  const choice = element(
+    "select",
+    { "aria-label": "Speed", title: "Speed: seconds of the scene for each second" },
+    ...speeds.map((speed) => element("option", { value: speed }, `${speed}×`)),
+  );
+  choice.addEventListener("change", () => (player.speed.value = Number(choice.value)));
+  player.speed.subscribe((speed) => (choice.value = String(speed)));
+  return choice;
+}
+
+function playButton({ player }: Commands): HTMLElement {
+  const button = iconButton(icons.play, "Play", "space", () => player.toggle());
+  button.classList.add("play");
+  player.playing.subscribe((playing) => {
+    const label = playing ? "Pause" : "Play";
+    button.setAttribute("aria-label", label);
+    button.title = `${label} (space)`;
+    button.replaceChildren(icon(playing ? icons.pause : icons.play));
+  });
+  return button;
+}
+
+function contactButton(model: Model, { commands }: Commands): HTMLElement {
+  const none = model.contactTime === null;
+  const button = element(
+    "button.text-button",
+    {
+      type: "button",
+      disabled: none,
+      title: none ? "Nothing touches" : "To the first contact (Enter)",
+    },
+    icon(icons.contact),
+    "First contact",
+  );
+  button.addEventListener("click", commands.toContact);
+  return button;
+}
+
+/// The moment in seconds, and in the t that results speak of.
+function clock(model: Model, { player }: Commands): HTMLElement {
+  const unit = timeUnit(model.duration);
+  const now = element("span.now");
+  const normalised = element("span.detail");
+  const digits = (x: number): string =>
+    (x / unit.size).toFixed(decimals(model.duration / unit.size));
+  player.t.subscribe((t) => {
+    now.textContent = `${digits(t * model.duration)} ${unit.name}`;
+    normalised.textContent = `t = ${t.toFixed(6)}`;
+  });
+  return element("div.clock", { "aria-live": "off" }, now, normalised);
+}
+
+/// So that about five digits are seen.
+const decimals = (size: number): number => Math.max(0, 4 - Math.floor(Math.log10(size)));
+
+export function transport(model: Model, commands: Commands, chart: HTMLElement): HTMLElement {
+  const { player } = commands;
+  const loop = iconButton(
+    icons.loop,
+    "Repeat",
+    "l",
+    () => (player.loop.value = !player.loop.value),
+  );
+  player.loop.subscribe((on) => loop.setAttribute("aria-pressed", String(on)));
+  return element(
+    "footer.transport",
+    {},
+    chart,
+    slider(model, commands),
+    element(
+      "div.controls",
+      {},
+      element(
+        "div.tool-group",
+        { role: "group", "aria-label": "Play" },
+        iconButton(icons.start, "To the start", "Home", () => player.seek(0)),
+        iconButton(icons.back, "Step back", "←", () => player.step(-coarseStep)),
+        playButton(commands),
+        iconButton(icons.forward, "Step forward", "→", () => player.step(coarseStep)),
+        loop,
+      ),
+      contactButton(model, commands),
+      clock(model, commands),
+      speedChoice(commands),
+    ),
+  );
+}
+
+export { coarseStep, fineStep };

@@ -1,0 +1,194 @@
+/// Where bodies touch: the points, their normals, and the triangles that meet.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  ConeGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Points,
+  PointsMaterial,
+  Vector3,
+} from "three";
+import type { Contact } from "../data/result";
+import type { Body, Model } from "../model";
+import { contactColor } from "./colors";
+
+/// A corner, or a long line of contact, has many feature pairs: only the first shows its normal.
+const arrowLength = 0.09; // of the distance from the camera
+const dotSize = 15; // [px]
+const many = 12; // Contacts; from here on their dots are small.
+
+function roundDot(): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const context = canvas.getContext("2d")!;
+  context.beginPath();
+  context.arc(32, 32, 22, 0, 2 * Math.PI);
+  context.fillStyle = "#fff";
+  context.fill();
+  context.lineWidth = 8;
+  context.strokeStyle = contactColor;
+  context.stroke();
+  return new CanvasTexture(canvas);
+}
+
+function overlay(opacity: number): MeshBasicMaterial {
+  return new MeshBasicMaterial({
+    color: contactColor,
+    transparent: true,
+    opacity,
+    depthTest: false,
+    depthWrite: false,
+    side: DoubleSide,
+  });
+}
+
+/// Along z, from 0 to 1.
+function arrow(material: MeshBasicMaterial): Group {
+  const shaft = new Mesh(new CylinderGeometry(0.02, 0.02, 0.75).translate(0, 0.375, 0), material);
+  const head = new Mesh(new ConeGeometry(0.07, 0.25, 16).translate(0, 0.875, 0), material);
+  const group = new Group();
+  shaft.rotation.x = head.rotation.x = 0.5 * Math.PI;
+  group.add(shaft, head);
+  group.traverse((part) => (part.renderOrder = 11));
+  return group;
+}
+
+/// The corners of a triangle in its mesh, without the doubled ones of an edge or a point.
+export function trianglePositions(body: Body, triangle: number): Float32Array {
+  const { positions, triangles } = body.mesh;
+  const corners = new Float32Array(9);
+  for (let k = 0; k < 3; ++k) {
+    const vertex = triangles[3 * triangle + k]!;
+    corners.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * k);
+  }
+  return corners;
+}
+
+/// All triangles of a body that touch something, to be drawn over it.
+function touchingTriangles(body: Body, contacts: readonly Contact[]): Float32Array {
+  const touching = new Set(
+    contacts.flatMap(({ bodies, triangles }) =>
+      [0, 1].filter((side) => bodies[side] === body.name).map((side) => triangles[side]!),
+    ),
+  );
+  const all = new Float32Array(9 * touching.size);
+  [...touching].forEach((triangle, i) => all.set(trianglePositions(body, triangle), 9 * i));
+  return all;
+}
+
+/// In the frame of the mesh, so that the triangles move with the body.
+export function touchingSurface(body: Body, contacts: readonly Contact[]): Group {
+  const group = new Group();
+  const positions = touchingTriangles(body, contacts);
+  if (positions.length > 0) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    const fill = overlay(0.7);
+    fill.depthTest = true; // A body before it hides it, the outline shows all the same.
+    const outline = overlay(0.6);
+    outline.wireframe = true;
+    [fill, outline].forEach((material) => {
+      const mesh = new Mesh(geometry, material);
+      mesh.renderOrder = 10;
+      mesh.raycast = () => {};
+      group.add(mesh);
+    });
+  }
+  group.position.set(...body.mesh.origin);
+  return group;
+}
+
+/// Directions from which the normal is seen from the side, those near the camera's first.
+export function sideViews({ normal }: Contact, toCamera: Vector3): Vector3[] {
+  if (!normal) {
+    return [toCamera];
+  }
+  const along = new Vector3(...normal);
+  const flat = toCamera.clone().addScaledVector(along, -toCamera.dot(along));
+  if (flat.lengthSq() < 1e-6) {
+    flat.set(along.z, along.x, along.y).cross(along);
+  }
+  flat.normalize();
+  const tilt = 0.25 * Math.sign(toCamera.dot(along) || 1);
+  return [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) =>
+    flat
+      .clone()
+      .applyAxisAngle(along, (eighth * Math.PI) / 4)
+      .addScaledVector(along, tilt)
+      .normalize(),
+  );
+}
+
+export const middleOf = ({ points: [a, b] }: Contact): Vector3 =>
+  new Vector3(...a).add(new Vector3(...b)).multiplyScalar(0.5);
+
+/// The points and normals of contacts, in the world.
+export class ContactMarkers {
+  readonly group = new Group();
+  private readonly points = new PointsMaterial({
+    map: roundDot(),
+    size: dotSize,
+    sizeAttenuation: false,
+    transparent: true,
+    depthTest: false,
+    depthWrite: false,
+  });
+  private readonly arrowMaterial = overlay(1);
+  private arrow: Group | null = null;
+
+  /// The first contact is the one that is looked at.
+  show(contacts: readonly Contact[]): void {
+    this.group.clear();
+    this.arrow = null;
+    if (contacts.length === 0) {
+      return;
+    }
+    // Relative to the first, as they may be far from the origin.
+    const center = middleOf(contacts[0]!);
+    this.group.position.copy(center);
+    const local = contacts.map((contact) => middleOf(contact).sub(center));
+    const dots = new Points(new BufferGeometry().setFromPoints(local), this.points);
+    dots.renderOrder = 12;
+    this.points.size = contacts.length < many ? dotSize : 0.6 * dotSize;
+    this.group.add(dots);
+    const { normal } = contacts[0]!;
+    if (normal) {
+      this.arrow = arrow(this.arrowMaterial);
+      this.arrow.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...normal));
+      this.group.add(this.arrow);
+    }
+  }
+
+  /// Bright at the moment of contact, faint before and after it.
+  setPresent(present: boolean): void {
+    this.points.opacity = present ? 1 : 0.3;
+    this.arrowMaterial.opacity = present ? 1 : 0.25;
+  }
+
+  /// The arrow is as long on the screen from near and far.
+  adapt(camera: PerspectiveCamera): void {
+    this.arrow?.scale.setScalar(arrowLength * camera.position.distanceTo(this.group.position));
+  }
+}
+
+/// How much of a contact's surroundings is worth seeing, from the sizes of its triangles.
+export function contactSize(model: Model, contact: Contact): number {
+  const sizes = [0, 1].map((side) => {
+    const body = model.body(contact.bodies[side]!);
+    const p = trianglePositions(body, contact.triangles[side]!);
+    const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
+    return Math.max(
+      corner(0).distanceTo(corner(1)),
+      corner(1).distanceTo(corner(2)),
+      corner(2).distanceTo(corner(0)),
+    );
+  });
+  return Math.min(...sizes.filter((size) => size > 0), Infinity);
+}

@@ -1,0 +1,84 @@
+/// Points that were clicked. They stick to their bodies, so that their distance can be followed.
+
+import {
+  BufferGeometry,
+  Group,
+  Line,
+  LineDashedMaterial,
+  Points,
+  PointsMaterial,
+  Vector3 as V3,
+} from "three";
+import { Signal } from "../core/signal";
+import type { Vector3 } from "../data/result";
+import type { Body } from "../model";
+import { place } from "../motion/motion";
+import { distance } from "../motion/vector";
+
+export interface ProbePoint {
+  readonly body: Body;
+  readonly triangle: number;
+  readonly local: Vector3; ///< In the body frame.
+}
+
+export interface PlacedPoint extends ProbePoint {
+  readonly world: Vector3;
+}
+
+export class Probe {
+  readonly points = new Signal<readonly ProbePoint[]>([]);
+  readonly group = new Group();
+  private readonly line = new Line(
+    new BufferGeometry().setFromPoints([new V3(), new V3()]),
+    new LineDashedMaterial({ color: "#ffcf40", depthTest: false, transparent: true }),
+  );
+  private readonly dots = new Points(
+    new BufferGeometry().setFromPoints([new V3(), new V3()]),
+    new PointsMaterial({
+      color: "#ffcf40",
+      size: 9,
+      sizeAttenuation: false,
+      depthTest: false,
+      transparent: true,
+    }),
+  );
+
+  constructor() {
+    this.line.renderOrder = this.dots.renderOrder = 13;
+    this.line.frustumCulled = this.dots.frustumCulled = false;
+    this.group.add(this.line, this.dots);
+  }
+
+  /// @param measure  the second of two points, where there is a first one alone
+  add(point: ProbePoint, measure: boolean): void {
+    const { value } = this.points;
+    this.points.value = measure && value.length === 1 ? [value[0]!, point] : [point];
+  }
+
+  clear(): void {
+    this.points.value = [];
+  }
+
+  placed(t: number): PlacedPoint[] {
+    return this.points.value.map((point) => ({
+      ...point,
+      world: place(point.body.motion(t), point.local),
+    }));
+  }
+
+  show(t: number): void {
+    const worlds = this.placed(t).map(({ world }) => world);
+    this.group.visible = worlds.length > 0;
+    if (worlds.length === 0) {
+      return;
+    }
+    const [a, b = a] = worlds as [Vector3, Vector3?];
+    this.group.position.set(...a); // Relative to it, single precision is enough.
+    const ends = [new V3(), new V3(b[0] - a[0], b[1] - a[1], b[2] - a[2])];
+    this.line.geometry.setFromPoints(ends);
+    this.dots.geometry.setFromPoints(ends);
+    const material = this.line.material;
+    material.dashSize = material.gapSize = Math.max(distance(a, b) / 24, 1e-12);
+    this.line.computeLineDistances();
+  }
+}

@@ -1,0 +1,414 @@
+/// The scene on the screen. Draws when something changed, and not otherwise.
+
+import {
+  AmbientLight,
+  Box3,
+  BufferGeometry,
+  DirectionalLight,
+  HemisphereLight,
+  MOUSE,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Sphere,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { MeshData } from "../data/page_data";
+import type { Contact } from "../data/result";
+import type { Display } from "../display";
+import type { Body, Model } from "../model";
+import { unplace } from "../motion/motion";
+import type { Player } from "../player";
+import { BodyView, edgeGeometry, surfaceGeometry } from "./body_view";
+import { Bounds } from "./bounds";
+import { CameraFlight, type Viewpoint } from "./camera_flight";
+import { bodyColor } from "./colors";
+import { contactSize, ContactMarkers, middleOf, sideViews, touchingSurface } from "./contact_view";
+import { Ghosts } from "./ghosts";
+import { Grid } from "./grid";
+import { Probe } from "./probe";
+
+const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
+
+/// From the front on the right, then around by turns to both sides.
+const homeDirections = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => {
+  const angle = -0.3 * Math.PI + (eighth * Math.PI) / 4;
+  return new Vector3(Math.cos(angle), Math.sin(angle), 0.52).normalize();
+});
+
+export class SceneView {
+  readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  readonly probe = new Probe();
+  readonly bodies: readonly BodyView[];
+  readonly bounds: Bounds;
+  /// [ms] between the last frames while the picture moves.
+  frameTime = 0;
+  onFrame: (() => void) | null = null;
+
+  private readonly scene = new Scene();
+  private readonly renderer: WebGLRenderer;
+  private readonly controls: OrbitControls;
+  private readonly flight: CameraFlight;
+  private readonly markers = new ContactMarkers();
+  private readonly ghosts: Ghosts;
+  private readonly grid: Grid;
+  private readonly sweep: Box3;
+  private readonly home: Sphere;
+  private shownContacts: readonly Contact[] = [];
+  private cutDepth = 0;
+  private dirty = true;
+  private lastFrame: number | null = null;
+  private coarse = false;
+
+  constructor(
+    private readonly model: Model,
+    private readonly player: Player,
+    private readonly display: Display,
+    private readonly container: HTMLElement,
+  ) {
+    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer.domElement.setAttribute("role", "img");
+    this.renderer.domElement.setAttribute("aria-label", "The bodies in motion");
+    container.append(this.renderer.domElement);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.zoomToCursor = true;
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN };
+    this.flight = new CameraFlight(this.camera, this.controls.target);
+
+    this.bounds = new Bounds(model.bodies);
+    this.sweep = this.bounds.sweep();
+    this.home = this.sweep.getBoundingSphere(new Sphere());
+    this.grid = new Grid(this.sweep);
+    this.bodies = this.makeBodies();
+    this.ghosts = new Ghosts(this.bodies);
+    this.scene.add(
+      ...this.bodies.map(({ group }) => group),
+      this.ghosts.group,
+      this.grid.object,
+      this.markers.group,
+      this.probe.group,
+      this.camera,
+    );
+    this.addLights();
+    this.showContacts(model.contacts);
+    this.listen();
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  requestFrame(): void {
+    this.dirty = true;
+  }
+
+  /// Runs from now on.
+  start(): void {
+    const frame = (now: number): void => {
+      requestAnimationFrame(frame);
+      this.frame(now);
+    };
+    this.resize();
+    this.fitAll(true);
+    this.draw();
+    requestAnimationFrame(frame);
+  }
+
+  setColors(background: string, grid: string): void {
+    this.renderer.setClearColor(background);
+    this.grid.color = grid;
+    this.requestFrame();
+  }
+
+  /// The edges take a while to find: first the picture, then its lines.
+  addEdges(): void {
+    const known = new Map<MeshData, BufferGeometry | null>();
+    this.bodies.forEach((view) => {
+      const { mesh, data } = view.body;
+      if (data.motion?.type === "vertices") {
+        return;
+      }
+      if (!known.has(mesh)) {
+        known.set(mesh, edgeGeometry(mesh, view.surface.geometry));
+      }
+      view.setEdges(known.get(mesh)!);
+    });
+    this.restyle();
+    this.showGhosts();
+  }
+
+  fitAll(atOnce = false): void {
+    this.display.cutaway.value = false;
+    const box = this.sweep;
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(
+      (k) =>
+        new Vector3(
+          k & 1 ? box.max.x : box.min.x,
+          k & 2 ? box.max.y : box.min.y,
+          k & 4 ? box.max.z : box.min.z,
+        ),
+    );
+    const target = this.home.center.clone();
+    const direction = this.homeDirection();
+    const range = this.rangeFor(corners, target, direction);
+    this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
+  }
+
+  focusBody(body: Body): void {
+    this.display.cutaway.value = false;
+    this.flyTo(this.bounds.bodyAt(body, this.player.t.value));
+  }
+
+  /// From where the normal is seen from the side, near enough to see the triangles. What hides the
+  /// contact from every side is cut away.
+  focusContact(contact: Contact): void {
+    this.showContacts([contact, ...this.shownContacts.filter((other) => other !== contact)]);
+    const scene = this.home.radius;
+    const size = Math.min(
+      Math.max(5 * contactSize(this.model, contact), 0.03 * scene),
+      0.3 * scene,
+    );
+    const middle = middleOf(contact);
+    const toCamera = this.camera.position.clone().sub(this.controls.target).normalize();
+    const open = sideViews(contact, toCamera).find((side) => this.sees(middle, side, 0.02 * size));
+    this.cutDepth = 0.25 * size;
+    this.display.cutaway.value = open === undefined;
+    this.flyTo(new Sphere(middle, size), open ?? sideViews(contact, toCamera)[0]);
+  }
+
+  /// The contacts of the scene, or those of a pair that touches later.
+  showContacts(contacts: readonly Contact[]): void {
+    this.shownContacts = contacts;
+    this.markers.show(contacts);
+    this.bodies.forEach(({ group, body }) => {
+      group.remove(...group.children.filter(({ name }) => name === "touching"));
+      const surface = touchingSurface(body, contacts);
+      surface.name = "touching";
+      surface.visible = this.display.contacts.value;
+      group.add(surface);
+    });
+    this.requestFrame();
+  }
+
+  lookAlong(direction: Vector3): void {
+    const range = this.camera.position.distanceTo(this.controls.target);
+    const target = this.controls.target.clone();
+    this.fly({ position: target.clone().addScaledVector(direction, range), target });
+  }
+
+  /// The point of a body under a place of the window.
+  pick(x: number, y: number): void {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector2(
+      (2 * (x - box.left)) / box.width - 1,
+      1 - (2 * (y - box.top)) / box.height,
+    );
+    const ray = new Raycaster();
+    ray.setFromCamera(at, this.camera);
+    const hit = ray
+      .intersectObjects(this.shownSurfaces(), false)
+      .find(({ distance }) => distance > this.camera.near);
+    if (!hit) {
+      this.probe.clear();
+      return;
+    }
+    const body = this.model.bodies[hit.object.userData.body as number]!;
+    const local = unplace(body.motion(this.player.t.value), hit.point.toArray());
+    this.probe.add({ body, triangle: hit.faceIndex!, local }, this.display.measure.value);
+  }
+
+  /// Draws now, for a picture of it.
+  draw(): void {
+    this.adaptClipping();
+    this.markers.adapt(this.camera);
+    this.renderer.render(this.scene, this.camera);
+    this.onFrame?.();
+  }
+
+  /// Whether nothing stands between a point and a camera in that direction.
+  private sees(point: Vector3, direction: Vector3, slack: number): boolean {
+    const ray = new Raycaster(point.clone().addScaledVector(direction, slack), direction);
+    this.scene.updateMatrixWorld();
+    return ray.intersectObjects(this.shownSurfaces(), false).length === 0;
+  }
+
+  private shownSurfaces(): BodyView["surface"][] {
+    return this.bodies.filter(({ group }) => group.visible).map(({ surface }) => surface);
+  }
+
+  private makeBodies(): BodyView[] {
+    const geometries = new Map<MeshData, BufferGeometry>();
+    return this.model.bodies.map((body) => {
+      const { motion } = body.data;
+      const color = bodyColor(body, this.model.bodies);
+      if (motion?.type === "vertices") {
+        return new BodyView(body, surfaceGeometry(body.mesh, motion.to), color);
+      }
+      const geometry = geometries.get(body.mesh) ?? surfaceGeometry(body.mesh, null);
+      geometries.set(body.mesh, geometry);
+      return new BodyView(body, geometry, color);
+    });
+  }
+
+  /// A lamp above, one at the camera's shoulder, and light from everywhere.
+  private addLights(): void {
+    const key = new DirectionalLight(0xffffff, 1.5);
+    key.position.set(-0.5, 0.9, 1);
+    const fill = new DirectionalLight(0xcfe0ff, 0.5);
+    fill.position.set(1, -0.2, 0.3);
+    this.camera.add(key, key.target, fill, fill.target);
+    key.target.position.set(0, 0, -1);
+    fill.target.position.set(0, 0, -1);
+    const sky = new HemisphereLight(0xffffff, 0x667788, 0.9);
+    sky.position.set(0, 0, 1);
+    this.scene.add(sky, new AmbientLight(0xffffff, 0.25));
+  }
+
+  /// From the side of the body that moves, where there is a contact to look at.
+  private homeDirection(): Vector3 {
+    const contact = this.model.contacts[0];
+    if (!contact?.normal) {
+      return homeDirections[0]!;
+    }
+    const sign = this.model.body(contact.bodies[0]).atRest ? 1 : -1;
+    const normal = new Vector3(...contact.normal).multiplyScalar(sign);
+    const misfit = (d: Vector3): number => Math.max(0, 0.25 - d.dot(normal));
+    return homeDirections.reduce((best, d) => (misfit(d) < misfit(best) - 1e-3 ? d : best));
+  }
+
+  private listen(): void {
+    const { display, player } = this;
+    player.t.subscribe((t) => this.showMoment(t));
+    [display.wireframe, display.xray, display.edges].forEach((signal) =>
+      signal.subscribe(() => this.restyle()),
+    );
+    display.cutaway.subscribe(() => this.requestFrame());
+    [display.ghosts, display.onion].forEach((signal) => signal.subscribe(() => this.showGhosts()));
+    display.contacts.subscribe((shown) => {
+      this.markers.group.visible = shown;
+      this.bodies.forEach(({ group }) =>
+        group.children
+          .filter(({ name }) => name === "touching")
+          .forEach((surface) => (surface.visible = shown)),
+      );
+      this.requestFrame();
+    });
+    display.hidden.subscribe((hidden) => {
+      this.bodies.forEach(({ group, body }) => (group.visible = !hidden.has(body.index)));
+      this.showGhosts();
+    });
+    this.probe.points.subscribe(() => this.showMoment(player.t.value));
+    this.controls.addEventListener("change", () => this.requestFrame());
+    this.controls.addEventListener("start", () => this.flight.stop());
+    new ResizeObserver(() => {
+      this.resize();
+      this.draw(); // At once: a canvas that was resized is empty.
+    }).observe(this.container);
+  }
+
+  private showMoment(t: number): void {
+    this.bodies.forEach((view) => view.show(t));
+    const contact = this.player.contact;
+    this.markers.setPresent(contact !== null && Math.abs(t - contact) < 1e-9);
+    this.probe.show(t);
+    this.requestFrame();
+  }
+
+  private restyle(): void {
+    const { wireframe, xray, edges } = this.display;
+    this.bodies.forEach((view) =>
+      view.setStyle({ wireframe: wireframe.value, xray: xray.value, edges: edges.value }),
+    );
+    this.requestFrame();
+  }
+
+  private showGhosts(): void {
+    const { ghosts, onion, hidden } = this.display;
+    this.ghosts.show({ ends: ghosts.value, onion: onion.value, hidden: hidden.value });
+    this.requestFrame();
+  }
+
+  /// From where all of the points are seen, in a direction.
+  private rangeFor(points: readonly Vector3[], target: Vector3, direction: Vector3): number {
+    const right = new Vector3().crossVectors(this.camera.up, direction).normalize();
+    const up = new Vector3().crossVectors(direction, right);
+    const slope = Math.tan((0.5 * this.camera.fov * Math.PI) / 180);
+    const room = 1.12;
+    return Math.max(
+      ...points.map((point) => {
+        const d = point.clone().sub(target);
+        const across = Math.abs(d.dot(right)) / (slope * this.camera.aspect);
+        return d.dot(direction) + room * Math.max(across, Math.abs(d.dot(up)) / slope);
+      }),
+      1e-9,
+    );
+  }
+
+  private flyTo(sphere: Sphere, direction?: Vector3): void {
+    const toCamera =
+      direction ?? this.camera.position.clone().sub(this.controls.target).normalize();
+    const half = (0.5 * this.camera.fov * Math.PI) / 180;
+    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
+    const range = (1.08 * Math.max(sphere.radius, 1e-9)) / Math.sin(narrow);
+    const target = sphere.center.clone();
+    this.fly({ position: target.clone().addScaledVector(toCamera, range), target });
+  }
+
+  private fly(to: Viewpoint, atOnce = false): void {
+    const reduced = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.flight.start(to, atOnce || reduced);
+    this.requestFrame();
+  }
+
+  private frame(now: number): void {
+    const elapsed = this.lastFrame === null ? 0 : now - this.lastFrame;
+    const moving = this.player.playing.value || this.flight.flying;
+    this.lastFrame = now;
+    this.player.advance(Math.min(elapsed, 250) / 1000);
+    this.flight.advance(elapsed / 1000);
+    this.controls.update();
+    if (moving) {
+      this.frameTime = 0.8 * this.frameTime + 0.2 * elapsed;
+    }
+    this.setCoarse(moving && this.frameTime > slowFrame);
+    if (this.dirty || moving) {
+      this.dirty = false;
+      this.draw();
+    }
+  }
+
+  private setCoarse(coarse: boolean): void {
+    if (coarse !== this.coarse) {
+      this.coarse = coarse;
+      this.resize();
+      this.requestFrame();
+    }
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.container;
+    if (width === 0 || height === 0) {
+      return;
+    }
+    this.renderer.setPixelRatio(this.coarse ? 0.75 : Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  /// From far and near: the depth buffer is spread over what can be seen.
+  private adaptClipping(): void {
+    const range = this.camera.position.distanceTo(this.controls.target);
+    const away = this.camera.position.distanceTo(this.home.center);
+    this.camera.near = Math.max(range / 200, (away - 6 * this.home.radius) / 50, 1e-12);
+    if (this.display.cutaway.value) {
+      this.camera.near = Math.max(this.camera.near, range - this.cutDepth);
+    }
+    this.camera.far = Math.max(away + 8 * this.home.radius, 4 * range);
+    this.camera.updateProjectionMatrix();
+  }
+}

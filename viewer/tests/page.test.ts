@@ -1,0 +1,406 @@
+/// The page in a browser, as someone who opens it from disk meets it.
+
+import { readFileSync, statSync } from "node:fs";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import type { Contact } from "../src/data/result";
+import { distance } from "../src/motion/vector";
+import { canLook, colorsOf, Folder, launch, type MadePage } from "./browser";
+
+const desktop = { viewport: { width: 1100, height: 720 } };
+const phone = { viewport: { width: 390, height: 780 }, hasTouch: true };
+
+const triangle = {
+  vertices: [
+    [0, 0, 0],
+    [1, 0, 0],
+    [0, 1, 0],
+  ],
+  triangles: [[0, 1, 2]],
+};
+const falling = (name: string, x: number, height: number) => ({
+  name,
+  shape: triangle,
+  motion: {
+    type: "constant_velocity",
+    from: { position: [x, 0, height] },
+    translation: [0, 0, -4],
+  },
+});
+const stones = {
+  firstcontact: 1,
+  id: "stones </script> & co",
+  bodies: [
+    {
+      name: "floor",
+      shape: {
+        vertices: [
+          [-9, -9, 0],
+          [9, -9, 0],
+          [0, 9, 0],
+        ],
+        triangles: [[0, 1, 2]],
+      },
+    },
+    falling("late", 2, 3),
+    falling("soon", 0, 1),
+    falling("never", -2, 5),
+  ],
+};
+
+/// What the page leaves for whoever asks it.
+declare global {
+  interface Window {
+    firstcontact: {
+      model: { bodies: { name: string }[] };
+      player: { t: { value: number }; playing: { value: boolean }; seek(t: number): void };
+      display: { hidden: { value: Set<number> } };
+      view: {
+        bodies: { group: { matrix: { elements: number[] } }; body: { mesh: MeshOfPage } }[];
+        camera: { position: { x: number; y: number; z: number } };
+      };
+    };
+  }
+}
+interface MeshOfPage {
+  origin: number[];
+  positions: Float32Array;
+  triangles: Uint32Array;
+}
+
+describe.skipIf(!canLook)("the page", () => {
+  let browser: Browser;
+  let nut: MadePage;
+  let many: MadePage;
+  const folder = new Folder();
+  const complaints: string[] = [];
+  const open: Page[] = [];
+
+  const show = async (made: MadePage, hash = "", options: BrowserContextOptions = desktop) => {
+    const context = await browser.newContext({ reducedMotion: "reduce", ...options });
+    const page = await context.newPage();
+    page.on("console", (message) => {
+      if (message.type() === "error") {
+        complaints.push(message.text());
+      }
+    });
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    page.on("request", (request) => {
+      if (!/^(file|data|blob):/.test(request.url())) {
+        complaints.push(`asks the network for ${request.url()}`);
+      }
+    });
+    open.push(page);
+    await page.goto(made.url + hash);
+    await page.waitForFunction(() => "firstcontact" in window);
+    return page;
+  };
+  const timeOf = (page: Page) => page.evaluate(() => window.firstcontact.player.t.value);
+  const cameraOf = (page: Page) =>
+    page.evaluate(() => ({ ...window.firstcontact.view.camera.position }));
+
+  beforeAll(async () => {
+    nut = folder.make("nut", "demo/scenes/nut_wrong_pitch.json");
+    many = folder.make("stones", stones, "--all-pairs", "--closest");
+    browser = await launch();
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+
+  test("is one file of at most 5 MB with the licences of what it bundles", () => {
+    expect(statSync(nut.file).size).toBeLessThan(5e6);
+    const html = readFileSync(nut.file, "utf8");
+    expect(html).not.toMatch(/<(script|link|img)[^>]+(src|href)="(?!data:)/);
+    expect(html).toContain("The MIT License");
+    expect(html).toContain("three.js authors");
+    expect(html).toContain("Leon Sorokin");
+  });
+
+  test("shows its first frame within 2 s", async () => {
+    const times: number[] = [];
+    for (let attempt = 0; attempt < 3 && !times.some((time) => time < 2000); ++attempt) {
+      const page = await show(nut);
+      times.push(
+        await page.evaluate(
+          () => performance.getEntriesByName("firstcontact:first-frame")[0]!.startTime,
+        ),
+      );
+    }
+    expect(Math.min(...times)).toBeLessThan(2000);
+  });
+
+  test("is not blank, dark and light", async () => {
+    for (const colorScheme of ["dark", "light"] as const) {
+      const page = await show(nut, "", { ...desktop, colorScheme });
+      await page.waitForTimeout(300);
+      const { count, largest } = await colorsOf(
+        page,
+        await page.locator("canvas").first().screenshot(),
+      );
+      expect(count).toBeGreaterThan(200);
+      expect(largest).toBeLessThan(0.9);
+    }
+  });
+
+  test("says what was found", async () => {
+    const page = await show(nut);
+    const answer = page.getByRole("region", { name: "Answer" });
+    expect(await answer.textContent()).toContain("M16 nut, pitch 2.1 mm");
+    expect(await answer.textContent()).toMatch(
+      /Proven free until 1\.1227 s; then nut and bolt touch/,
+    );
+    expect(await page.title()).toContain("M16 nut");
+  });
+
+  test("plays, and pauses at the contact", async () => {
+    const page = await show(nut, "#t=0.2");
+    await page.getByRole("button", { name: "Play" }).click();
+    await page.getByRole("button", { name: "Pause" }).waitFor();
+    await page.waitForFunction(() => window.firstcontact.player.t.value > 0.2);
+    await page.getByRole("button", { name: "Play" }).waitFor();
+    expect(await timeOf(page)).toBe(nut.result.t);
+  });
+
+  test("follows the slider", async () => {
+    const page = await show(nut);
+    const slider = page.getByRole("slider", { name: "Time" });
+    const box = (await slider.boundingBox())!;
+    await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+    expect(await timeOf(page)).toBeCloseTo(0.5, 2);
+    expect(await slider.getAttribute("aria-valuetext")).toMatch(/^2\.[45]\d* s$/);
+    const chart = (await page.locator(".chart .u-over").boundingBox())!;
+    await page.mouse.click(chart.x + 0.25 * chart.width, chart.y + 20);
+    expect(await timeOf(page)).toBeCloseTo(0.25, 2);
+  });
+
+  test("shows the bodies where the result says that they touch", async () => {
+    const page = await show(nut);
+    await page.getByRole("button", { name: "First contact" }).click();
+    expect(await timeOf(page)).toBe(nut.result.t);
+    const corners = (contact: Contact) =>
+      page.evaluate(({ bodies, triangles }) => {
+        const { model, view } = window.firstcontact;
+        return [0, 1].map((side) => {
+          const { group, body } =
+            view.bodies[model.bodies.findIndex(({ name }) => name === bodies[side])]!;
+          const m = group.matrix.elements;
+          return [0, 1, 2].map((k) => {
+            const vertex = body.mesh.triangles[3 * triangles[side]! + k]!;
+            const p = [0, 1, 2].map(
+              (i) => body.mesh.origin[i]! + body.mesh.positions[3 * vertex + i]!,
+            );
+            return [0, 1, 2].map(
+              (i) => m[i]! * p[0]! + m[4 + i]! * p[1]! + m[8 + i]! * p[2]! + m[12 + i]!,
+            );
+          });
+        });
+      }, contact);
+    const shown = await page
+      .locator("[data-points]")
+      .evaluateAll((rows) =>
+        rows.map((row) => JSON.parse((row as HTMLElement).dataset.points!) as unknown),
+      );
+    const { contacts } = nut.result;
+    expect(shown).toEqual(contacts.slice(0, shown.length).map(({ points }) => points));
+    for (const contact of contacts.slice(0, 20)) {
+      const triangles = await corners(contact);
+      triangles.forEach((triangle, side) => {
+        const off = distanceToTriangle(contact.points[side]!, triangle as Corners);
+        expect(off).toBeLessThan(5e-9); // Vertices are in single precision: 2^-24 of 16 mm.
+      });
+    }
+  });
+
+  test("flies to the contact and back", async () => {
+    const page = await show(nut);
+    const home = await cameraOf(page);
+    await page.getByRole("button", { name: "First contact" }).click();
+    await page.waitForTimeout(100);
+    const near = await cameraOf(page);
+    const point = nut.result.contacts[0]!.points[0];
+    const range = (p: { x: number; y: number; z: number }) => distance([p.x, p.y, p.z], point);
+    expect(range(near)).toBeLessThan(0.5 * range(home));
+    await page.keyboard.press("f");
+    await page.waitForTimeout(100);
+    expect(range(await cameraOf(page))).toBeCloseTo(range(home), 6);
+  });
+
+  test("opens at the moment of its link, and links to where one stays", async () => {
+    const page = await show(nut, "#t=0.42");
+    expect(await timeOf(page)).toBe(0.42);
+    await page.evaluate(() => window.firstcontact.player.seek(0.75));
+    await page.waitForFunction(() => location.hash === "#t=0.75");
+  });
+
+  test("has keys", async () => {
+    const page = await show(many);
+    await page.keyboard.press("ArrowRight");
+    expect(await timeOf(page)).toBeCloseTo(0.01, 12);
+    await page.keyboard.press("Shift+ArrowRight");
+    expect(await timeOf(page)).toBeCloseTo(0.011, 12);
+    await page.keyboard.press("Space");
+    expect(await page.evaluate(() => window.firstcontact.player.playing.value)).toBe(true);
+    await page.keyboard.press("Space");
+    await page.keyboard.press("Enter");
+    expect(await timeOf(page)).toBe(many.result.t);
+    const before = await cameraOf(page);
+    await page.keyboard.press("2");
+    await page.waitForTimeout(100);
+    expect(await cameraOf(page)).not.toEqual(before);
+    await page.keyboard.press("Shift+Digit2");
+    expect(await page.evaluate(() => [...window.firstcontact.display.hidden.value])).toEqual([1]);
+    await page.keyboard.press("?");
+    expect(await page.getByRole("dialog", { name: "Help" }).isVisible()).toBe(true);
+    await page.keyboard.press("Escape");
+    expect(await page.getByRole("dialog", { name: "Help" }).isVisible()).toBe(false);
+  });
+
+  test("sorts the pairs, and goes to the one that is clicked", async () => {
+    const page = await show(many);
+    const rows = page.locator("table.pairs tbody tr");
+    expect(await rows.first().textContent()).toContain("floor · soon");
+    await page.getByRole("button", { name: "Verdict" }).click();
+    await page.getByRole("button", { name: "Verdict" }).click();
+    expect(await rows.first().textContent()).toContain("free");
+    await page.getByRole("button", { name: "floor · late" }).click();
+    const late = many.result.pairs!.find(({ pair }) => pair.join() === "floor,late")!;
+    expect(await timeOf(page)).toBe(late.t);
+    expect(late.t).toBeGreaterThan(many.result.t);
+  });
+
+  test("hides bodies", async () => {
+    const page = await show(many);
+    const button = page.getByRole("button", { name: "Show never" });
+    expect(await button.getAttribute("aria-pressed")).toBe("true");
+    await button.click();
+    expect(await button.getAttribute("aria-pressed")).toBe("false");
+    expect(await page.evaluate(() => [...window.firstcontact.display.hidden.value])).toEqual([3]);
+  });
+
+  test("measures between two points that are clicked", async () => {
+    const page = await show(many);
+    await page.getByRole("button", { name: "Measure a distance" }).click();
+    const box = (await page.locator(".stage canvas").boundingBox())!;
+    const at = (x: number, y: number) =>
+      page.mouse.click(box.x + x * box.width, box.y + y * box.height);
+    await at(0.45, 0.72);
+    await at(0.55, 0.72);
+    const text = await page.getByRole("region", { name: "Clicked points" }).textContent();
+    expect(text).toMatch(/floor, triangle 0.*floor, triangle 0.*Distance [\d.]+ k?m/);
+  });
+
+  test("gives every control a name", async () => {
+    const page = await show(many);
+    await page.getByRole("button", { name: "Help" }).click();
+    const session = await page.context().newCDPSession(page);
+    const { nodes } = await session.send("Accessibility.getFullAXTree");
+    const controls = nodes.filter(({ ignored, role }) =>
+      ["button", "slider", "combobox", "searchbox", "checkbox", "link", "dialog"].includes(
+        ignored ? "" : String(role?.value),
+      ),
+    );
+    expect(controls.length).toBeGreaterThan(2);
+    expect(controls.filter(({ name }) => !name?.value).map(({ role }) => role?.value)).toEqual([]);
+    await page.keyboard.press("Escape");
+    const { nodes: all } = await session.send("Accessibility.getFullAXTree");
+    const buttons = all.filter(({ ignored, role }) => !ignored && role?.value === "button");
+    expect(buttons.length).toBeGreaterThan(20);
+    expect(buttons.filter(({ name }) => !name?.value)).toEqual([]);
+  });
+
+  test("saves a picture and an animation", async () => {
+    const page = await show(nut);
+    const [png] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save a picture (PNG)" }).click(),
+    ]);
+    expect(png.suggestedFilename()).toBe("M16-nut-pitch-2.1-mm.png");
+    expect((await colorsOf(page, readFileSync(await png.path()))).count).toBeGreaterThan(100);
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    const bytes = readFileSync(await glb.path());
+    expect(bytes.subarray(0, 4).toString()).toBe("glTF");
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()) as {
+      animations: { channels: unknown[] }[];
+      accessors: { max?: number[] }[];
+      meshes: unknown[];
+    };
+    expect(json.meshes.length).toBe(2);
+    expect(json.animations[0]!.channels.length).toBe(2); // Position and rotation of the nut.
+    expect(json.accessors.some(({ max }) => max?.[0] === 5)).toBe(true); // It lasts 5 s.
+  });
+
+  test("fits into the window of a phone", async () => {
+    const page = await show(nut, "", phone);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(
+      390,
+    );
+    const boxes = await page
+      .locator("button:visible, select:visible, input:visible")
+      .evaluateAll((all) =>
+        all.map((control) => {
+          const { left, right, top, bottom } = control.getBoundingClientRect();
+          const name = control.getAttribute("aria-label") ?? control.textContent;
+          return { name, left, right, top, bottom };
+        }),
+      );
+    const outside = boxes.filter(
+      ({ left, right, top, bottom }) => left < -8 || right > 398 || top < 0 || bottom > 780,
+    );
+    expect(outside).toEqual([]);
+    const overlap = boxes.flatMap((a, i) =>
+      boxes
+        .slice(i + 1)
+        .filter(
+          (b) =>
+            a.left < b.right - 1 &&
+            b.left < a.right - 1 &&
+            a.top < b.bottom - 1 &&
+            b.top < a.bottom - 1,
+        )
+        .map((b) => `${a.name} and ${b.name}`)
+        .filter((pair) => !pair.includes("Look along")),
+    );
+    expect(overlap).toEqual([]);
+    await page.getByRole("button", { name: "Side panel" }).tap();
+    expect(await page.getByRole("region", { name: "Answer" }).isVisible()).toBe(true);
+  });
+
+  test("complained about nothing, and asked the network for nothing", () => {
+    expect(complaints).toEqual([]);
+  });
+});
+
+type Corners = [[number, number, number], [number, number, number], [number, number, number]];
+
+/// By projection onto its plane, or onto its nearest edge.
+function distanceToTriangle(p: readonly [number, number, number], corners: Corners): number {
+  const edges = corners.map((corner, k) => [corner, corners[(k + 1) % 3]!] as const);
+  const toEdges = edges.map(([a, b]) => {
+    const ab = b.map((x, i) => x - a[i]!);
+    const size = ab.reduce((sum, x) => sum + x * x, 0);
+    const along = size > 0 ? ab.reduce((sum, x, i) => sum + x * (p[i]! - a[i]!), 0) / size : 0;
+    const s = Math.min(Math.max(along, 0), 1);
+    return Math.hypot(...a.map((x, i) => x + s * ab[i]! - p[i]!));
+  });
+  const [a, b, c] = corners;
+  const u = b.map((x, i) => x - a[i]!);
+  const v = c.map((x, i) => x - a[i]!);
+  const w = p.map((x, i) => x - a[i]!);
+  const dot = (x: number[], y: number[]) => x.reduce((sum, xi, i) => sum + xi * y[i]!, 0);
+  const [uu, uv, vv, wu, wv] = [dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v)];
+  const det = uu * vv - uv * uv;
+  const [s, t] = [(vv * wu - uv * wv) / det, (uu * wv - uv * wu) / det];
+  if (s >= 0 && t >= 0 && s + t <= 1) {
+    return distance(
+      p,
+      a.map((x, i) => x + s * u[i]! + t * v[i]!) as unknown as [number, number, number],
+    );
+  }
+  return Math.min(...toEdges);
+}

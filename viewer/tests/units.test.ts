@@ -1,0 +1,119 @@
+/// The parts that need no browser.
+
+import { describe, expect, test } from "vitest";
+import { lengthText, pointText, timeText } from "../src/core/format";
+import { readPageData } from "../src/data/page_data";
+import { momentOf } from "../src/link";
+import { Player } from "../src/player";
+import { featureEdges } from "../src/view/feature_edges";
+import { roundNumber } from "../src/view/grid";
+
+describe("quantities", () => {
+  test("are read in the unit that suits them", () => {
+    expect(lengthText(0.0000098)).toBe("9.8 µm");
+    expect(lengthText(-0.25)).toBe("−250 mm");
+    expect(lengthText(0)).toBe("0 m");
+    expect(lengthText(null)).toBe("—");
+    expect(timeText(0.00936776)).toBe("9.3678 ms");
+    expect(pointText([0.001, -0.02, 0])).toBe("(1, −20, 0) mm");
+  });
+
+  test("have round numbers below them", () => {
+    expect(roundNumber(0.3)).toBeCloseTo(0.2, 12);
+    expect(roundNumber(7)).toBe(5);
+    expect(roundNumber(1)).toBe(1);
+  });
+});
+
+describe("the clock", () => {
+  test("pauses at the contact, and goes on from there", () => {
+    const player = new Player(2, 0.25);
+    player.speed.value = 1;
+    player.toggle();
+    player.advance(0.4);
+    expect(player.t.value).toBeCloseTo(0.2, 12);
+    player.advance(0.4);
+    expect(player.t.value).toBe(0.25);
+    expect(player.playing.value).toBe(false);
+    player.toggle();
+    player.advance(0.5);
+    expect(player.t.value).toBeCloseTo(0.5, 12);
+  });
+
+  test("ends at the end, or repeats", () => {
+    const player = new Player(1, null);
+    player.speed.value = 1;
+    player.toggle();
+    player.advance(5);
+    expect(player.t.value).toBe(1);
+    player.loop.value = true;
+    player.toggle();
+    expect(player.t.value).toBe(0);
+    player.advance(5);
+    expect(player.t.value).toBe(0);
+    expect(player.playing.value).toBe(true);
+  });
+
+  test("starts at a speed at which a step can be watched", () => {
+    expect(new Player(0.025, null).speed.value).toBe(0.005);
+    expect(new Player(5, null).speed.value).toBe(1);
+  });
+
+  test("stays inside the step", () => {
+    const player = new Player(1, null);
+    player.seek(7);
+    expect(player.t.value).toBe(1);
+    player.seek(NaN);
+    expect(player.t.value).toBe(0);
+  });
+});
+
+describe("a link", () => {
+  test("names a moment of the step, or none", () => {
+    expect(momentOf("#t=0.42")).toBe(0.42);
+    expect(momentOf("#t=1")).toBe(1);
+    for (const wrong of ["", "#", "#t=", "#t=x", "#t=1.5", "#t=-1"]) {
+      expect(momentOf(wrong)).toBeNull();
+    }
+  });
+});
+
+describe("edges", () => {
+  const mesh = (positions: number[], triangles: number[]) => ({
+    origin: [0, 0, 0] as const,
+    positions: new Float32Array(positions),
+    triangles: new Uint32Array(triangles),
+  });
+
+  test("leave out the diagonal of a flat square", () => {
+    const square = mesh([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0], [0, 1, 2, 0, 2, 3]);
+    expect(featureEdges(square).length / 2).toBe(4);
+  });
+
+  test("keep the diagonal of a bent one", () => {
+    const bent = mesh([0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1], [0, 1, 2, 0, 2, 3]);
+    expect(featureEdges(bent).length / 2).toBe(5);
+  });
+});
+
+describe("the data of a page", () => {
+  test("come as numbers", () => {
+    const text = JSON.stringify({
+      result: { id: "x" },
+      view: {
+        bodies: [0],
+        meshes: [
+          { origin: [9, 2, 0], positions: "AACAvwAAAMAAAAAA", triangles: "AAAAAAEAAAACAAAA" },
+        ],
+        gap: { t: [], distance: [] },
+      },
+    });
+    const { meshes } = readPageData(text);
+    expect([...meshes[0]!.positions]).toEqual([-1, -2, 0]);
+    expect([...meshes[0]!.triangles]).toEqual([0, 1, 2]);
+  });
+
+  test("are missed with a word on how to make them", () => {
+    expect(() => readPageData('"FIRSTCONTACT_RESULT"')).toThrow(/firstcontact check/);
+  });
+});
