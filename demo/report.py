@@ -2,7 +2,8 @@
 
     report.py FOLDER NAME...
 
-FOLDER has NAME.json (the result), NAME.svg (the gap over time) and NAME.txt (what the tool said).
+FOLDER has NAME.json (the result), NAME.svg (the gap over time), NAME.html (the page that plays it)
+and NAME.txt (what the tool said).
 """
 
 import html
@@ -38,7 +39,7 @@ distance of the two bodies at single instants; it goes on after a contact, as if
 SECTION = """<h2 id="{name}">{title}</h2>
 <img src="{name}.svg" alt="The gap over time. {title}: {verdict}">
 <pre>{text}</pre>
-<p><a href="{name}.json">{name}.json</a></p>
+<p><a href="{name}.html">Play it</a> · <a href="{name}.json">{name}.json</a></p>
 """
 
 COLUMNS = ("scene", "answer", "time", "triangles", "normal", "least gap")

@@ -354,6 +354,53 @@ class Plot(ToolTest):
         self.assert_refused(result, "--svg draws one scene; give one .json file")
 
 
+class ViewerPage(ToolTest):
+    """Tools that are built without the page say so."""
+
+    def setUp(self):
+        super().setUp()
+        self.template = pathlib.Path(TOOL).resolve().parent.parent / "share/firstcontact/viewer.html"
+        self.missing = (f"{self.template}: the viewer's page is missing here; build it with "
+                        "-DFIRSTCONTACT_BUILD_VIEWER=ON (needs npm)")
+
+    def test_holds_the_result_of_a_check(self):
+        scene = self.file("scene.json", scenes.CONTACT)
+        result = self.run_tool("check", scene, "--html", "page.html", "-o", "result.json")
+        if not self.template.exists():
+            self.assert_refused(result, self.missing)
+            return
+        self.assertEqual(result.returncode, 1, result)
+        page = (self.folder / "page.html").read_text(encoding="utf-8")
+        answer = json.loads((self.folder / "result.json").read_text(encoding="utf-8"))
+        data = json.loads(re.search(r'type="application/json">(.*?)</script>', page, re.DOTALL)[1])
+        self.assertEqual({**data["result"], "pairs": None}, {**answer, "pairs": None})
+        self.assertEqual(data["view"]["bodies"], [0, 1])
+
+    def test_is_made_of_a_stored_result_too(self):
+        scene = self.file("scene.json", scenes.FREE)
+        self.run_tool("check", scene, "-o", "result.json")
+        result = self.run_tool("view", "result.json", "--no-open")
+        if not self.template.exists():
+            self.assert_refused(result, self.missing)
+            return
+        self.assertEqual((result.returncode, result.stdout), (0, "result.html\n"), result)
+        self.assertIn('"verdict":"free"', (self.folder / "result.html").read_text(encoding="utf-8"))
+
+    def test_is_made_of_results_only(self):
+        if not self.template.exists():
+            self.skipTest("built without the viewer's page")
+        self.assert_refused(
+            self.run_tool("view", self.file("scene.json", scenes.FREE), "--no-open"),
+            "scene.json: expected one result, as `firstcontact check SCENE -o FILE` writes it")
+        self.assert_refused(self.run_tool("view", "none.json", "--no-open"),
+                            "none.json: cannot be read")
+
+    def test_shows_one_scene(self):
+        lines = self.file("scenes.jsonl", scenes.FREE + "\n" + scenes.CONTACT)
+        self.assert_refused(self.run_tool("check", lines, "--html", "page.html"),
+                            "--html shows one scene; give one .json file")
+
+
 class Info(ToolTest):
     def test_counts_and_measures(self):
         mesh = self.file("m.obj", "v 0 0 0\nv 2 0 0\nv 0 0.001 0\nv 7 7 7\nf 1 2 3\n")

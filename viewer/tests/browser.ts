@@ -1,6 +1,6 @@
 /// Chromium with software rendering, and pages that the tool made.
 
-import { execFileSync } from "node:child_process";
+import { execFile } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -26,6 +26,15 @@ export const launch = (): Promise<Browser> =>
     ],
   });
 
+/// Free and contact are both answers.
+function run(options: readonly string[]): Promise<void> {
+  return new Promise((resolve, reject) => {
+    execFile(tool!, options, (error) =>
+      error && error.code !== 1 ? reject(new Error(error.message)) : resolve(),
+    );
+  });
+}
+
 export interface MadePage {
   readonly url: string;
   readonly file: string;
@@ -36,23 +45,16 @@ export class Folder {
   private readonly path = mkdtempSync(join(tmpdir(), "firstcontact-"));
 
   /// A page of a scene of the repository, or of one given as an object.
-  make(name: string, scene: string | object, ...options: string[]): MadePage {
+  async make(name: string, scene: string | object, ...options: string[]): Promise<MadePage> {
     const file = join(this.path, `${name}.html`);
     const answer = join(this.path, `${name}.json`);
-    let input =
-      typeof scene === "string" ? join(root, scene) : join(this.path, `${name}.scene.json`);
-    if (typeof scene !== "string") {
+    let input = join(this.path, `${name}.scene.json`);
+    if (typeof scene === "string") {
+      input = join(root, scene);
+    } else {
       writeFileSync(input, JSON.stringify(scene));
     }
-    try {
-      execFileSync(tool!, ["check", input, "--html", file, "-o", answer, ...options], {
-        stdio: "pipe",
-      });
-    } catch (error) {
-      if ((error as { status: number }).status !== 1) {
-        throw error; // 1 says that there is a contact.
-      }
-    }
+    await run(["check", input, "--html", file, "-o", answer, ...options]);
     const result = JSON.parse(readFileSync(answer, "utf8")) as Result;
     return { url: `file://${file}`, file, result };
   }

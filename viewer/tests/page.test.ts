@@ -2,7 +2,7 @@
 
 import { readFileSync, statSync } from "node:fs";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, test } from "vitest";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
 import type { Contact } from "../src/data/result";
 import { distance } from "../src/motion/vector";
 import { canLook, colorsOf, Folder, launch, type MadePage } from "./browser";
@@ -70,8 +70,9 @@ interface MeshOfPage {
 
 describe.skipIf(!canLook)("the page", () => {
   let browser: Browser;
-  let nut: MadePage;
+  let peg: MadePage;
   let many: MadePage;
+  let nut: Promise<MadePage>;
   const folder = new Folder();
   const complaints: string[] = [];
   const open: Page[] = [];
@@ -100,9 +101,14 @@ describe.skipIf(!canLook)("the page", () => {
     page.evaluate(() => ({ ...window.firstcontact.view.camera.position }));
 
   beforeAll(async () => {
-    nut = folder.make("nut", "demo/scenes/nut_wrong_pitch.json");
-    many = folder.make("stones", stones, "--all-pairs", "--closest");
+    peg = await folder.make("peg", "demo/scenes/peg_tilted.json");
+    many = await folder.make("stones", stones, "--all-pairs", "--closest");
     browser = await launch();
+    nut = folder.make("nut", "demo/scenes/nut_wrong_pitch.json"); // While others run: it is large.
+  });
+
+  afterEach(async () => {
+    await Promise.all(open.splice(0).map((page) => page.context().close()));
   });
 
   afterAll(async () => {
@@ -110,31 +116,9 @@ describe.skipIf(!canLook)("the page", () => {
     folder.remove();
   });
 
-  test("is one file of at most 5 MB with the licences of what it bundles", () => {
-    expect(statSync(nut.file).size).toBeLessThan(5e6);
-    const html = readFileSync(nut.file, "utf8");
-    expect(html).not.toMatch(/<(script|link|img)[^>]+(src|href)="(?!data:)/);
-    expect(html).toContain("The MIT License");
-    expect(html).toContain("three.js authors");
-    expect(html).toContain("Leon Sorokin");
-  });
-
-  test("shows its first frame within 2 s", async () => {
-    const times: number[] = [];
-    for (let attempt = 0; attempt < 3 && !times.some((time) => time < 2000); ++attempt) {
-      const page = await show(nut);
-      times.push(
-        await page.evaluate(
-          () => performance.getEntriesByName("firstcontact:first-frame")[0]!.startTime,
-        ),
-      );
-    }
-    expect(Math.min(...times)).toBeLessThan(2000);
-  });
-
   test("is not blank, dark and light", async () => {
     for (const colorScheme of ["dark", "light"] as const) {
-      const page = await show(nut, "", { ...desktop, colorScheme });
+      const page = await show(peg, "", { ...desktop, colorScheme });
       await page.waitForTimeout(300);
       const { count, largest } = await colorsOf(
         page,
@@ -146,40 +130,40 @@ describe.skipIf(!canLook)("the page", () => {
   });
 
   test("says what was found", async () => {
-    const page = await show(nut);
+    const page = await show(peg);
     const answer = page.getByRole("region", { name: "Answer" });
-    expect(await answer.textContent()).toContain("M16 nut, pitch 2.1 mm");
+    expect(await answer.textContent()).toContain("Peg, tilted by 2 degrees");
     expect(await answer.textContent()).toMatch(
-      /Proven free until 1\.1227 s; then nut and bolt touch/,
+      /Proven free until 887\.01 ms; then peg and hole touch/,
     );
-    expect(await page.title()).toContain("M16 nut");
+    expect(await page.title()).toContain("Peg");
   });
 
   test("plays, and pauses at the contact", async () => {
-    const page = await show(nut, "#t=0.2");
+    const page = await show(peg, "#t=0.86");
     await page.getByRole("button", { name: "Play" }).click();
     await page.getByRole("button", { name: "Pause" }).waitFor();
-    await page.waitForFunction(() => window.firstcontact.player.t.value > 0.2);
+    await page.waitForFunction(() => window.firstcontact.player.t.value > 0.86);
     await page.getByRole("button", { name: "Play" }).waitFor();
-    expect(await timeOf(page)).toBe(nut.result.t);
+    expect(await timeOf(page)).toBe(peg.result.t);
   });
 
   test("follows the slider", async () => {
-    const page = await show(nut);
+    const page = await show(peg);
     const slider = page.getByRole("slider", { name: "Time" });
     const box = (await slider.boundingBox())!;
     await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
     expect(await timeOf(page)).toBeCloseTo(0.5, 2);
-    expect(await slider.getAttribute("aria-valuetext")).toMatch(/^2\.[45]\d* s$/);
+    expect(await slider.getAttribute("aria-valuetext")).toMatch(/^0\.(49|50|5)\d* s$/);
     const chart = (await page.locator(".chart .u-over").boundingBox())!;
     await page.mouse.click(chart.x + 0.25 * chart.width, chart.y + 20);
     expect(await timeOf(page)).toBeCloseTo(0.25, 2);
   });
 
   test("shows the bodies where the result says that they touch", async () => {
-    const page = await show(nut);
+    const page = await show(peg);
     await page.getByRole("button", { name: "First contact" }).click();
-    expect(await timeOf(page)).toBe(nut.result.t);
+    expect(await timeOf(page)).toBe(peg.result.t);
     const corners = (contact: Contact) =>
       page.evaluate(({ bodies, triangles }) => {
         const { model, view } = window.firstcontact;
@@ -203,24 +187,24 @@ describe.skipIf(!canLook)("the page", () => {
       .evaluateAll((rows) =>
         rows.map((row) => JSON.parse((row as HTMLElement).dataset.points!) as unknown),
       );
-    const { contacts } = nut.result;
+    const { contacts } = peg.result;
     expect(shown).toEqual(contacts.slice(0, shown.length).map(({ points }) => points));
     for (const contact of contacts.slice(0, 20)) {
       const triangles = await corners(contact);
       triangles.forEach((triangle, side) => {
         const off = distanceToTriangle(contact.points[side]!, triangle as Corners);
-        expect(off).toBeLessThan(5e-9); // Vertices are in single precision: 2^-24 of 16 mm.
+        expect(off).toBeLessThan(5e-9); // Vertices are in single precision: 2^-24 of 50 mm.
       });
     }
   });
 
   test("flies to the contact and back", async () => {
-    const page = await show(nut);
+    const page = await show(peg);
     const home = await cameraOf(page);
     await page.getByRole("button", { name: "First contact" }).click();
     await page.waitForTimeout(100);
     const near = await cameraOf(page);
-    const point = nut.result.contacts[0]!.points[0];
+    const point = peg.result.contacts[0]!.points[0];
     const range = (p: { x: number; y: number; z: number }) => distance([p.x, p.y, p.z], point);
     expect(range(near)).toBeLessThan(0.5 * range(home));
     await page.keyboard.press("f");
@@ -229,7 +213,7 @@ describe.skipIf(!canLook)("the page", () => {
   });
 
   test("opens at the moment of its link, and links to where one stays", async () => {
-    const page = await show(nut, "#t=0.42");
+    const page = await show(peg, "#t=0.42");
     expect(await timeOf(page)).toBe(0.42);
     await page.evaluate(() => window.firstcontact.player.seek(0.75));
     await page.waitForFunction(() => location.hash === "#t=0.75");
@@ -302,7 +286,7 @@ describe.skipIf(!canLook)("the page", () => {
         ignored ? "" : String(role?.value),
       ),
     );
-    expect(controls.length).toBeGreaterThan(2);
+    expect(controls.length).toBeGreaterThan(1);
     expect(controls.filter(({ name }) => !name?.value).map(({ role }) => role?.value)).toEqual([]);
     await page.keyboard.press("Escape");
     const { nodes: all } = await session.send("Accessibility.getFullAXTree");
@@ -312,12 +296,12 @@ describe.skipIf(!canLook)("the page", () => {
   });
 
   test("saves a picture and an animation", async () => {
-    const page = await show(nut);
+    const page = await show(peg);
     const [png] = await Promise.all([
       page.waitForEvent("download"),
       page.getByRole("button", { name: "Save a picture (PNG)" }).click(),
     ]);
-    expect(png.suggestedFilename()).toBe("M16-nut-pitch-2.1-mm.png");
+    expect(png.suggestedFilename()).toBe("Peg-tilted-by-2-degrees.png");
     expect((await colorsOf(page, readFileSync(await png.path()))).count).toBeGreaterThan(100);
     const [glb] = await Promise.all([
       page.waitForEvent("download"),
@@ -331,12 +315,12 @@ describe.skipIf(!canLook)("the page", () => {
       meshes: unknown[];
     };
     expect(json.meshes.length).toBe(2);
-    expect(json.animations[0]!.channels.length).toBe(2); // Position and rotation of the nut.
-    expect(json.accessors.some(({ max }) => max?.[0] === 5)).toBe(true); // It lasts 5 s.
+    expect(json.animations[0]!.channels.length).toBe(2); // Position and rotation of the peg.
+    expect(json.accessors.some(({ max }) => max?.[0] === 1)).toBe(true); // It lasts 1 s.
   });
 
   test("fits into the window of a phone", async () => {
-    const page = await show(nut, "", phone);
+    const page = await show(peg, "", phone);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(
       390,
     );
@@ -369,6 +353,29 @@ describe.skipIf(!canLook)("the page", () => {
     expect(overlap).toEqual([]);
     await page.getByRole("button", { name: "Side panel" }).tap();
     expect(await page.getByRole("region", { name: "Answer" }).isVisible()).toBe(true);
+  });
+
+  test("of nut and bolt is one file of at most 5 MB with the licences of what it bundles", async () => {
+    const { file } = await nut;
+    expect(statSync(file).size).toBeLessThan(5e6);
+    const html = readFileSync(file, "utf8");
+    expect(html).not.toMatch(/<(script|link|img)[^>]+(src|href)="(?!data:)/);
+    expect(html).toContain("The MIT License");
+    expect(html).toContain("three.js authors");
+    expect(html).toContain("Leon Sorokin");
+  }, 300_000);
+
+  test("of nut and bolt shows its first frame within 2 s", async () => {
+    const times: number[] = [];
+    for (let attempt = 0; attempt < 3 && !times.some((time) => time < 2000); ++attempt) {
+      const page = await show(await nut);
+      times.push(
+        await page.evaluate(
+          () => performance.getEntriesByName("firstcontact:first-frame")[0]!.startTime,
+        ),
+      );
+    }
+    expect(Math.min(...times)).toBeLessThan(2000);
   });
 
   test("complained about nothing, and asked the network for nothing", () => {
