@@ -73,10 +73,11 @@ JsonValue mesh_to_json(const Mesh& mesh) {
 detail::JsonMember geometry_of_bodies(const LoadedScene& loaded, JsonArray& meshes) {
   std::map<const Mesh*, std::size_t> known;
   JsonArray bodies;
-  for (const Shape& shape : loaded.shapes) {
-    const auto [found, is_new] = known.emplace(&shape.mesh(), meshes.size());
+  for (std::size_t body = 0; body < loaded.bodies.size(); ++body) {
+    const Mesh& mesh = loaded.bodies.shape(body).mesh();
+    const auto [found, is_new] = known.emplace(&mesh, meshes.size());
     if (is_new) {
-      meshes.push_back(mesh_to_json(shape.mesh()));
+      meshes.push_back(mesh_to_json(mesh));
     }
     bodies.push_back({.value = static_cast<double>(found->second)});
   }
