@@ -10,11 +10,11 @@ import { roundNumber } from "../src/view/grid";
 
 describe("quantities", () => {
   test("are read in the unit that suits them", () => {
-    expect(lengthText(0.0000098)).toBe("9.8 µm");
-    expect(lengthText(-0.25)).toBe("−250 mm");
-    expect(lengthText(0)).toBe("0 m");
+    expect(lengthText(0.0000098)).toBe("9.8\u00a0µm");
+    expect(lengthText(-0.25)).toBe("−250\u00a0mm");
+    expect(lengthText(0)).toBe("0\u00a0m");
     expect(lengthText(null)).toBe("—");
-    expect(timeText(0.00936776)).toBe("9.3678 ms");
+    expect(timeText(0.00936776)).toBe("9.3678\u00a0ms");
     expect(pointText([0.001, -0.02, 0])).toBe("(1, −20, 0) mm");
   });
 

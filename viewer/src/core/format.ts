@@ -41,7 +41,7 @@ export function number(value: number, digits = 4): string {
 }
 
 function quantity(value: number | null, unit: Unit, digits: number): string {
-  return value === null ? "—" : `${number(value / unit.size, digits)} ${unit.name}`;
+  return value === null ? "—" : `${number(value / unit.size, digits)}\u00a0${unit.name}`;
 }
 
 export const lengthText = (value: number | null, digits = 4): string =>

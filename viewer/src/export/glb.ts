@@ -2,11 +2,12 @@
 
 import {
   AnimationClip,
-  BufferGeometry,
   Mesh,
   MeshStandardMaterial,
   NumberKeyframeTrack,
   Object3D,
+  Points,
+  PointsMaterial,
   QuaternionKeyframeTrack,
   VectorKeyframeTrack,
   type KeyframeTrack,
@@ -15,6 +16,7 @@ import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
 import type { Body, Model } from "../model";
 import { totalAngle } from "../motion/motion";
 import type { BodyView } from "../view/body_view";
+import type { DrawnShape } from "../view/drawn_shape";
 
 const leastKeys = 61;
 const mostKeys = 2401;
@@ -60,30 +62,31 @@ function tracksOf(
   ];
 }
 
+/// With materials that other programs know.
+function surfaceOf({ geometry, kind }: DrawnShape, color: string): Object3D {
+  return kind === "points"
+    ? new Points(geometry, new PointsMaterial({ color }))
+    : new Mesh(geometry, new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.1 }));
+}
+
 export async function animationOf(model: Model, views: readonly BodyView[]): Promise<Blob> {
   const keys = keyTimes(model);
   const root = new Object3D();
   root.name = model.result.id || "scene";
   root.rotation.x = -0.5 * Math.PI; // Up is z in scenes, and y in glTF.
   const tracks: KeyframeTrack[] = [];
-  for (const { body, color, surface } of views) {
+  for (const { body, color, drawn, surface } of views) {
     const name = `body${body.index}`;
-    const material = new MeshStandardMaterial({
-      color,
-      roughness: 0.6,
-      metalness: 0.1,
-      flatShading: true,
-    });
-    const mesh = new Mesh<BufferGeometry, MeshStandardMaterial>(surface.geometry, material);
-    mesh.name = `${name}-surface`;
-    mesh.position.copy(surface.position);
+    const look = surfaceOf(drawn, color);
+    look.name = `${name}-surface`;
+    look.position.copy(surface.position);
     const node = new Object3D();
     node.name = name;
     node.userData = { body: body.name };
     const { position, rotation } = body.motion(0);
     node.position.set(...position);
     node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
-    node.add(mesh);
+    node.add(look);
     root.add(node);
     if (!body.atRest) {
       tracks.push(...tracksOf(body, name, keys, model.duration));

@@ -21,9 +21,9 @@ const shortWords = {
   free: "free",
 } as const;
 
-/// The proven least distance, or what the closest approach says of it.
+/// The proven least distance, if more is known of it than that it is not negative.
 const clearanceOf = (pair: PairAnswer): number =>
-  pair.closest?.lower_bound ?? pair.clearance ?? Infinity;
+  (pair.closest?.lower_bound ?? pair.clearance) || Infinity;
 
 const columns: readonly Column[] = [
   { title: "Pair", key: ({ pair }) => pair.join(" "), text: ({ pair }) => pair.join(" · ") },

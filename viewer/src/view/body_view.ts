@@ -1,66 +1,94 @@
-/// One body on the screen: its triangles, the edges that an eye looks for, and where it stands.
+/// One body on the screen: its surface, the edges that an eye looks for, and where it stands.
 
 import {
-  BufferAttribute,
   BufferGeometry,
   Color,
   DoubleSide,
   Group,
   LineBasicMaterial,
   LineSegments,
+  Material,
   Mesh,
+  MeshBasicMaterial,
   MeshPhongMaterial,
   Object3D,
+  Points,
+  PointsMaterial,
   Quaternion,
   Vector3,
 } from "three";
-import type { MeshData } from "../data/page_data";
 import type { Body } from "../model";
 import type { Pose } from "../motion/motion";
-import { edgesUpTo, featureEdges } from "./feature_edges";
+import { radiusOf, type DrawnShape } from "./drawn_shape";
+
+const pointSize = 2.5; // [px] Of points without a radius.
+
+/// [deg] Of every camera. Sizes of points on the screen depend on it.
+export const fieldOfView = 32;
+const pointScale = 1 / Math.tan((0.5 * fieldOfView * Math.PI) / 180);
 
 /// Puts an object where a pose says; in double precision, as all of its matrices are.
-export function setPose(object: Object3D, { position, rotation }: Pose): void {
+function setPose(object: Object3D, { position, rotation }: Pose): void {
   const [w, x, y, z] = rotation;
   object.matrix.compose(new Vector3(...position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
   object.matrixAutoUpdate = false;
   object.matrixWorldNeedsUpdate = true;
 }
 
+function surfaceMaterial(color: string, flatShading: boolean): MeshPhongMaterial {
+  const material = new MeshPhongMaterial({
+    color,
+    specular: 0x222222,
+    shininess: 40,
+    flatShading,
+    side: DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  // The back of a triangle is darker, so that what is cut open can be told from what is not.
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <color_fragment>",
+      "#include <color_fragment>\n  if (!gl_FrontFacing) diffuseColor.rgb *= 0.6;",
+    );
+  };
+  return material;
+}
+
+function pointMaterial(color: string, radius: number): PointsMaterial {
+  const thick = radius > 0;
+  const material = new PointsMaterial({
+    color,
+    size: thick ? 2 * radius * pointScale : pointSize,
+    sizeAttenuation: thick,
+  });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <color_fragment>",
+      "#include <color_fragment>\n  if (length(gl_PointCoord - 0.5) > 0.5) discard;",
+    );
+  };
+  return material;
+}
+
 export class BodyView {
   readonly group = new Group();
-  readonly surface: Mesh<BufferGeometry, MeshPhongMaterial>;
+  readonly surface:
+    Mesh<BufferGeometry, MeshPhongMaterial> | Points<BufferGeometry, PointsMaterial>;
   private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
 
-  get edgeGeometry(): BufferGeometry | null {
-    return this.edges?.geometry ?? null;
-  }
-
-  /// @param geometry  shared by all bodies of one mesh
   constructor(
     readonly body: Body,
-    geometry: BufferGeometry,
+    readonly drawn: DrawnShape,
     readonly color: string,
   ) {
-    const material = new MeshPhongMaterial({
-      color,
-      specular: 0x222222,
-      shininess: 40,
-      flatShading: true,
-      side: DoubleSide,
-      polygonOffset: true,
-      polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1,
-    });
-    // The back of a triangle is darker, so that what is cut open can be told from what is not.
-    material.onBeforeCompile = (shader) => {
-      shader.fragmentShader = shader.fragmentShader.replace(
-        "#include <color_fragment>",
-        "#include <color_fragment>\n  if (!gl_FrontFacing) diffuseColor.rgb *= 0.6;",
-      );
-    };
-    this.surface = new Mesh(geometry, material);
-    this.surface.position.set(...body.mesh.origin);
+    const { geometry, kind, origin } = drawn;
+    this.surface =
+      kind === "points"
+        ? new Points(geometry, pointMaterial(color, radiusOf(body)))
+        : new Mesh(geometry, surfaceMaterial(color, kind === "triangles"));
+    this.surface.position.set(...origin);
     this.surface.userData.body = body.index;
     this.group.name = body.name;
     this.group.add(this.surface);
@@ -69,15 +97,11 @@ export class BodyView {
 
   show(t: number): void {
     setPose(this.group, this.body.motion(t));
-    if (this.surface.morphTargetInfluences) {
-      this.surface.morphTargetInfluences[0] = t;
-    }
+    deform(this.surface, t);
   }
 
-  setEdges(geometry: BufferGeometry | null): void {
-    if (geometry === null || this.edges !== null) {
-      return;
-    }
+  /// The edges take a while to find: they come after the first picture.
+  setEdges(geometry: BufferGeometry): void {
     const color = new Color(this.color).multiplyScalar(0.32);
     this.edges = new LineSegments(
       geometry,
@@ -89,7 +113,9 @@ export class BodyView {
 
   setStyle(style: { wireframe: boolean; xray: boolean; edges: boolean }): void {
     const { material } = this.surface;
-    material.wireframe = style.wireframe;
+    if (material instanceof MeshPhongMaterial) {
+      material.wireframe = style.wireframe;
+    }
     material.transparent = style.xray;
     material.opacity = style.xray ? 0.28 : 1;
     material.depthWrite = !style.xray;
@@ -98,33 +124,49 @@ export class BodyView {
       this.edges.visible = style.edges && !style.wireframe;
     }
   }
+
+  /// A faint copy of the body at another moment. It cannot be clicked.
+  ghost(t: number, opacity: number): Group {
+    const look = { color: this.color, transparent: true, opacity, depthWrite: false } as const;
+    const { geometry } = this.surface;
+    const parts: Object3D[] =
+      this.surface instanceof Points
+        ? [
+            new Points(
+              geometry,
+              Object.assign(this.surface.material.clone(), look, { color: new Color(this.color) }),
+            ),
+          ]
+        : [new Mesh(geometry, new MeshBasicMaterial({ ...look, side: DoubleSide }))];
+    if (this.edges) {
+      const lines = new LineBasicMaterial({ ...look, opacity: 2 * opacity });
+      parts.push(new LineSegments(this.edges.geometry, lines));
+    }
+    const group = new Group();
+    for (const part of parts) {
+      part.position.copy(this.surface.position);
+      part.raycast = () => {};
+      deform(part, t);
+      group.add(part);
+    }
+    setPose(group, this.body.motion(t));
+    return group;
+  }
 }
 
-/// @param to  where every vertex of a deforming body ends, in the world
-export function surfaceGeometry(mesh: MeshData, to: readonly (readonly number[])[] | null) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
-  geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
-  if (to) {
-    const way = new Float32Array(mesh.positions.length);
-    to.forEach((vertex, i) =>
-      vertex.forEach((x, k) => {
-        way[3 * i + k] = x - mesh.origin[k]! - mesh.positions[3 * i + k]!;
-      }),
-    );
-    geometry.morphAttributes.position = [new BufferAttribute(way, 3)];
-    geometry.morphTargetsRelative = true;
-  }
-  return geometry;
+/// Frees what ghosts made for themselves; their geometry is shared.
+export function dispose(group: Group): void {
+  group.traverse((part) => {
+    if ("material" in part) {
+      (part.material as Material).dispose();
+    }
+  });
+  group.clear();
 }
 
-/// Null where there are too many triangles to look for edges.
-export function edgeGeometry(mesh: MeshData, surface: BufferGeometry): BufferGeometry | null {
-  if (mesh.triangles.length / 3 > edgesUpTo) {
-    return null;
+/// Moves the vertices of a deforming body.
+function deform(part: Object3D, t: number): void {
+  if (part instanceof Mesh && part.morphTargetInfluences) {
+    part.morphTargetInfluences[0] = t;
   }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", surface.getAttribute("position"));
-  geometry.setIndex(new BufferAttribute(featureEdges(mesh), 1));
-  return geometry;
 }

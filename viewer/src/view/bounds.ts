@@ -1,51 +1,46 @@
 /// Where things are, for cameras that look at them.
 
 import { Box3, Sphere, Vector3 } from "three";
+import type { Vector3 as Point } from "../data/result";
 import type { Body } from "../model";
 import { place } from "../motion/motion";
+import { radiusOf } from "./drawn_shape";
 
 const moments = 33;
 
-/// Around a mesh, in the body frame.
-export function localSphere(body: Body): Sphere {
-  const { origin, positions } = body.mesh;
-  const box = new Box3().setFromArray(positions);
-  const sphere = box.getBoundingSphere(new Sphere());
-  return new Sphere(sphere.center.add(new Vector3(...origin)), sphere.radius + radiusOf(body));
+/// The corners of a box around a body, in its frame.
+function cornersOf(body: Body): Point[] {
+  const { mesh, data } = body;
+  const box = new Box3().setFromArray(mesh.positions).translate(new Vector3(...mesh.origin));
+  if (data.motion?.type === "vertices") {
+    data.motion.to.forEach((p) => box.expandByPoint(new Vector3(...p)));
+  }
+  const { min, max } = box.expandByScalar(radiusOf(body));
+  return corners(min, max).map((corner) => corner.toArray());
 }
 
-/// [m] by which a shape is thickened.
-export function radiusOf(body: Body): number {
-  const { radius } = body.data.shape;
-  return typeof radius === "number" ? radius : 0;
-}
-
-export function sphereAt(body: Body, local: Sphere, t: number): Sphere {
-  const { x, y, z } = local.center;
-  return new Sphere(new Vector3(...place(body.motion(t), [x, y, z])), local.radius);
-}
-
-function boxOf(spheres: readonly Sphere[]): Box3 {
-  const box = new Box3();
-  spheres.forEach((sphere) => box.union(sphere.getBoundingBox(new Box3())));
-  return box;
-}
+export const corners = (min: Vector3, max: Vector3): Vector3[] =>
+  [0, 1, 2, 3, 4, 5, 6, 7].map(
+    (k) => new Vector3(k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z),
+  );
 
 export class Bounds {
-  private readonly local: readonly Sphere[];
+  private readonly corners: readonly (readonly Point[])[];
 
   constructor(private readonly bodies: readonly Body[]) {
-    this.local = bodies.map(localSphere);
+    this.corners = bodies.map(cornersOf);
   }
 
   bodyAt(body: Body, t: number): Sphere {
-    return sphereAt(body, this.local[body.index]!, t);
+    const box = new Box3();
+    this.include(body, t, box);
+    return box.getBoundingSphere(new Sphere());
   }
 
   /// All bodies over the whole step; without resting bodies that dwarf those that move.
   sweep(): Box3 {
-    const moving = boxOf(this.sweepOf(this.bodies.filter(({ atRest }) => !atRest)));
-    const all = boxOf(this.sweepOf(this.bodies));
+    const moving = this.sweepOf(this.bodies.filter(({ atRest }) => !atRest));
+    const all = this.sweepOf(this.bodies);
     const size = (box: Box3): number => box.getSize(new Vector3()).length();
     if (moving.isEmpty() || size(all) < 4 * size(moving)) {
       return all;
@@ -53,11 +48,19 @@ export class Bounds {
     return moving.expandByScalar(0.3 * size(moving)).intersect(all);
   }
 
-  private sweepOf(bodies: readonly Body[]): Sphere[] {
-    return bodies.flatMap((body) =>
-      Array.from({ length: body.atRest ? 1 : moments }, (_, k) =>
-        this.bodyAt(body, k / (moments - 1)),
-      ),
-    );
+  private sweepOf(bodies: readonly Body[]): Box3 {
+    const box = new Box3();
+    for (const body of bodies) {
+      const count = body.atRest ? 1 : moments;
+      for (let k = 0; k < count; ++k) {
+        this.include(body, count > 1 ? k / (count - 1) : 0, box);
+      }
+    }
+    return box;
+  }
+
+  private include(body: Body, t: number, box: Box3): void {
+    const pose = body.motion(t);
+    this.corners[body.index]!.forEach((p) => box.expandByPoint(new Vector3(...place(pose, p))));
   }
 }

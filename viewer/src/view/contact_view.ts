@@ -60,33 +60,40 @@ function arrow(material: MeshBasicMaterial): Group {
   return group;
 }
 
-/// The corners of a triangle in its mesh, without the doubled ones of an edge or a point.
-export function trianglePositions(body: Body, triangle: number): Float32Array {
-  const { positions, triangles } = body.mesh;
+/// The corners of a triangle of a body, relative to the origin of its mesh.
+///
+/// @param t  when; a deforming body has them elsewhere at each moment
+function trianglePositions(body: Body, triangle: number, t: number): Float32Array {
+  const { positions, triangles, origin } = body.mesh;
+  const { motion } = body.data;
   const corners = new Float32Array(9);
   for (let k = 0; k < 3; ++k) {
     const vertex = triangles[3 * triangle + k]!;
-    corners.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * k);
+    const corner = positions.slice(3 * vertex, 3 * vertex + 3);
+    if (motion?.type === "vertices") {
+      motion.to[vertex]!.forEach((x, i) => (corner[i]! += t * (x - origin[i]! - corner[i]!)));
+    }
+    corners.set(corner, 3 * k);
   }
   return corners;
 }
 
 /// All triangles of a body that touch something, to be drawn over it.
-function touchingTriangles(body: Body, contacts: readonly Contact[]): Float32Array {
+function touchingTriangles(body: Body, contacts: readonly Contact[], t: number): Float32Array {
   const touching = new Set(
     contacts.flatMap(({ bodies, triangles }) =>
       [0, 1].filter((side) => bodies[side] === body.name).map((side) => triangles[side]!),
     ),
   );
   const all = new Float32Array(9 * touching.size);
-  [...touching].forEach((triangle, i) => all.set(trianglePositions(body, triangle), 9 * i));
+  [...touching].forEach((triangle, i) => all.set(trianglePositions(body, triangle, t), 9 * i));
   return all;
 }
 
 /// In the frame of the mesh, so that the triangles move with the body.
-export function touchingSurface(body: Body, contacts: readonly Contact[]): Group {
+export function touchingSurface(body: Body, contacts: readonly Contact[], t: number): Group {
   const group = new Group();
-  const positions = touchingTriangles(body, contacts);
+  const positions = touchingTriangles(body, contacts, t);
   if (positions.length > 0) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
@@ -182,7 +189,7 @@ export class ContactMarkers {
 export function contactSize(model: Model, contact: Contact): number {
   const sizes = [0, 1].map((side) => {
     const body = model.body(contact.bodies[side]!);
-    const p = trianglePositions(body, contact.triangles[side]!);
+    const p = trianglePositions(body, contact.triangles[side]!, model.result.t);
     const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
     return Math.max(
       corner(0).distanceTo(corner(1)),

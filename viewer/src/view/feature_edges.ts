@@ -1,11 +1,12 @@
 /// The edges of a mesh that an eye looks for: open ones, and those where the surface bends.
 
+import { BufferAttribute, BufferGeometry } from "three";
 import type { MeshData } from "../data/page_data";
 
 const sharp = Math.cos((28 * Math.PI) / 180);
 
 /// Beyond this the lines take longer to find than they are worth.
-export const edgesUpTo = 300_000; // triangles
+const edgesUpTo = 300_000; // triangles
 
 function normals({ positions, triangles }: MeshData): Float32Array {
   const out = new Float32Array(triangles.length);
@@ -35,6 +36,9 @@ export function featureEdges(mesh: MeshData): Uint32Array {
     for (let k = 0; k < 3; ++k) {
       const a = triangles[i + k]!;
       const b = triangles[i + ((k + 1) % 3)]!;
+      if (a === b) {
+        continue;
+      }
       const key = Math.min(a, b) * vertexCount + Math.max(a, b);
       const other = first.get(key);
       if (other === undefined) {
@@ -60,4 +64,15 @@ export function featureEdges(mesh: MeshData): Uint32Array {
     }
   }
   return new Uint32Array(edges);
+}
+
+/// Lines over the vertices of a surface; null where there are too many triangles to look for them.
+export function edgeGeometry(mesh: MeshData, surface: BufferGeometry): BufferGeometry | null {
+  if (mesh.triangles.length / 3 > edgesUpTo) {
+    return null;
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", surface.getAttribute("position"));
+  geometry.setIndex(new BufferAttribute(featureEdges(mesh), 1));
+  return geometry;
 }

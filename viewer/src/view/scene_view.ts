@@ -22,11 +22,13 @@ import type { Display } from "../display";
 import type { Body, Model } from "../model";
 import { unplace } from "../motion/motion";
 import type { Player } from "../player";
-import { BodyView, edgeGeometry, surfaceGeometry } from "./body_view";
-import { Bounds } from "./bounds";
+import { BodyView, fieldOfView } from "./body_view";
+import { Bounds, corners } from "./bounds";
 import { CameraFlight, type Viewpoint } from "./camera_flight";
 import { bodyColor } from "./colors";
 import { contactSize, ContactMarkers, middleOf, sideViews, touchingSurface } from "./contact_view";
+import { DrawnShapes } from "./drawn_shape";
+import { edgeGeometry } from "./feature_edges";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
 import { Probe } from "./probe";
@@ -40,7 +42,7 @@ const homeDirections = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => {
 });
 
 export class SceneView {
-  readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
   readonly probe = new Probe();
   readonly bodies: readonly BodyView[];
   readonly bounds: Bounds;
@@ -127,34 +129,27 @@ export class SceneView {
   /// The edges take a while to find: first the picture, then its lines.
   addEdges(): void {
     const known = new Map<MeshData, BufferGeometry | null>();
-    this.bodies.forEach((view) => {
+    for (const view of this.bodies) {
       const { mesh, data } = view.body;
-      if (data.motion?.type === "vertices") {
-        return;
+      if (view.drawn.kind !== "triangles" || data.motion?.type === "vertices") {
+        continue;
       }
-      if (!known.has(mesh)) {
-        known.set(mesh, edgeGeometry(mesh, view.surface.geometry));
+      const edges = known.get(mesh) ?? edgeGeometry(mesh, view.surface.geometry);
+      known.set(mesh, edges);
+      if (edges) {
+        view.setEdges(edges);
       }
-      view.setEdges(known.get(mesh)!);
-    });
+    }
     this.restyle();
     this.showGhosts();
   }
 
   fitAll(atOnce = false): void {
     this.display.cutaway.value = false;
-    const box = this.sweep;
-    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(
-      (k) =>
-        new Vector3(
-          k & 1 ? box.max.x : box.min.x,
-          k & 2 ? box.max.y : box.min.y,
-          k & 4 ? box.max.z : box.min.z,
-        ),
-    );
+    const seen = corners(this.sweep.min, this.sweep.max);
     const target = this.home.center.clone();
     const direction = this.homeDirection();
-    const range = this.rangeFor(corners, target, direction);
+    const range = this.rangeFor(seen, target, direction);
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
   }
 
@@ -186,7 +181,7 @@ export class SceneView {
     this.markers.show(contacts);
     this.bodies.forEach(({ group, body }) => {
       group.remove(...group.children.filter(({ name }) => name === "touching"));
-      const surface = touchingSurface(body, contacts);
+      const surface = touchingSurface(body, contacts, this.model.result.t);
       surface.name = "touching";
       surface.visible = this.display.contacts.value;
       group.add(surface);
@@ -209,6 +204,7 @@ export class SceneView {
     );
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
+    ray.params.Points.threshold = 0.005 * this.home.radius;
     const hit = ray
       .intersectObjects(this.shownSurfaces(), false)
       .find(({ distance }) => distance > this.camera.near);
@@ -218,7 +214,10 @@ export class SceneView {
     }
     const body = this.model.bodies[hit.object.userData.body as number]!;
     const local = unplace(body.motion(this.player.t.value), hit.point.toArray());
-    this.probe.add({ body, triangle: hit.faceIndex!, local }, this.display.measure.value);
+    this.probe.add(
+      { body, triangle: hit.faceIndex ?? hit.index ?? 0, local },
+      this.display.measure.value,
+    );
   }
 
   /// Draws now, for a picture of it.
@@ -241,17 +240,9 @@ export class SceneView {
   }
 
   private makeBodies(): BodyView[] {
-    const geometries = new Map<MeshData, BufferGeometry>();
-    return this.model.bodies.map((body) => {
-      const { motion } = body.data;
-      const color = bodyColor(body, this.model.bodies);
-      if (motion?.type === "vertices") {
-        return new BodyView(body, surfaceGeometry(body.mesh, motion.to), color);
-      }
-      const geometry = geometries.get(body.mesh) ?? surfaceGeometry(body.mesh, null);
-      geometries.set(body.mesh, geometry);
-      return new BodyView(body, geometry, color);
-    });
+    const { bodies } = this.model;
+    const shapes = new DrawnShapes();
+    return bodies.map((body) => new BodyView(body, shapes.of(body), bodyColor(body, bodies)));
   }
 
   /// A lamp above, one at the camera's shoulder, and light from everywhere.
