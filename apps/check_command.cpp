@@ -148,7 +148,8 @@ class Check {
     }
     if (!arguments_.page.empty()) {
       const std::string result = result_text(answer, /*all_pairs=*/true);
-      write_file(arguments_.page, write_page(page_, answer.loaded, result, answer.curve));
+      const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
+      write_file(arguments_.page, write_page(page_, answer.loaded, result, {answer.curve, bound}));
     }
   }
 

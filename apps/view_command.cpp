@@ -50,20 +50,27 @@ std::string read_text(const std::string& path) {
 /// A result as far as its page needs to know it; the page takes the rest as text.
 struct StoredResult {
   Scene scene;
-  double t = 0.0;
+  SceneResult answer;  // Its time and clearance alone.
 };
+
+double number(const detail::JsonObject& object, const char* key, double otherwise) {
+  const detail::JsonValue* value = find(object, key);
+  const auto* found = value != nullptr ? std::get_if<double>(&value->value) : nullptr;
+  return found != nullptr ? *found : otherwise;
+}
 
 StoredResult parse_result(const std::string& text, const std::string& path) {
   const detail::JsonValue root = detail::parse_json(text, path);
   const auto* object = std::get_if<detail::JsonObject>(&root.value);
   const detail::JsonValue* scene = object ? find(*object, "scene") : nullptr;
-  const detail::JsonValue* t = object ? find(*object, "t") : nullptr;
-  if (scene == nullptr || t == nullptr || !std::holds_alternative<double>(t->value)) {
+  if (scene == nullptr || find(*object, "verdict") == nullptr) {
     throw ParseError(path, "expected one result, as `firstcontact check SCENE -o FILE` writes it");
   }
   // The paths of a result are as they were opened, not relative to the folder of the result.
-  return {parse_scene(detail::write_json(*scene), "scene of the result"),
-          std::get<double>(t->value)};
+  SceneResult answer;
+  answer.t = number(*object, "t", 0.0);
+  answer.clearance = number(*object, "clearance", 0.0);
+  return {parse_scene(detail::write_json(*scene), "scene of the result"), answer};
 }
 
 /// In the user's browser. The page is written whether or not this works.
@@ -96,8 +103,9 @@ void view(const Arguments& arguments) {
   const Interrupt interrupt;
   ShapeCache cache;
   const LoadedScene loaded = load_scene(std::move(result.scene), cache);
-  const std::vector<GapSample> gap = gap_curve(loaded, result.t, interrupt.token());
-  write_file(output, write_page(page, loaded, text, gap));
+  const std::vector<GapSample> gap = gap_curve(loaded, result.answer.t, interrupt.token());
+  const std::vector<GapPoint> bound = gap_lower_bound(loaded, result.answer, gap);
+  write_file(output, write_page(page, loaded, text, {gap, bound}));
   fmt::print("{}\n", output);
   if (!arguments.no_open) {
     open(output);

@@ -40,15 +40,17 @@ LoadedScene scene_of_one_triangle() {
 }
 
 TEST(WritePage, HoldsMeshAndGapAndResult) {
-  const std::vector<GapSample> gap{{.t = 0.0, .distance = 1.0, .contact = false},
-                                   {.t = 0.5, .distance = 0.25, .contact = false}};
-  const std::string page = write_page(kTemplate, scene_of_one_triangle(), R"({"id":"x"})", gap);
+  const std::vector<GapSample> gap{{.t = 0.0, .distance = 1.0}, {.t = 0.5, .distance = 0.25}};
+  const std::vector<GapPoint> bound{{.t = 0.0, .distance = 0.5}};
+  const std::string page =
+      write_page(kTemplate, scene_of_one_triangle(), R"({"id":"x"})", {gap, bound});
   // The middle is (9, 2, 0): the vertices are (-1, -2, 0), (1, -2, 0), (-1, 2, 0) in f32.
   EXPECT_EQ(page,
             R"(<script>{"result":{"id":"x"},"view":{"bodies":[0],"meshes":[{"origin":[9,2,0],)"
             R"("positions":"AACAvwAAAMAAAAAAAACAPwAAAMAAAAAAAACAvwAAAEAAAAAA",)"
             R"("triangles":"AAAAAAEAAAACAAAA"}],)"
-            R"("gap":{"t":[0,0.5],"distance":[1,0.25]}}}</script>)");
+            R"("gap":{"t":[0,0.5],"distance":[1,0.25]},)"
+            R"("gap_bound":{"t":[0],"distance":[0.5]}}}</script>)");
 }
 
 TEST(WritePage, LetsNoNameEndTheScript) {

@@ -1,7 +1,7 @@
 /// A result made ready to be shown.
 
 import type { BodyData, Contact, PairAnswer, Result } from "./data/result";
-import type { GapSamples, MeshData, PageData } from "./data/page_data";
+import type { GapLine, MeshData, PageData } from "./data/page_data";
 import { isAtRest, motionOf, type Motion, type Pose } from "./motion/motion";
 
 export interface Body {
@@ -16,7 +16,8 @@ export interface Body {
 export class Model {
   readonly result: Result;
   readonly bodies: readonly Body[];
-  readonly gap: GapSamples;
+  readonly gap: GapLine;
+  readonly gapBound: GapLine;
   /// Those of every pair where the result has them, each at its own pair's time.
   readonly pairs: readonly PairAnswer[];
 
@@ -25,6 +26,7 @@ export class Model {
   constructor(page: PageData) {
     this.result = page.result;
     this.gap = page.gap;
+    this.gapBound = page.gapBound;
     const { bodies, options } = page.result.scene;
     this.bodies = bodies.map((data, index) => ({
       index,

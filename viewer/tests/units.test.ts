@@ -106,6 +106,7 @@ describe("the data of a page", () => {
           { origin: [9, 2, 0], positions: "AACAvwAAAMAAAAAA", triangles: "AAAAAAEAAAACAAAA" },
         ],
         gap: { t: [], distance: [] },
+        gap_bound: { t: [], distance: [] },
       },
     });
     const { meshes } = readPageData(text);

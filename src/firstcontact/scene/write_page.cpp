@@ -84,13 +84,15 @@ detail::JsonMember geometry_of_bodies(const LoadedScene& loaded, JsonArray& mesh
   return {"bodies", {.value = std::move(bodies)}};
 }
 
-JsonValue gap_to_json(std::span<const GapSample> gap) {
+/// Samples or corners of a bound: both have a time and a distance.
+template <typename Point>
+JsonValue line_to_json(std::span<const Point> points) {
   JsonArray times;
   JsonArray distances;
-  for (const GapSample& sample : gap) {
-    if (std::isfinite(sample.distance)) {
-      times.push_back({.value = sample.t});
-      distances.push_back({.value = sample.distance});
+  for (const Point& point : points) {
+    if (std::isfinite(point.distance)) {
+      times.push_back({.value = point.t});
+      distances.push_back({.value = point.distance});
     }
   }
   return {.value = JsonObject{{"t", {.value = std::move(times)}},
@@ -115,7 +117,7 @@ std::string without_tags(std::string_view json) {
 }  // namespace
 
 std::string write_page(std::string_view page_template, const LoadedScene& loaded,
-                       std::string_view result, std::span<const GapSample> gap) {
+                       std::string_view result, const GapChart& gap) {
   const std::size_t place = page_template.find(kPlaceholder);
   if (place == std::string_view::npos) {
     throw std::invalid_argument("the viewer's page has no place for a result");
@@ -123,7 +125,8 @@ std::string write_page(std::string_view page_template, const LoadedScene& loaded
   JsonArray meshes;
   JsonObject view{geometry_of_bodies(loaded, meshes)};
   view.push_back({"meshes", {.value = std::move(meshes)}});
-  view.push_back({"gap", gap_to_json(gap)});
+  view.push_back({"gap", line_to_json(gap.samples)});
+  view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
   std::string page(page_template.substr(0, place));
   page += "{\"result\":" + without_tags(result) +
           ",\"view\":" + detail::write_json({.value = std::move(view)}) + "}";

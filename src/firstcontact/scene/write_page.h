@@ -8,10 +8,17 @@
 #include <string_view>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+/// The gap over time, in the order of times.
+struct GapChart {
+  std::span<const GapSample> samples;
+  std::span<const GapPoint> lower_bound;  ///< Proven; may be empty.
+};
 
 /// Fills the viewer's page (share/firstcontact/viewer.html) with a result.
 ///
@@ -21,11 +28,10 @@ namespace firstcontact {
 /// @param page_template  the viewer's page
 /// @param loaded         the scene of the result
 /// @param result         JSON, as write_result makes it
-/// @param gap            samples of the gap in the order of their times, for the chart
+/// @param gap            for the chart
 /// @throws std::invalid_argument if the template has no place for a result
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
-                                                      std::string_view result,
-                                                      std::span<const GapSample> gap);
+                                                      std::string_view result, const GapChart& gap);
 
 }  // namespace firstcontact

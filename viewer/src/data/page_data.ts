@@ -9,11 +9,10 @@ export interface MeshData {
   readonly triangles: Uint32Array;
 }
 
-export interface GapSamples {
+/// A polyline over time.
+export interface GapLine {
   readonly t: readonly number[];
   readonly distance: readonly number[];
-  /// Certified; as many as times, where the tool knows it.
-  readonly lower_bound?: readonly number[];
 }
 
 export interface PageData {
@@ -21,7 +20,10 @@ export interface PageData {
   readonly meshes: readonly MeshData[];
   /// Of each body: the index of its mesh.
   readonly bodies: readonly number[];
-  readonly gap: GapSamples;
+  /// Samples of the gap: they prove nothing of the times between them.
+  readonly gap: GapLine;
+  /// The gap is proven to be nowhere below; may be empty.
+  readonly gapBound: GapLine;
 }
 
 interface StoredMesh {
@@ -35,7 +37,8 @@ interface StoredPage {
   readonly view: {
     readonly meshes: readonly StoredMesh[];
     readonly bodies: readonly number[];
-    readonly gap: GapSamples;
+    readonly gap: GapLine;
+    readonly gap_bound: GapLine;
   };
 }
 
@@ -62,5 +65,6 @@ export function readPageData(text: string): PageData {
     positions: new Float32Array(bytesOf(mesh.positions)),
     triangles: new Uint32Array(bytesOf(mesh.triangles)),
   }));
-  return { result: stored.result, meshes, bodies: stored.view.bodies, gap: stored.view.gap };
+  const { bodies, gap, gap_bound: gapBound } = stored.view;
+  return { result: stored.result, meshes, bodies, gap, gapBound };
 }

@@ -4,6 +4,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { element } from "../core/dom";
 import { lengthUnit, number, timeUnit, type Unit } from "../core/format";
+import type { GapLine } from "../data/page_data";
 import type { Model } from "../model";
 import type { Player } from "../player";
 import type { Theme } from "../theme";
@@ -23,22 +24,13 @@ function unitsOf(model: Model): ChartUnits {
   };
 }
 
-function dataOf(model: Model, { time, gap }: ChartUnits): uPlot.AlignedData {
-  const { t, distance, lower_bound: bound } = model.gap;
-  const data: [number[], ...number[][]] = [
-    t.map((at) => (at * model.duration) / time.size),
-    distance.map((d) => d / gap.size),
+/// The samples and the proven bound, each at times of its own.
+function dataOf({ gap, gapBound, duration }: Model, units: ChartUnits): uPlot.AlignedData {
+  const line = ({ t, distance }: GapLine): uPlot.AlignedData => [
+    t.map((at) => (at * duration) / units.time.size),
+    distance.map((d) => d / units.gap.size),
   ];
-  if (bound) {
-    data.push(bound.map((d) => d / gap.size));
-  }
-  return data;
-}
-
-/// Below this the gap is proven never to fall before the contact, if that is known.
-function provenBound(model: Model): number | null {
-  const { closest, clearance, verdict } = model.result;
-  return verdict === "free" ? (closest?.lower_bound ?? clearance) : null;
+  return uPlot.join([line(gap), line(gapBound)]);
 }
 
 export class GapChart {
@@ -80,18 +72,12 @@ export class GapChart {
     };
     const values = (_: uPlot, splits: number[]): string[] => splits.map((x) => number(x));
     const end = this.model.duration / units.time.size;
+    const line = { spanGaps: true, points: { show: false } };
     const series: uPlot.Series[] = [
       {},
-      { stroke: theme.color("accent"), width: 2, points: { show: false } },
+      { ...line, stroke: theme.color("accent"), width: 2 },
+      { ...line, stroke: theme.color("proven"), fill: theme.color("chart-bound"), width: 1 },
     ];
-    if (this.model.gap.lower_bound) {
-      series.push({
-        stroke: theme.color("proven"),
-        width: 1.5,
-        dash: [4, 3],
-        points: { show: false },
-      });
-    }
     this.plot = new uPlot(
       {
         ...this.size(),
@@ -158,13 +144,6 @@ export class GapChart {
     const x = (t: number): number => bbox.left + bbox.width * t;
     const bottom = bbox.top + bbox.height;
     ctx.save();
-    const bound = provenBound(this.model);
-    if (bound !== null && bound > 0) {
-      const y = plot.valToPos(bound / this.units.gap.size, "y", true);
-      ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
-      line(bbox.left, y, bbox.left + bbox.width, y, "proven", 1.5);
-      ctx.setLineDash([]);
-    }
     if (this.model.contactTime !== null) {
       line(x(this.model.contactTime), bbox.top, x(this.model.contactTime), bottom, "contact", 1.5);
     }
