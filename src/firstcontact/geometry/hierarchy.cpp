@@ -12,6 +12,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/detail/spatial_order.h>
+
 namespace firstcontact {
 namespace {
 
@@ -419,9 +421,7 @@ void sort_mesh(const Mesh& mesh, std::span<const Item> items, Hierarchy& hierarc
   }
 }
 
-}  // namespace
-
-Hierarchy build_hierarchy(const Mesh& mesh) {
+Hierarchy build(const Mesh& mesh) {
   Hierarchy hierarchy;
   set_bounds(mesh, hierarchy);
   std::vector<Item> items(mesh.triangles.size());
@@ -430,6 +430,26 @@ Hierarchy build_hierarchy(const Mesh& mesh) {
   }
   hierarchy.nodes = Builder(mesh, hierarchy).build(items, 0);
   sort_mesh(mesh, items, hierarchy);
+  return hierarchy;
+}
+
+/// From more triangles than this on, building waits for memory more than it computes.
+constexpr std::size_t kScatteredTriangles = 100'000;
+
+}  // namespace
+
+Hierarchy build_hierarchy(const Mesh& mesh) {
+  if (mesh.triangles.size() <= kScatteredTriangles) {
+    return build(mesh);
+  }
+  const detail::SpatialOrder sorted = detail::spatial_order(mesh);
+  Hierarchy hierarchy = build(sorted.mesh);
+  for (std::uint32_t& v : hierarchy.vertex_index) {
+    v = sorted.vertex_index[v];
+  }
+  for (std::uint32_t& t : hierarchy.triangle_index) {
+    t = sorted.triangle_index[t];
+  }
   return hierarchy;
 }
 
