@@ -80,17 +80,24 @@ void print(const std::string& name, const std::vector<Eigen::Vector3d>& points) 
   print_bounds(bounds);
 }
 
-/// Only PLY files may be either.
-bool is_cloud(const std::string& file) {
+bool can_read_points(const std::string& file) {
   try {
-    (void)read_points(file);
+    return !read_points(file).empty();
   } catch (const ParseError&) {
     return false;
+  }
+}
+
+/// Only PLY files may be either.
+bool is_cloud(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension != ".ply" && extension != ".PLY") {
+    return extension == ".pcd" || extension == ".PCD" || extension == ".xyz" || extension == ".XYZ";
   }
   try {
     (void)read_mesh(file);
   } catch (const ParseError&) {
-    return true;
+    return can_read_points(file);
   }
   return false;
 }

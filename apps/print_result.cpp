@@ -33,6 +33,7 @@ class Description {
     if (result_.tolerance_used > scene_.options.tolerance) {
       line("tolerance", length_text(result_.tolerance_used) + ": f64 resolves no less here");
     }
+    enclosure();
     sampling();
     if (all_pairs) {
       pairs();
@@ -95,6 +96,15 @@ class Description {
     }
     if (count > kMostContacts) {
       print("    and {} more\n", count - kMostContacts);
+    }
+  }
+
+  /// Of the pair that decides.
+  void enclosure() {
+    const double error =
+        result_.first ? result_.pairs[*result_.first].first_contact.enclosure_error : 0.0;
+    if (error > 0.0) {
+      line("enclosure", "curved bodies stand out by up to " + length_text(error));
     }
   }
 

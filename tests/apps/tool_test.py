@@ -411,6 +411,23 @@ class Info(ToolTest):
                      "size                   2 m x 1 mm x 0 m"):
             self.assertIn(line, result.stdout)
 
+    def test_knows_a_cloud(self):
+        header = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                  "property float z\nend_header\n")
+        points = "0 0 0\n1 2 3\n0 0 0\n"
+        for cloud in (self.file("c.xyz", points), self.file("c.ply", header + points)):
+            result = self.run_tool("info", cloud)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for line in ("points                 3", "points at one place    1",
+                         "size                   1 m x 2 m x 3 m"):
+                self.assertIn(line, result.stdout)
+
+    def test_refuses_a_cut_off_cloud(self):
+        cloud = self.file("c.pcd", "FIELDS x y z\nPOINTS 2\nDATA ascii\n0 0 0\n")
+        result = self.run_tool("info", cloud)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("c.pcd:5: expected point 2 of 2, got the end of the file", result.stderr)
+
 
 if __name__ == "__main__":
     TOOL = str(pathlib.Path(sys.argv[1]).resolve())
