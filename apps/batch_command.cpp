@@ -15,7 +15,7 @@
 
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_lines.h>
-#include <firstcontact/scene/read_verdict.h>
+#include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/scene_lines.h>
 #include <firstcontact/scene/version.h>
 

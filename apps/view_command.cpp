@@ -11,15 +11,12 @@
 #include <string>
 #include <system_error>
 #include <utility>
-#include <variant>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/write_json.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/write_page.h>
 
 #include "atomic_file.h"
@@ -47,32 +44,6 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-/// A result as far as its page needs to know it; the page takes the rest as text.
-struct StoredResult {
-  Scene scene;
-  SceneResult answer;  // Its time and clearance alone.
-};
-
-double number(const detail::JsonObject& object, const char* key, double otherwise) {
-  const detail::JsonValue* value = find(object, key);
-  const auto* found = value != nullptr ? std::get_if<double>(&value->value) : nullptr;
-  return found != nullptr ? *found : otherwise;
-}
-
-StoredResult parse_result(const std::string& text, const std::string& path) {
-  const detail::JsonValue root = detail::parse_json(text, path);
-  const auto* object = std::get_if<detail::JsonObject>(&root.value);
-  const detail::JsonValue* scene = object ? find(*object, "scene") : nullptr;
-  if (scene == nullptr || find(*object, "verdict") == nullptr) {
-    throw ParseError(path, "expected one result, as `firstcontact check SCENE -o FILE` writes it");
-  }
-  // The paths of a result are as they were opened, not relative to the folder of the result.
-  SceneResult answer;
-  answer.t = number(*object, "t", 0.0);
-  answer.clearance = number(*object, "clearance", 0.0);
-  return {parse_scene(detail::write_json(*scene), "scene of the result"), answer};
-}
-
 /// In the user's browser. The page is written whether or not this works.
 void open(const std::string& page) {
   std::string program = "xdg-open";
@@ -91,7 +62,7 @@ void open(const std::string& page) {
 void view(const Arguments& arguments) {
   const std::string page = viewer_page();
   const std::string text = read_text(arguments.result);
-  StoredResult result = parse_result(text, arguments.result);
+  StoredResult stored = read_result(text, arguments.result);
   const std::string output =
       arguments.output.empty()
           ? std::filesystem::path(arguments.result).replace_extension(".html").string()
@@ -102,9 +73,12 @@ void view(const Arguments& arguments) {
   }
   const Interrupt interrupt;
   ShapeCache cache;
-  const LoadedScene loaded = load_scene(std::move(result.scene), cache);
-  const std::vector<GapSample> gap = gap_curve(loaded, result.answer.t, interrupt.token());
-  const std::vector<GapPoint> bound = gap_lower_bound(loaded, result.answer, gap);
+  const LoadedScene loaded = load_scene(std::move(stored.scene), cache);
+  const std::vector<GapSample> gap = gap_curve(loaded, stored.t, interrupt.token());
+  SceneResult answer;
+  answer.t = stored.t;
+  answer.clearance = stored.clearance;
+  const std::vector<GapPoint> bound = gap_lower_bound(loaded, answer, gap);
   write_file(output, write_page(page, loaded, text, {gap, bound}));
   fmt::print("{}\n", output);
   if (!arguments.no_open) {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <firstcontact/scene/read_verdict.h>
+#include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/shape_cache.h>
 
 #include "scene/scene_text.h"

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/read_verdict.h>
+#include <firstcontact/scene/read_result.h>
 
 #include <string>
 
@@ -7,6 +7,7 @@
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene/write_scene.h>
 
 #include "scene/scene_text.h"
 
@@ -37,6 +38,26 @@ TEST(ReadVerdict, RefusesWhatIsNoResult) {
     } catch (const ParseError& error) {
       EXPECT_EQ(error.line(), 7) << text;
     }
+  }
+}
+
+TEST(ReadResult, ReadsBackTheSceneAndWhatIsProven) {
+  ShapeCache cache;
+  ManyBodiesWorkspace workspace;
+  const std::string text = scene(body("floor") + "," + body("stone", falling("1", "-4")));
+  const LoadedScene loaded = load_scene(parse_scene(text, "s"), cache);
+  const SceneResult result = check_scene(loaded, workspace);
+  const StoredResult stored = read_result(write_result(loaded, result), "r");
+  EXPECT_EQ(stored.t, result.t);
+  EXPECT_EQ(stored.clearance, result.clearance);
+  EXPECT_EQ(write_scene(stored.scene), write_scene(loaded.scene));
+}
+
+TEST(ReadResult, RefusesWhatIsNoResultOfAScene) {
+  for (const std::string& text :
+       {std::string("[]"), std::string(R"({"verdict": "free"})"),
+        std::string(R"({"verdict": "free", "scene": {}})"), write_error("a", "s", 3, "wrong")}) {
+    EXPECT_THROW((void)read_result(text, "r"), ParseError) << text;
   }
 }
 

@@ -1,10 +1,12 @@
-#include <firstcontact/scene/read_verdict.h>
+#include <firstcontact/scene/read_result.h>
 
 #include <string>
 #include <variant>
 
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
 
 namespace firstcontact {
@@ -14,6 +16,13 @@ namespace {
 const std::string* find_string(const detail::JsonObject& object, std::string_view key) {
   const detail::JsonValue* value = detail::find(object, key);
   return value == nullptr ? nullptr : std::get_if<std::string>(&value->value);
+}
+
+/// The number of a key; 0, the least claim, where the object has none.
+double find_number(const detail::JsonObject& object, std::string_view key) {
+  const detail::JsonValue* value = detail::find(object, key);
+  const auto* number = value == nullptr ? nullptr : std::get_if<double>(&value->value);
+  return number == nullptr ? 0.0 : *number;
 }
 
 }  // namespace
@@ -34,6 +43,18 @@ std::optional<Verdict> read_verdict(std::string_view result, const std::filesyst
     }
   }
   throw ParseError(source.string(), line, "expected a result with a \"verdict\" or an \"error\"");
+}
+
+StoredResult read_result(std::string_view result, const std::filesystem::path& source) {
+  const detail::JsonValue root = detail::parse_json(result, source.string());
+  const auto* object = std::get_if<detail::JsonObject>(&root.value);
+  const detail::JsonValue* scene = object == nullptr ? nullptr : detail::find(*object, "scene");
+  if (scene == nullptr || detail::find(*object, "verdict") == nullptr) {
+    throw ParseError(source.string(),
+                     "expected one result, as `firstcontact check SCENE -o FILE` writes it");
+  }
+  return {parse_scene(detail::write_json(*scene), "scene of the result"), find_number(*object, "t"),
+          find_number(*object, "clearance")};
 }
 
 }  // namespace firstcontact
