@@ -1,9 +1,13 @@
 #include <firstcontact/scene/detail/read_pose.h>
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include <firstcontact/motion/rotation_forms.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -22,21 +26,6 @@ Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& rea
     read.fail(value, "expected " + expected + ", its length in 1e-60 ... 1e60");
   }
   return q;
-}
-
-/// Rotations about the fixed axes x, then y, then z.
-Eigen::Quaterniond read_rpy(const JsonValue& value, const JsonReader& read) {
-  const Eigen::Vector3d angles = read.vector3(value);
-  return Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX());
-}
-
-Eigen::Quaterniond read_rotation_vector(const JsonValue& value, const JsonReader& read) {
-  const Eigen::Vector3d rotation_vector = read.vector3(value);
-  const double angle = rotation_vector.stableNorm();
-  return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle))
-                     : Eigen::Quaterniond::Identity();
 }
 
 Eigen::Matrix4d read_numbers(const JsonValue& value, const JsonReader& read) {
@@ -59,22 +48,12 @@ Eigen::Matrix4d read_numbers(const JsonValue& value, const JsonReader& read) {
 }
 
 Pose read_matrix(const JsonValue& value, const JsonReader& read) {
-  constexpr double kRigid = 1e-9;  // [-]  Of the scene format.
   const Eigen::Matrix4d matrix = read_numbers(value, read);
-  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
-  // Written so that NaN from an overflow is refused too.
-  const Eigen::Matrix3d defect = R.transpose() * R - Eigen::Matrix3d::Identity();
-  if (!(defect.array().abs() <= kRigid).all() || !(R.determinant() > 0.0)) {
-    read.fail(value, "expected a rotation in the upper left 3x3 to within 1e-9");
+  try {
+    return pose_from_matrix(matrix);
+  } catch (const std::invalid_argument& error) {
+    read.fail(value, error.what());
   }
-  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
-    read.fail(value, "expected [0, 0, 0, 1] as the last row");
-  }
-  const Eigen::Vector3d position = matrix.topRightCorner<3, 1>();
-  if (!(position.array().abs() <= 1e60).all()) {
-    read.fail(value, "expected a position of at most 1e60 in size in the last column");
-  }
-  return {.position = position, .rotation = Eigen::Quaterniond(R)};
 }
 
 }  // namespace
@@ -100,9 +79,9 @@ Pose read_pose(const JsonValue& value, const JsonReader& read) {
   if (const JsonValue* quaternion = find(object, "quaternion_wxyz")) {
     pose.rotation = read_quaternion(*quaternion, read);
   } else if (const JsonValue* rpy = find(object, "rpy")) {
-    pose.rotation = read_rpy(*rpy, read);
+    pose.rotation = rotation_from_rpy(read.vector3(*rpy));
   } else if (const JsonValue* rotation_vector = find(object, "rotation_vector")) {
-    pose.rotation = read_rotation_vector(*rotation_vector, read);
+    pose.rotation = rotation_from_vector(read.vector3(*rotation_vector));
   }
   return pose;
 }
