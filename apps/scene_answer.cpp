@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
-#include "gap_curve.h"
-#include "parallel_sampling.h"
+#include <firstcontact/scene/gap_curve.h>
+#include <firstcontact/scene/parallel_sampling.h>
 
 namespace firstcontact::app {
 namespace {
@@ -27,12 +27,6 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
           .threads = question.threads,
           .stop = question.stop,
           .progress = tell};
-}
-
-/// Where a plot looks closely: at the contact, or else at the closest approach.
-double focus_of(const SceneResult& result) {
-  return result.closest && !result.first ? result.pairs[*result.closest].closest_approach->t
-                                         : result.t;
 }
 
 }  // namespace
@@ -58,7 +52,7 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
   }
   if (question.gap_curve) {
     question.doing("plotting " + answer.loaded.scene.id);
-    answer.curve = gap_curve(answer.loaded, focus_of(answer.result), question.stop);
+    answer.curve = gap_curve(answer.loaded, time_of_interest(answer.result), question.stop);
   }
   return answer;
 }

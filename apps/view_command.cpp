@@ -16,11 +16,11 @@
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/write_page.h>
 
 #include "atomic_file.h"
-#include "gap_curve.h"
 #include "interrupt.h"
 #include "viewer_page.h"
 

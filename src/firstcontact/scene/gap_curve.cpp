@@ -1,12 +1,12 @@
-#include "gap_curve.h"
+#include <firstcontact/scene/gap_curve.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "parallel_sampling.h"
+#include <firstcontact/scene/parallel_sampling.h>
 
-namespace firstcontact::app {
+namespace firstcontact {
 namespace {
 
 constexpr std::size_t kFirstSamples = 129;  // Several for each ripple of a nut in five turns.
@@ -42,6 +42,11 @@ void merge(const std::vector<GapSample>& more, std::vector<GapSample>& curve) {
 
 }  // namespace
 
+double time_of_interest(const SceneResult& result) {
+  return result.closest && !result.first ? result.pairs[*result.closest].closest_approach->t
+                                         : result.t;
+}
+
 std::vector<GapSample> gap_curve(const LoadedScene& loaded, double focus,
                                  const std::stop_token& stop) {
   std::vector<double> times = even_times(kFirstSamples);
@@ -56,4 +61,4 @@ std::vector<GapSample> gap_curve(const LoadedScene& loaded, double focus,
   return curve;
 }
 
-}  // namespace firstcontact::app
+}  // namespace firstcontact

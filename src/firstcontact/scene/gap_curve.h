@@ -6,15 +6,22 @@
 #include <stop_token>
 #include <vector>
 
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
-namespace firstcontact::app {
+namespace firstcontact {
+
+/// [-]  Where a plot looks closely: at the contact, or else at the closest approach.
+[[nodiscard]] FIRSTCONTACT_API double time_of_interest(const SceneResult& result);
 
 /// Samples over the whole step, few where the curve is straight and many where it bends.
 ///
 /// @param focus  [-]  a time that is among them, such as that of a contact
-[[nodiscard]] std::vector<GapSample> gap_curve(const LoadedScene& loaded, double focus,
-                                               const std::stop_token& stop);
+/// @param stop   ends it early, with fewer samples
+[[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> gap_curve(const LoadedScene& loaded,
+                                                                double focus,
+                                                                const std::stop_token& stop = {});
 
-}  // namespace firstcontact::app
+}  // namespace firstcontact

@@ -1,11 +1,11 @@
-#include "parallel_sampling.h"
+#include <firstcontact/scene/parallel_sampling.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <future>
 #include <thread>
 
-namespace firstcontact::app {
+namespace firstcontact {
 namespace {
 
 /// Every `stride`-th of the times.
@@ -39,4 +39,4 @@ std::vector<GapSample> sample_in_parallel(const LoadedScene& loaded, std::span<c
   return samples;
 }
 
-}  // namespace firstcontact::app
+}  // namespace firstcontact

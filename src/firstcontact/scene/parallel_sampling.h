@@ -7,14 +7,14 @@
 #include <stop_token>
 #include <vector>
 
+#include <firstcontact/math/export.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
-namespace firstcontact::app {
+namespace firstcontact {
 
 /// As sample_gap; the same for every number of processors. A stop leaves samples out.
-[[nodiscard]] std::vector<GapSample> sample_in_parallel(const LoadedScene& loaded,
-                                                        std::span<const double> times,
-                                                        const std::stop_token& stop);
+[[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> sample_in_parallel(
+    const LoadedScene& loaded, std::span<const double> times, const std::stop_token& stop = {});
 
-}  // namespace firstcontact::app
+}  // namespace firstcontact
