@@ -99,7 +99,7 @@ export class GapChart {
       this.element,
     );
     this.element.append(element("span.chart-title", {}, `gap [${units.gap.name}]`));
-    this.element.append(element("span.chart-unit", {}, units.time.name));
+    this.element.append(element("span.chart-unit", {}, `time [${units.time.name}]`));
     this.followPointer(this.plot);
   }
 
