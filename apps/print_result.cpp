@@ -143,7 +143,12 @@ class Description {
     line("pairs", std::to_string(result_.pairs.size()));
     for (const PairAnswer& pair : result_.pairs) {
       const FirstContactResult& found = pair.first_contact;
-      print("    {:<30} {:<16} t = {:.9g}\n", names(pair.bodies), word(found.verdict), found.t);
+      print("    {:<30} {:<16} t = {:.9g}", names(pair.bodies), word(found.verdict), found.t);
+      if (pair.closest_approach) {
+        print(", closest {} at t = {:.6g}", length_text(pair.closest_approach->distance),
+              pair.closest_approach->t);
+      }
+      print("\n");
     }
   }
 

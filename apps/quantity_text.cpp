@@ -28,6 +28,10 @@ Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
 }
 
 std::string in_unit(double quantity, Unit unit) {
+  constexpr double kShown = 1e-3;  // What is less, of the smallest unit, is rounding.
+  if (quantity > 0.0 && quantity < kShown * unit.size) {
+    return fmt::format("below {:g} {}", kShown, unit.name);
+  }
   return fmt::format("{:.4g} {}", quantity / unit.size, unit.name);
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 #include <thread>
 #include <vector>
 
@@ -197,6 +198,42 @@ TEST(ClosestApproach, FindsTheLowestPointOfATurn) {
   EXPECT_NEAR(result.distance, 0.25, 1e-6);
   EXPECT_LE(result.lower_bound, 0.25);
   EXPECT_GE(result.lower_bound, 0.25 - 2e-6);
+}
+
+TEST(ClosestApproach, OfATouchIsTheFirstContact) {
+  const Shape A = waves(6, 0.1);
+  const Shape B = waves(5, 0.2);
+  const Motion fall = Motion::constant_velocity(at(2.0), {0.1, 0.0, -4.0}, {0.3, 0.2, 0.1});
+  Workspace workspace;
+  const MovingShape resting{A, Motion::fixed()};
+  const double t = first_contact(resting, {B, fall}, workspace).t;
+  const ClosestApproachResult result = closest_approach(resting, {B, fall}, workspace);
+  EXPECT_EQ(result.t, t);
+  EXPECT_LE(result.distance, result.tolerance_used);
+  EXPECT_EQ(result.lower_bound, 0.0);
+}
+
+// What is said to be the least distance is attained, and no sample is closer.
+TEST(ClosestApproach, IsAttainedAndBoundsEverySample) {
+  const Shape A = waves(6, 0.1);
+  const Shape B = waves(5, 0.2);
+  const Motion rest = Motion::fixed();
+  std::mt19937_64 rng(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Workspace workspace;
+  for (int i = 0; i < 30; ++i) {
+    const Motion pass = Motion::constant_velocity(at(1.5 + uniform(rng)),
+                                                  {uniform(rng), uniform(rng), 0.3 * uniform(rng)},
+                                                  {3.0 * uniform(rng), uniform(rng), uniform(rng)});
+    const ClosestApproachResult result = closest_approach({A, rest}, {B, pass}, workspace);
+    ASSERT_EQ(result.reason, UndecidedReason::none);
+    EXPECT_LE(result.distance, result.lower_bound + result.tolerance_used);
+    EXPECT_EQ(distance({A, rest}, {B, pass}, result.t, workspace).distance, result.distance);
+    for (int k = 0; k <= 200; ++k) {
+      EXPECT_GE(distance({A, rest}, {B, pass}, k / 200.0, workspace).distance, result.lower_bound)
+          << "motion " << i << " at " << k / 200.0;
+    }
+  }
 }
 
 // Shapes and motions are only read: many threads share them and get the same bits.

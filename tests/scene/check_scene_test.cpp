@@ -124,6 +124,7 @@ TEST(CheckScene, TheClosestPairIsNamed) {
   EXPECT_NEAR(closest.closest_approach->distance, 2.0, kTolerance);
   EXPECT_LE(closest.closest_approach->lower_bound, 2.0);
   EXPECT_EQ(closest.closest_approach->t, 1.0);
+  EXPECT_EQ(closest.first_contact.clearance, closest.closest_approach->lower_bound);
 }
 
 // The same fall told by waypoints of a longer scene, then rest.

@@ -104,9 +104,9 @@ TEST(WriteResult, SaysMoreWhereMoreIsAsked) {
   const SamplingReport sampling{.rate = 240, .samples = 2, .in_contact = 1, .least = GapSample{}};
   const Written full = write(kFall, {.closest = true}, {.all_pairs = true, .sampling = sampling});
   EXPECT_EQ(std::get<JsonArray>(full.at("pairs").value).size(), 1u);
-  EXPECT_EQ(
+  EXPECT_LE(
       std::get<double>(find(std::get<JsonObject>(full.at("closest").value), "distance")->value),
-      0.0);
+      1e-6);
   EXPECT_EQ(detail::write_json(full.at("sampling")),
             R"({"rate":240,"samples":2,"in_contact":1,"least_distance":0,"time":0})");
 }

@@ -78,30 +78,40 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   best.tolerance_used = options.tolerance;
   best.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
   Descent descent(A, B, workspace, best);
+  FirstContactOptions query;
+  query.tolerance = options.tolerance;
+  query.contacts = ContactState::none;
+  query.budget = options.budget;
+  const auto search = [&] {
+    const FirstContactResult found = first_contact(A, B, workspace, query);
+    best.work.node_groups += found.work.node_groups;
+    best.work.triangle_pairs += found.work.triangle_pairs;
+    best.work.steps += found.work.steps;
+    best.tolerance_used =
+        std::max(best.tolerance_used, found.tolerance_used + options.tolerance - query.tolerance);
+    best.reason = found.reason;
+    return found;
+  };
+  // Bodies that touch are closest there, for the first time.
+  if (const FirstContactResult touch = search(); touch.verdict != Verdict::free) {
+    descent.sample(touch.t);
+    return best;
+  }
   constexpr int kSamples = 8;
   for (int i = 0; i <= kSamples; ++i) {
     descent.sample(static_cast<double>(i) / kSamples);
   }
   descent.improve(best.t, 1.0 / kSamples, options.tolerance);
   // Proves that nothing is closer than distance - tolerance, or finds what is.
+  query.tolerance = 0.5 * options.tolerance;
   while (best.distance > options.tolerance) {
-    FirstContactOptions query;
     query.margin = best.distance - options.tolerance;
-    query.tolerance = 0.5 * options.tolerance;
-    query.contacts = ContactState::none;
-    query.budget = options.budget;
-    const FirstContactResult closer = first_contact(A, B, workspace, query);
-    best.work.node_groups += closer.work.node_groups;
-    best.work.triangle_pairs += closer.work.triangle_pairs;
-    best.work.steps += closer.work.steps;
-    best.tolerance_used =
-        std::max(best.tolerance_used, closer.tolerance_used + 0.5 * options.tolerance);
+    const FirstContactResult closer = search();
     if (closer.verdict == Verdict::free) {
       best.lower_bound = query.margin;
       return best;
     }
     if (closer.verdict == Verdict::undecided) {
-      best.reason = closer.reason;
       return best;
     }
     const double before = best.distance;

@@ -26,6 +26,10 @@ struct ClosestApproachResult {
 
 /// Least distance of A and B over the step, to the tolerance, with a time where it is attained.
 ///
+/// Where they touch, that is the time of their first contact, with a distance of at most the
+/// tolerance. Else the distance is found by sampling and descent, and `lower_bound` is proven by
+/// first_contact with that margin.
+///
 /// @throws std::invalid_argument if an option is outside its documented range.
 [[nodiscard]] FIRSTCONTACT_API ClosestApproachResult
 closest_approach(const MovingShape& A, const MovingShape& B, Workspace& workspace,

@@ -75,8 +75,11 @@ void take_verdict(SceneResult& result) {
 
 /// What holds of all pairs together.
 void gather(SceneResult& result) {
-  for (const PairAnswer& pair : result.pairs) {
-    const FirstContactResult& answer = pair.first_contact;
+  for (PairAnswer& pair : result.pairs) {
+    FirstContactResult& answer = pair.first_contact;
+    if (pair.closest_approach) {
+      answer.clearance = std::max(answer.clearance, pair.closest_approach->lower_bound);
+    }
     result.clearance = std::min(result.clearance, answer.clearance);
     result.tolerance_used = std::max(result.tolerance_used, answer.tolerance_used);
     if (answer.t_upper) {
@@ -89,11 +92,15 @@ void gather(SceneResult& result) {
   }
 }
 
-/// The pair that comes closest.
+/// The pair that comes closest; of those that touch the first to do so.
 std::size_t closest_of(const std::vector<PairAnswer>& pairs) {
-  return least(pairs, [](const PairAnswer& a, const PairAnswer& b) {
-    return a.closest_approach->distance < b.closest_approach->distance;
-  });
+  const auto order = [](const PairAnswer& pair) {
+    const ClosestApproachResult& found = *pair.closest_approach;
+    const bool touch = found.reason == UndecidedReason::none && found.lower_bound == 0.0;
+    return std::pair(touch ? 0.0 : found.distance, found.t);
+  };
+  return least(pairs,
+               [&order](const PairAnswer& a, const PairAnswer& b) { return order(a) < order(b); });
 }
 
 SceneResult from_first(ManyBodiesResult found) {
