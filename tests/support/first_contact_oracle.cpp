@@ -64,6 +64,8 @@ struct BodyState {
   Vector3<double> axis;     // Unit, rounded.
   double rate = 0.0;        // [rad per step]  Upper bound.
   Matrix3<double> R_plain;  // Rounded.
+  Wide t;
+  double t_plain = 0.0;
 };
 
 class Body {
@@ -75,7 +77,7 @@ class Body {
       exact_offsets.push_back(exact(v) - exact(center));
       radius = std::max(radius, length(offsets.back()) * (1.0 + 8.0 * kRoundoff));
     }
-    pieces = motion_pieces(soup.motion, center);
+    pieces = soup.to.empty() ? motion_pieces(soup.motion, center) : follow(soup.to);
     for (const MotionPiece& piece : pieces) {
       turning_levers.emplace_back(piece.lever, piece.axis);
       std::vector<Turning> columns;
@@ -113,7 +115,25 @@ class Body {
     state.axis = nearest(piece.axis);
     state.spin = nearest(rate * piece.axis);
     state.rate = rate.upper();
+    state.t = t;
+    state.t_plain = t.nearest();
     return state;
+  }
+
+  /// From the center, in the frame of the body.
+  [[nodiscard]] Vector3<Wide> exact_offset(const BodyState& at, std::size_t vertex) const {
+    return drifts.empty() ? exact_offsets[vertex] : exact_offsets[vertex] + at.t * drifts[vertex];
+  }
+  [[nodiscard]] Vector3<double> offset(const BodyState& at, std::size_t vertex) const {
+    return drifts.empty() ? offsets[vertex] : offsets[vertex] + at.t_plain * plain_drifts[vertex];
+  }
+
+  /// Of a vertex of a soup that deforms, as the center sees it; such a body does not turn.
+  [[nodiscard]] Vector3<Wide> exact_drift(std::size_t vertex) const {
+    return drifts.empty() ? Vector3<Wide>{} : drifts[vertex];
+  }
+  [[nodiscard]] Vector3<double> drift(std::size_t vertex) const {
+    return drifts.empty() ? Vector3<double>{} : plain_drifts[vertex];
   }
 
   const std::vector<std::array<std::size_t, 3>> triangles;
@@ -126,6 +146,19 @@ class Body {
   std::vector<std::vector<double>> levers;  // Of piece and vertex: distance from the axis, upper.
 
  private:
+  /// The center goes from the middle of the vertices to that of their places at t = 1.
+  std::vector<MotionPiece> follow(const std::vector<Vector3<double>>& to) {
+    MotionPiece piece = motion_pieces({}, center).front();
+    piece.travel = exact(middle(to)) - exact(center);
+    for (std::size_t v = 0; v < to.size(); ++v) {
+      drifts.push_back(exact(to[v]) - exact(vertices[v]) - piece.travel);
+      plain_drifts.push_back(nearest(drifts.back()));
+      const double far = norm(exact_offsets[v] + drifts.back()).upper();
+      radius = std::max(radius, far * (1.0 + 8.0 * kRoundoff));
+    }
+    return {piece};
+  }
+
   static Vector3<double> middle(const std::vector<Vector3<double>>& vertices) {
     Vector3<double> low = vertices.front();
     Vector3<double> high = low;
@@ -144,6 +177,8 @@ class Body {
     return distances;
   }
 
+  std::vector<Vector3<Wide>> drifts;  // [m per step]
+  std::vector<Vector3<double>> plain_drifts;
   std::vector<Turning> turning_levers;
   std::vector<std::vector<Turning>> turning_columns;
 };
@@ -273,7 +308,7 @@ class FirstContactOracle::Search {
   Triangle<double> plain_A(const Instant& at, std::size_t triangle) const {
     Triangle<double> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = at.A.R_plain * A_.offsets[A_.triangles[triangle][k]];
+      corners[k] = at.A.R_plain * A_.offset(at.A, A_.triangles[triangle][k]);
     }
     return corners;
   }
@@ -282,7 +317,7 @@ class FirstContactOracle::Search {
   Triangle<double> plain_B(const Instant& at, std::size_t triangle) const {
     Triangle<double> corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = at.B.R_plain * B_.offsets[B_.triangles[triangle][k]];
+      corners[k] = at.B.R_plain * B_.offset(at.B, B_.triangles[triangle][k]);
     }
     return corners;
   }
@@ -292,7 +327,9 @@ class FirstContactOracle::Search {
   }
 
   [[nodiscard]] double speed(const Instant& at) const {
-    return length(at.approach_plain) + at.A.rate * A_.radius + at.B.rate * B_.radius;
+    // No vertex is more than twice the radius from where it was.
+    return length(at.approach_plain) + (at.A.rate + 2.0) * A_.radius +
+           (at.B.rate + 2.0) * B_.radius;
   }
 
   /// Along a direction n over times within h of the instant: how far B's triangle stays above A's.
@@ -315,7 +352,7 @@ class FirstContactOracle::Search {
     double low = kInfinity, low_before = kInfinity, low_after = kInfinity;
     for (std::size_t k = 0; k < 3; ++k) {
       const double p = dot(n, A[k]);
-      const double dp = h * dot(n, cross(at.A.spin, A[k]));
+      const double dp = h * dot(n, cross(at.A.spin, A[k]) + A_.drift(A_.triangles[pair.a][k]));
       const double bend = bend_A * A_.levers[at.piece_A][A_.triangles[pair.a][k]];
       top = std::max(top, p);
       top_before = std::max(top_before, p - dp + bend);
@@ -323,7 +360,8 @@ class FirstContactOracle::Search {
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const double q = base + dot(n, B[k]);
-      const double dq = h * (base_rate + dot(n, cross(at.B.spin, B[k])));
+      const double dq =
+          h * (base_rate + dot(n, cross(at.B.spin, B[k]) + B_.drift(B_.triangles[pair.b][k])));
       const double bend = bend_B * B_.levers[at.piece_B][B_.triangles[pair.b][k]];
       low = std::min(low, q);
       low_before = std::min(low_before, q - dq - bend);
@@ -356,8 +394,8 @@ class FirstContactOracle::Search {
   std::array<WideTriangle, 2> exact_triangles(const Instant& at, Pair pair) const {
     std::array<WideTriangle, 2> result;
     for (std::size_t k = 0; k < 3; ++k) {
-      result[0][k] = at.A.R * A_.exact_offsets[A_.triangles[pair.a][k]];
-      result[1][k] = at.offset + at.B.R * B_.exact_offsets[B_.triangles[pair.b][k]];
+      result[0][k] = at.A.R * A_.exact_offset(at.A, A_.triangles[pair.a][k]);
+      result[1][k] = at.offset + at.B.R * B_.exact_offset(at.B, B_.triangles[pair.b][k]);
     }
     return result;
   }
@@ -449,9 +487,11 @@ class FirstContactOracle::Search {
     const Wide bend_B = half_h2 * square(rate_B) * norm(cross(n, piece_B.axis));
     const Wide needed = limit_ * norm(n);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3<Wide> spin_A = rate_A * cross(piece_A.axis, A[i]);
+      const Vector3<Wide> spin_A =
+          rate_A * cross(piece_A.axis, A[i]) + A_.exact_drift(A_.triangles[pair.a][i]);
       for (std::size_t j = 0; j < 3; ++j) {
-        const Vector3<Wide> spin_B = rate_B * cross(piece_B.axis, B[j] - at.offset);
+        const Vector3<Wide> spin_B = rate_B * cross(piece_B.axis, B[j] - at.offset) +
+                                     B_.exact_drift(B_.triangles[pair.b][j]);
         const Wide bend = bend_A * Wide(A_.levers[at.piece_A][A_.triangles[pair.a][i]]) +
                           bend_B * Wide(B_.levers[at.piece_B][B_.triangles[pair.b][j]]);
         const Wide surplus = dot(n, B[j] - A[i]) - bend - needed;

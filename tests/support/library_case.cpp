@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 namespace firstcontact::oracle {
@@ -62,16 +63,26 @@ Motion to_motion(const MotionInput& m) {
       m.kind == MotionKind::waypoints ? Between::constant_velocity : Between::screw);
 }
 
+DeformingBody to_body(const MovingSoup& soup) {
+  Shape shape = to_shape(soup);
+  if (soup.to.empty()) {
+    return {std::move(shape), to_motion(soup.motion)};
+  }
+  std::vector<Eigen::Vector3d> to;
+  for (const Vector3<double>& v : soup.to) {
+    to.push_back(vector(v));
+  }
+  return move_vertices(shape, to);
+}
+
 FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace) {
-  const Shape shape_A = to_shape(c.A);
-  const Shape shape_B = to_shape(c.B);
-  const Motion X_WA = to_motion(c.A.motion);
-  const Motion X_WB = to_motion(c.B.motion);
+  const DeformingBody A = to_body(c.A);
+  const DeformingBody B = to_body(c.B);
   FirstContactOptions options;
   options.margin = c.margin;
   options.tolerance = c.tolerance;
   options.contacts = ContactState::none;
-  return first_contact({shape_A, X_WA}, {shape_B, X_WB}, workspace, options);
+  return first_contact({A.shape, A.X_WS}, {B.shape, B.X_WS}, workspace, options);
 }
 
 std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,

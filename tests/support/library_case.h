@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include <firstcontact/geometry/deforming_body.h>
 #include <firstcontact/query/first_contact.h>
 
 #include "support/first_contact_oracle.h"
@@ -14,6 +15,8 @@ namespace firstcontact::oracle {
 
 Shape to_shape(const MovingSoup& soup);
 Motion to_motion(const MotionInput& input);
+/// Rigid or deforming, as the soup is.
+DeformingBody to_body(const MovingSoup& soup);
 
 /// The library's answer to a case; without the contact state.
 FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace);

@@ -50,6 +50,9 @@ struct MovingSoup {
   std::vector<std::array<std::size_t, 3>> triangles;
   double radius = 0.0;
   MotionInput motion;
+  /// Where each vertex is at t = 1; in between it is on the line, whatever `motion` says. Empty
+  /// where the soup is rigid.
+  std::vector<Vector3<double>> to;
 };
 
 }  // namespace firstcontact::oracle

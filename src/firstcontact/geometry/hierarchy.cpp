@@ -358,19 +358,9 @@ class Builder {
     });
     for (int k = 0; k < 3; ++k) {
       // 2^-48 covers the axes (2^-50), the vertices and this dot product, all of them below 2.
-      node.extent[k][slot] = items.empty() ? std::uint16_t{0} : round_up(extent[k] + 0x1p-48);
+      node.extent[k][slot] =
+          items.empty() ? std::uint16_t{0} : HierarchyNode::extent_code(extent[k] + 0x1p-48);
     }
-  }
-
-  /// The least extent that can be stored, at or above the value, which is below 2.
-  static std::uint16_t round_up(double value) {
-    auto f = static_cast<float>(std::max(value, 0x1p-62));
-    if (static_cast<double>(f) < value) {
-      f = std::nextafter(f, std::numeric_limits<float>::infinity());
-    }
-    const auto bits = std::bit_cast<std::uint32_t>(f) - HierarchyNode::kExtentOrigin;
-    constexpr std::uint32_t kDropped = (1u << HierarchyNode::kExtentShift) - 1u;
-    return static_cast<std::uint16_t>((bits + kDropped) >> HierarchyNode::kExtentShift);
   }
 
   const Mesh& mesh_;
@@ -437,6 +427,16 @@ Hierarchy build(const Mesh& mesh) {
 constexpr std::size_t kScatteredTriangles = 100'000;
 
 }  // namespace
+
+std::uint16_t HierarchyNode::extent_code(double value) {
+  auto f = static_cast<float>(std::max(value, 0x1p-62));
+  if (static_cast<double>(f) < value) {
+    f = std::nextafter(f, std::numeric_limits<float>::infinity());
+  }
+  const auto bits = std::bit_cast<std::uint32_t>(f) - kExtentOrigin;
+  constexpr std::uint32_t kDropped = (1u << kExtentShift) - 1u;
+  return static_cast<std::uint16_t>((bits + kDropped) >> kExtentShift);
+}
 
 Hierarchy build_hierarchy(const Mesh& mesh) {
   if (mesh.triangles.size() <= kScatteredTriangles) {

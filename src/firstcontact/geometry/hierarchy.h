@@ -38,6 +38,9 @@ struct alignas(64) HierarchyNode {
     const auto code = static_cast<std::uint32_t>(extent[axis][slot]);
     return std::bit_cast<float>((code << kExtentShift) + kExtentOrigin);
   }
+  /// The code of the least extent that can be stored, at or above a value below 2.
+  FIRSTCONTACT_API static std::uint16_t extent_code(double value);
+
   [[nodiscard]] unsigned used() const { return node_base_and_used & 15u; }
   [[nodiscard]] unsigned leaves() const { return triangle_base_and_leaf & 15u; }
   [[nodiscard]] bool is_leaf(int slot) const { return (leaves() >> slot & 1u) != 0; }
@@ -58,13 +61,36 @@ static_assert(sizeof(HierarchyNode) == 128);
 /// The hierarchy, with the mesh's vertices and triangles in its own order for locality.
 struct Hierarchy {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the body frame.
-  double radius = 0.0;                    ///< [m]  Every vertex is within it of the centre.
+  double radius = 0.0;                    ///< [m]  Every vertex is always within it of the centre.
   double unit = 1.0;                      ///< [m]  A power of two, at least the radius.
   std::vector<HierarchyNode> nodes;       ///< The root is the first.
   std::vector<Eigen::Vector3d> vertices;  ///< [m]  Relative to the centre, rounded.
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices into vertices.
   std::vector<std::uint32_t> vertex_index;              ///< Index in the mesh of each vertex.
   std::vector<std::uint32_t> triangle_index;            ///< Index in the mesh of each triangle.
+
+  /// Of a body that deforms: its boxes (same links, same axes) and vertices at t = 1, relative to
+  /// the centre there. In between, centres, extents and vertices change linearly. Empty where the
+  /// body is rigid.
+  std::vector<HierarchyNode> nodes_to;
+  std::vector<Eigen::Vector3d> vertices_to;  ///< [m]
+  double deformation_speed = 0.0;  ///< [m per step]  No vertex is faster than this, as seen from
+                                   ///< the centre.
+
+  [[nodiscard]] bool deforms() const { return !vertices_to.empty(); }
+
+  /// [m]  At t, relative to the centre; of a body that deforms within 2^-51 of the radius.
+  [[nodiscard]] Eigen::Vector3d vertex(std::uint32_t index, double t) const {
+    return deforms() ? Eigen::Vector3d((1.0 - t) * vertices[index] + t * vertices_to[index])
+                     : vertices[index];
+  }
+
+  /// The boxes of a node at t; put into `scratch` where they change.
+  ///
+  /// An interpolated box holds its triangles: along an axis of the box, a vertex is no farther from
+  /// the interpolated centre than the interpolation of its distances at both ends.
+  FIRSTCONTACT_API const HierarchyNode& node(std::uint32_t index, double t,
+                                             HierarchyNode& scratch) const;
 };
 
 /// Builds the hierarchy top-down, on all cores for large meshes; the same on every run.
@@ -74,6 +100,14 @@ struct Hierarchy {
 ///
 /// @param mesh  not empty, finite, indices in range, below 2^28 triangles
 FIRSTCONTACT_API Hierarchy build_hierarchy(const Mesh& mesh);
+
+/// The hierarchy of the same triangles while their vertices move to other places, each on a line.
+///
+/// @param rest  of a body that does not deform
+/// @param to    [m]  for each of its vertices, in its order, the place at t = 1 relative to the
+///              centre there
+FIRSTCONTACT_API Hierarchy deforming_hierarchy(const Hierarchy& rest,
+                                               std::vector<Eigen::Vector3d> to);
 
 /// The axes of box `slot`, one per row, to double precision (error below 2^-50).
 FIRSTCONTACT_API Eigen::Matrix3d box_axes(const HierarchyNode& node, int slot);

@@ -10,6 +10,7 @@
 
 #include <firstcontact/geometry/detail/disjoint_sets.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/math/double_double.h>
 
 namespace firstcontact {
 namespace {
@@ -21,6 +22,14 @@ void require_length(const char* what, double length) {
   if (!(length >= 0.0 && std::isfinite(length))) {
     throw std::invalid_argument(std::string("Shape: ") + what + " must be finite and >= 0, got " +
                                 std::to_string(length));
+  }
+}
+
+void require_position(const std::string& what, const Eigen::Vector3d& position) {
+  // Beyond this, squares and products of lengths would overflow.
+  constexpr double kMaximumCoordinate = 1e60;
+  if (!(position.cwiseAbs().maxCoeff() <= kMaximumCoordinate) || position.hasNaN()) {
+    throw std::invalid_argument("Shape: " + what + " is not finite or beyond 1e60 m");
   }
 }
 
@@ -38,13 +47,7 @@ void validate(const Mesh& mesh) {
                                     std::to_string(v) + " of " +
                                     std::to_string(mesh.vertices.size()));
       }
-      // Beyond this, squares and products of lengths would overflow.
-      constexpr double kMaximumCoordinate = 1e60;
-      if (!(mesh.vertices[v].cwiseAbs().maxCoeff() <= kMaximumCoordinate) ||
-          mesh.vertices[v].hasNaN()) {
-        throw std::invalid_argument("Shape: vertex " + std::to_string(v) +
-                                    " is not finite or beyond 1e60 m");
-      }
+      require_position("vertex " + std::to_string(v), mesh.vertices[v]);
     }
   }
 }
@@ -108,13 +111,18 @@ std::uint64_t mix(std::uint64_t hash, std::uint64_t word) {
   return std::rotl((hash ^ word) * 0x9e3779b97f4a7c15u, 29);
 }
 
+std::uint64_t mix_vector(std::uint64_t hash, const Eigen::Vector3d& v) {
+  for (int k = 0; k < 3; ++k) {
+    hash = mix(hash, std::bit_cast<std::uint64_t>(v[k]));
+  }
+  return hash;
+}
+
 std::uint64_t content_hash(const Mesh& mesh, double radius, Filling filling) {
   std::uint64_t hash = mix(mesh.triangles.size(), std::bit_cast<std::uint64_t>(radius));
   hash = filling == Filling::solid ? mix(hash, 1) : hash;
   for (const Eigen::Vector3d& v : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) {
-      hash = mix(hash, std::bit_cast<std::uint64_t>(v[k]));
-    }
+    hash = mix_vector(hash, v);
   }
   for (const auto& t : mesh.triangles) {
     hash = mix(hash, std::uint64_t{t[0]} << 32 | t[1]);
@@ -167,6 +175,38 @@ Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) 
   data->components = list_components(data->mesh, data->hierarchy);
   data->hash = content_hash(data->mesh, radius, filling);
   data_ = std::move(data);
+}
+
+Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
+                       const Eigen::Vector3d& translation) const {
+  if (to.size() != data_->mesh.vertices.size()) {
+    throw std::invalid_argument("Shape: deforming needs a place for each of the " +
+                                std::to_string(data_->mesh.vertices.size()) + " vertices, got " +
+                                std::to_string(to.size()));
+  }
+  if (data_->enclosure_error > 0.0) {
+    throw std::invalid_argument("Shape: triangles that enclose a curved body cannot deform");
+  }
+  require_position("the translation", translation);
+  for (std::size_t v = 0; v < to.size(); ++v) {
+    require_position("where vertex " + std::to_string(v) + " moves to", to[v]);
+  }
+  const Hierarchy& rest = data_->hierarchy;
+  const DoubleDoubleVector3 centre =
+      DoubleDoubleVector3(rest.centre) + DoubleDoubleVector3(translation);
+  std::vector<Eigen::Vector3d> relative;
+  relative.reserve(rest.vertex_index.size());
+  std::uint64_t hash = mix_vector(data_->hash, translation);
+  for (const std::uint32_t v : rest.vertex_index) {
+    relative.push_back((DoubleDoubleVector3(to[v]) - centre).value());
+    hash = mix_vector(hash, to[v]);
+  }
+  auto data = std::make_shared<Data>(*data_);
+  data->hierarchy = deforming_hierarchy(rest, std::move(relative));
+  data->hash = hash;
+  Shape shape = *this;
+  shape.data_ = std::move(data);
+  return shape;
 }
 
 const Mesh& Shape::mesh() const { return data_->mesh; }

@@ -37,8 +37,22 @@ class FIRSTCONTACT_API Shape {
   explicit Shape(Mesh mesh, double radius = 0.0, Filling filling = Filling::surface,
                  double enclosure_error = 0.0);
 
-  [[nodiscard]] const Mesh& mesh() const;
-  [[nodiscard]] double radius() const;  ///< [m]
+  /// The same shape while its vertices move on lines, each with a velocity of its own, as seen from
+  /// a body frame that moves by `translation`: vertex i is at (1 - t) mesh().vertices[i] +
+  /// t (to[i] - translation) in that frame. move_vertices() chooses the translation.
+  ///
+  /// What a solid contains follows its surface.
+  ///
+  /// @param to           [m]  one for each vertex of the mesh, in world axes as the vertices are
+  /// @param translation  [m]  of the body frame over the step; what all vertices have in common
+  /// @throws std::invalid_argument if there are not as many as vertices, one is not finite or
+  ///         beyond 1e60 m, or the shape encloses a curved body, which its triangles would no
+  ///         longer
+  [[nodiscard]] Shape deforming(std::span<const Eigen::Vector3d> to,
+                                const Eigen::Vector3d& translation = Eigen::Vector3d::Zero()) const;
+
+  [[nodiscard]] const Mesh& mesh() const;  ///< At t = 0.
+  [[nodiscard]] double radius() const;     ///< [m]
   [[nodiscard]] bool is_solid() const;
 
   /// [m]  Where the triangles enclose a curved body from outside: no point of theirs is farther

@@ -24,6 +24,7 @@ RelativeState RelativeMotion::state(double t) const {
   const ConstantRatePath::State b = B_.state(t);
   const DoubleDoubleVector3 p_QaQb = p_QaQb_ + two_sum(t, -t_begin_) * relative_velocity_;
   RelativeState state;
+  state.t = t;
   state.R_WA = a.R_WB;
   state.R_WB = b.R_WB;
   if (precise_) {

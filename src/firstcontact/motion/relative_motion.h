@@ -12,6 +12,7 @@ namespace firstcontact {
 
 /// Positions at one instant: world axes, origin at point C of body A.
 struct RelativeState {
+  double t = 0.0;
   Eigen::Matrix3d R_WA;
   Eigen::Matrix3d R_WB;
   Eigen::Vector3d p_AB;   ///< [m]  From A's point C to B's.

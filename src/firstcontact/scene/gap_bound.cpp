@@ -11,10 +11,11 @@ constexpr double kRounding = 0x1p-40;
 /// [m per step]  Of any point of the body.
 double greatest_speed(const BodySet& bodies, std::size_t body) {
   const double radius = bodies.shape(body).hierarchy().radius + bodies.shape(body).radius();
+  const double deformation = bodies.shape(body).hierarchy().deformation_speed;
   double greatest = 0.0;
   for (const ConstantRatePath& path : bodies.centre_path(body)) {
     greatest = std::max(greatest, path.pivot_velocity().value().norm() +
-                                      path.rate() * (path.lever_length() + radius));
+                                      path.rate() * (path.lever_length() + radius) + deformation);
   }
   return greatest * (1.0 + kRounding);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <firstcontact/narrowphase/advance_deforming.h>
 #include <firstcontact/narrowphase/separating_direction.h>
 
 namespace firstcontact::detail {
@@ -33,11 +34,6 @@ constexpr std::size_t kMostRemembered = 256;
 double size2(const TrianglePair& pair) {
   return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
                   (pair.B[1] - pair.B[0]).squaredNorm() + (pair.B[2] - pair.B[0]).squaredNorm());
-}
-
-/// At most the value, and not negative.
-float round_down(double value) {
-  return std::max(0.0f, static_cast<float>(value * (1.0 - 0x1p-22)));
 }
 
 class Search {
@@ -282,10 +278,27 @@ class Search {
     if (!(state_t_ <= t && t < state_t_ + boxes_window_)) {
       move_to(t);
     }
+    BoxBounds bounds;
+    unsigned live = 0;
+    if (pair_.deforms()) {
+      pair_.bound(state_, group.node_a, group.node_b, lanes, box_threshold_, error_,
+                  horizon() - state_t_, bounds);
+      live = lanes & bounds.live;
+    } else {
+      live = bound_rigid(group, lanes, bounds);
+    }
+    group.base = state_t_;
+    group.larger_a = bounds.larger_a;
+    group.larger_b = bounds.larger_b;
+    group.far = bounds.far;
+    group.set_times(bounds.time, round_down(t - state_t_), ~live);
+  }
+
+  /// The lanes that are left.
+  unsigned bound_rigid(const BoxGroup& group, unsigned lanes, BoxBounds& bounds) {
     frame_.horizon = round_up(horizon() - state_t_);
     const HierarchyNode& a = pair_.A().nodes[group.node_a];
     const HierarchyNode& b = pair_.B().nodes[group.node_b];
-    BoxBounds bounds;
     bound_boxes(frame_, a, b, bounds);
     unsigned live = lanes & bounds.live;
     for (unsigned doubt = live & in_doubt(a, b, bounds); doubt != 0; doubt &= doubt - 1) {
@@ -294,11 +307,7 @@ class Search {
         live &= ~(1u << k);
       }
     }
-    group.base = state_t_;
-    group.larger_a = bounds.larger_a;
-    group.larger_b = bounds.larger_b;
-    group.far = bounds.far;
-    group.set_times(bounds.time, round_down(t - state_t_), ~live);
+    return live;
   }
 
   /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
@@ -316,8 +325,9 @@ class Search {
   bool bound_in_double(const BoxGroup& group, int lane, float& time) const {
     const BoxId a{group.node_a, static_cast<std::uint32_t>(lane / HierarchyNode::kWidth)};
     const BoxId b{group.node_b, static_cast<std::uint32_t>(lane % HierarchyNode::kWidth)};
-    const double apart = pair_.time_apart(pair_.place_A(state_, a), pair_.place_B(state_, b),
-                                          box_threshold_, error_);
+    const double apart =
+        pair_.apart(pair_.place_A(state_, a), pair_.place_B(state_, b), box_threshold_, error_)
+            .time;
     if (covered(state_t_, apart)) {
       return false;
     }
@@ -343,6 +353,9 @@ class Search {
     const double due = queue_.empty() ? horizon() : queue_.top().priority + tie_window_;
     double t = entry.key;
     do {
+      if (best_.contact && t >= best_.t) {
+        return;  // Nothing of it is left before the contact.
+      }
       ++work_.steps;
       move_to(t);
       const TrianglePair triangles = pair_.place(state_, entry.a, entry.b);
@@ -356,7 +369,7 @@ class Search {
         found(entry, t, entry.threshold + tolerance - closest.distance - error_);
         return;
       }
-      const double tau = step(triangles, closest, entry.threshold, t);
+      const double tau = step(entry, triangles, closest, t);
       if (covered(t, tau)) {
         return;
       }
@@ -383,16 +396,14 @@ class Search {
   /// The longest certificate of the direction between the closest points and of the direction that
   /// the features define, which stays accurate when the points nearly coincide; should both fail,
   /// of any normal and any product of edges.
-  [[nodiscard]] double step(const TrianglePair& triangles, const ClosestFeatures& closest,
-                            double threshold, double t) const {
+  [[nodiscard]] double step(const TriangleEntry& entry, const TrianglePair& triangles,
+                            const ClosestFeatures& closest, double t) const {
     const Eigen::Vector3d d = closest.p_B - closest.p_A;
     double best = 0.0;
     const auto consider = [&](const Eigen::Vector3d& direction) {
       const double length = direction.norm();
       if (length > 0.0 && best <= horizon() - t) {
-        const Eigen::Vector3d n = direction / length;
-        best = std::max(
-            best, advance(pair_.motion(), state_, triangles, n, threshold, error_, t, horizon()));
+        best = std::max(best, step_along(entry, triangles, closest, direction / length, t));
       }
     };
     consider(d);
@@ -407,6 +418,17 @@ class Search {
       });
     }
     return best;
+  }
+
+  [[nodiscard]] double step_along(const TriangleEntry& entry, const TrianglePair& triangles,
+                                  const ClosestFeatures& closest, const Eigen::Vector3d& n,
+                                  double t) const {
+    if (!pair_.deforms()) {
+      return advance(pair_.motion(), state_, triangles, n, entry.threshold, error_, t, horizon());
+    }
+    return advance_deforming(pair_.motion(), state_, triangles,
+                             pair_.rates(state_, entry.a, entry.b), closest, n, entry.threshold,
+                             error_, t, horizon());
   }
 
   [[nodiscard]] double tolerance_of(const TriangleEntry& entry) const {

@@ -56,6 +56,41 @@ Vector3d relative_velocity(const RelativeMotion& motion, const RelativeState& st
   return motion.pivot_velocity() + v_B - v_A;
 }
 
+/// The velocity of a feature's point between those of its corners.
+Vector3d rate_at(const Triangle& T, const Triangle& rates, const TriangleFeature& feature,
+                 const Vector3d& p) {
+  const auto i = static_cast<std::size_t>(feature.index);
+  const std::size_t j = (i + 1) % 3;
+  if (feature.type == TriangleFeature::Type::vertex) {
+    return rates[i];
+  }
+  if (feature.type == TriangleFeature::Type::edge) {
+    const Vector3d along = T[j] - T[i];
+    const double part = std::clamp(along.dot(p - T[i]) / along.squaredNorm(), 0.0, 1.0);
+    return (1.0 - part) * rates[i] + part * rates[j];
+  }
+  const Vector3d normal = face_normal(T);
+  const auto weight = [&](std::size_t k) {
+    const Vector3d opposite = T[(k + 2) % 3] - T[(k + 1) % 3];
+    return normal.dot(opposite.cross(p - T[(k + 1) % 3])) / normal.squaredNorm();
+  };
+  return weight(0) * rates[0] + weight(1) * rates[1] + weight(2) * rates[2];
+}
+
+/// Of B's point relative to A's.
+Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
+                          std::uint32_t triangle_A, std::uint32_t triangle_B,
+                          const ClosestFeatures& closest) {
+  const Vector3d velocity = relative_velocity(pair.motion(), state, closest.p_A, closest.p_B);
+  if (!pair.deforms()) {
+    return velocity;
+  }
+  const TrianglePair at = pair.place(state, triangle_A, triangle_B);
+  const TrianglePair rates = pair.rates(state, triangle_A, triangle_B);
+  return velocity + rate_at(at.B, rates.B, closest.feature_B, closest.p_B) -
+         rate_at(at.A, rates.A, closest.feature_A, closest.p_A);
+}
+
 auto order_key(const Contact& c) {
   return std::tuple(c.feature_A.type, c.feature_A.index, c.feature_B.type, c.feature_B.index,
                     c.distance, c.feature_A.triangle, c.feature_B.triangle);
@@ -74,7 +109,7 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   Contact contact;
   contact.feature_A = global_feature(frame.A, triangle_A, closest.feature_A);
   contact.feature_B = global_feature(frame.B, triangle_B, closest.feature_B);
-  const Vector3d velocity = relative_velocity(frame.pair.motion(), state, closest.p_A, closest.p_B);
+  const Vector3d velocity = closest_velocity(frame.pair, state, triangle_A, triangle_B, closest);
   Vector3d n = closest.p_B - closest.p_A;
   if (!(closest.distance > 0.0)) {
     n = feature_normal(frame.pair.place(state, triangle_A, triangle_B), closest);

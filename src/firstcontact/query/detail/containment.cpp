@@ -50,8 +50,8 @@ enum class Crossing { none, leaving, entering, unsure };
 /// Of a point with an error bound, in the solid's frame and unit.
 class WindingNumber {
  public:
-  WindingNumber(const Hierarchy& solid, const Vector3d& point, double error)
-      : solid_(solid), p_(point), error_(error), slack_(error + 0x1p-44) {}
+  WindingNumber(const Hierarchy& solid, double t, const Vector3d& point, double error)
+      : solid_(solid), t_(t), p_(point), error_(error), slack_(error + 0x1p-44) {}
 
   [[nodiscard]] Inside inside() {
     for (const auto& u : kDirections) {
@@ -70,7 +70,8 @@ class WindingNumber {
  private:
   /// False where a crossing is unsure.
   bool visit(std::uint32_t index) {
-    const HierarchyNode& node = solid_.nodes[index];
+    HierarchyNode scratch;
+    const HierarchyNode& node = solid_.node(index, t_, scratch);
     for (unsigned slots = node.used(); slots != 0; slots &= slots - 1) {
       const int slot = std::countr_zero(slots);
       if (misses(own_box(node, slot))) {
@@ -129,7 +130,7 @@ class WindingNumber {
     std::array<Vector3d, 3> a;
     std::array<double, 3> reach{};  // Of the exact corners from the exact point.
     for (std::size_t k = 0; k < 3; ++k) {
-      a[k] = solid_.vertices[t[k]] * scale - p_;
+      a[k] = solid_.vertex(t[k], t_) * scale - p_;
       reach[k] = a[k].norm() * (1.0 + 0x1p-48) + 2.0 * error_;
     }
     // The ray passes each edge on the side of the sign of this volume.
@@ -163,6 +164,7 @@ class WindingNumber {
   }
 
   const Hierarchy& solid_;
+  double t_;
   Vector3d p_;
   double error_;
   double slack_;
@@ -172,9 +174,10 @@ class WindingNumber {
 };
 
 /// The box around a whole hierarchy along the axes of its frame, in its unit.
-Eigen::AlignedBox3d bounds(const Hierarchy& hierarchy) {
+Eigen::AlignedBox3d bounds(const Hierarchy& hierarchy, double t) {
   Eigen::AlignedBox3d bounds;
-  const HierarchyNode& root = hierarchy.nodes[0];
+  HierarchyNode scratch;
+  const HierarchyNode& root = hierarchy.node(0, t, scratch);
   for (unsigned slots = root.used(); slots != 0; slots &= slots - 1) {
     const OwnBox box = own_box(root, std::countr_zero(slots));
     const Vector3d reach =
@@ -191,14 +194,15 @@ class VertexSearch {
   /// @param R       turns from the body's frame to the solid's
   /// @param origin  [m]  of the body's centre in the solid's frame
   /// @param error   [m]  of any position
-  VertexSearch(const Hierarchy& solid, const Hierarchy& body, const Matrix3d& R,
+  VertexSearch(const Hierarchy& solid, const Hierarchy& body, double t, const Matrix3d& R,
                const Vector3d& origin, double error)
       : solid_(solid),
         body_(body),
+        t_(t),
         R_(R),
         origin_(origin),
         error_(error / solid.unit),
-        bounds_(bounds(solid)) {
+        bounds_(bounds(solid, t)) {
     const Vector3d slack = Vector3d::Constant(error_ + 0x1p-44);
     bounds_ = {bounds_.min() - slack, bounds_.max() + slack};
   }
@@ -222,11 +226,11 @@ class VertexSearch {
 
  private:
   bool test(std::uint32_t v) {
-    const Vector3d p = (origin_ + R_ * body_.vertices[v]) / solid_.unit;
+    const Vector3d p = (origin_ + R_ * body_.vertex(v, t_)) / solid_.unit;
     if (!bounds_.contains(p)) {
       return false;
     }
-    WindingNumber winding(solid_, p, error_);
+    WindingNumber winding(solid_, t_, p, error_);
     const Inside inside = winding.inside();
     doubt_ = doubt_ || inside == Inside::unsure;
     vertex_ = v;
@@ -235,7 +239,8 @@ class VertexSearch {
   }
 
   bool visit(std::uint32_t index) {
-    const HierarchyNode& node = body_.nodes[index];
+    HierarchyNode scratch;
+    const HierarchyNode& node = body_.node(index, t_, scratch);
     for (unsigned slots = node.used(); slots != 0; slots &= slots - 1) {
       const int slot = std::countr_zero(slots);
       if (is_apart(own_box(node, slot))) {
@@ -265,6 +270,7 @@ class VertexSearch {
 
   const Hierarchy& solid_;
   const Hierarchy& body_;
+  double t_;
   Matrix3d R_;
   Vector3d origin_;
   double error_;
@@ -306,8 +312,9 @@ Containment find_containment(const Shape& A, const Shape& B, const MovingPair& p
   Containment in_A;
   if (A.is_solid()) {
     const Matrix3d R_AW = state.R_WA.transpose();
-    in_A = search(B, {A.hierarchy(), B.hierarchy(), R_AW * state.R_WB, R_AW * state.p_AB, error},
-                  false);
+    in_A = search(
+        B, {A.hierarchy(), B.hierarchy(), state.t, R_AW * state.R_WB, R_AW * state.p_AB, error},
+        false);
     if (in_A.inside == Inside::yes) {
       return in_A;
     }
@@ -315,8 +322,9 @@ Containment find_containment(const Shape& A, const Shape& B, const MovingPair& p
   Containment in_B;
   if (B.is_solid()) {
     const Matrix3d R_BW = state.R_WB.transpose();
-    in_B = search(A, {B.hierarchy(), A.hierarchy(), R_BW * state.R_WA, -(R_BW * state.p_AB), error},
-                  true);
+    in_B = search(
+        A, {B.hierarchy(), A.hierarchy(), state.t, R_BW * state.R_WA, -(R_BW * state.p_AB), error},
+        true);
   }
   return in_B.inside == Inside::no ? in_A : in_B;
 }
@@ -326,7 +334,7 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   const Shape& body = found.vertex_of_A ? frame.A : frame.B;
   const Shape& solid = found.vertex_of_A ? frame.B : frame.A;
   const std::uint32_t face = solid.hierarchy().triangle_index[found.face];
-  const Vector3d& v = body.hierarchy().vertices[found.vertex];
+  const Vector3d v = body.hierarchy().vertex(found.vertex, state.t);
   Contact contact;
   contact.feature_A = vertex_feature(body.mesh(), body.hierarchy().vertex_index[found.vertex]);
   contact.feature_B = {FeatureType::face, face, face};

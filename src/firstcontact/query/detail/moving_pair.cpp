@@ -12,34 +12,84 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-PlacedBox place(const Hierarchy& hierarchy, BoxId box, const Matrix3d& R, const Vector3d& origin,
-                const Vector3d& pivot) {
+/// One box, in the frame of its hierarchy and in metres.
+struct OwnBox {
+  Vector3d centre;
+  Vector3d extent;
+};
+
+OwnBox own_box(const HierarchyNode& node, int slot, double unit) {
+  OwnBox box;
+  for (int k = 0; k < 3; ++k) {
+    box.centre[k] = static_cast<double>(node.centre[k][slot]) * unit;
+    box.extent[k] = static_cast<double>(node.half_extent(k, slot)) * unit;
+  }
+  return box;
+}
+
+/// Makes a box that was placed as at t = 0 one of t, and adds how it changes.
+void deform(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d& R, OwnBox& own,
+            PlacedBox& placed) {
+  const OwnBox to =
+      own_box(hierarchy.nodes_to[box.node], static_cast<int>(box.slot), hierarchy.unit);
+  placed.deforms = true;
+  placed.growth = to.extent - own.extent;
+  placed.velocity = R * (to.centre - own.centre);
+  own.centre = (1.0 - t) * own.centre + t * to.centre;
+  own.extent = (1.0 - t) * own.extent + t * to.extent;
+}
+
+void place_corners(const Hierarchy& hierarchy, const HierarchyNode& node, int slot, double t,
+                   const Matrix3d& R, const Vector3d& origin, PlacedBox& placed) {
+  const auto& corners = hierarchy.triangles[node.child_triangle(slot)];
+  for (int k = 0; k < 3; ++k) {
+    placed.corners.row(k) =
+        (origin + R * hierarchy.vertex(corners[k], t) - placed.centre).transpose();
+    if (placed.deforms) {
+      placed.corner_growth.row(k) =
+          (R * (hierarchy.vertices_to[corners[k]] - hierarchy.vertices[corners[k]]) -
+           placed.velocity)
+              .transpose();
+    }
+  }
+}
+
+/// Its velocity is that which its body sees.
+PlacedBox place(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d& R,
+                const Vector3d& origin, const Vector3d& pivot) {
   PlacedBox placed;
   const HierarchyNode& node = hierarchy.nodes[box.node];
   const auto slot = static_cast<int>(box.slot);
-  Vector3d centre;
-  for (int k = 0; k < 3; ++k) {
-    centre[k] = static_cast<double>(node.centre[k][slot]);
-    placed.extent[k] = static_cast<double>(node.half_extent(k, slot)) * hierarchy.unit;
+  OwnBox own = own_box(node, slot, hierarchy.unit);
+  placed.velocity.setZero();
+  if (hierarchy.deforms()) {
+    deform(hierarchy, box, t, R, own, placed);
   }
-  placed.centre = origin + R * (centre * hierarchy.unit);
+  placed.extent = own.extent;
+  placed.centre = origin + R * own.centre;
   placed.axes = box_axes(node, slot) * R.transpose();
   placed.radius = placed.extent.norm();
   placed.is_triangle = node.is_leaf(slot);
   if (placed.is_triangle) {
-    const auto& corners = hierarchy.triangles[node.child_triangle(slot)];
-    for (int k = 0; k < 3; ++k) {
-      placed.corners.row(k) =
-          (origin + R * hierarchy.vertices[corners[k]] - placed.centre).transpose();
-    }
+    place_corners(hierarchy, node, slot, t, R, origin, placed);
   }
-  placed.reach = ((placed.centre - pivot).norm() + placed.radius) * (1.0 + 0x1p-48);
+  placed.reach = ((placed.centre - pivot).norm() + placed.radius) * (1.0 + 0x1p-48) +
+                 hierarchy.deformation_speed;
   return placed;
 }
 
 /// How far the box reaches from its centre.
 double extent_along(const PlacedBox& box, const Vector3d& n) {
   return box.is_triangle ? (box.corners * n).maxCoeff() : box.extent.dot((box.axes * n).cwiseAbs());
+}
+
+/// [m per step]  How fast that grows at most.
+double growth_along(const PlacedBox& box, const Vector3d& n) {
+  if (!box.deforms) {
+    return 0.0;
+  }
+  return box.is_triangle ? (box.corner_growth * n).maxCoeff()
+                         : box.growth.dot((box.axes * n).cwiseAbs());
 }
 
 /// The extent of a whole shape is its radius in every direction.
@@ -77,7 +127,8 @@ MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const RelativeMot
       motion_(motion),
       speed_bound_((motion.pivot_velocity().norm() +
                     motion.A().rate() * (motion.A().lever_length() + A.radius) +
-                    motion.B().rate() * (motion.B().lever_length() + B.radius)) *
+                    motion.B().rate() * (motion.B().lever_length() + B.radius) +
+                    A.deformation_speed + B.deformation_speed) *
                    (1.0 + 0x1p-40)) {}
 
 double MovingPair::gap_error(const RelativeState& state) const {
@@ -86,15 +137,15 @@ double MovingPair::gap_error(const RelativeState& state) const {
 }
 
 PlacedBox MovingPair::place_A(const RelativeState& state, BoxId box) const {
-  PlacedBox placed = detail::place(A_, box, state.R_WA, Vector3d::Zero(), state.p_AQa);
-  placed.velocity = motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
+  PlacedBox placed = detail::place(A_, box, state.t, state.R_WA, Vector3d::Zero(), state.p_AQa);
+  placed.velocity += motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
   return placed;
 }
 
 PlacedBox MovingPair::place_B(const RelativeState& state, BoxId box) const {
-  PlacedBox placed = detail::place(B_, box, state.R_WB, state.p_AB, state.p_AQb);
-  placed.velocity = motion_.pivot_velocity() +
-                    motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
+  PlacedBox placed = detail::place(B_, box, state.t, state.R_WB, state.p_AB, state.p_AQb);
+  placed.velocity += motion_.pivot_velocity() +
+                     motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
   return placed;
 }
 
@@ -104,32 +155,88 @@ TrianglePair MovingPair::place(const RelativeState& state, std::uint32_t triangl
   const auto& ta = A_.triangles[triangle_A];
   const auto& tb = B_.triangles[triangle_B];
   for (int k = 0; k < 3; ++k) {
-    pair.A[k] = state.R_WA * A_.vertices[ta[k]];
-    pair.B[k] = state.p_AB + state.R_WB * B_.vertices[tb[k]];
+    pair.A[k] = state.R_WA * A_.vertex(ta[k], state.t);
+    pair.B[k] = state.p_AB + state.R_WB * B_.vertex(tb[k], state.t);
   }
   return pair;
 }
 
-double MovingPair::time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
-                              double error) const {
+TrianglePair MovingPair::rates(const RelativeState& state, std::uint32_t triangle_A,
+                               std::uint32_t triangle_B) const {
+  const auto rates_of = [](const Hierarchy& hierarchy, const Matrix3d& R, std::uint32_t triangle) {
+    Triangle rates{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    for (std::size_t k = 0; k < 3 && hierarchy.deforms(); ++k) {
+      const std::uint32_t v = hierarchy.triangles[triangle][k];
+      rates[k] = R * (hierarchy.vertices_to[v] - hierarchy.vertices[v]);
+    }
+    return rates;
+  };
+  return {rates_of(A_, state.R_WA, triangle_A), rates_of(B_, state.R_WB, triangle_B)};
+}
+
+Apart MovingPair::apart(const PlacedBox& a, const PlacedBox& b, double threshold,
+                        double error) const {
   const double wA = motion_.A().rate();
   const double wB = motion_.B().rate();
+  const double dA = A_.deformation_speed;
+  const double dB = B_.deformation_speed;
   const Vector3d velocity = b.velocity - a.velocity;
-  const double slip = 0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach);
-  double best = 0.0;
+  const double slip =
+      0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach + dA + dB);
+  Apart best{0.0, -std::numeric_limits<double>::infinity()};
   for_each_direction(a, b, [&](const Separation& s) {
+    best.gap = std::max(best.gap, s.gap);
     const double clear = s.gap - threshold - error;
     if (!(clear > 0.0)) {
       return;
     }
     const double turn_A = wA * s.n.cross(motion_.A().axis()).norm();
     const double turn_B = wB * s.n.cross(motion_.B().axis()).norm();
-    const double speed = slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius;
-    const double half_acceleration =
-        0.5 * (1.0 + 0x1p-46) * (wA * turn_A * a.reach + wB * turn_B * b.reach + slip * (wA + wB));
-    best = std::max(best, time_to_close(clear, speed, half_acceleration));
+    const double speed = slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius +
+                         growth_along(a, s.n) + growth_along(b, -s.n);
+    const double half_acceleration = 0.5 * (1.0 + 0x1p-46) *
+                                     (turn_A * (wA * a.reach + 2.0 * dA) +
+                                      turn_B * (wB * b.reach + 2.0 * dB) + slip * (wA + wB));
+    best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
   });
   return best;
+}
+
+void MovingPair::bound(const RelativeState& state, std::uint32_t node_a, std::uint32_t node_b,
+                       unsigned lanes, double threshold, double error, double horizon,
+                       BoxBounds& bounds) const {
+  constexpr double kFar = 0.15;  // As in bound_boxes().
+  constexpr double kSizeRatio = 1.5;
+  constexpr unsigned kWidth = HierarchyNode::kWidth;
+  std::array<PlacedBox, kWidth> a;
+  std::array<PlacedBox, kWidth> b;
+  for (unsigned k = 0; k < kWidth; ++k) {
+    if ((lanes >> kWidth * k & 15u) != 0) {
+      a[k] = place_A(state, {node_a, k});
+    }
+    if ((lanes >> k & 0x1111u) != 0) {
+      b[k] = place_B(state, {node_b, k});
+    }
+  }
+  bounds.live = bounds.far = bounds.larger_a = bounds.larger_b = bounds.unsure = 0;
+  for (unsigned k = 0; k < kWidth * kWidth; ++k) {
+    bounds.time[k] = 0.0f;
+    if ((lanes >> k & 1u) == 0) {
+      continue;
+    }
+    const PlacedBox& box_a = a[k / kWidth];
+    const PlacedBox& box_b = b[k % kWidth];
+    const Apart apart = this->apart(box_a, box_b, threshold, error);
+    const auto set = [&](bool holds, std::uint16_t& bits) {
+      bits = static_cast<std::uint16_t>(bits | (holds ? 1u << k : 0u));
+    };
+    bounds.time[k] = round_down(std::min(apart.time, 4.0));
+    bounds.gap[k] = static_cast<float>(apart.gap / unit());
+    set(!(apart.time > 0.0 && apart.time * (1.0 - 0x1p-50) >= horizon), bounds.live);
+    set(apart.gap > kFar * (box_a.radius + box_b.radius), bounds.far);
+    set(box_a.radius > kSizeRatio * box_b.radius, bounds.larger_a);
+    set(box_b.radius > kSizeRatio * box_a.radius, bounds.larger_b);
+  }
 }
 
 double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
