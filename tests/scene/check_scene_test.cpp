@@ -65,6 +65,23 @@ TEST(CheckScene, EveryPairAnswersWhereThatIsAsked) {
   EXPECT_EQ(result.t_upper, result.t);
 }
 
+// Two corners of a flag are 3 m above the floor at the start and 1 m below it at the end.
+TEST(CheckScene, VerticesMoveOnLines) {
+  const std::string flag =
+      R"({"name": "flag", "shape": {"vertices": [[0, 0, 3], [1, 0, 3], [0, 1, 3]],
+          "triangles": [[0, 1, 2]]},
+          "motion": {"type": "vertices", "to": [[0, 0, -1], [1, 0, 4], [0, 1, -1]]}})";
+  const SceneResult result =
+      check(scene(body("floor") + "," + flag), {.all_pairs = true, .closest = true});
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  expect_time(result.t, 0.75);
+  ASSERT_TRUE(result.closest);
+  EXPECT_EQ(result.pairs[*result.closest].closest_approach->distance, 0.0);
+  const SceneResult before =
+      check(scene(body("floor") + "," + flag, R"("options": {"margin": 1})"));
+  expect_time(before.t, 0.5);
+}
+
 TEST(CheckScene, AnIgnoredPairIsNotAsked) {
   const SceneResult result = check(scene(kThree, R"("pairs": {"ignore": [["low", "floor"]]})"));
   EXPECT_EQ(result.verdict, Verdict::contact);

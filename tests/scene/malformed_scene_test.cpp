@@ -198,9 +198,18 @@ TEST(MalformedMotion, SaysWhatIsWrong) {
   expect_messages({
       {moved("5"), "s:1: bodies[0].motion: expected an object with \"type\", got 5"},
       {moved("{}"), "s:1: bodies[0].motion: expected a key \"type\", got none"},
-      {moved(R"({"type": "vertices"})"),
-       "s:1: bodies[0].motion.type: this version does not have \"vertices\" yet; it has \"fixed\", "
-       "\"constant_velocity\", \"screw\", \"waypoints\""},
+      {moved(R"({"type": "vertices"})"), "s:1: bodies[0].motion: expected a key \"to\", got none"},
+      {moved(R"({"type": "vertices", "to": [[0, 0, 1], [1, 0, 1]]})"),
+       "s:1: bodies[0].motion.to: expected a place for each of the 3 vertices of the shape, got 2"},
+      {moved(R"({"type": "vertices", "to": [[0, 0, 1], [1, 0, 1], [0, 1]]})"),
+       "s:1: bodies[0].motion.to[2]: expected three numbers, got an array of 2"},
+      {moved(R"({"type": "vertices", "from": {}, "to": []})"),
+       "s:1: bodies[0].motion.from: expected no \"from\" here: the vertices of the shape say where "
+       "they begin"},
+      {scene(R"({"name": "a", "shape": {"sphere": {"radius": 1}},
+                 "motion": {"type": "vertices", "to": [[0, 0, 1]]}})"),
+       "s:2: bodies[0].motion: expected another \"type\" than \"vertices\": only a \"mesh\", or "
+       "\"vertices\" with \"triangles\", can deform"},
       {moved(R"({"type": "constant_velocity"})"),
        "s:1: bodies[0].motion: expected \"to\", or \"translation\" and \"rotation_vector\", "
        "got neither"},

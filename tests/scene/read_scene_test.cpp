@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/write_scene.h>
 
@@ -126,6 +127,11 @@ TEST(ReadScene, TakesEveryFormOfAMotion) {
           "between": "screw"})");
   EXPECT_EQ(cart.times, (std::vector{0.0, 1.0, 2.5}));
   EXPECT_EQ(cart.poses[2].position.x(), 9.0);
+
+  const auto flag =
+      read_motion<VertexMotion>(R"({"type": "vertices", "to": [[0, 0, 4], [1, 0, 4], [0, 1, 5]]})");
+  EXPECT_EQ(flag.to.size(), 3u);
+  EXPECT_EQ(flag.to.at(2), Eigen::Vector3d(0, 1, 5));
   EXPECT_EQ(cart.between, Between::screw);
 }
 
@@ -153,6 +159,21 @@ TEST(ReadScene, AnswersEveryGoodSceneOfTheCorpus) {
   ShapeCache cache;
   for (const auto& entry : std::filesystem::directory_iterator(kCorpus / "good")) {
     EXPECT_NO_THROW((void)load_scene(read_scene(entry.path()), cache)) << entry.path();
+  }
+}
+
+// Only the file knows how many vertices it has.
+TEST(ReadScene, MovesAllVerticesOfAFile) {
+  ShapeCache cache;
+  Scene read = read_scene(kCorpus / "good/deforming.json");
+  std::get<VertexMotion>(read.bodies[0].motion).to.pop_back();
+  try {
+    (void)load_scene(read, cache);
+    ADD_FAILURE() << "accepted";
+  } catch (const ParseError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              (kCorpus / "good/../triangle.obj").string() +
+                  ": expected a mesh of the 2 vertices that \"a\" moves, got one of 3");
   }
 }
 

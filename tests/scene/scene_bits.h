@@ -159,6 +159,11 @@ class SceneBits {
     }
     add(motion.between);
   }
+  void add(const VertexMotion& motion) {
+    for (const Eigen::Vector3d& vertex : motion.to) {
+      add(vertex);
+    }
+  }
 
   void add(const SceneOptions& options) {
     add(options.tolerance);

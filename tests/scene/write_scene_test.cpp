@@ -49,7 +49,8 @@ Scene random_scene(std::mt19937_64& rng) {
       ScrewMotion{random_pose(rng), random_vector(rng), {angle(), 1.0, angle()}, angle(), angle()},
       TwoPoseMotion{random_pose(rng), random_pose(rng), Between::constant_velocity},
       TwoPoseMotion{random_pose(rng), random_pose(rng), Between::screw},
-      WaypointMotion{{0.1, 1.0 / 3.0, 0.7}, {3, random_pose(rng)}, Between::screw}};
+      WaypointMotion{{0.1, 1.0 / 3.0, 0.7}, {3, random_pose(rng)}, Between::screw},
+      VertexMotion{{random_vector(rng), random_vector(rng)}}};
   for (const BodyMotion& motion : motions) {
     scene.bodies.push_back({.name = "body " + std::to_string(scene.bodies.size()),
                             .shape = {.source = mesh, .radius = std::abs(random_number(rng))},

@@ -1,8 +1,13 @@
 #include <firstcontact/scene/loaded_scene.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
 
+#include <firstcontact/geometry/deforming_body.h>
+#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/sha256.h>
 
 namespace firstcontact {
@@ -29,6 +34,22 @@ PairRules rules_of(const Scene& scene) {
   return rules;
 }
 
+DeformingBody moving(const Body& body, Shape shape, double duration) {
+  const auto* vertices = std::get_if<VertexMotion>(&body.motion);
+  if (vertices == nullptr) {
+    return {std::move(shape), normalised_motion(body.motion, duration)};
+  }
+  const std::size_t count = shape.mesh().vertices.size();
+  const auto* file = std::get_if<MeshFile>(&body.shape.source);
+  if (file != nullptr && vertices->to.size() != count) {
+    throw ParseError(file->path.string(), "expected a mesh of the " +
+                                              std::to_string(vertices->to.size()) +
+                                              " vertices that \"" + body.name +
+                                              "\" moves, got one of " + std::to_string(count));
+  }
+  return move_vertices(shape, vertices->to);
+}
+
 }  // namespace
 
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
@@ -39,7 +60,8 @@ LoadedScene load_scene(Scene scene, ShapeCache& cache) {
     if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
     }
-    loaded.bodies.add(std::move(cached.shape), normalised_motion(body.motion, scene.duration));
+    DeformingBody moved = moving(body, std::move(cached.shape), scene.duration);
+    loaded.bodies.add(std::move(moved.shape), std::move(moved.X_WS));
   }
   loaded.input_digest = detail::sha256(digests);
   loaded.scene = std::move(scene);

@@ -74,12 +74,31 @@ BodyMotion read_pose_or_motion(const JsonObject& body, const JsonReader& read) {
   return FixedMotion{pose == nullptr ? Pose{} : detail::read_pose(*pose, read)};
 }
 
+/// Of a mesh in a file, load_scene compares the counts.
+void require_vertices(const Body& body, const JsonValue& motion, const JsonReader& read) {
+  const auto* mesh = std::get_if<Mesh>(&body.shape.source);
+  if (mesh == nullptr && !std::holds_alternative<MeshFile>(body.shape.source)) {
+    read.fail(motion,
+              "expected another \"type\" than \"vertices\": only a \"mesh\", or \"vertices\" with "
+              "\"triangles\", can deform");
+  }
+  const std::size_t count = std::get<VertexMotion>(body.motion).to.size();
+  if (mesh != nullptr && count != mesh->vertices.size()) {
+    read.fail(read.member(motion, "to"),
+              "expected a place for each of the " + std::to_string(mesh->vertices.size()) +
+                  " vertices of the shape, got " + std::to_string(count));
+  }
+}
+
 Body read_body(const JsonValue& value, const SceneFolders& folders, const JsonReader& read) {
   const JsonObject& object = read.object(value, {{"name", "shape", "pose", "motion"}});
   Body body;
   body.name = read.string(read.member(value, "name"), "a name");
   body.shape = detail::read_shape(read.member(value, "shape"), folders, read);
   body.motion = read_pose_or_motion(object, read);
+  if (std::holds_alternative<VertexMotion>(body.motion)) {
+    require_vertices(body, read.member(value, "motion"), read);
+  }
   return body;
 }
 

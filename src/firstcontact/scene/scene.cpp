@@ -33,6 +33,8 @@ struct MotionMaker {
     }
     return Motion::waypoints(times, motion.poses, motion.between);
   }
+
+  Motion operator()(const VertexMotion&) const { return Motion::fixed(); }
 };
 
 }  // namespace

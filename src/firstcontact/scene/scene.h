@@ -55,10 +55,17 @@ struct WaypointMotion {
   Between between = Between::constant_velocity;
 };
 
-using BodyMotion =
-    std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion, TwoPoseMotion, WaypointMotion>;
+/// Every vertex of a mesh moves on a line over the whole duration of the scene, from its
+/// coordinates.
+struct VertexMotion {
+  std::vector<Eigen::Vector3d> to;  ///< [m]  World frame; as many as the mesh has vertices.
+};
 
-/// The certified motion of a body over the scene, t = time / duration in [0, 1].
+using BodyMotion = std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion, TwoPoseMotion,
+                                WaypointMotion, VertexMotion>;
+
+/// The certified motion of a body's frame over the scene, t = time / duration in [0, 1]. Where
+/// vertices move it stays: the frame is the world's.
 /// Waypoint times are divided by the duration in double precision; the certificate holds for the
 /// rounded quotients.
 ///

@@ -187,6 +187,10 @@ struct MotionMember {
                                 {"poses", to_json(motion.poses)},
                                 {"between", to_json(motion.between)}});
   }
+
+  JsonMember operator()(const VertexMotion& motion) const {
+    return member("vertices", {{"to", to_json(motion.to)}});
+  }
 };
 
 JsonValue to_json(const Body& body) {

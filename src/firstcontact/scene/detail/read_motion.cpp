@@ -118,6 +118,22 @@ BodyMotion read_waypoints(const JsonValue& value, const JsonReader& read) {
   return motion;
 }
 
+BodyMotion read_vertices(const JsonValue& value, const JsonReader& read) {
+  for (const std::string_view key : {"from", "pose"}) {
+    if (const JsonValue* pose = find(std::get<JsonObject>(value.value), key)) {
+      read.fail(*pose, "expected no " + in_quotes(key) +
+                           " here: the vertices of the shape say where they begin");
+    }
+  }
+  (void)read.object(value, {{"type", "to"}});
+  VertexMotion motion;
+  for (const JsonValue& vertex :
+       read.array(read.member(value, "to"), "an array of places, one for each vertex")) {
+    motion.to.push_back(read.vector3(vertex));
+  }
+  return motion;
+}
+
 }  // namespace
 
 BodyMotion read_motion(const JsonValue& value, const JsonReader& read) {
@@ -125,15 +141,17 @@ BodyMotion read_motion(const JsonValue& value, const JsonReader& read) {
     read.fail_expected("an object with \"type\"", value);
   }
   const JsonValue& type = read.member(value, "type");
-  switch (read.word(type, {{"fixed", "constant_velocity", "screw", "waypoints"}, {"vertices"}})) {
+  switch (read.word(type, {{"fixed", "constant_velocity", "screw", "waypoints", "vertices"}})) {
     case 0:
       return read_fixed(value, read);
     case 1:
       return read_constant_velocity(value, read);
     case 2:
       return read_screw(value, read);
-    default:
+    case 3:
       return read_waypoints(value, read);
+    default:
+      return read_vertices(value, read);
   }
 }
 
