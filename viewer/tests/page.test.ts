@@ -48,6 +48,38 @@ const stones = {
   ],
 };
 
+/// A sheet that bends down through the floor at two corners.
+const flat = [
+  [-1, -1, 1],
+  [1, -1, 1],
+  [1, 1, 1],
+  [-1, 1, 1],
+];
+const bent = [
+  [-1, -1, 1],
+  [1, -1, -1],
+  [0, 0, 2],
+  [-1, 1, -1],
+];
+const sheet = {
+  firstcontact: 1,
+  id: "sheet",
+  bodies: [
+    stones.bodies[0],
+    {
+      name: "sheet",
+      shape: {
+        vertices: flat,
+        triangles: [
+          [0, 1, 2],
+          [0, 2, 3],
+        ],
+      },
+      motion: { type: "vertices", to: bent },
+    },
+  ],
+};
+
 /// What the page leaves for whoever asks it.
 declare global {
   interface Window {
@@ -56,11 +88,20 @@ declare global {
       player: { t: { value: number }; playing: { value: boolean }; seek(t: number): void };
       display: { hidden: { value: Set<number> } };
       view: {
-        bodies: { group: { matrix: { elements: number[] } }; body: { mesh: MeshOfPage } }[];
+        bodies: {
+          group: { matrix: { elements: number[] } };
+          body: { mesh: MeshOfPage };
+          surface: SurfaceOfPage;
+        }[];
         camera: { position: { x: number; y: number; z: number } };
       };
     };
   }
+}
+interface SurfaceOfPage {
+  position: { toArray(): number[] };
+  /// As drawn: deformed.
+  getVertexPosition(index: number, target: object): { toArray(): number[] };
 }
 interface MeshOfPage {
   origin: number[];
@@ -72,6 +113,7 @@ describe.skipIf(!canLook)("the page", () => {
   let browser: Browser;
   let peg: MadePage;
   let many: MadePage;
+  let bending: MadePage;
   let nut: Promise<MadePage>;
   const folder = new Folder();
   const complaints: string[] = [];
@@ -103,6 +145,7 @@ describe.skipIf(!canLook)("the page", () => {
   beforeAll(async () => {
     peg = await folder.make("peg", "demo/scenes/peg_tilted.json");
     many = await folder.make("stones", stones, "--all-pairs", "--closest");
+    bending = await folder.make("sheet", sheet, "--closest");
     browser = await launch();
     nut = folder.make("nut", "demo/scenes/nut_wrong_pitch.json"); // While others run: it is large.
   });
@@ -196,6 +239,56 @@ describe.skipIf(!canLook)("the page", () => {
         expect(off).toBeLessThan(5e-9); // Vertices are in single precision: 2^-24 of 50 mm.
       });
     }
+  });
+
+  test("deforms a body whose vertices move", async () => {
+    const page = await show(bending);
+    const vertices = () =>
+      page.evaluate(() => {
+        const { surface } = window.firstcontact.view.bodies[1]!;
+        const origin = surface.position.toArray();
+        return [0, 1, 2, 3].map((k) => {
+          const target = Object.assign(Object.create(Object.getPrototypeOf(surface.position)), {
+            x: 0,
+            y: 0,
+            z: 0,
+          }) as object;
+          return surface
+            .getVertexPosition(k, target)
+            .toArray()
+            .map((x, i) => x + origin[i]!);
+        });
+      });
+    const expectVertices = async (t: number) => {
+      (await vertices()).forEach((vertex, k) =>
+        vertex.forEach((x, i) =>
+          expect(x).toBeCloseTo((1 - t) * flat[k]![i]! + t * bent[k]![i]!, 6),
+        ),
+      );
+    };
+    await expectVertices(0);
+    await page.evaluate(() => window.firstcontact.player.seek(0.3));
+    await expectVertices(0.3);
+    await page.getByRole("button", { name: "First contact" }).click();
+    expect(bending.result.t).toBeCloseTo(0.5, 5);
+    await expectVertices(bending.result.t);
+    // A point that is clicked goes with the sheet.
+    const box = (await page.locator(".stage canvas").boundingBox())!;
+    await page.keyboard.press("f");
+    await page.evaluate(() => window.firstcontact.player.seek(0));
+    await page.waitForTimeout(200);
+    for (let x = 0.2; x < 0.8; x += 0.05) {
+      await page.mouse.click(box.x + x * box.width, box.y + 0.5 * box.height);
+      const text = await page.getByRole("region", { name: "Clicked points" }).textContent();
+      if (text?.includes("sheet")) {
+        await page.evaluate(() => window.firstcontact.player.seek(0.25));
+        const later = await page.getByRole("region", { name: "Clicked points" }).textContent();
+        expect(later).toContain("sheet");
+        expect(later).not.toBe(text);
+        return;
+      }
+    }
+    throw new Error("no place of the picture shows the sheet");
   });
 
   test("flies to the contact and back", async () => {

@@ -97,7 +97,7 @@ export class BodyView {
 
   show(t: number): void {
     setPose(this.group, this.body.motion(t));
-    deform(this.surface, t);
+    this.group.traverse((part) => deform(part, t));
   }
 
   /// The edges take a while to find: they come after the first picture.
@@ -166,7 +166,10 @@ export function dispose(group: Group): void {
 
 /// Moves the vertices of a deforming body.
 function deform(part: Object3D, t: number): void {
-  if (part instanceof Mesh && part.morphTargetInfluences) {
+  if (
+    (part instanceof Mesh || part instanceof LineSegments) &&
+    part.morphTargetInfluences?.length
+  ) {
     part.morphTargetInfluences[0] = t;
   }
 }

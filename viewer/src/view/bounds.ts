@@ -4,19 +4,32 @@ import { Box3, Sphere, Vector3 } from "three";
 import type { Vector3 as Point } from "../data/result";
 import type { Body } from "../model";
 import { place } from "../motion/motion";
+import { add, scale } from "../motion/vector";
 import { radiusOf } from "./drawn_shape";
 
 const moments = 33;
 
-/// The corners of a box around a body, in its frame.
-function cornersOf(body: Body): Point[] {
+/// The corners of a box around a body, in its frame, at both ends of the step: in between, what
+/// deforms is in the box between them.
+interface Corners {
+  readonly from: readonly Point[];
+  readonly to: readonly Point[];
+}
+
+function cornersOf(body: Body): Corners {
   const { mesh, data } = body;
-  const box = new Box3().setFromArray(mesh.positions).translate(new Vector3(...mesh.origin));
-  if (data.motion?.type === "vertices") {
-    data.motion.to.forEach((p) => box.expandByPoint(new Vector3(...p)));
+  const around = (box: Box3): Point[] => {
+    const { min, max } = box.expandByScalar(radiusOf(body));
+    return corners(min, max).map((corner) => corner.toArray());
+  };
+  const from = around(
+    new Box3().setFromArray(mesh.positions).translate(new Vector3(...mesh.origin)),
+  );
+  if (data.motion?.type !== "vertices") {
+    return { from, to: from };
   }
-  const { min, max } = box.expandByScalar(radiusOf(body));
-  return corners(min, max).map((corner) => corner.toArray());
+  const ends = data.motion.to.map((p) => new Vector3(...p));
+  return { from, to: around(new Box3().setFromPoints(ends)) };
 }
 
 export const corners = (min: Vector3, max: Vector3): Vector3[] =>
@@ -25,7 +38,7 @@ export const corners = (min: Vector3, max: Vector3): Vector3[] =>
   );
 
 export class Bounds {
-  private readonly corners: readonly (readonly Point[])[];
+  private readonly corners: readonly Corners[];
 
   constructor(private readonly bodies: readonly Body[]) {
     this.corners = bodies.map(cornersOf);
@@ -61,6 +74,10 @@ export class Bounds {
 
   private include(body: Body, t: number, box: Box3): void {
     const pose = body.motion(t);
-    this.corners[body.index]!.forEach((p) => box.expandByPoint(new Vector3(...place(pose, p))));
+    const { from, to } = this.corners[body.index]!;
+    from.forEach((p, k) => {
+      const corner = add(scale(1 - t, p), scale(t, to[k]!));
+      box.expandByPoint(new Vector3(...place(pose, corner)));
+    });
   }
 }

@@ -18,6 +18,7 @@ import {
 import type { Contact } from "../data/result";
 import type { Body, Model } from "../model";
 import { contactColor } from "./colors";
+import { cornersAt } from "./triangle";
 
 /// A corner, or a long line of contact, has many feature pairs: only the first shows its normal.
 const arrowLength = 0.09; // of the distance from the camera
@@ -60,24 +61,6 @@ function arrow(material: MeshBasicMaterial): Group {
   return group;
 }
 
-/// The corners of a triangle of a body, relative to the origin of its mesh.
-///
-/// @param t  when; a deforming body has them elsewhere at each moment
-function trianglePositions(body: Body, triangle: number, t: number): Float32Array {
-  const { positions, triangles, origin } = body.mesh;
-  const { motion } = body.data;
-  const corners = new Float32Array(9);
-  for (let k = 0; k < 3; ++k) {
-    const vertex = triangles[3 * triangle + k]!;
-    const corner = positions.slice(3 * vertex, 3 * vertex + 3);
-    if (motion?.type === "vertices") {
-      motion.to[vertex]!.forEach((x, i) => (corner[i]! += t * (x - origin[i]! - corner[i]!)));
-    }
-    corners.set(corner, 3 * k);
-  }
-  return corners;
-}
-
 /// All triangles of a body that touch something, to be drawn over it.
 function touchingTriangles(body: Body, contacts: readonly Contact[], t: number): Float32Array {
   const touching = new Set(
@@ -86,17 +69,21 @@ function touchingTriangles(body: Body, contacts: readonly Contact[], t: number):
     ),
   );
   const all = new Float32Array(9 * touching.size);
-  [...touching].forEach((triangle, i) => all.set(trianglePositions(body, triangle, t), 9 * i));
+  [...touching].forEach((triangle, i) => all.set(cornersAt(body, triangle, t), 9 * i));
   return all;
 }
 
-/// In the frame of the mesh, so that the triangles move with the body.
-export function touchingSurface(body: Body, contacts: readonly Contact[], t: number): Group {
+/// In the frame of the mesh, so that the triangles move, and deform, with the body.
+export function touchingSurface(body: Body, contacts: readonly Contact[]): Group {
   const group = new Group();
-  const positions = touchingTriangles(body, contacts, t);
+  const positions = touchingTriangles(body, contacts, 0);
   if (positions.length > 0) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    if (body.data.motion?.type === "vertices") {
+      const to = touchingTriangles(body, contacts, 1);
+      geometry.morphAttributes.position = [new BufferAttribute(to, 3)];
+    }
     const fill = overlay(0.7);
     fill.depthTest = true; // A body before it hides it, the outline shows all the same.
     const outline = overlay(0.6);
@@ -189,7 +176,7 @@ export class ContactMarkers {
 export function contactSize(model: Model, contact: Contact): number {
   const sizes = [0, 1].map((side) => {
     const body = model.body(contact.bodies[side]!);
-    const p = trianglePositions(body, contact.triangles[side]!, model.result.t);
+    const p = cornersAt(body, contact.triangles[side]!, model.result.t);
     const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
     return Math.max(
       corner(0).distanceTo(corner(1)),

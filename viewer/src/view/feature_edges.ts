@@ -73,6 +73,8 @@ export function edgeGeometry(mesh: MeshData, surface: BufferGeometry): BufferGeo
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", surface.getAttribute("position"));
+  geometry.morphAttributes = surface.morphAttributes;
+  geometry.morphTargetsRelative = surface.morphTargetsRelative;
   geometry.setIndex(new BufferAttribute(featureEdges(mesh), 1));
   return geometry;
 }

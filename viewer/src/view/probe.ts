@@ -7,6 +7,7 @@ import {
   LineDashedMaterial,
   Points,
   PointsMaterial,
+  Triangle,
   Vector3 as V3,
 } from "three";
 import { Signal } from "../core/signal";
@@ -14,15 +15,34 @@ import type { Vector3 } from "../data/result";
 import type { Body } from "../model";
 import { place } from "../motion/motion";
 import { distance } from "../motion/vector";
+import { cornersAt, pointAt } from "./triangle";
 
 export interface ProbePoint {
   readonly body: Body;
   readonly triangle: number;
-  readonly local: Vector3; ///< In the body frame.
+  /// In the body frame.
+  readonly local: (t: number) => Vector3;
 }
 
-export interface PlacedPoint extends ProbePoint {
+export interface PlacedPoint {
+  readonly body: Body;
+  readonly triangle: number;
+  readonly local: Vector3;
   readonly world: Vector3;
+}
+
+/// @param local  where it was clicked, in the body frame
+/// @param t      when
+export function probePoint(body: Body, triangle: number, local: Vector3, t: number): ProbePoint {
+  if (body.data.motion?.type !== "vertices") {
+    return { body, triangle, local: () => local };
+  }
+  const corners = cornersAt(body, triangle, t);
+  const corner = (k: number): V3 => new V3().fromArray(corners, 3 * k);
+  const relative = new V3(...local).sub(new V3(...body.mesh.origin));
+  const weights = Triangle.getBarycoord(relative, corner(0), corner(1), corner(2), new V3());
+  const kept = weights?.toArray() ?? [1, 0, 0]; // A triangle without area is a line.
+  return { body, triangle, local: (now) => pointAt(body, triangle, kept, now) };
 }
 
 export class Probe {
@@ -60,9 +80,11 @@ export class Probe {
   }
 
   placed(t: number): PlacedPoint[] {
-    return this.points.value.map((point) => ({
-      ...point,
-      world: place(point.body.motion(t), point.local),
+    return this.points.value.map(({ body, triangle, local }) => ({
+      body,
+      triangle,
+      local: local(t),
+      world: place(body.motion(t), local(t)),
     }));
   }
 

@@ -31,7 +31,7 @@ import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
-import { Probe } from "./probe";
+import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
 
@@ -130,8 +130,8 @@ export class SceneView {
   addEdges(): void {
     const known = new Map<MeshData, BufferGeometry | null>();
     for (const view of this.bodies) {
-      const { mesh, data } = view.body;
-      if (view.drawn.kind !== "triangles" || data.motion?.type === "vertices") {
+      const { mesh } = view.body;
+      if (view.drawn.kind !== "triangles") {
         continue;
       }
       const edges = known.get(mesh) ?? edgeGeometry(mesh, view.surface.geometry);
@@ -142,6 +142,7 @@ export class SceneView {
     }
     this.restyle();
     this.showGhosts();
+    this.showMoment(this.player.t.value);
   }
 
   fitAll(atOnce = false): void {
@@ -181,12 +182,12 @@ export class SceneView {
     this.markers.show(contacts);
     this.bodies.forEach(({ group, body }) => {
       group.remove(...group.children.filter(({ name }) => name === "touching"));
-      const surface = touchingSurface(body, contacts, this.model.result.t);
+      const surface = touchingSurface(body, contacts);
       surface.name = "touching";
       surface.visible = this.display.contacts.value;
       group.add(surface);
     });
-    this.requestFrame();
+    this.showMoment(this.player.t.value);
   }
 
   lookAlong(direction: Vector3): void {
@@ -213,11 +214,10 @@ export class SceneView {
       return;
     }
     const body = this.model.bodies[hit.object.userData.body as number]!;
-    const local = unplace(body.motion(this.player.t.value), hit.point.toArray());
-    this.probe.add(
-      { body, triangle: hit.faceIndex ?? hit.index ?? 0, local },
-      this.display.measure.value,
-    );
+    const t = this.player.t.value;
+    const triangle = hit.faceIndex ?? hit.index ?? 0;
+    const local = unplace(body.motion(t), hit.point.toArray());
+    this.probe.add(probePoint(body, triangle, local, t), this.display.measure.value);
   }
 
   /// Draws now, for a picture of it.
