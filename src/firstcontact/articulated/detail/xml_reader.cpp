@@ -1,0 +1,199 @@
+#include <firstcontact/articulated/detail/xml_reader.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <firstcontact/geometry/parse_error.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Names = std::initializer_list<std::string_view>;
+
+constexpr double kGreatest = 1e60;
+constexpr std::string_view kBlanks = " \t\r\n";
+
+bool holds(Names names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string listed(Names names) {
+  std::string text;
+  for (const std::string_view name : names) {
+    text += (text.empty() ? "" : ", ") + std::string(name);
+  }
+  return names.size() == 0 ? "none" : text;
+}
+
+/// In quotes, cut short.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  return "'" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...'" : "'");
+}
+
+std::size_t line_of(const XmlElement& element) {
+  return static_cast<std::size_t>(std::max(element.GetLineNum(), 1));
+}
+
+/// "<joint name='a'>"
+std::string shown(const XmlElement& element) {
+  const char* name = element.Attribute("name");
+  return "<" + std::string(element.Name()) +
+         (name != nullptr ? " name=" + quoted(name) : std::string()) + ">";
+}
+
+/// Nothing if it is no finite number of at most 1e60 in size.
+std::optional<double> parse_number(std::string_view word) {
+  if (word.starts_with('+') && !word.starts_with("+-")) {
+    word.remove_prefix(1);
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool complete = error == std::errc() && end == word.data() + word.size();
+  return complete && std::abs(value) <= kGreatest ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+XmlReader::XmlReader(std::string_view text, std::string source) : source_(std::move(source)) {
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    throw ParseError::at_byte(source_, zero, "expected text, got a zero byte");
+  }
+  if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
+                 "expected XML, got " + std::string(document_.ErrorName()));
+  }
+}
+
+void XmlReader::fail(const XmlElement& where, const std::string& message) const {
+  fail_at_line(line_of(where), shown(where) + ": " + message);
+}
+
+void XmlReader::fail_at_line(std::size_t line, const std::string& message) const {
+  throw ParseError(source_, line, message);
+}
+
+const XmlElement& XmlReader::root(const char* name) const {
+  const XmlElement* root = document_.RootElement();
+  if (root == nullptr) {
+    throw ParseError(source_, "expected an element <" + std::string(name) + ">, got none");
+  }
+  if (std::string_view(root->Name()) != name) {
+    fail(*root, "expected <" + std::string(name) + "> as the outermost element");
+  }
+  for (const tinyxml2::XMLNode* node = document_.FirstChild(); node != nullptr;
+       node = node->NextSibling()) {
+    if (node->ToText() != nullptr || (node->ToElement() != nullptr && node != root)) {
+      fail_at_line(static_cast<std::size_t>(std::max(node->GetLineNum(), 1)),
+                   "expected one outermost element, <" + std::string(name) + ">, and nothing else");
+    }
+  }
+  return *root;
+}
+
+void XmlReader::expect_only(const XmlElement& element, Names attributes, Names children) const {
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    const std::string_view name = a->Name();
+    if (!holds(attributes, name)) {
+      fail(element, "unknown attribute " + quoted(name) + "; known are: " + listed(attributes));
+    }
+  }
+  for (const XmlElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (!holds(children, child->Name())) {
+      fail(*child, "not known inside " + shown(element) + "; known are: " + listed(children));
+    }
+  }
+}
+
+std::vector<const XmlElement*> XmlReader::children(const XmlElement& element,
+                                                   const char* name) const {
+  std::vector<const XmlElement*> found;
+  for (const XmlElement* child = element.FirstChildElement(name); child != nullptr;
+       child = child->NextSiblingElement(name)) {
+    found.push_back(child);
+  }
+  return found;
+}
+
+const XmlElement* XmlReader::child(const XmlElement& element, const char* name) const {
+  const XmlElement* first = element.FirstChildElement(name);
+  if (first != nullptr && first->NextSiblingElement(name) != nullptr) {
+    fail(*first->NextSiblingElement(name),
+         "a second <" + std::string(name) + "> inside " + shown(element) + "; keep one");
+  }
+  return first;
+}
+
+const XmlElement& XmlReader::required_child(const XmlElement& element, const char* name) const {
+  const XmlElement* found = child(element, name);
+  if (found == nullptr) {
+    fail(element, "expected an element <" + std::string(name) + "> inside");
+  }
+  return *found;
+}
+
+std::string XmlReader::text(const XmlElement& element, const char* attribute) const {
+  const char* value = element.Attribute(attribute);
+  if (value == nullptr || *value == '\0') {
+    fail(element, "expected an attribute '" + std::string(attribute) + "' that is not empty");
+  }
+  return value;
+}
+
+std::vector<double> XmlReader::numbers(const XmlElement& element, const char* attribute) const {
+  const std::string all = text(element, attribute);
+  std::vector<double> values;
+  std::string_view rest = all;
+  while (true) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+    if (rest.empty()) {
+      return values;
+    }
+    const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
+      fail(element, "expected finite numbers of at most 1e60 in size in '" +
+                        std::string(attribute) + "', got " + quoted(word));
+    }
+    values.push_back(*value);
+    rest.remove_prefix(word.size());
+  }
+}
+
+double XmlReader::number(const XmlElement& element, const char* attribute) const {
+  const std::vector<double> values = numbers(element, attribute);
+  if (values.size() != 1) {
+    fail(element, "expected one number in '" + std::string(attribute) + "', got " +
+                      std::to_string(values.size()));
+  }
+  return values.front();
+}
+
+std::optional<double> XmlReader::optional_number(const XmlElement& element,
+                                                 const char* attribute) const {
+  return element.Attribute(attribute) != nullptr ? std::optional(number(element, attribute))
+                                                 : std::nullopt;
+}
+
+double XmlReader::positive(const XmlElement& element, const char* attribute) const {
+  const double value = number(element, attribute);
+  if (!(value > 0.0)) {
+    fail(element, "expected '" + std::string(attribute) + "' to be > 0");
+  }
+  return value;
+}
+
+Eigen::Vector3d XmlReader::vector3(const XmlElement& element, const char* attribute) const {
+  const std::vector<double> values = numbers(element, attribute);
+  if (values.size() != 3) {
+    fail(element, "expected three numbers in '" + std::string(attribute) + "', got " +
+                      std::to_string(values.size()));
+  }
+  return {values[0], values[1], values[2]};
+}
+
+}  // namespace firstcontact::detail

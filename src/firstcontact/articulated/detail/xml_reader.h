@@ -1,0 +1,62 @@
+/// @file
+/// Takes values out of an XML tree, or says which element holds something else than expected.
+
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tinyxml2.h>
+#include <Eigen/Core>
+
+namespace firstcontact::detail {
+
+using XmlElement = tinyxml2::XMLElement;
+
+/// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
+/// where something is not what its name says. Numbers are read exactly, whatever the locale.
+class XmlReader {
+ public:
+  /// @param source  names the text in errors
+  XmlReader(std::string_view text, std::string source);
+
+  /// The one outermost element, which has to be named so.
+  [[nodiscard]] const XmlElement& root(const char* name) const;
+
+  [[noreturn]] void fail(const XmlElement& where, const std::string& message) const;
+  [[noreturn]] void fail_at_line(std::size_t line, const std::string& message) const;
+
+  /// Refuses children and attributes of other names than these.
+  void expect_only(const XmlElement& element, std::initializer_list<std::string_view> attributes,
+                   std::initializer_list<std::string_view> children) const;
+
+  /// All children of this name, in order.
+  [[nodiscard]] std::vector<const XmlElement*> children(const XmlElement& element,
+                                                        const char* name) const;
+  /// The only child of this name, or null.
+  [[nodiscard]] const XmlElement* child(const XmlElement& element, const char* name) const;
+  /// The only child of this name, which has to be there.
+  [[nodiscard]] const XmlElement& required_child(const XmlElement& element, const char* name) const;
+
+  /// An attribute that has to be there and not be empty.
+  [[nodiscard]] std::string text(const XmlElement& element, const char* attribute) const;
+
+  /// Finite and at most 1e60 in size.
+  [[nodiscard]] double number(const XmlElement& element, const char* attribute) const;
+  [[nodiscard]] std::optional<double> optional_number(const XmlElement& element,
+                                                      const char* attribute) const;
+  [[nodiscard]] double positive(const XmlElement& element, const char* attribute) const;
+  [[nodiscard]] Eigen::Vector3d vector3(const XmlElement& element, const char* attribute) const;
+
+  [[nodiscard]] std::vector<double> numbers(const XmlElement& element, const char* attribute) const;
+
+ private:
+  std::string source_;
+  tinyxml2::XMLDocument document_;
+};
+
+}  // namespace firstcontact::detail

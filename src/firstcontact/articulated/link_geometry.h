@@ -1,0 +1,62 @@
+/// @file
+/// What a link looks like, or is made of for collisions.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// A mesh in a file of its own.
+struct MeshGeometry {
+  std::filesystem::path path;                       ///< As opened.
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< [-]  Of each axis; not 0. < 0 mirrors.
+};
+
+struct BoxGeometry {
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]
+};
+
+struct SphereGeometry {
+  double radius = 0.0;  ///< [m]
+};
+
+/// About z.
+struct CylinderGeometry {
+  double radius = 0.0;  ///< [m]
+  double length = 0.0;  ///< [m]
+};
+
+/// About z.
+struct CapsuleGeometry {
+  double radius = 0.0;  ///< [m]
+  double length = 0.0;  ///< [m]  Of the segment, without the caps.
+};
+
+using GeometrySource =
+    std::variant<MeshGeometry, BoxGeometry, SphereGeometry, CylinderGeometry, CapsuleGeometry>;
+
+/// One piece of a link, in a frame G of its own.
+struct LinkGeometry {
+  std::string name;  ///< May be empty.
+  Pose X_LG = {};
+  GeometrySource source = {};
+  std::optional<Shape> shape = {};  ///< In G; none where it was not asked for.
+};
+
+/// The shape of a source, in its frame G. Coordinates of a mesh are scaled in double precision:
+/// certificates hold for the rounded products. A mirrored mesh keeps its inside.
+///
+/// @throws ParseError as read_mesh; std::invalid_argument where a number is out of its range
+[[nodiscard]] FIRSTCONTACT_API Shape make_shape(const GeometrySource& source);
+
+}  // namespace firstcontact

@@ -1,0 +1,81 @@
+/// @file
+/// Reads what a robot's maker says about it beside its geometry: SRDF.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// Two links whose collision is not asked for.
+struct DisabledPair {
+  std::size_t link = 0;  ///< The smaller index.
+  std::size_t other = 0;
+  std::string reason;  ///< May be empty.
+};
+
+/// A named part of the robot. Indices rise, each is there once.
+struct RobotGroup {
+  std::string name;
+  std::vector<std::size_t> links;
+  std::vector<std::size_t> joints;
+};
+
+/// A named configuration of a group.
+struct GroupState {
+  struct JointValue {
+    std::size_t joint = 0;
+    std::vector<double> coordinates;  ///< [rad or m]  As many as the joint has.
+  };
+  std::string name;
+  std::string group;
+  std::vector<JointValue> values;
+};
+
+/// A group that serves as a tool, on a link of another.
+struct EndEffector {
+  std::string name;
+  std::string group;
+  std::size_t parent_link = 0;
+};
+
+struct RobotSemantics {
+  std::string robot;
+  std::vector<DisabledPair> disabled;  ///< In order of the indices, each pair once.
+  std::vector<RobotGroup> groups;
+  std::vector<GroupState> states;
+  std::vector<EndEffector> end_effectors;
+
+  /// Lines that name what the robot does not have, as files shared by variants of a robot do. They
+  /// have no effect: no such line can hide a contact. Each is "path:line: <element>: what".
+  std::vector<std::string> warnings;
+
+  /// Whether the pair is in `disabled`.
+  [[nodiscard]] FIRSTCONTACT_API bool is_disabled(std::size_t link, std::size_t other) const;
+};
+
+/// Reads an SRDF file for a robot.
+///
+/// A group holds its links with their parent joints, its joints with their child links, its chains
+/// with both ends, and what its subgroups hold. `disable_default_collisions` disables a link
+/// against all others, which `enable_collisions` takes back. Virtual and passive joints, sphere
+/// approximations and elements of other tools are passed over.
+///
+/// @throws ParseError  one line with path, place, element and what was expected
+[[nodiscard]] FIRSTCONTACT_API RobotSemantics read_srdf(const std::filesystem::path& path,
+                                                        const RobotModel& robot);
+
+/// @param source  names the text in errors
+[[nodiscard]] FIRSTCONTACT_API RobotSemantics parse_srdf(std::string_view text,
+                                                         const std::string& source,
+                                                         const RobotModel& robot);
+
+}  // namespace firstcontact

@@ -1,0 +1,92 @@
+/// @file
+/// A robot as plain data: links, joints, and what may be wrong with them.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/articulated/link_geometry.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// A rigid part of a robot, frame L.
+struct Link {
+  std::string name;
+  std::vector<LinkGeometry> visual;
+  std::vector<LinkGeometry> collision;
+};
+
+/// How a child link may move against its parent. J is the joint frame, fixed in the parent; at
+/// zero coordinates the child's frame is J.
+enum class JointType {
+  fixed,
+  revolute,    ///< Turns about the axis by its coordinate, within limits.
+  continuous,  ///< Turns without limits.
+  prismatic,   ///< Slides along the axis.
+  screw,       ///< Turns, and slides by `pitch` times the angle.
+  planar,      ///< Slides along two directions across the axis, turns about it: three coordinates.
+  floating,    ///< Any rigid motion: a pose.
+  ball,        ///< Turns about its centre: a pose without translation.
+};
+
+/// What the maker allows; nothing where nothing is said. Units per coordinate: rad, or m for
+/// prismatic joints; of a screw they belong to the angle.
+struct JointLimits {
+  std::optional<double> lower = {};     ///< [rad or m]
+  std::optional<double> upper = {};     ///< [rad or m]
+  std::optional<double> velocity = {};  ///< [rad/s or m/s]  >= 0.
+  std::optional<double> effort = {};    ///< [N m or N]  >= 0.
+};
+
+/// The coordinate is multiplier times that of another joint, plus offset.
+struct Mimic {
+  std::string joint;
+  double multiplier = 1.0;  ///< [-]
+  double offset = 0.0;      ///< [rad or m]
+};
+
+/// Connects a child link to its parent. X_PL(q) = X_PJ X_JL(q).
+struct Joint {
+  std::string name;
+  JointType type = JointType::fixed;
+  std::string parent;
+  std::string child;
+  Pose X_PJ = {};
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< [-]  In J, any length but zero.
+  double pitch = 0.0;                               ///< [m/rad]  Of a screw.
+  JointLimits limits = {};
+  std::optional<Mimic> mimic = {};  ///< Of joints with one coordinate.
+};
+
+/// How many numbers say where the joint is; 0 for floating and ball joints, which take a pose.
+FIRSTCONTACT_API std::size_t coordinate_count(JointType type);
+
+/// The word of URDF; `screw` and `ball` for those that it does not know.
+FIRSTCONTACT_API const char* to_string(JointType type);
+
+/// What a RobotModel is made of. Order is free: a joint may come before its links.
+struct RobotDescription {
+  std::string name;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+};
+
+/// What is wrong with a description, and where.
+struct RobotDefect {
+  std::string message;
+  std::optional<std::size_t> joint;  ///< Index into joints.
+  std::optional<std::size_t> link;   ///< Index into links.
+};
+
+/// The first reason why the description is no tree of links: an unknown or doubled name, a second
+/// parent, a loop, a second root; or a joint whose numbers make no sense. None if it is sound.
+FIRSTCONTACT_API std::optional<RobotDefect> find_defect(const RobotDescription& description);
+
+}  // namespace firstcontact

@@ -1,0 +1,54 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/geometry/parse_error.h>
+
+#include "fuzz/fuzz_reader.h"
+
+namespace {
+
+using firstcontact::test::require;
+
+/// base -ja- a -jb- b, base -jc- c.
+firstcontact::RobotModel fork() {
+  const auto turning = [](const char* name, const char* parent, const char* child) {
+    return firstcontact::Joint{.name = name,
+                               .type = firstcontact::JointType::continuous,
+                               .parent = parent,
+                               .child = child};
+  };
+  return firstcontact::RobotModel(
+      {.name = "fork",
+       .links = {{"base", {}, {}}, {"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}},
+       .joints = {turning("ja", "base", "a"), turning("jb", "a", "b"),
+                  turning("jc", "base", "c")}});
+}
+
+/// Any bytes give indices that the robot has, or a ParseError of one line.
+void fuzz_srdf(std::string_view text) {
+  static const firstcontact::RobotModel robot = fork();
+  try {
+    const firstcontact::RobotSemantics semantics =
+        firstcontact::parse_srdf(text, "fuzz.srdf", robot);
+    for (const firstcontact::DisabledPair& pair : semantics.disabled) {
+      require(pair.link < pair.other && pair.other < robot.links().size());
+      require(semantics.is_disabled(pair.other, pair.link));
+    }
+    for (const firstcontact::RobotGroup& group : semantics.groups) {
+      require(group.links.empty() || group.links.back() < robot.links().size());
+      require(group.joints.empty() || group.joints.back() < robot.joints().size());
+    }
+  } catch (const firstcontact::ParseError& error) {
+    require(std::strchr(error.what(), '\n') == nullptr);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz_srdf({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
