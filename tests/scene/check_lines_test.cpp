@@ -131,6 +131,14 @@ TEST_F(CheckLines, PassesOnWhatItsCallerThrows) {
                    "s.jsonl", [] { return SceneLine{.number = 1, .text = line(1)}; },
                    [](const LineAnswer&) { throw std::runtime_error("full"); }),
                std::runtime_error);
+  std::size_t number = 0;
+  const auto broken = [&]() -> SceneLine {
+    if (++number == 50) {
+      throw std::runtime_error("unplugged");
+    }
+    return {.number = number, .text = line(1)};
+  };
+  EXPECT_THROW(check_lines("s.jsonl", broken, [](const LineAnswer&) {}), std::runtime_error);
 }
 
 TEST_F(CheckLines, LoadsAMeshOnceForAllThreads) {

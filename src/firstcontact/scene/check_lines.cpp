@@ -1,5 +1,8 @@
 #include <firstcontact/scene/check_lines.h>
 
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -70,6 +73,36 @@ class LineChecker {
   tbb::enumerable_thread_specific<ManyBodiesWorkspace> workspaces_;
 };
 
+/// The first exception of several threads, kept until they are done: oneTBB's pipeline does not
+/// destroy what is under way in it when one of its filters throws.
+class FirstException {
+ public:
+  /// Calls the function; keeps what it throws.
+  template <class Function>
+  void guard(const Function& function) {
+    try {
+      function();
+    } catch (...) {
+      std::call_once(first_, [this] {
+        exception_ = std::current_exception();
+        thrown_ = true;
+      });
+    }
+  }
+  [[nodiscard]] bool thrown() const { return thrown_; }
+  /// After all threads are done.
+  void rethrow() const {
+    if (exception_) {
+      std::rethrow_exception(exception_);
+    }
+  }
+
+ private:
+  std::once_flag first_;
+  std::atomic<bool> thrown_ = false;
+  std::exception_ptr exception_;
+};
+
 }  // namespace
 
 void check_lines(const std::filesystem::path& file,
@@ -83,11 +116,12 @@ void check_lines(const std::filesystem::path& file,
   tbb::task_arena arena(static_cast<int>(threads));
   LineChecker checker(file, options);
   bool cut_short = false;
+  FirstException exception;
   const auto read = tbb::make_filter<void, SceneLine>(
       tbb::filter_mode::serial_in_order, [&](tbb::flow_control& flow) {
         std::optional<SceneLine> line;
-        if (!options.stop.stop_requested()) {
-          line = next();
+        if (!options.stop.stop_requested() && !exception.thrown()) {
+          exception.guard([&] { line = next(); });
         }
         if (!line) {
           flow.stop();
@@ -98,16 +132,20 @@ void check_lines(const std::filesystem::path& file,
       tbb::filter_mode::parallel, [&](const SceneLine& line) {
         // Isolated: a thread that waits for parts of its scene must not begin another one, which
         // would need the same workspace.
-        return tbb::this_task_arena::isolate([&] { return checker.answer(line); });
+        std::optional<LineAnswer> answered;
+        tbb::this_task_arena::isolate(
+            [&] { exception.guard([&] { answered = checker.answer(line); }); });
+        return answered;
       });
   const auto hand_over = tbb::make_filter<std::optional<LineAnswer>, void>(
       tbb::filter_mode::serial_in_order, [&](const std::optional<LineAnswer>& answered) {
         cut_short = cut_short || !answered;
-        if (!cut_short) {
-          take(*answered);
+        if (!cut_short && !exception.thrown()) {
+          exception.guard([&] { take(*answered); });
         }
       });
   arena.execute([&] { tbb::parallel_pipeline(kLead * threads, read & answer & hand_over); });
+  exception.rethrow();
 }
 
 }  // namespace firstcontact
