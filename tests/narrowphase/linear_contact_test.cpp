@@ -197,6 +197,19 @@ TEST(LinearContact, OfSlidingInOnePlaneIsAtTheStart) {
   EXPECT_EQ(answer.t, 0.0);
 }
 
+// A corner goes along a face that tilts under it, ever closer to it: a plane that stands still
+// would hold for a millionth of the step.
+TEST(LinearContact, SlidingOverATurningFaceDoesNotStall) {
+  const LinearFace face = {
+      {{{-3, -3, 0}, {-3, -3, -3}}, {{3, -3, 0}, {3, -3, 3}}, {{0, 3, 0}, {0, 3, 0}}}};
+  for (const double height : {1e-3, 1e-4, 1e-5, 2e-6}) {
+    const LinearContact answer =
+        linear_vertex_face_contact({{0.5, 0, height}, {0.5, 0.5, 0.5 + height}}, face);
+    EXPECT_EQ(answer.verdict, LinearVerdict::free) << height;
+    EXPECT_LE(answer.steps, 200) << height;
+  }
+}
+
 TEST(LinearContact, MayBeAtTheVeryEnd) {
   const LinearFace face = {
       {{{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}}};

@@ -109,11 +109,11 @@ MovingSoup deforming_soup(Rng& rng, Kind kind, const Vec& start, const Vec& trav
   return soup;
 }
 
-/// A corner above a face that tilts; both deform, or the corner stands still.
+/// A corner above a face that tilts; it keeps its height over it at both ends, or sinks into it.
 GeneratedCase sliding(Rng& rng) {
   GeneratedCase c;
   const double tilt = uniform(rng, -1.0, 1.0);
-  const double height = std::pow(10.0, -static_cast<double>(1 + rng() % 6));
+  const double height = std::pow(10.0, -static_cast<double>(1 + rng() % 4));
   add_triangle(c.A, {-1.0, -1.0, 0.0}, {2.0, -1.0, 0.0}, {-1.0, 2.0, 0.0});
   const auto tilted = [&](const Vec& v) { return Vec{v.x, v.y, v.z + tilt * v.x}; };
   for (const Vec& v : c.A.vertices) {
@@ -122,7 +122,8 @@ GeneratedCase sliding(Rng& rng) {
   const Vec from{uniform(rng, -0.5, 0.5), uniform(rng, -0.5, 0.5), height};
   const Vec end{from.x + uniform(rng, -0.2, 0.2), from.y, height};
   add_triangle(c.B, from, from + Vec{0.1, 0.0, 1.0}, from + Vec{0.0, 0.1, 1.0});
-  const Vec to = tilted(end);
+  const double sinking = rng() % 2 == 0 ? 0.0 : uniform(rng, 0.0, 3.0) * height;
+  const Vec to = tilted(end) - Vec{0.0, 0.0, sinking};
   c.B.to = {to, to + Vec{0.1, 0.0, 1.0}, to + Vec{0.0, 0.1, 1.0}};
   return c;
 }

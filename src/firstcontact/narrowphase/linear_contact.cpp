@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -11,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/narrowphase/detail/turning_gap.h>
 #include <firstcontact/narrowphase/separating_direction.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
@@ -23,8 +23,8 @@ using Eigen::Vector3d;
 ///
 /// Derivation of the errors, u = 2^-53: `from` and `to` of a corner, taken from a corner of A at
 /// the same time, are rounded by u of their sizes, which `reach` bounds. A product with a direction
-/// of length 1 +- 4 u adds 4 u of it. The zeros of linear functions, and rounding of times, add 12
-/// u. With 2^-47 = 64 u all of it is covered twice.
+/// of length 1 +- 4 u adds 4 u of it. Rounding of times adds a few u. With 2^-47 = 64 u all of it
+/// is covered twice; velocities, differences of two such positions, have an error of their own.
 class LinearPair {
  public:
   LinearPair(std::span<const LinearPoint> A, std::span<const LinearPoint> B,
@@ -81,60 +81,68 @@ class LinearPair {
     return {{point(A_[0]), point(A_[1]), point(A_[2])}, {point(B_[0]), point(B_[1]), point(B_[2])}};
   }
 
-  /// For all of [0, 1]; most features are far apart, and this says so at once.
+  /// For all of [0, 1], along an axis; most features are far apart, and this says so at once. What
+  /// is linear in time is positive throughout if it is at both ends.
   [[nodiscard]] bool is_apart_along_axes() const {
-    for (int k = 0; k < 3; ++k) {
-      Vector3d n = Vector3d::Unit(k);
-      if (free_along(n, 0.0) > 1.0 || free_along(-n, 0.0) > 1.0) {
-        return true;
+    const Bounds A(A_);
+    const Bounds B(B_);
+    const double least = options_.margin + error_;
+    const auto beyond = [least](const Bounds& low, const Bounds& high) {
+      const auto from = high.low_from.array() - low.high_from.array() > least;
+      const auto to = high.low_to.array() - low.high_to.array() > least;
+      return (from && to).any();
+    };
+    return beyond(A, B) || beyond(B, A);
+  }
+
+  /// Around the corners, at both ends.
+  struct Bounds {
+    explicit Bounds(const std::array<LinearPoint, 3>& corners)
+        : low_from(corners[0].from),
+          high_from(corners[0].from),
+          low_to(corners[0].to),
+          high_to(corners[0].to) {
+      for (const LinearPoint& corner : corners) {
+        low_from = low_from.cwiseMin(corner.from);
+        high_from = high_from.cwiseMax(corner.from);
+        low_to = low_to.cwiseMin(corner.to);
+        high_to = high_to.cwiseMax(corner.to);
       }
     }
-    return false;
+
+    Vector3d low_from;
+    Vector3d high_from;
+    Vector3d low_to;
+    Vector3d high_to;
+  };
+
+  [[nodiscard]] detail::MovingCorners moving(const Triangle& position,
+                                             const std::array<LinearPoint, 3>& corners,
+                                             std::size_t count) const {
+    detail::MovingCorners moving;
+    moving.position = position;
+    for (std::size_t k = 0; k < 3; ++k) {
+      moving.velocity[k] = corners[k].to - corners[k].from;
+    }
+    moving.count = count;
+    moving.slip = 4.0 * detail::kGapRounding * reach_;
+    return moving;
   }
 
-  /// Until when B is proven farther than the margin along the unit direction n from all of A, from
-  /// t on; t where that is not so at t, beyond 1 where it is so to the end.
-  [[nodiscard]] double free_along(const Vector3d& n, double t) const {
-    std::array<double, 3> from_A;
-    std::array<double, 3> to_A;
-    for (std::size_t i = 0; i < size_A_; ++i) {
-      from_A[i] = n.dot(A_[i].from);
-      to_A[i] = n.dot(A_[i].to);
-    }
-    double until = 2.0;
-    for (std::size_t j = 0; j < size_B_; ++j) {
-      const double from_B = n.dot(B_[j].from) - options_.margin - error_;
-      const double to_B = n.dot(B_[j].to) - options_.margin - error_;
-      for (std::size_t i = 0; i < size_A_; ++i) {
-        until = std::min(until, positive_until(from_B - from_A[i], to_B - to_A[i], t));
-      }
-    }
-    return until;
-  }
-
-  /// How long (1 - s) a + s b is positive from s = t on; 2 for all of it.
-  static double positive_until(double a, double b, double t) {
-    const double now = (1.0 - t) * a + t * b;
-    if (!(now > 0x1p-50 * std::max(std::abs(a), std::abs(b)))) {
-      return t;
-    }
-    if (b > 0.0) {
-      return 2.0;
-    }
-    // The zero is at t + (1 - t) now / (now - b). Rounded down by far more than its errors.
-    const double step = (1.0 - t) * (now / (now - b));
-    return std::min(1.0, t + step * (1.0 - 0x1p-45));
-  }
-
-  /// The longest that any of the directions proves.
+  /// Until when the features are proven apart from t on, by the longest that any direction proves;
+  /// beyond 1 where that is to the end.
   [[nodiscard]] double free_until(const TrianglePair& now, const ClosestFeatures& closest,
                                   double t) const {
-    double best = t;
+    const detail::MovingCorners A = moving(now.A, A_, size_A_);
+    const detail::MovingCorners B = moving(now.B, B_, size_B_);
+    const double enough = (1.0 - t) * (1.0 + 0x1p-40) + 0x1p-50;
+    double best = 0.0;
     const Vector3d d = closest.p_B - closest.p_A;
     const auto consider = [&](const Vector3d& direction) {
       const double length = direction.norm();
-      if (length > 0.0 && best <= 1.0) {
-        best = std::max(best, free_along(direction / length, t));
+      if (length > 0.0 && best < enough) {
+        best = std::max(best, detail::time_apart_along(A, B, closest, options_.margin + error_,
+                                                       direction / length, enough));
       }
     };
     consider(d);
@@ -142,13 +150,17 @@ class LinearPair {
       const Vector3d by_features = separating_direction(now, closest);
       consider(by_features.dot(d) < 0.0 ? Vector3d(-by_features) : by_features);
     }
-    if (!(best > t)) {
+    if (!(best > 0.0)) {
       for_each_plane_normal(now, [&](const Vector3d& n) {
         consider(n);
         consider(-n);
       });
     }
-    return best;
+    if (best >= enough) {
+      return 2.0;
+    }
+    // Rounded down by more than the error of the sum, which is below 2^-53.
+    return std::max(t, t + best * (1.0 - 0x1p-45) - 0x1p-53);
   }
 
   std::size_t size_A_;

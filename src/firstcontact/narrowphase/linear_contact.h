@@ -44,7 +44,8 @@ struct LinearContact {
 /// Along a fixed direction n the distance of every corner of one feature from every corner of the
 /// other is linear in t: it is positive up to the earliest of its zeros, and so the features are
 /// apart for that long. n is the direction between the closest points, or the one that the features
-/// define where these nearly coincide. Steps of that kind never pass a contact, whatever the
+/// define where these nearly coincide; it may also turn with them, as in advance_deforming(), so
+/// that sliding does not stall. Steps of that kind never pass a contact, whatever the
 /// configuration: nothing is divided by a determinant, no root of the coplanarity cubic is sought
 /// (its degenerate cases are those of B. Wang, Z. Ferguson, T. Schneider, X. Jiang, M. Attene, D.
 /// Panozzo, "A large-scale benchmark and an inclusion-based algorithm for continuous collision

@@ -1,0 +1,53 @@
+/// @file
+/// The gap of two triangles along a direction that may turn.
+
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/narrowphase/triangle_distance.h>
+
+namespace firstcontact::detail {
+
+/// Positions and velocities are products and sums of a few rounded numbers: within 2^-48 of what
+/// enters them.
+inline constexpr double kGapRounding = 0x1p-48;
+
+/// The corners of one feature, and what bounds their motion.
+struct MovingCorners {
+  Triangle position;
+  Triangle velocity;
+  std::size_t count = 3;  ///< Of corners that differ; a vertex or an edge has fewer.
+  double slip = 0.0;      ///< [m per step]  Error of a velocity.
+
+  // Of a body that turns; else all zero.
+  double rate = 0.0;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  double reach = 0.0;  ///< [m]  Of any corner from the pivot, to the end of the step.
+  double speed = 0.0;  ///< [m per step]  Of any corner as its body sees it.
+
+  /// Bounds the acceleration of any corner along n(tau), which has turned by `turned`: w |n x u|
+  /// (w |rho| + 2 |d|), errors of the axis included.
+  [[nodiscard]] double acceleration(const Eigen::Vector3d& n, double turned) const {
+    constexpr double kUp = 1.0 + 0x1p-40;
+    const double across = n.cross(axis).norm() + turned + kGapRounding;
+    return rate * across * (rate * reach + 2.0 * speed) * kUp;
+  }
+};
+
+/// For how long the features stay farther apart than `threshold` along n(tau) = n + tau n', by the
+/// better of two rates n': zero, and the one that keeps n across the edges of the closest features.
+/// advance_deforming() has the derivation.
+///
+/// @param threshold  [m]  the error of positions included
+/// @param n          [-]  unit up to rounding, from A towards B
+/// @param closest    chooses n', and has no part in the claim
+/// @param enough     no longer time is of interest
+[[nodiscard]] double time_apart_along(const MovingCorners& A, const MovingCorners& B,
+                                      const ClosestFeatures& closest, double threshold,
+                                      const Eigen::Vector3d& n, double enough);
+
+}  // namespace firstcontact::detail
