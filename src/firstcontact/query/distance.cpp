@@ -50,8 +50,9 @@ Nearest find_nearest(const MovingPair& pair, const RelativeState& state,
     ++work.node_groups;
     boxes.open(item.A, item.B, [&](const detail::BoxesAtInstant::Lane& lane) {
       double gap = lane.gap();
-      if (best.distance - gap < kDoubt * pair.unit()) {
-        gap = lane.precise_gap();  // Many pairs may be nearly as close: of surfaces that lie flat.
+      // Many pairs may be nearly as close: of surfaces that lie flat.
+      if (gap < best.distance && best.distance - gap < kDoubt * pair.unit()) {
+        gap = lane.precise_gap();
       }
       if (!(gap >= best.distance)) {
         queue.emplace_back(gap, lane.inside());
