@@ -1,0 +1,290 @@
+#include <firstcontact/articulated/coordinate_path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/math/sine_cosine.h>
+
+namespace firstcontact {
+namespace {
+
+constexpr std::size_t kCount = CoordinateSegment::kCoefficients;
+
+/// 2 pi to 107 bits.
+constexpr DoubleDouble kTurn{6.283185307179586, 2.4492935982947064e-16};
+
+/// A few dozen double-double operations, each within 2^-102 of sums of its operands.
+constexpr double kConstructionError = 0x1p-96;
+
+double factorial(std::size_t n) { return n < 2 ? 1.0 : static_cast<double>(n) * factorial(n - 1); }
+
+/// Binomial coefficient "j over k".
+double choose(std::size_t j, std::size_t k) {
+  return factorial(j) / (factorial(k) * factorial(j - k));
+}
+
+DoubleDouble relative_time(const CoordinateSegment& segment, double t) {
+  return two_sum(t, -segment.t_begin) / two_sum(segment.t_end, -segment.t_begin);
+}
+
+/// The k-th coefficient of the polynomial about s instead of about 0.
+DoubleDouble shifted(const CoordinateSegment& segment, const DoubleDouble& s, std::size_t k) {
+  DoubleDouble sum = 0.0;
+  for (std::size_t j = segment.count; j-- > k;) {
+    sum = sum * s + DoubleDouble(choose(j, k)) * segment.a[j];
+  }
+  return sum;
+}
+
+/// Sum over j >= k of "j over k" |a_j|: bounds the k-th coefficient about any s in [0, 1].
+double size_of(const CoordinateSegment& segment, std::size_t k) {
+  double sum = 0.0;
+  for (std::size_t j = k; j < segment.count; ++j) {
+    sum += choose(j, k) * std::abs(segment.a[j].hi);
+  }
+  return sum;
+}
+
+/// How far `shifted` may be from exact: binomial coefficients are at most 35.
+double noise(const CoordinateSegment& segment, std::size_t k) {
+  return 128.0 * segment.error + 0x1p-94 * size_of(segment, k);
+}
+
+CoordinateSegment at_rest(double position, double t_begin, double t_end) {
+  CoordinateSegment segment;
+  segment.t_begin = t_begin;
+  segment.t_end = t_end;
+  segment.a[0] = position;
+  return segment;
+}
+
+void require(bool condition, const std::string& message) {
+  if (!condition) {
+    throw std::invalid_argument("CoordinatePath: " + message);
+  }
+}
+
+void require_numbers(std::span<const double> values, const std::string& name) {
+  for (const double value : values) {
+    // Negated, so that NaN is refused too. Angles beyond are refused by sine_cosine.
+    require(std::abs(value) <= kMaximumAngle, name + " must be finite and at most 1e8 in size");
+  }
+}
+
+void require_times(std::span<const double> times) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    require(times[k] >= 0.0 && times[k] <= 1.0, "times must lie in [0, 1]");
+    require(k == 0 || times[k - 1] < times[k], "times must increase strictly");
+  }
+}
+
+/// Values at the ends of a piece: position, velocity, acceleration; scaled to s.
+struct Ends {
+  std::array<DoubleDouble, 3> begin;
+  std::array<DoubleDouble, 3> end;
+};
+
+/// The polynomial of least degree with `orders` derivatives (position included) at both ends.
+CoordinateSegment interpolate(const Ends& ends, std::size_t orders, double t_begin, double t_end) {
+  const auto& [p0, v0, a0] = ends.begin;
+  const auto& [p1, v1, a1] = ends.end;
+  const DoubleDouble way = p1 - p0;
+  CoordinateSegment s = at_rest(0.0, t_begin, t_end);
+  s.count = 2 * orders;
+  s.a[0] = p0;
+  if (orders == 1) {
+    s.a[1] = way;
+  } else if (orders == 2) {
+    s.a[1] = v0;
+    s.a[2] = DoubleDouble(3.0) * way - DoubleDouble(2.0) * v0 - v1;
+    s.a[3] = v0 + v1 - DoubleDouble(2.0) * way;
+  } else {
+    const DoubleDouble half_a0 = DoubleDouble(0.5) * a0;
+    const DoubleDouble half_a1 = DoubleDouble(0.5) * a1;
+    s.a[1] = v0;
+    s.a[2] = half_a0;
+    s.a[3] = DoubleDouble(10.0) * way - DoubleDouble(6.0) * v0 - DoubleDouble(4.0) * v1 -
+             DoubleDouble(3.0) * half_a0 + half_a1;
+    s.a[4] = DoubleDouble(-15.0) * way + DoubleDouble(8.0) * v0 + DoubleDouble(7.0) * v1 +
+             DoubleDouble(3.0) * half_a0 - DoubleDouble(2.0) * half_a1;
+    s.a[5] = DoubleDouble(6.0) * way - DoubleDouble(3.0) * (v0 + v1) - half_a0 + half_a1;
+  }
+  double size = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    size += std::abs(ends.begin[k].hi) + std::abs(ends.end[k].hi);
+  }
+  s.error = 64.0 * kConstructionError * size;
+  return s;
+}
+
+/// `columns`: positions, velocities, accelerations, as many as there are.
+std::vector<CoordinateSegment> through(std::span<const double> times,
+                                       std::span<const std::span<const double>> columns,
+                                       Turning turning) {
+  require(!times.empty(), "at least one time is needed");
+  require_times(times);
+  constexpr std::array<const char*, 3> kNames = {"positions", "velocities", "accelerations"};
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    require(columns[c].size() == times.size(),
+            std::string(kNames[c]) + " must be as many as times, " + std::to_string(times.size()));
+    require_numbers(columns[c], kNames[c]);
+  }
+  std::vector<CoordinateSegment> segments;
+  if (times.front() > 0.0) {
+    segments.push_back(at_rest(columns[0].front(), 0.0, times.front()));
+  }
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    const DoubleDouble h = two_sum(times[k + 1], -times[k]);
+    Ends ends;
+    DoubleDouble scale = 1.0;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      ends.begin[c] = scale * DoubleDouble(columns[c][k]);
+      ends.end[c] = scale * DoubleDouble(columns[c][k + 1]);
+      scale = scale * h;
+    }
+    if (turning == Turning::shortest) {
+      const double turns = std::round((ends.end[0] - ends.begin[0]).hi / kTurn.hi);
+      ends.end[0] = ends.end[0] - DoubleDouble(turns) * kTurn;
+    }
+    segments.push_back(interpolate(ends, columns.size(), times[k], times[k + 1]));
+  }
+  if (times.back() < 1.0) {
+    segments.push_back(at_rest(columns[0].back(), times.back(), 1.0));
+  }
+  if (segments.empty()) {
+    segments.push_back(at_rest(columns[0].front(), 0.0, 1.0));
+  }
+  return segments;
+}
+
+CoordinateSegment scaled_polynomial(const std::vector<double>& coefficients, double t_begin,
+                                    double t_end) {
+  require(!coefficients.empty() && coefficients.size() <= kCount,
+          "a polynomial has one to eight coefficients");
+  CoordinateSegment segment = at_rest(0.0, t_begin, t_end);
+  segment.count = coefficients.size();
+  const DoubleDouble h = two_sum(t_end, -t_begin);
+  DoubleDouble scale = 1.0;
+  double size = 0.0;
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    require(std::abs(coefficients[j]) <= 1e60, "coefficients must be finite, at most 1e60 in size");
+    segment.a[j] = scale * DoubleDouble(coefficients[j]);
+    size += std::abs(segment.a[j].hi);
+    scale = scale * h;
+  }
+  require(size <= kMaximumAngle, "a polynomial must stay below 1e8 in size");
+  segment.error = kConstructionError * size;
+  return segment;
+}
+
+}  // namespace
+
+CoordinateSegment::State CoordinateSegment::state(double t) const {
+  State state;
+  const DoubleDouble s = relative_time(*this, t);
+  const double per_length = 1.0 / (t_end - t_begin);
+  state.value = shifted(*this, s, 0);
+  const double rate = shifted(*this, s, 1).hi;
+  const double half_acceleration = shifted(*this, s, 2).hi;
+  state.rate = rate * per_length;
+  state.acceleration = 2.0 * half_acceleration * per_length * per_length;
+  state.value_error = 2.0 * (noise(*this, 0) + noise(*this, 1));
+  state.rate_error = (0x1p-50 * std::abs(rate) + 2.0 * noise(*this, 1)) * per_length;
+  state.acceleration_error =
+      (0x1p-49 * std::abs(half_acceleration) + 4.0 * noise(*this, 2)) * per_length * per_length;
+  return state;
+}
+
+CoordinateSegment::Bounds CoordinateSegment::bounds(double t_from, double t_to) const {
+  const double per_length = 1.0 / (t_end - t_begin);
+  const double middle = 0.5 * (t_from + t_to);
+  const double half = std::max(t_to - middle, middle - t_from) * per_length * (1.0 + 0x1p-50);
+  const DoubleDouble s = relative_time(*this, middle);
+  std::array<double, kCount> size{};
+  for (std::size_t j = 1; j < count; ++j) {
+    size[j] = std::abs(shifted(*this, s, j).hi) + noise(*this, j);
+  }
+  std::array<double, 4> derivative{};
+  double scale = per_length;
+  for (std::size_t k = 1; k < 4; ++k) {
+    double sum = 0.0;
+    for (std::size_t j = count; j-- > k;) {
+      sum = sum * half + choose(j, k) * size[j];
+    }
+    derivative[k] = factorial(k) * scale * sum * (1.0 + 0x1p-46);
+    scale *= per_length;
+  }
+  return {derivative[1], derivative[2], derivative[3]};
+}
+
+CoordinateSegment CoordinateSegment::mimicked(double multiplier, double offset) const {
+  CoordinateSegment result = *this;
+  for (DoubleDouble& coefficient : result.a) {
+    coefficient = DoubleDouble(multiplier) * coefficient;
+  }
+  result.a[0] = result.a[0] + DoubleDouble(offset);
+  result.error = std::abs(multiplier) * error * (1.0 + 0x1p-50) +
+                 kConstructionError * (size_of(result, 0) + std::abs(offset));
+  return result;
+}
+
+CoordinatePath::CoordinatePath(std::vector<CoordinateSegment> segments, Turning turning)
+    : segments_(std::move(segments)), turning_(turning) {}
+
+CoordinatePath CoordinatePath::constant(double position) {
+  require_numbers({&position, 1}, "position");
+  return {{at_rest(position, 0.0, 1.0)}, Turning::as_given};
+}
+
+CoordinatePath CoordinatePath::linear(std::span<const double> times,
+                                      std::span<const double> positions, Turning turning) {
+  const std::array<std::span<const double>, 1> columns{positions};
+  return {through(times, columns, turning), turning};
+}
+
+CoordinatePath CoordinatePath::cubic(std::span<const double> times,
+                                     std::span<const double> positions,
+                                     std::span<const double> velocities, Turning turning) {
+  const std::array<std::span<const double>, 2> columns{positions, velocities};
+  return {through(times, columns, turning), turning};
+}
+
+CoordinatePath CoordinatePath::quintic(std::span<const double> times,
+                                       std::span<const double> positions,
+                                       std::span<const double> velocities,
+                                       std::span<const double> accelerations, Turning turning) {
+  const std::array<std::span<const double>, 3> columns{positions, velocities, accelerations};
+  return {through(times, columns, turning), turning};
+}
+
+CoordinatePath CoordinatePath::polynomials(std::span<const double> times,
+                                           std::span<const std::vector<double>> coefficients) {
+  constexpr double kJump = 1e-6;  // [rad or m]  Files round their coefficients.
+  require(times.size() >= 2, "at least two times are needed");
+  require_times(times);
+  require(coefficients.size() + 1 == times.size(), "polynomials must be one fewer than times");
+  std::vector<CoordinateSegment> segments;
+  for (std::size_t k = 0; k < coefficients.size(); ++k) {
+    segments.push_back(scaled_polynomial(coefficients[k], times[k], times[k + 1]));
+    if (k > 0) {
+      const double before = segments[k - 1].state(times[k]).value.hi;
+      require(std::abs(before - segments[k].a[0].hi) <= kJump,
+              "the coordinate jumps at time " + std::to_string(times[k]) +
+                  "; let neighbouring pieces meet");
+    }
+  }
+  const double first = segments.front().a[0].hi;
+  const double last = segments.back().state(times.back()).value.hi;
+  if (times.front() > 0.0) {
+    segments.insert(segments.begin(), at_rest(first, 0.0, times.front()));
+  }
+  if (times.back() < 1.0) {
+    segments.push_back(at_rest(last, times.back(), 1.0));
+  }
+  return {std::move(segments), Turning::as_given};
+}
+
+}  // namespace firstcontact

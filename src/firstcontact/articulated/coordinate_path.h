@@ -1,0 +1,110 @@
+/// @file
+/// How one joint coordinate runs over the step: polynomials in time.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <firstcontact/math/double_double.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// One polynomial piece of a coordinate,
+///   q(t) = sum over j of a_j s^j,   s = (t - t_begin) / (t_end - t_begin).
+/// The exact coefficients are within `error` of the stored ones, summed over j.
+struct FIRSTCONTACT_API CoordinateSegment {
+  static constexpr std::size_t kCoefficients = 8;
+
+  double t_begin = 0.0;
+  double t_end = 1.0;
+  std::array<DoubleDouble, kCoefficients> a = {};  ///< [rad or m]
+  std::size_t count = 1;                           ///< Coefficients in use; the others are 0.
+  double error = 0.0;                              ///< [rad or m]
+
+  /// Value and derivatives at a time of the piece.
+  struct State {
+    DoubleDouble value;         ///< [rad or m]
+    double rate = 0.0;          ///< [per step]
+    double acceleration = 0.0;  ///< [per step^2]
+    double value_error = 0.0;   ///< [rad or m]  How far each may be from exact.
+    double rate_error = 0.0;
+    double acceleration_error = 0.0;
+  };
+  [[nodiscard]] State state(double t) const;
+
+  /// Upper bounds of the sizes of the derivatives over a window of time.
+  struct Bounds {
+    double rate = 0.0;          ///< [per step]
+    double acceleration = 0.0;  ///< [per step^2]
+    double jerk = 0.0;          ///< [per step^3]
+  };
+  /// Derivation: with b_j the coefficients about the window's middle and r its half width, the
+  /// k-th derivative is at most the sum over j >= k of j! / (j - k)! |b_j| r^(j - k), which exceeds
+  /// its greatest size by terms of r only.
+  [[nodiscard]] Bounds bounds(double t_from, double t_to) const;
+
+  /// The coordinate of a joint that mimics this one: multiplier q + offset.
+  [[nodiscard]] CoordinateSegment mimicked(double multiplier, double offset) const;
+};
+
+/// Which way a continuous joint turns from one position to the next.
+enum class Turning {
+  as_given,  ///< Through all angles between the two numbers.
+  shortest,  ///< By at most half a turn: positions count up to whole turns.
+};
+
+/// One coordinate over the step, t in [0, 1]. Rests before the first time and after the last.
+/// The exact path is the real-number function that the doubles below define.
+///
+/// All factories throw std::invalid_argument on NaN, infinities, sizes beyond 1e8, wrong counts,
+/// and times outside [0, 1] or not strictly increasing.
+class FIRSTCONTACT_API CoordinatePath {
+ public:
+  /// Rests at a position.
+  ///
+  /// @param position  [rad or m]
+  static CoordinatePath constant(double position);
+
+  /// At constant rates between the positions.
+  static CoordinatePath linear(std::span<const double> times, std::span<const double> positions,
+                               Turning turning = Turning::as_given);
+
+  /// Cubics that have the given velocities too.
+  ///
+  /// @param velocities  [rad or m per step]
+  static CoordinatePath cubic(std::span<const double> times, std::span<const double> positions,
+                              std::span<const double> velocities,
+                              Turning turning = Turning::as_given);
+
+  /// Quintics that have the given velocities and accelerations too.
+  ///
+  /// @param accelerations  [rad or m per step^2]
+  static CoordinatePath quintic(std::span<const double> times, std::span<const double> positions,
+                                std::span<const double> velocities,
+                                std::span<const double> accelerations,
+                                Turning turning = Turning::as_given);
+
+  /// Given polynomials: piece k runs from times[k] to times[k + 1] with
+  ///   q(t) = sum over j of coefficients[k][j] (t - times[k])^j,
+  /// of degree 7 at most. Where pieces do not meet, the coordinate would jump: refused beyond 1e-6.
+  ///
+  /// @param coefficients  [rad or m per step^j]
+  static CoordinatePath polynomials(std::span<const double> times,
+                                    std::span<const std::vector<double>> coefficients);
+
+  /// In order, without gaps, from 0 to 1.
+  [[nodiscard]] std::span<const CoordinateSegment> segments() const { return segments_; }
+  [[nodiscard]] Turning turning() const { return turning_; }
+
+ private:
+  CoordinatePath(std::vector<CoordinateSegment> segments, Turning turning);
+
+  std::vector<CoordinateSegment> segments_;
+  Turning turning_;
+};
+
+}  // namespace firstcontact
