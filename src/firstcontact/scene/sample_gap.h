@@ -16,10 +16,10 @@ namespace firstcontact {
 
 /// The least distance of all pairs at one time.
 struct GapSample {
-  double t = 0.0;         ///< [-]  Normalised to the scene's duration.
-  double distance = 0.0;  ///< [m]  0 where two surfaces meet; infinite where no pair is tested.
+  double t = 0.0;            ///< [-]  Normalised to the scene's duration.
+  double distance = 0.0;     ///< [m]  0 where two surfaces meet; infinite where no pair is tested.
   double lower_bound = 0.0;  ///< [m]  Proven at t; `distance` less its rounding error.
-  bool contact = false;   ///< A pair is no farther apart than its margin.
+  bool contact = false;      ///< A pair is no farther apart than its margin.
 };
 
 /// The gap at each of the times. Proves nothing about the times between them.
