@@ -105,6 +105,12 @@ struct LinkPath::Walk {
 LinkPath::LinkPath(double t_begin, double t_end, std::vector<JointPath> joints)
     : t_begin_(t_begin), t_end_(t_end), joints_(std::move(joints)) {}
 
+LinkPath LinkPath::then(const PreciseTransform& X_LG) const {
+  std::vector<JointPath> joints = joints_;
+  joints.push_back(JointPath::polynomial(X_LG, {}, {}, {}, {}));
+  return {t_begin_, t_end_, std::move(joints)};
+}
+
 LinkPath::Walk LinkPath::walk(double t, const DoubleDoubleVector3& p_FO,
                               LinkScratch* scratch) const {
   Walk walk;

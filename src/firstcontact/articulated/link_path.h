@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/articulated/joint_path.h>
+#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/math/double_double.h>
 #include <firstcontact/math/export.h>
 
@@ -108,6 +109,9 @@ class FIRSTCONTACT_API LinkPath {
 
   [[nodiscard]] double t_begin() const { return t_begin_; }
   [[nodiscard]] double t_end() const { return t_end_; }
+
+  /// The path of a frame that is fixed in L.
+  [[nodiscard]] LinkPath then(const PreciseTransform& X_LG) const;
 
   /// X_FL(t).
   ///

@@ -225,6 +225,22 @@ void add_breaks(std::set<double>&, std::monostate) {}
 
 LinkMotion::LinkMotion(std::vector<LinkPath> pieces) : pieces_(std::move(pieces)) {}
 
+LinkMotion::LinkMotion(const Motion& X_WB) {
+  for (std::size_t k = 0; k + 1 < X_WB.breaks().size(); ++k) {
+    pieces_.emplace_back(
+        X_WB.breaks()[k], X_WB.breaks()[k + 1],
+        std::vector{JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero()))});
+  }
+}
+
+LinkMotion LinkMotion::then(const PreciseTransform& X_LG) const {
+  std::vector<LinkPath> pieces;
+  for (const LinkPath& piece : pieces_) {
+    pieces.push_back(piece.then(X_LG));
+  }
+  return LinkMotion(std::move(pieces));
+}
+
 const LinkPath& LinkMotion::at(double t) const {
   const auto ends_before = [](const LinkPath& piece, double time) { return piece.t_end() < time; };
   const auto found = std::lower_bound(pieces_.begin(), pieces_.end() - 1, t, ends_before);

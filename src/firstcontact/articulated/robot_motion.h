@@ -13,6 +13,7 @@
 
 #include <firstcontact/articulated/coordinate_path.h>
 #include <firstcontact/articulated/link_path.h>
+#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
@@ -31,6 +32,12 @@ using JointMotion = std::variant<CoordinatePath, PlanarPath, Motion>;
 class FIRSTCONTACT_API LinkMotion {
  public:
   explicit LinkMotion(std::vector<LinkPath> pieces);
+
+  /// Of a free body in the world: questions about a robot and its surroundings have both alike.
+  explicit LinkMotion(const Motion& X_WB);
+
+  /// The motion of a frame that is fixed in the link, as that of a geometry: X_LG.
+  [[nodiscard]] LinkMotion then(const PreciseTransform& X_LG) const;
 
   /// In order, without gaps, from 0 to 1.
   [[nodiscard]] std::span<const LinkPath> pieces() const { return pieces_; }
