@@ -7,12 +7,14 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/read_points.h>
 #include <firstcontact/geometry/weld.h>
 
+#include "print_robot.h"
 #include "quantity_text.h"
 
 namespace firstcontact::app {
@@ -102,19 +104,33 @@ bool is_cloud(const std::string& file) {
   return false;
 }
 
+bool is_robot(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  return extension == ".urdf" || extension == ".URDF";
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Counts, defects and bounds of meshes and point clouds");
+      app.add_subcommand("info", "Counts, defects and bounds of meshes, point clouds and robots");
   auto files = std::make_shared<std::vector<std::string>>();
+  auto roots = std::make_shared<std::vector<std::string>>();
   command
       ->add_option("FILE", *files,
-                   "OBJ, STL, PLY, OFF, DAE, GLB or glTF mesh; PLY, PCD or XYZ cloud")
+                   "OBJ, STL, PLY, OFF, DAE, GLB or glTF mesh; PLY, PCD or XYZ cloud; URDF robot")
       ->required();
-  command->callback([files] {
+  command
+      ->add_option("--package-root", *roots,
+                   "Folder that holds packages which a robot names as package://; repeatable")
+      ->allow_extra_args(false);
+  command->callback([files, roots] {
     for (const std::string& file : *files) {
-      if (is_cloud(file)) {
+      if (is_robot(file)) {
+        UrdfOptions options;
+        options.package_roots.assign(roots->begin(), roots->end());
+        print_robot(file, read_urdf(file, options));
+      } else if (is_cloud(file)) {
         print(file, read_points(file));
       } else {
         const Mesh mesh = read_mesh(file);

@@ -422,6 +422,38 @@ class Info(ToolTest):
                          "size                   1 m x 2 m x 3 m"):
                 self.assertIn(line, result.stdout)
 
+    ARM = """<robot name="arm">
+<link name="base"><collision><geometry><mesh filename="m.obj"/></geometry></collision></link>
+<link name="upper"><collision><geometry><sphere radius="0.5"/></geometry></collision></link>
+<link name="tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<joint name="j" type="revolute"><parent link="base"/><child link="upper"/>
+<limit lower="-1" upper="2" velocity="0" effort="1"/></joint>
+<joint name="k" type="fixed"><parent link="upper"/><child link="tip"/></joint>
+</robot>
+"""
+
+    def test_prints_the_tree_of_a_robot(self):
+        self.file("m.obj", "v 0 0 0\nv 300 0 0\nv 0 1 0\nf 1 2 3\n")
+        result = self.run_tool("info", self.file("arm.urdf", self.ARM))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for line in ("robot                  arm", "links                  3, 2 with collision geometry",
+                     "joints                 1 fixed, 1 revolute", "coordinates            1",
+                     "    base; m.obj (1 triangles)\n"
+                     "      upper by j: revolute, -1 ... 2 rad, up to 0 rad/s; sphere\n"
+                     "        tip by k: fixed; no collision geometry\n",
+                     "joint j: velocity limit 0: no motion keeps it", "m.obj: open edges 3",
+                     "link base: 300 m across; is its unit right?",
+                     "link tip: is seen, but has no collision geometry"):
+            self.assertIn(line, result.stdout)
+
+    def test_names_the_place_of_an_error_in_a_robot(self):
+        robot = self.file("arm.urdf", self.ARM.replace("m.obj", "package://pack/m.obj"))
+        roots = str(pathlib.Path(robot).parent / "roots")
+        result = self.run_tool("info", robot, "--package-root", roots)
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"arm.urdf:2: <mesh>: no package root holds a folder 'pack' "
+                                        r"\(roots: [^\n]*roots\); name the folder that holds it\n$")
+
     def test_refuses_a_cut_off_cloud(self):
         cloud = self.file("c.pcd", "FIELDS x y z\nPOINTS 2\nDATA ascii\n0 0 0\n")
         result = self.run_tool("info", cloud)

@@ -1,0 +1,190 @@
+#include "print_robot.h"
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <variant>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <firstcontact/geometry/mesh_defects.h>
+
+#include "quantity_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+void line(const char* label, const std::string& value) {
+  fmt::print("  {:<22} {}\n", label, value);
+}
+
+/// "7 revolute, 2 fixed"
+std::string joint_counts(const RobotModel& robot) {
+  std::map<JointType, std::size_t> counts;
+  for (const Joint& joint : robot.joints()) {
+    ++counts[joint.type];
+  }
+  std::string text;
+  for (const auto& [type, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(type));
+  }
+  return text;
+}
+
+std::size_t coordinates(const RobotModel& robot) {
+  std::size_t count = 0;
+  for (const Joint& joint : robot.joints()) {
+    count += joint.mimic ? 0 : coordinate_count(joint.type);
+  }
+  return count;
+}
+
+/// "link3.stl (200 triangles), sphere"
+std::string collision_text(const Link& link) {
+  constexpr std::array<const char*, 5> kKinds = {"mesh", "box", "sphere", "cylinder", "capsule"};
+  std::string text;
+  for (const LinkGeometry& geometry : link.collision) {
+    const auto* mesh = std::get_if<MeshGeometry>(&geometry.source);
+    text += text.empty() ? "" : ", ";
+    text += mesh == nullptr ? kKinds[geometry.source.index()]
+                            : fmt::format("{} ({} triangles)", mesh->path.filename().string(),
+                                          geometry.shape.value().mesh().triangles.size());
+  }
+  return text.empty() ? "no collision geometry" : text;
+}
+
+/// ", -2.9 ... 2.9 rad, up to 2.2 rad/s"
+std::string limit_text(const Joint& joint) {
+  const char* unit = joint.type == JointType::prismatic ? "m" : "rad";
+  std::string text;
+  if (joint.limits.lower && joint.limits.upper) {
+    text += fmt::format(", {:.6g} ... {:.6g} {}", *joint.limits.lower, *joint.limits.upper, unit);
+  }
+  if (joint.limits.velocity && joint.type != JointType::fixed) {
+    text += fmt::format(", up to {:.6g} {}/s", *joint.limits.velocity, unit);
+  }
+  if (joint.mimic) {
+    text += fmt::format(", {:.6g} times {} + {:.6g}", joint.mimic->multiplier, joint.mimic->joint,
+                        joint.mimic->offset);
+  }
+  return text;
+}
+
+void print_links(const RobotModel& robot,
+                 const std::vector<std::vector<std::size_t>>& children_joints, std::size_t root) {
+  struct Open {
+    std::size_t link;
+    std::size_t depth;
+  };
+  std::vector<Open> open = {{root, 0}};  // Not by recursion: a chain may be long.
+  while (!open.empty()) {
+    const Open at = open.back();
+    open.pop_back();
+    const Link& link = robot.links()[at.link];
+    const std::optional<std::size_t> parent = robot.parent_joint(at.link);
+    std::string how;
+    if (parent) {
+      const Joint& joint = robot.joints()[*parent];
+      how = fmt::format(" by {}: {}{}", joint.name, to_string(joint.type), limit_text(joint));
+    }
+    fmt::print("    {:{}}{}{}; {}\n", "", 2 * at.depth, link.name, how, collision_text(link));
+    const std::vector<std::size_t>& joints = children_joints[at.link];
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
+      open.push_back({robot.child_link(*joint), at.depth + 1});
+    }
+  }
+}
+
+void print_tree(const RobotModel& robot) {
+  std::vector<std::vector<std::size_t>> joints(robot.links().size());
+  for (std::size_t j = 0; j < robot.joints().size(); ++j) {
+    joints[robot.parent_link(j)].push_back(j);
+  }
+  fmt::print("  tree\n");
+  print_links(robot, joints, robot.root());
+}
+
+/// "open edges 12, degenerate triangles 3"; empty for a sound mesh.
+std::string mesh_remarks(const Mesh& mesh) {
+  const MeshDefects found = inspect(mesh);
+  std::string text;
+  const auto remark = [&](const char* label, std::size_t count) {
+    if (count > 0) {
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", label, count);
+    }
+  };
+  remark("open edges", found.open_edges);
+  remark("non-manifold edges", found.nonmanifold_edges);
+  remark("degenerate triangles", found.degenerate_triangles);
+  remark("doubled triangles", found.doubled_triangles);
+  return text;
+}
+
+void add_joint_remarks(const Joint& joint, std::vector<std::string>& remarks) {
+  const auto remark = [&](const char* what) {
+    remarks.push_back(fmt::format("joint {}: {}", joint.name, what));
+  };
+  if (joint.type == JointType::fixed) {
+    return;
+  }
+  if (joint.limits.velocity == 0.0) {
+    remark("velocity limit 0: no motion keeps it");
+  }
+  if (joint.limits.lower && joint.limits.lower == joint.limits.upper) {
+    remark("lower and upper limit are the same: it cannot move");
+  }
+}
+
+void add_link_remarks(const Link& link, std::set<std::string>& seen,
+                      std::vector<std::string>& remarks) {
+  constexpr double kImplausible = 100.0;  // [m]
+  if (link.collision.empty() && !link.visual.empty()) {
+    remarks.push_back(fmt::format("link {}: is seen, but has no collision geometry", link.name));
+  }
+  for (const LinkGeometry& geometry : link.collision) {
+    const Shape& shape = geometry.shape.value();
+    const double size = 2.0 * (shape.hierarchy().radius + shape.radius());
+    if (size > kImplausible) {
+      remarks.push_back(
+          fmt::format("link {}: {} across; is its unit right?", link.name, length_text(size)));
+    }
+    const auto* mesh = std::get_if<MeshGeometry>(&geometry.source);
+    if (mesh != nullptr && seen.insert(mesh->path.string()).second) {
+      if (const std::string found = mesh_remarks(shape.mesh()); !found.empty()) {
+        remarks.push_back(fmt::format("{}: {}", mesh->path.filename().string(), found));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void print_robot(const std::string& name, const RobotModel& robot) {
+  std::size_t colliding = 0;
+  std::vector<std::string> remarks;
+  std::set<std::string> seen;
+  for (const Link& link : robot.links()) {
+    colliding += link.collision.empty() ? 0 : 1;
+    add_link_remarks(link, seen, remarks);
+  }
+  for (const Joint& joint : robot.joints()) {
+    add_joint_remarks(joint, remarks);
+  }
+  fmt::print("{}\n", name);
+  line("robot", robot.name());
+  line("links", fmt::format("{}, {} with collision geometry", robot.links().size(), colliding));
+  line("joints", joint_counts(robot));
+  line("coordinates", fmt::format("{}", coordinates(robot)));
+  print_tree(robot);
+  if (!remarks.empty()) {
+    fmt::print("  remarks\n");
+    for (const std::string& remark : remarks) {
+      fmt::print("    {}\n", remark);
+    }
+  }
+}
+
+}  // namespace firstcontact::app
