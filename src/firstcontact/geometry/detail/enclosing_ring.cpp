@@ -68,8 +68,10 @@ EnclosingRing enclosing_ring(double radius, double excess) {
   double length = unit_radius / std::cos(kPi / static_cast<double>(count));
   EnclosingRing ring;
   // The corners, and the test of short edges, are off by some units in the last place.
-  for (double growth = 0x1p-48; !encloses(ring.corners, unit_radius); growth *= 2.0) {
+  double growth = 0x1p-48;
+  while (!encloses(ring.corners, unit_radius)) {
     length *= 1.0 + growth;
+    growth *= 2.0;
     ring.corners = regular_polygon(count, length);
   }
   ring.excess = std::ldexp(
