@@ -22,6 +22,8 @@ namespace {
 using test::Approach;
 using test::MovingBoxes;
 using test::Random;
+using test::random_deforming_boxes;
+using test::random_drifting_boxes;
 using test::random_moving_boxes;
 using test::Real;
 using test::real_box;
@@ -46,7 +48,12 @@ struct Bounds : BoxBounds {
 Bounds bounds_of(const MovingBoxes& c) {
   Bounds bounds;
   bounds.unit = std::max(c.A.hierarchy.unit, c.B.hierarchy.unit);
-  bound_boxes(frame_of(c), c.A.node(), c.B.node(), bounds);
+  if (c.A.hierarchy.deforms() || c.B.hierarchy.deforms()) {
+    bound_deforming_boxes(frame_of(c), c.A.node(), c.A.node_to(), c.B.node(), c.B.node_to(),
+                          bounds);
+  } else {
+    bound_boxes(frame_of(c), c.A.node(), c.B.node(), bounds);
+  }
   return bounds;
 }
 
@@ -59,10 +66,10 @@ double median(std::vector<double> values) {
 using BoxBoundsOn = test::OnInstructionSet;
 
 // Sound: until the bound has passed, the boxes are farther apart than the threshold.
-TEST_P(BoxBoundsOn, TimeIsNeverLate) {
-  Random random(1);
+template <class Cases>
+void expect_never_late(Random random, const Cases& cases) {
   for (int trial = 0; trial < 1500; ++trial) {
-    const MovingBoxes c = random_moving_boxes(random);
+    const MovingBoxes c = cases(random);
     const Bounds bounds = bounds_of(c);
     for (int lane = 0; lane < 16; ++lane) {
       const Real proven = std::min<Real>(bounds.time[lane], 1.0L - c.t);
@@ -77,6 +84,15 @@ TEST_P(BoxBoundsOn, TimeIsNeverLate) {
   }
 }
 
+TEST_P(BoxBoundsOn, TimeIsNeverLate) {
+  expect_never_late(Random(1), [](Random& random) { return random_moving_boxes(random); });
+}
+
+TEST_P(BoxBoundsOn, TimeIsNeverLateForBoxesThatDeform) {
+  expect_never_late(Random(11), random_deforming_boxes);
+  expect_never_late(Random(15), random_drifting_boxes);
+}
+
 TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistance) {
   Random random(2);
   for (int trial = 0; trial < 3000; ++trial) {
@@ -87,6 +103,59 @@ TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistance) {
           << "trial " << trial << ", lane " << lane;
     }
   }
+}
+
+TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistanceOfBoxesThatDeform) {
+  Random random(12);
+  for (int trial = 0; trial < 3000; ++trial) {
+    const MovingBoxes c = random_deforming_boxes(random);
+    const Bounds bounds = bounds_of(c);
+    for (int lane = 0; lane < 16; ++lane) {
+      ASSERT_LE(bounds.gap[lane] * Real{bounds.unit}, c.distance(lane / 4, lane % 4, c.t))
+          << "trial " << trial << ", lane " << lane;
+    }
+  }
+}
+
+// A law: boxes that stay as they are do not deform.
+TEST_P(BoxBoundsOn, BoxesThatDeformByNothingAreRigid) {
+  Random random(13);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    BoxBounds rigid;
+    BoxBounds bounds;
+    bound_boxes(frame_of(c), c.A.node(), c.B.node(), rigid);
+    bound_deforming_boxes(frame_of(c), c.A.node(), c.A.node(), c.B.node(), c.B.node(), bounds);
+    for (int lane = 0; lane < 16; ++lane) {
+      ASSERT_NEAR(bounds.gap[lane], rigid.gap[lane], 1e-5) << trial << ", " << lane;
+    }
+  }
+}
+
+// Tight: where nothing turns, boxes that deform are let go for most of the time that they have.
+TEST_P(BoxBoundsOn, TimeIsMostOfTheTimeToContactOfBoxesThatDeform) {
+  Random random(14);
+  std::vector<double> ratios;
+  for (int trial = 0; trial < 3000; ++trial) {
+    MovingBoxes c = random_deforming_boxes(random);
+    c.A.rotation_vector.setZero();
+    c.B.rotation_vector.setZero();
+    const Real enough = c.threshold + 1e-4L * (c.distance(0, 0, c.t) - c.threshold);
+    Real speed = (c.B.translation - c.A.translation).cast<Real>().norm();
+    speed += c.A.hierarchy.deformation_speed + c.B.hierarchy.deformation_speed;
+    Real at = c.t;
+    for (int i = 0; i < 1000 && at < 1.0L && enough > c.threshold; ++i) {
+      const Real distance = c.distance(0, 0, at);
+      if (distance <= enough) {
+        ratios.push_back(static_cast<double>(bounds_of(c).time[0] / (at - c.t)));
+        break;
+      }
+      at += (distance - c.threshold) / speed;
+    }
+  }
+  ASSERT_GT(ratios.size(), 200u);
+  RecordProperty("median_ratio", std::to_string(median(ratios)));
+  EXPECT_GT(median(ratios), 0.6);
 }
 
 // Tight: without turning, most pairs are let go for nearly as long as they have.

@@ -52,6 +52,31 @@ HierarchyNode random_node(Random& random) {
   return node;
 }
 
+/// Moves and stretches the boxes until t = 1.
+void deform(Random& random, Body& body) {
+  Hierarchy& hierarchy = body.hierarchy;
+  hierarchy.nodes_to = hierarchy.nodes;
+  hierarchy.vertices_to = {Vector3d::Zero()};  // Its boxes are all that counts here.
+  HierarchyNode& to = hierarchy.nodes_to[0];
+  double speed = 0.0;
+  for (int slot = 0; slot < HierarchyNode::kWidth; ++slot) {
+    const double size = 2.0 * static_cast<double>(to.half_extent(2, slot)) + 1e-6;
+    const Vector3d drift = size * random.logarithmic(1e-3, 1.0) * random.direction();
+    Vector3d moved;
+    Vector3d grown;
+    for (int k = 0; k < 3; ++k) {
+      const double before = static_cast<double>(to.half_extent(k, slot));
+      to.centre[k][slot] += static_cast<float>(drift[k]);
+      to.extent[k][slot] = extent_code(before * random.uniform(0.0, 2.0));
+      moved[k] = static_cast<double>(to.centre[k][slot]) -
+                 static_cast<double>(body.node().centre[k][slot]);
+      grown[k] = static_cast<double>(to.half_extent(k, slot)) - before;
+    }
+    speed = std::max(speed, moved.norm() + grown.norm());
+  }
+  hierarchy.deformation_speed = speed * hierarchy.unit * (1.0 + 1e-12);
+}
+
 Vector3d random_turn(Random& random) {
   return random.chance(0.2) ? Vector3d(Vector3d::Zero())
                             : Vector3d(random.logarithmic(1e-3, 20.0) * random.direction());
@@ -129,13 +154,14 @@ Vector3d set_motion(Random& random, Approach approach, MovingBoxes& c) {
 
 RealBox real_box(const Body& body, int slot, Real t, const RealVector& origin) {
   const HierarchyNode& node = body.node();
+  const HierarchyNode& node_to = body.node_to();
   RealVector centre;
   RealVector v;
   RealVector extent;
   for (int k = 0; k < 3; ++k) {
-    centre[k] = node.centre[k][slot];
+    centre[k] = (1.0L - t) * node.centre[k][slot] + t * node_to.centre[k][slot];
     v[k] = node.rotation[k][slot];
-    extent[k] = node.half_extent(k, slot);
+    extent[k] = (1.0L - t) * node.half_extent(k, slot) + t * node_to.half_extent(k, slot);
   }
   const Eigen::Quaternion<Real> q(std::sqrt(1.0L - v.squaredNorm()), v.x(), v.y(), v.z());
   const Real unit = body.hierarchy.unit;
@@ -162,10 +188,22 @@ Real distance_of_points(const RealBox& a, const RealBox& b) {
   return distance;
 }
 
-MovingBoxes random_moving_boxes(Random& random, Approach approach) {
+namespace {
+
+Approach random_approach(Random& random) {
+  return static_cast<Approach>(static_cast<int>(random.uniform(0.0, 5.0)));
+}
+
+MovingBoxes moving_boxes(Random& random, Approach approach, bool deforming) {
   MovingBoxes c;
   c.A = random_body(random);
   c.B = random_body(random);
+  if (deforming) {
+    deform(random, c.A);
+    if (random.chance(0.5)) {
+      deform(random, c.B);
+    }
+  }
   c.t = random.uniform(0.0, 0.9);
   const double gap = c.size() * random.logarithmic(1e-5, 10.0);
   // Near the gap, a direction that is not quite unit would pass for farther apart.
@@ -186,9 +224,47 @@ MovingBoxes random_moving_boxes(Random& random, Approach approach) {
   return c;
 }
 
+}  // namespace
+
+MovingBoxes random_moving_boxes(Random& random, Approach approach) {
+  return moving_boxes(random, approach, false);
+}
+
 MovingBoxes random_moving_boxes(Random& random) {
-  const int style = static_cast<int>(random.uniform(0.0, 5.0));
-  return random_moving_boxes(random, static_cast<Approach>(style));
+  return moving_boxes(random, random_approach(random), false);
+}
+
+MovingBoxes random_drifting_boxes(Random& random) {
+  MovingBoxes c = moving_boxes(random, Approach::swinging, false);
+  c.t = 0.0;
+  const Vector3d normal = real_box(c.A, 0, 0.0L, RealVector::Zero()).axes.col(0).cast<double>();
+  const Vector3d axis = c.B.rotation_vector.normalized();
+  const double distance = static_cast<double>(c.distance(0, 0, 0.0L));
+  c.B.rotation_vector = random.logarithmic(0.1, 3.0) * axis;
+  set_lever(Vector3d::Zero(), 0.0, c.B);
+  // axis x (axis x normal) = -normal.
+  const Vector3d drift =
+      (distance + c.size()) * random.logarithmic(1.0, 100.0) * axis.cross(normal);
+  const Vector3d own = c.B.rotation.conjugate() * drift / c.B.hierarchy.unit;
+  Hierarchy& hierarchy = c.B.hierarchy;
+  hierarchy.nodes_to = hierarchy.nodes;
+  hierarchy.vertices_to = {Vector3d::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    for (int slot = 0; slot < HierarchyNode::kWidth; ++slot) {
+      hierarchy.nodes_to[0].centre[k][slot] += static_cast<float>(own[k]);
+    }
+  }
+  hierarchy.deformation_speed = drift.norm() * (1.0 + 1e-5);
+  // The lever is gone: B is put back above A's face.
+  const RealVector origin = c.A.position.cast<Real>();
+  const RealVector above =
+      real_box(c.A, 0, 0.0L, origin).centre + Real{distance + c.size()} * normal.cast<Real>();
+  c.B.position += (above - real_box(c.B, 0, 0.0L, origin).centre).cast<double>();
+  return c;
+}
+
+MovingBoxes random_deforming_boxes(Random& random) {
+  return moving_boxes(random, random_approach(random), true);
 }
 
 }  // namespace firstcontact::test

@@ -18,7 +18,8 @@ using Real = long double;
 using RealVector = Eigen::Matrix<Real, 3, 1>;
 using RealMatrix = Eigen::Matrix<Real, 3, 3>;
 
-/// A body of one node: four boxes, and its motion as the numbers that define it.
+/// A body of one node: four boxes, and its motion as the numbers that define it. Where it deforms,
+/// every point of a box is at one place of the box at both ends, and goes from one to the other.
 struct Body {
   Hierarchy hierarchy;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the body origin at t = 0
@@ -27,6 +28,9 @@ struct Body {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();
 
   [[nodiscard]] const HierarchyNode& node() const { return hierarchy.nodes[0]; }
+  [[nodiscard]] const HierarchyNode& node_to() const {
+    return hierarchy.deforms() ? hierarchy.nodes_to[0] : node();
+  }
   [[nodiscard]] Motion motion() const {
     return Motion::constant_velocity({position, rotation}, translation, rotation_vector);
   }
@@ -83,5 +87,12 @@ enum class Approach {
 /// points.
 [[nodiscard]] MovingBoxes random_moving_boxes(Random& random, Approach approach);
 [[nodiscard]] MovingBoxes random_moving_boxes(Random& random);
+
+/// The same two bodies where one or both deform as well, by 1e-3 to 1 of their size.
+[[nodiscard]] MovingBoxes random_deforming_boxes(Random& random);
+
+/// B swings, and drifts in its own frame so that at first it comes no nearer to A: what brings it
+/// there is that the drift turns with B (Coriolis).
+[[nodiscard]] MovingBoxes random_drifting_boxes(Random& random);
 
 }  // namespace firstcontact::test

@@ -18,6 +18,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 //    24 u sqrt(3) r for axes and products. The sum stays below 64 u L.
 //  - Velocities: positions relative to the pivot, cross and dot products add up to 16 u of
 //    |s| + w_A rho_A + w_B rho_B, |n x u| to 8 u of it.
+//  - Bodies that deform: boxes are interpolated in double; sums of the rates of centres and
+//  extents,
+//    each at most 2 D, err by less than 80 u D, for which the frame's speed has 4 D more.
 constexpr float kGapSlack = 0x1p-18f;
 constexpr float kSpeedSlack = 0x1p-19f;
 constexpr float kTimeSlack = 1.0f - 0x1p-18f;
@@ -45,6 +48,15 @@ struct alignas(64) Placed {
   float size[8];        // |c| + r
   float doubt[8];       // of a triangle's box: how much it may be thicker than the triangle
   float turn[2][2][8];  // for axes 0 and 1: w |n x u| of A, of B
+  // Of bodies that deform:
+  float drift[3][8];   // velocity of the centre as its body sees it, in the frame's axes
+  float growth[3][8];  // rate of the extent
+};
+
+/// Four boxes of a node at both ends of the step; the same twice of a body that does not deform.
+struct NodeAtEnds {
+  const HierarchyNode& from;
+  const HierarchyNode& to;
 };
 
 template <class D>
@@ -95,26 +107,80 @@ HWY_INLINE V<D> length_of_cross(D d, const V<D>* n, const float* u) {
   return root_up(d, hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
 }
 
-/// Centres in double precision, relative to the first of A's.
-HWY_INLINE void place_centres(const BoxFrame& frame, const HierarchyNode* const* nodes,
-                              Placed& placed) {
+template <class DF>
+HWY_INLINE V<DF> widen(DF df, const std::uint16_t* extent) {
+  const hn::Rebind<std::uint16_t, DF> d16;
+  const hn::Rebind<std::uint32_t, DF> d32;
+  const auto code = hn::PromoteTo(d32, hn::LoadU(d16, extent));
+  return hn::BitCast(df, hn::Add(hn::ShiftLeft<HierarchyNode::kExtentShift>(code),
+                                 hn::Set(d32, HierarchyNode::kExtentOrigin)));
+}
+
+/// R v.
+template <class D>
+HWY_INLINE void rotate(D d, const double* R, const V<D>* v, const V<D>* origin, V<D>* rotated) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    rotated[k] = hn::MulAdd(hn::Set(d, R[3 * k]), v[0],
+                            hn::MulAdd(hn::Set(d, R[3 * k + 1]), v[1],
+                                       hn::MulAdd(hn::Set(d, R[3 * k + 2]), v[2], origin[k])));
+  }
+}
+
+/// Interpolates some boxes of a body that deforms: moves their centres, places extents and rates.
+template <class VD>
+HWY_INLINE void deform(const BoxFrame& frame, const NodeAtEnds& node, VD ratio, std::size_t body,
+                       std::size_t lane, VD* centre, Placed& placed) {
   const hn::CappedTag<double, 4> d;
   const hn::Rebind<float, decltype(d)> df;
+  const std::size_t place = 4 * body + lane;
+  const VD t = hn::Set(d, frame.t);
+  const VD rest = hn::Set(d, 1.0 - frame.t);
+  const VD zero[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  VD rate[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VD to = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, node.to.centre[k] + lane)));
+    rate[k] = hn::Sub(to, centre[k]);
+    centre[k] = hn::MulAdd(rest, centre[k], hn::Mul(t, to));
+    const VD e = hn::Mul(ratio, hn::PromoteTo(d, widen(df, node.from.extent[k] + lane)));
+    const VD e_to = hn::Mul(ratio, hn::PromoteTo(d, widen(df, node.to.extent[k] + lane)));
+    const VD extent = hn::MulAdd(rest, e, hn::Mul(t, e_to));
+    hn::StoreU(hn::DemoteTo(df, extent), df, placed.extent[k] + place);
+    hn::StoreU(hn::DemoteTo(df, hn::Sub(e_to, e)), df, placed.growth[k] + place);
+  }
+  VD drift[3];
+  rotate(d, frame.rotation[body], rate, zero, drift);
+  for (std::size_t k = 0; k < 3; ++k) {
+    hn::StoreU(hn::DemoteTo(df, drift[k]), df, placed.drift[k] + place);
+  }
+}
+
+/// Centres in double precision, relative to the first of A's.
+template <bool kDeforms>
+HWY_INLINE void place_centres(const BoxFrame& frame, const NodeAtEnds* nodes, Placed& placed) {
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> df;
+  using VD = V<decltype(d)>;
   HWY_ALIGN double p[3][8];
   for (std::size_t body = 0; body < 2; ++body) {
     const double* R = frame.rotation[body];
-    const auto ratio = hn::Set(d, frame.ratio[body]);
+    const VD ratio = hn::Set(d, frame.ratio[body]);
+    VD origin[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      origin[k] = hn::Set(d, frame.origin[body][k]);
+    }
     for (std::size_t lane = 0; lane < 4; lane += hn::Lanes(d)) {
-      const auto& c = nodes[body]->centre;
-      const auto x = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[0] + lane)));
-      const auto y = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[1] + lane)));
-      const auto z = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, c[2] + lane)));
+      const std::size_t place = 4 * body + lane;
+      VD v[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto rotated = hn::MulAdd(
-            hn::Set(d, R[3 * k]), x,
-            hn::MulAdd(hn::Set(d, R[3 * k + 1]), y,
-                       hn::MulAdd(hn::Set(d, R[3 * k + 2]), z, hn::Set(d, frame.origin[body][k]))));
-        hn::StoreU(rotated, d, p[k] + 4 * body + lane);
+        v[k] = hn::Mul(ratio, hn::PromoteTo(d, hn::LoadU(df, nodes[body].from.centre[k] + lane)));
+      }
+      if constexpr (kDeforms) {
+        deform(frame, nodes[body], ratio, body, lane, v, placed);
+      }
+      VD rotated[3];
+      rotate(d, R, v, origin, rotated);
+      for (std::size_t k = 0; k < 3; ++k) {
+        hn::StoreU(rotated[k], d, p[k] + place);
       }
     }
   }
@@ -132,7 +198,7 @@ HWY_INLINE void place_centres(const BoxFrame& frame, const HierarchyNode* const*
 
 /// Everything else, in single precision: the boxes of both bodies at once where the processor has
 /// eight lanes, else of one after the other.
-template <class D>
+template <class D, bool kDeforms>
 struct Placer {
   D d;
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
@@ -160,14 +226,6 @@ struct Placer {
     std::uint8_t bytes[8] = {bits};
     return hn::LoadMaskBits(d, bytes);
   }
-  template <class DF>
-  static HWY_INLINE V<DF> widen(DF df, const std::uint16_t* extent) {
-    const hn::Rebind<std::uint16_t, DF> d16;
-    const hn::Rebind<std::uint32_t, DF> d32;
-    const auto code = hn::PromoteTo(d32, hn::LoadU(d16, extent));
-    return hn::BitCast(df, hn::Add(hn::ShiftLeft<HierarchyNode::kExtentShift>(code),
-                                   hn::Set(d32, HierarchyNode::kExtentOrigin)));
-  }
   HWY_INLINE V<D> load_extent(std::size_t first, const std::uint16_t* a,
                               const std::uint16_t* b) const {
     if constexpr (kBoth) {
@@ -188,18 +246,27 @@ struct Placer {
         each(first, static_cast<float>(frame.ratio[0]), static_cast<float>(frame.ratio[1]));
     for (int k = 0; k < 3; ++k) {
       v[k] = load(first, a.rotation[k], b.rotation[k]);
-      e[k] = hn::Mul(ratio, load_extent(first, a.extent[k], b.extent[k]));
+      if constexpr (kDeforms) {
+        e[k] = hn::Load(d, placed.extent[k] + first);
+      } else {
+        e[k] = hn::Mul(ratio, load_extent(first, a.extent[k], b.extent[k]));
+      }
       c[k] = hn::Load(d, placed.centre[k] + first);
       lever[k] = hn::Sub(c[k], each(first, placed.pivot[0][k], placed.pivot[1][k]));
     }
     const V<D> radius = root_up(d, dot(d, e, e));
     const V<D> rate = each(first, frame.rate[0], frame.rate[1]);
-    const V<D> reach = hn::Mul(rate, hn::Add(root_up(d, dot(d, lever, lever)), radius));
+    V<D> reach = hn::Mul(rate, hn::Add(root_up(d, dot(d, lever, lever)), radius));
+    if constexpr (kDeforms) {
+      // w (|rho| + D) + 2 D takes the place of w |rho|.
+      const V<D> speed = each(first, frame.deformation[0], frame.deformation[1]);
+      reach = hn::Add(reach, hn::MulAdd(rate, speed, hn::Add(speed, speed)));
+    }
     const V<D> size =
         hn::Add(hn::Add(hn::Abs(c[0]), hn::Abs(c[1])), hn::Add(hn::Abs(c[2]), radius));
     place_axes(frame, first, v, placed);
     place_velocity(frame, first, rate, lever, placed);
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3 && !kDeforms; ++k) {
       hn::Store(e[k], d, placed.extent[k] + first);
     }
     hn::Store(radius, d, placed.radius + first);
@@ -221,7 +288,11 @@ struct Placer {
       const int j = (k + 2) % 3;
       const V<D> turning = hn::NegMulAdd(w[j], lever[i], hn::Mul(w[i], lever[j]));
       const V<D> pivot = each(first, frame.velocity[0][k], frame.velocity[1][k]);
-      hn::Store(hn::Add(pivot, turning), d, placed.velocity[k] + first);
+      V<D> velocity = hn::Add(pivot, turning);
+      if constexpr (kDeforms) {
+        velocity = hn::Add(velocity, hn::Load(d, placed.drift[k] + first));
+      }
+      hn::Store(velocity, d, placed.velocity[k] + first);
     }
   }
 
@@ -274,7 +345,7 @@ struct Placer {
 };
 
 /// The pairs of lanes [first, first + N).
-template <class D>
+template <class D, bool kDeforms>
 struct Pairs {
   D d;
 
@@ -341,6 +412,11 @@ struct Pairs {
     best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
   }
 
+  /// How fast the gap opens by the centres, less what the boxes grow.
+  HWY_INLINE V<D> opening(V<D> by_centres, V<D> growth) const {
+    return kDeforms ? hn::Sub(by_centres, growth) : by_centres;
+  }
+
   /// x with its sign turned where y is negative.
   HWY_INLINE V<D> with_sign(V<D> x, V<D> y) const { return hn::Xor(x, hn::And(y, hn::SignBit(d))); }
 
@@ -392,7 +468,11 @@ struct Pairs {
     V<D> axes_b[3][3];
     V<D> extent_a[3];
     V<D> extent_b[3];
+    V<D> growth_a[3];
+    V<D> growth_b[3];
     for (int k = 0; k < 3; ++k) {
+      growth_a[k] = kDeforms ? of_a(placed.growth[k]) : hn::Zero(d);
+      growth_b[k] = kDeforms ? of_b(placed.growth[k]) : hn::Zero(d);
       between[k] = hn::Sub(of_b(placed.centre[k]), of_a(placed.centre[k]));
       velocity[k] = hn::Sub(of_b(placed.velocity[k]), of_a(placed.velocity[k]));
       extent_a[k] = of_a(placed.extent[k]);
@@ -412,6 +492,8 @@ struct Pairs {
     best.nearness = hn::Set(d, 1e38f);
     V<D> extent_b_along[2] = {hn::Zero(d), hn::Zero(d)};
     V<D> extent_a_along[2] = {hn::Zero(d), hn::Zero(d)};
+    V<D> growth_along_a[2] = {growth_a[0], growth_a[1]};  // Of both boxes, along A's axes.
+    V<D> growth_along_b[2] = {growth_b[0], growth_b[1]};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         if (i == 2 && j == 2) {
@@ -420,23 +502,30 @@ struct Pairs {
         const V<D> cosine = hn::Abs(dot(d, axes_a[i], axes_b[j]));
         if (i < 2) {
           extent_b_along[i] = hn::MulAdd(cosine, extent_b[j], extent_b_along[i]);
+          if constexpr (kDeforms) {
+            growth_along_a[i] = hn::MulAdd(cosine, growth_b[j], growth_along_a[i]);
+          }
         }
         if (j < 2) {
           extent_a_along[j] = hn::MulAdd(cosine, extent_a[i], extent_a_along[j]);
+          if constexpr (kDeforms) {
+            growth_along_b[j] = hn::MulAdd(cosine, growth_a[i], growth_along_b[j]);
+          }
         }
       }
     }
     for (int k = 0; k < 2; ++k) {
       const V<D> along_a = dot(d, axes_a[k], between);
       consider(s, hn::Sub(hn::Abs(along_a), hn::Add(extent_a[k], extent_b_along[k])),
-               with_sign(dot(d, axes_a[k], velocity), along_a), of_a(placed.turn[k][0]),
-               of_a(placed.turn[k][1]), best);
+               opening(with_sign(dot(d, axes_a[k], velocity), along_a), growth_along_a[k]),
+               of_a(placed.turn[k][0]), of_a(placed.turn[k][1]), best);
       const V<D> along_b = dot(d, axes_b[k], between);
       consider(s, hn::Sub(hn::Abs(along_b), hn::Add(extent_b[k], extent_a_along[k])),
-               with_sign(dot(d, axes_b[k], velocity), along_b), of_b(placed.turn[k][0]),
-               of_b(placed.turn[k][1]), best);
+               opening(with_sign(dot(d, axes_b[k], velocity), along_b), growth_along_b[k]),
+               of_b(placed.turn[k][0]), of_b(placed.turn[k][1]), best);
     }
-    consider_centre_line(frame, s, between, velocity, axes_a, axes_b, extent_a, extent_b, best);
+    consider_centre_line(frame, s, between, velocity, axes_a, axes_b, extent_a, extent_b, growth_a,
+                         growth_b, best);
 
     const V<D> time = time_to_close(best);
     hn::Store(time, d, bounds.time + first);
@@ -460,7 +549,8 @@ struct Pairs {
   HWY_INLINE void consider_centre_line(const BoxFrame& frame, const Sizes& s, const V<D>* between,
                                        const V<D>* velocity, const V<D> (*axes_a)[3],
                                        const V<D> (*axes_b)[3], const V<D>* extent_a,
-                                       const V<D>* extent_b, Best& best) const {
+                                       const V<D>* extent_b, const V<D>* growth_a,
+                                       const V<D>* growth_b, Best& best) const {
     const V<D> square = dot(d, between, between);
     const V<D> scale = reciprocal_root(d, hn::Add(square, hn::Set(d, kTiny * kTiny)));
     V<D> n[3];
@@ -468,30 +558,49 @@ struct Pairs {
       n[k] = hn::Mul(between[k], scale);
     }
     V<D> extent = hn::Zero(d);
+    V<D> growth = hn::Zero(d);
     for (int k = 0; k < 3; ++k) {
-      extent = hn::MulAdd(hn::Abs(dot(d, n, axes_a[k])), extent_a[k], extent);
-      extent = hn::MulAdd(hn::Abs(dot(d, n, axes_b[k])), extent_b[k], extent);
+      const V<D> along_a = hn::Abs(dot(d, n, axes_a[k]));
+      const V<D> along_b = hn::Abs(dot(d, n, axes_b[k]));
+      extent = hn::MulAdd(along_a, extent_a[k], extent);
+      extent = hn::MulAdd(along_b, extent_b[k], extent);
+      if constexpr (kDeforms) {
+        growth = hn::MulAdd(along_a, growth_a[k], growth);
+        growth = hn::MulAdd(along_b, growth_b[k], growth);
+      }
     }
     const V<D> turn_a = hn::Mul(hn::Set(d, frame.rate[0]), length_of_cross(d, n, frame.axis[0]));
     const V<D> turn_b = hn::Mul(hn::Set(d, frame.rate[1]), length_of_cross(d, n, frame.axis[1]));
-    consider(s, hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), turn_a, turn_b, best);
+    consider(s, hn::Sub(dot(d, n, between), extent), opening(dot(d, n, velocity), growth), turn_a,
+             turn_b, best);
   }
 };
 
-void BoundBoxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
-                BoxBounds& bounds) {
+template <bool kDeforms>
+HWY_INLINE void bound(const BoxFrame& frame, const NodeAtEnds& a, const NodeAtEnds& b,
+                      BoxBounds& bounds) {
   Placed placed;
-  const HierarchyNode* const nodes[2] = {&a, &b};
-  place_centres(frame, nodes, placed);
-  const Placer<hn::CappedTag<float, 8>> placer;
+  const NodeAtEnds nodes[2] = {a, b};
+  place_centres<kDeforms>(frame, nodes, placed);
+  const Placer<hn::CappedTag<float, 8>, kDeforms> placer;
   for (std::size_t first = 0; first < 8; first += hn::Lanes(placer.d)) {
-    placer.place(frame, a, b, first, placed);
+    placer.place(frame, a.from, b.from, first, placed);
   }
   bounds.live = bounds.far = bounds.larger_a = bounds.larger_b = bounds.unsure = 0;
-  const Pairs<hn::CappedTag<float, 16>> pairs;
+  const Pairs<hn::CappedTag<float, 16>, kDeforms> pairs;
   for (std::size_t first = 0; first < 16; first += hn::Lanes(pairs.d)) {
     pairs.bound(frame, placed, first, bounds);
   }
+}
+
+void BoundBoxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                BoxBounds& bounds) {
+  bound<false>(frame, {a, a}, {b, b}, bounds);
+}
+
+void BoundDeformingBoxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& a_to,
+                         const HierarchyNode& b, const HierarchyNode& b_to, BoxBounds& bounds) {
+  bound<true>(frame, {a, a_to}, {b, b_to}, bounds);
 }
 
 }  // namespace firstcontact::detail::HWY_NAMESPACE
@@ -501,10 +610,16 @@ HWY_AFTER_NAMESPACE();
 namespace firstcontact::detail {
 
 HWY_EXPORT(BoundBoxes);
+HWY_EXPORT(BoundDeformingBoxes);
 
 void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
                  BoxBounds& bounds) {
   HWY_DYNAMIC_DISPATCH(BoundBoxes)(frame, a, b, bounds);
+}
+
+void bound_deforming_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& a_to,
+                           const HierarchyNode& b, const HierarchyNode& b_to, BoxBounds& bounds) {
+  HWY_DYNAMIC_DISPATCH(BoundDeformingBoxes)(frame, a, a_to, b, b_to, bounds);
 }
 
 std::int64_t box_bounds_targets() { return HWY_TARGETS & hwy::SupportedTargets(); }

@@ -23,6 +23,8 @@ struct BoxFrame {
   float speed;           ///< At least the length of the latter.
   float threshold;       ///< Closer is contact; the error of positions in double is included.
   float horizon;         ///< Pairs apart for this long are done with.
+  double t;              ///< Where boxes are interpolated, of bodies that deform.
+  float deformation[2];  ///< At least the speed of their vertices, as their bodies see them.
 };
 
 /// Of lane 4 i + j, for box i of A's node and box j of B's.
@@ -42,6 +44,13 @@ struct BoxBounds {
 /// slots that are not used hold anything.
 void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
                  BoxBounds& bounds);
+
+/// The same of bodies that deform, with each node as it is at t = 0 and at t = 1; of a body that
+/// does not, the same node twice.
+///
+/// Boxes grow and move as docs/algorithm.md, section 10, says.
+void bound_deforming_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& a_to,
+                           const HierarchyNode& b, const HierarchyNode& b_to, BoxBounds& bounds);
 
 /// The instruction sets that bound_boxes was compiled for and that this processor has, as bits of
 /// Highway's HWY_TARGETS; for tests.

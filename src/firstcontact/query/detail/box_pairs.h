@@ -101,10 +101,7 @@ class BoxesAtInstant {
   template <class Use>
   void open(const NodeBoxes& a, const NodeBoxes& b, const Use& use) const {
     BoxBounds bounds;
-    HierarchyNode scratch_a;
-    HierarchyNode scratch_b;
-    bound_boxes(frame_, pair_.A().node(a.node, state_.t, scratch_a),
-                pair_.B().node(b.node, state_.t, scratch_b), bounds);
+    pair_.bound(frame_, a.node, b.node, bounds);
     for (unsigned lanes = lanes_of(a.used, b.used); lanes != 0; lanes &= lanes - 1) {
       use(Lane{*this, bounds, a.node, b.node, std::countr_zero(lanes)});
     }

@@ -278,36 +278,23 @@ class Search {
     if (!(state_t_ <= t && t < state_t_ + boxes_window_)) {
       move_to(t);
     }
+    frame_.horizon = round_up(horizon() - state_t_);
     BoxBounds bounds;
-    unsigned live = 0;
-    if (pair_.deforms()) {
-      pair_.bound(state_, group.node_a, group.node_b, lanes, box_threshold_, error_,
-                  horizon() - state_t_, bounds);
-      live = lanes & bounds.live;
-    } else {
-      live = bound_rigid(group, lanes, bounds);
+    pair_.bound(frame_, group.node_a, group.node_b, bounds);
+    unsigned live = lanes & bounds.live;
+    const unsigned doubt =
+        in_doubt(pair_.A().nodes[group.node_a], pair_.B().nodes[group.node_b], bounds);
+    for (unsigned unsure = live & doubt; unsure != 0; unsure &= unsure - 1) {
+      const int k = std::countr_zero(unsure);
+      if (!bound_in_double(group, k, bounds.time[k])) {
+        live &= ~(1u << k);
+      }
     }
     group.base = state_t_;
     group.larger_a = bounds.larger_a;
     group.larger_b = bounds.larger_b;
     group.far = bounds.far;
     group.set_times(bounds.time, round_down(t - state_t_), ~live);
-  }
-
-  /// The lanes that are left.
-  unsigned bound_rigid(const BoxGroup& group, unsigned lanes, BoxBounds& bounds) {
-    frame_.horizon = round_up(horizon() - state_t_);
-    const HierarchyNode& a = pair_.A().nodes[group.node_a];
-    const HierarchyNode& b = pair_.B().nodes[group.node_b];
-    bound_boxes(frame_, a, b, bounds);
-    unsigned live = lanes & bounds.live;
-    for (unsigned doubt = live & in_doubt(a, b, bounds); doubt != 0; doubt &= doubt - 1) {
-      const int k = std::countr_zero(doubt);
-      if (!bound_in_double(group, k, bounds.time[k])) {
-        live &= ~(1u << k);
-      }
-    }
-    return live;
   }
 
   /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
@@ -325,9 +312,8 @@ class Search {
   bool bound_in_double(const BoxGroup& group, int lane, float& time) const {
     const BoxId a{group.node_a, static_cast<std::uint32_t>(lane / HierarchyNode::kWidth)};
     const BoxId b{group.node_b, static_cast<std::uint32_t>(lane % HierarchyNode::kWidth)};
-    const double apart =
-        pair_.apart(pair_.place_A(state_, a), pair_.place_B(state_, b), box_threshold_, error_)
-            .time;
+    const double apart = pair_.time_apart(pair_.place_A(state_, a), pair_.place_B(state_, b),
+                                          box_threshold_, error_);
     if (covered(state_t_, apart)) {
       return false;
     }

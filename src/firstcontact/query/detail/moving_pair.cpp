@@ -174,8 +174,8 @@ TrianglePair MovingPair::rates(const RelativeState& state, std::uint32_t triangl
   return {rates_of(A_, state.R_WA, triangle_A), rates_of(B_, state.R_WB, triangle_B)};
 }
 
-Apart MovingPair::apart(const PlacedBox& a, const PlacedBox& b, double threshold,
-                        double error) const {
+double MovingPair::time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
+                              double error) const {
   const double wA = motion_.A().rate();
   const double wB = motion_.B().rate();
   const double dA = A_.deformation_speed;
@@ -183,9 +183,8 @@ Apart MovingPair::apart(const PlacedBox& a, const PlacedBox& b, double threshold
   const Vector3d velocity = b.velocity - a.velocity;
   const double slip =
       0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach + dA + dB);
-  Apart best{0.0, -std::numeric_limits<double>::infinity()};
+  double best = 0.0;
   for_each_direction(a, b, [&](const Separation& s) {
-    best.gap = std::max(best.gap, s.gap);
     const double clear = s.gap - threshold - error;
     if (!(clear > 0.0)) {
       return;
@@ -197,46 +196,22 @@ Apart MovingPair::apart(const PlacedBox& a, const PlacedBox& b, double threshold
     const double half_acceleration = 0.5 * (1.0 + 0x1p-46) *
                                      (turn_A * (wA * a.reach + 2.0 * dA) +
                                       turn_B * (wB * b.reach + 2.0 * dB) + slip * (wA + wB));
-    best.time = std::max(best.time, time_to_close(clear, speed, half_acceleration));
+    best = std::max(best, time_to_close(clear, speed, half_acceleration));
   });
   return best;
 }
 
-void MovingPair::bound(const RelativeState& state, std::uint32_t node_a, std::uint32_t node_b,
-                       unsigned lanes, double threshold, double error, double horizon,
+void MovingPair::bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b,
                        BoxBounds& bounds) const {
-  constexpr double kFar = 0.15;  // As in bound_boxes().
-  constexpr double kSizeRatio = 1.5;
-  constexpr unsigned kWidth = HierarchyNode::kWidth;
-  std::array<PlacedBox, kWidth> a;
-  std::array<PlacedBox, kWidth> b;
-  for (unsigned k = 0; k < kWidth; ++k) {
-    if ((lanes >> kWidth * k & 15u) != 0) {
-      a[k] = place_A(state, {node_a, k});
-    }
-    if ((lanes >> k & 0x1111u) != 0) {
-      b[k] = place_B(state, {node_b, k});
-    }
+  if (!deforms()) {
+    bound_boxes(frame, A_.nodes[node_a], B_.nodes[node_b], bounds);
+    return;
   }
-  bounds.live = bounds.far = bounds.larger_a = bounds.larger_b = bounds.unsure = 0;
-  for (unsigned k = 0; k < kWidth * kWidth; ++k) {
-    bounds.time[k] = 0.0f;
-    if ((lanes >> k & 1u) == 0) {
-      continue;
-    }
-    const PlacedBox& box_a = a[k / kWidth];
-    const PlacedBox& box_b = b[k % kWidth];
-    const Apart apart = this->apart(box_a, box_b, threshold, error);
-    const auto set = [&](bool holds, std::uint16_t& bits) {
-      bits = static_cast<std::uint16_t>(bits | (holds ? 1u << k : 0u));
-    };
-    bounds.time[k] = round_down(std::min(apart.time, 4.0));
-    bounds.gap[k] = static_cast<float>(apart.gap / unit());
-    set(!(apart.time > 0.0 && apart.time * (1.0 - 0x1p-50) >= horizon), bounds.live);
-    set(apart.gap > kFar * (box_a.radius + box_b.radius), bounds.far);
-    set(box_a.radius > kSizeRatio * box_b.radius, bounds.larger_a);
-    set(box_b.radius > kSizeRatio * box_a.radius, bounds.larger_b);
-  }
+  const auto at_end = [](const Hierarchy& hierarchy, std::uint32_t node) -> const HierarchyNode& {
+    return hierarchy.deforms() ? hierarchy.nodes_to[node] : hierarchy.nodes[node];
+  };
+  bound_deforming_boxes(frame, A_.nodes[node_a], at_end(A_, node_a), B_.nodes[node_b],
+                        at_end(B_, node_b), bounds);
 }
 
 double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
@@ -249,9 +224,11 @@ BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
   const std::array<const ConstantRatePath*, 2> paths{&motion_.A(), &motion_.B()};
   const std::array<double, 2> units{A_.unit, B_.unit};
+  const std::array<double, 2> deformation{A_.deformation_speed, B_.deformation_speed};
   for (int body = 0; body < 2; ++body) {
     frame.ratio[body] = units[body] / unit();
     frame.rate[body] = static_cast<float>(paths[body]->rate());
+    frame.deformation[body] = deformation[body] > 0.0 ? round_up(deformation[body] / unit()) : 0.0f;
     for (int k = 0; k < 3; ++k) {
       frame.axis[body][k] = static_cast<float>(paths[body]->axis()[k]);
     }
@@ -259,7 +236,9 @@ BoxFrame MovingPair::box_frame() const {
   for (int k = 0; k < 3; ++k) {
     frame.velocity[1][k] = static_cast<float>(motion_.pivot_velocity()[k] / unit());
   }
-  frame.speed = round_up(motion_.pivot_velocity().norm() / unit());
+  // What deforms brings rounding of its own: box_bounds.cpp.
+  frame.speed = round_up(
+      (motion_.pivot_velocity().norm() + 4.0 * (deformation[0] + deformation[1])) / unit());
   return frame;
 }
 
@@ -275,6 +254,7 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
     frame.pivot[1][i] = state.p_AQb[i] * scale;
   }
   frame.threshold = round_up(threshold * scale);
+  frame.t = state.t;
 }
 
 }  // namespace firstcontact::detail

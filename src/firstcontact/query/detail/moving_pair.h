@@ -39,12 +39,6 @@ struct PlacedBox {
   Eigen::Matrix3d corner_growth;  ///< [m per step]  Of the corners, like them.
 };
 
-/// For how long two boxes are proven apart, and by how much at this instant.
-struct Apart {
-  double time = 0.0;  ///< [-]
-  double gap = 0.0;   ///< [m]  Negative where no direction separates.
-};
-
 /// Above a value >= 0, as the fields of a BoxFrame have to be. Above 0 too: at the very end of a
 /// step the horizon is 0, and a pair that is not proven apart for any time must not be dropped.
 inline float round_up(double value) {
@@ -80,30 +74,25 @@ class MovingPair {
   [[nodiscard]] TrianglePair rates(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// For how long two boxes are provably farther apart than the threshold, by the directions
+  /// [-]  For how long two boxes are provably farther apart than the threshold, by the directions
   /// of the centre line and of each box's axes; of a triangle's box, only the triangle counts.
   ///
   /// Of a body that deforms, the boxes grow. Derivation: were the body not to turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
   /// time. Turning adds the velocities of where the vertices are now, and the accelerations of
   /// advance_deforming().
-  [[nodiscard]] Apart apart(const PlacedBox& a, const PlacedBox& b, double threshold,
-                            double error) const;
+  [[nodiscard]] double time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
+                                  double error) const;
 
   /// [m]  Lower bound of the distance of two boxes at this instant, by the same directions;
   /// negative where none separates.
   [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);
 
-  /// Whether either body deforms; bound_boxes() knows of rigid ones only.
   [[nodiscard]] bool deforms() const { return A_.deforms() || B_.deforms(); }
 
-  /// As bound_boxes(), of bodies that may deform: some lanes, in double precision.
-  ///
-  /// @param threshold  [m]
-  /// @param error      [m]  of a gap
-  /// @param horizon    [-]  a pair that is apart for longer is done with
-  void bound(const RelativeState& state, std::uint32_t node_a, std::uint32_t node_b, unsigned lanes,
-             double threshold, double error, double horizon, BoxBounds& bounds) const;
+  /// bound_boxes(), or its like for bodies that deform, by what the frame says.
+  void bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b,
+             BoxBounds& bounds) const;
 
   /// What the kernel needs that is the same at all times.
   [[nodiscard]] BoxFrame box_frame() const;
