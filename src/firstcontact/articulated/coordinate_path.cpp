@@ -19,12 +19,18 @@ constexpr DoubleDouble kTurn{6.283185307179586, 2.4492935982947064e-16};
 /// A few dozen double-double operations, each within 2^-102 of sums of its operands.
 constexpr double kConstructionError = 0x1p-96;
 
-double factorial(std::size_t n) { return n < 2 ? 1.0 : static_cast<double>(n) * factorial(n - 1); }
-
-/// Binomial coefficient "j over k".
-double choose(std::size_t j, std::size_t k) {
-  return factorial(j) / (factorial(k) * factorial(j - k));
+/// Pascal's triangle: binomials[j][k] is "j over k".
+constexpr std::array<std::array<double, kCount>, kCount> binomials() {
+  std::array<std::array<double, kCount>, kCount> rows{};
+  for (std::size_t j = 0; j < kCount; ++j) {
+    rows[j][0] = 1.0;
+    for (std::size_t k = 1; k <= j; ++k) {
+      rows[j][k] = rows[j - 1][k - 1] + rows[j - 1][k];
+    }
+  }
+  return rows;
 }
+constexpr auto kBinomial = binomials();
 
 DoubleDouble relative_time(const CoordinateSegment& segment, double t) {
   return two_sum(t, -segment.t_begin) / two_sum(segment.t_end, -segment.t_begin);
@@ -34,7 +40,7 @@ DoubleDouble relative_time(const CoordinateSegment& segment, double t) {
 DoubleDouble shifted(const CoordinateSegment& segment, const DoubleDouble& s, std::size_t k) {
   DoubleDouble sum = 0.0;
   for (std::size_t j = segment.count; j-- > k;) {
-    sum = sum * s + DoubleDouble(choose(j, k)) * segment.a[j];
+    sum = sum * s + DoubleDouble(kBinomial[j][k]) * segment.a[j];
   }
   return sum;
 }
@@ -43,7 +49,7 @@ DoubleDouble shifted(const CoordinateSegment& segment, const DoubleDouble& s, st
 double size_of(const CoordinateSegment& segment, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = k; j < segment.count; ++j) {
-    sum += choose(j, k) * std::abs(segment.a[j].hi);
+    sum += kBinomial[j][k] * std::abs(segment.a[j].hi);
   }
   return sum;
 }
@@ -208,14 +214,14 @@ CoordinateSegment::Bounds CoordinateSegment::bounds(double t_from, double t_to) 
     size[j] = std::abs(shifted(*this, s, j).hi) + noise(*this, j);
   }
   std::array<double, 4> derivative{};
-  double scale = per_length;
+  double scale = 1.0;
   for (std::size_t k = 1; k < 4; ++k) {
     double sum = 0.0;
     for (std::size_t j = count; j-- > k;) {
-      sum = sum * half + choose(j, k) * size[j];
+      sum = sum * half + kBinomial[j][k] * size[j];
     }
-    derivative[k] = factorial(k) * scale * sum * (1.0 + 0x1p-46);
-    scale *= per_length;
+    scale *= static_cast<double>(k) * per_length;  // k! / length^k
+    derivative[k] = scale * sum * (1.0 + 0x1p-46);
   }
   return {derivative[1], derivative[2], derivative[3]};
 }

@@ -1,6 +1,7 @@
 #include <firstcontact/articulated/link_contact.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -21,6 +22,9 @@ namespace {
 using detail::LinkBox;
 using detail::LinkPair;
 using detail::Separation;
+
+/// [-]  Of the rest of a window: links need not be placed anew for a time so little later.
+constexpr double kSameTime = 0.03;
 
 /// Two boxes that may meet from `t` on, and not before.
 struct Entry {
@@ -132,9 +136,6 @@ class LinkSearch {
       if (result_.steps >= options_.steps) {
         return give_up(UndecidedReason::work, entry.t);
       }
-      if (!(entry.t == at_A_.t())) {
-        place(entry.t, end);
-      }
       const bool leaf_a = A_.nodes[entry.a.node].is_leaf(entry.a.slot);
       const bool leaf_b = B_.nodes[entry.b.node].is_leaf(entry.b.slot);
       if (leaf_a && leaf_b) {
@@ -155,19 +156,33 @@ class LinkSearch {
   void push_if_close(Entry entry) {
     ++result_.steps;
     const double t = at_A_.t();
+    assert(t <= entry.t);  // A bound says nothing of the time before it.
     const Separation separation = pair_->boxes(entry.a, entry.b, threshold_);
     if (!is_beyond(t, separation.time)) {
-      entry.t = std::clamp(t + separation.time * (1.0 - 0x1p-40), t, end_);
+      entry.t = std::clamp(t + separation.time * (1.0 - 0x1p-40), entry.t, end_);
       queue_.push(entry);
     }
   }
 
-  /// Far pairs are bounded again from where they are now; near ones opened.
+  void place_at(double t) {
+    if (t != at_A_.t()) {
+      place(t, end_);
+    }
+  }
+
+  /// Far pairs are bounded again from where they are now; near ones opened. Bounds that start a
+  /// little earlier, where the links have been placed already, hold too: they lose what is of
+  /// second order in time.
   void open(const Entry& entry, bool leaf_a, bool leaf_b) {
+    const double later = entry.t - at_A_.t();
+    if (!(later >= 0.0 && later <= kSameTime * (end_ - at_A_.t()))) {
+      place(entry.t, end_);
+    }
     const Separation separation = pair_->boxes(entry.a, entry.b, threshold_);
     const double radius_a = LinkPair::radius(A_, entry.a);
     const double radius_b = LinkPair::radius(B_, entry.b);
     if (separation.gap > 0.5 * (radius_a + radius_b)) {
+      place_at(entry.t);
       push_if_close(entry);
       return;
     }
@@ -203,6 +218,7 @@ class LinkSearch {
   bool advance(Entry entry) {
     const std::uint32_t a = A_.nodes[entry.a.node].child_triangle(entry.a.slot);
     const std::uint32_t b = B_.nodes[entry.b.node].child_triangle(entry.b.slot);
+    place_at(entry.t);
     while (true) {
       ++result_.steps;
       const ClosestFeatures closest = pair_->distance(a, b);
