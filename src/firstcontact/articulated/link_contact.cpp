@@ -89,11 +89,23 @@ class LinkSearch {
     double t = begin;
     while (true) {
       origin_ = DoubleDoubleVector3(A.pose(t).p_OL);
-      const double window_end = t + window_length(t, end);
-      if (!search_window(t, std::min(window_end, end))) {
+      end_ = end;
+      place(t, end);
+      const double apart = pair_->balls_apart(threshold_);
+      if (is_beyond(t, apart)) {
+        return true;
+      }
+      const double length = window_length();
+      const double later = t + apart * (1.0 - 0x1p-40);
+      if (apart >= length && later > t && later < end) {  // No need to look at the boxes yet.
+        t = later;
+        continue;
+      }
+      const double window_end = std::min(t + length, end);
+      if (!search_window(t, window_end)) {
         return false;
       }
-      if (!(window_end < end)) {
+      if (window_end == end) {
         return true;
       }
       t = window_end;
@@ -101,9 +113,8 @@ class LinkSearch {
   }
 
   /// V T bounds the way that a point goes, J T^3 / 6 what the second order misses of it.
-  double window_length(double t, double end) {
-    place(t, end);
-    double length = end - t;
+  [[nodiscard]] double window_length() const {
+    double length = end_ - at_A_.t();
     for (const LinkWindow* window : {&at_A_, &at_B_}) {
       const CoordinateSegment::Bounds& bounds = window->bounds();
       if (bounds.jerk > 0.0) {
@@ -111,7 +122,7 @@ class LinkSearch {
       }
     }
     // At least a thousandth of what is left: windows end.
-    return std::max(length, 1e-3 * (end - t));
+    return std::max(length, 1e-3 * (end_ - at_A_.t()));
   }
 
   void place(double t, double end) {
@@ -292,6 +303,18 @@ Motion resting_at_start(const MovingLink& link, const DoubleDoubleVector3& origi
   return Motion::fixed({pose.p_OL, Eigen::Quaterniond(pose.R_FL)});
 }
 
+/// Whether balls around the shapes, a little larger than need be, overlap at t = 0.
+bool balls_meet_at_start(const MovingLink& A, const MovingLink& B,
+                         const DoubleDoubleVector3& origin) {
+  constexpr double kRoom = 1.0 + 1e-9;  // More than a pose errs by.
+  const auto centre = [&](const MovingLink& link) -> Eigen::Vector3d {
+    const LinkPose pose = link.X_FS.at(0.0).pose(0.0, origin);
+    return pose.p_OL + pose.R_FL * link.shape.hierarchy().centre;
+  };
+  const auto radius = [](const Shape& shape) { return shape.hierarchy().radius + shape.radius(); };
+  return !((centre(A) - centre(B)).norm() > kRoom * (radius(A.shape) + radius(B.shape)));
+}
+
 /// Whether one lies in the other's solid inside at t = 0. Where the surfaces are apart by the
 /// tolerance, the rounding of the poses cannot change that.
 bool is_inside_at_start(const MovingLink& A, const MovingLink& B) {
@@ -299,6 +322,9 @@ bool is_inside_at_start(const MovingLink& A, const MovingLink& B) {
     return false;
   }
   const DoubleDoubleVector3 origin(A.X_FS.at(0.0).pose(0.0).p_OL);
+  if (!balls_meet_at_start(A, B, origin)) {
+    return false;
+  }
   const Motion X_WA = resting_at_start(A, origin);
   const Motion X_WB = resting_at_start(B, origin);
   Workspace workspace;

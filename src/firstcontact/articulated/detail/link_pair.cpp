@@ -79,6 +79,15 @@ double LinkPair::radius(const Hierarchy& hierarchy, LinkBox box) {
   return part_of(hierarchy, box).reach();
 }
 
+double LinkPair::balls_apart(double threshold) const {
+  const LinkPart a{.radius = A_.radius * kUp};
+  const LinkPart b{.radius = B_.radius * kUp};
+  const Vector3d apart = at_B_.pose().p_OL - at_A_.pose().p_OL;
+  const Vector3d n = direction(apart);
+  const double gap = n.dot(apart) - a.radius - b.radius - threshold - gap_error_;
+  return time_until(gap, at_A_.displacement(a, n), at_B_.displacement(b, Vector3d(-n)));
+}
+
 Separation LinkPair::boxes(LinkBox box_a, LinkBox box_b, double threshold) const {
   const LinkPart a = part_of(A_, box_a);
   const LinkPart b = part_of(B_, box_b);

@@ -33,6 +33,9 @@ class LinkPair {
   /// [m]  How far any gap computed here may be from the exact one.
   [[nodiscard]] double gap_error() const { return gap_error_; }
 
+  /// [-]  How long balls around both hierarchies stay farther apart, by their line of centres.
+  [[nodiscard]] double balls_apart(double threshold) const;
+
   /// By the line of centres and the axes of both boxes.
   [[nodiscard]] Separation boxes(LinkBox a, LinkBox b, double threshold) const;
 
