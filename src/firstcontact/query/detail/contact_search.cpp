@@ -300,12 +300,14 @@ class Search {
   /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
   /// find more. Two triangles are as quickly tested themselves; a large one matters to many small
   /// boxes.
-  static unsigned in_doubt(const HierarchyNode& a, const HierarchyNode& b,
-                           const BoxBounds& bounds) {
+  [[nodiscard]] unsigned in_doubt(const HierarchyNode& a, const HierarchyNode& b,
+                                  const BoxBounds& bounds) const {
     const unsigned triangle_pairs = lanes_of(a.leaves(), b.leaves());
     const unsigned large_triangles = (lanes_of(a.leaves(), b.used()) & bounds.larger_a) |
                                      (lanes_of(a.used(), b.leaves()) & bounds.larger_b);
-    return (bounds.unsure | large_triangles) & ~triangle_pairs;
+    const unsigned doubt = (bounds.unsure | large_triangles) & ~triangle_pairs;
+    // The box of a triangle that deforms is thick: its axes are those that suited it at t = 0.
+    return pair_.deforms() ? doubt | triangle_pairs : doubt;
   }
 
   /// Repeats one lane where single precision could not tell; whether it is still of interest.
