@@ -412,6 +412,22 @@ describe.skipIf(!canLook)("the page", () => {
     expect(json.accessors.some(({ max }) => max?.[0] === 1)).toBe(true); // It lasts 1 s.
   });
 
+  test("saves what deforms as it deforms", async () => {
+    const page = await show(bending);
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    const bytes = readFileSync(await glb.path());
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()) as {
+      animations: { channels: { target: { path: string } }[] }[];
+      meshes: { primitives: { targets?: unknown[] }[] }[];
+    };
+    expect(json.animations[0]!.channels.map(({ target }) => target.path)).toEqual(["weights"]);
+    const targets = json.meshes.map(({ primitives }) => primitives[0]!.targets?.length ?? 0);
+    expect(targets).toEqual([0, 1]);
+  });
+
   test("fits into the window of a phone", async () => {
     const page = await show(peg, "", phone);
     expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(
