@@ -124,12 +124,19 @@ void add_info_command(CLI::App& app) {
       ->add_option("--package-root", *roots,
                    "Folder that holds packages which a robot names as package://; repeatable")
       ->allow_extra_args(false);
-  command->callback([files, roots] {
+  auto in_contact = std::make_shared<bool>(false);
+  command->add_flag("--always-in-contact", *in_contact,
+                    "Of robots only the pairs of links that touch where every coordinate is 0, or "
+                    "its limit next to it, as SRDF; look whether each may");
+  command->callback([files, roots, in_contact] {
     for (const std::string& file : *files) {
       if (is_robot(file)) {
         UrdfOptions options;
         options.package_roots.assign(roots->begin(), roots->end());
-        print_robot(file, read_urdf(file, options));
+        const RobotModel robot = read_urdf(file, options);
+        *in_contact ? print_always_in_contact(robot) : print_robot(file, robot);
+      } else if (*in_contact) {
+        throw ParseError(file, "--always-in-contact expects a robot, a .urdf file");
       } else if (is_cloud(file)) {
         print(file, read_points(file));
       } else {

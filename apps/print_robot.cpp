@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/mesh_defects.h>
 
 #include "quantity_text.h"
@@ -184,6 +185,14 @@ void print_robot(const std::string& name, const RobotModel& robot) {
     for (const std::string& remark : remarks) {
       fmt::print("    {}\n", remark);
     }
+  }
+}
+
+void print_always_in_contact(const RobotModel& robot) {
+  for (const LinkPairIndex& pair : touching_links(at_rest(robot))) {
+    const char* reason = robot.are_adjacent(pair.link, pair.other) ? "Adjacent" : "Default";
+    fmt::print("<disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>\n",
+               robot.links()[pair.link].name, robot.links()[pair.other].name, reason);
   }
 }
 

@@ -14,4 +14,9 @@ namespace firstcontact::app {
 /// @param robot  read with its collision shapes
 void print_robot(const std::string& name, const RobotModel& robot);
 
+/// Prints the pairs of links that touch in the default pose as lines of an SRDF file.
+///
+/// @param robot  read with its collision shapes
+void print_always_in_contact(const RobotModel& robot);
+
 }  // namespace firstcontact::app

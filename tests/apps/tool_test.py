@@ -446,6 +446,15 @@ class Info(ToolTest):
                      "link tip: is seen, but has no collision geometry"):
             self.assertIn(line, result.stdout)
 
+    def test_prints_the_pairs_that_always_touch(self):
+        self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        result = self.run_tool("info", "--always-in-contact", self.file("arm.urdf", self.ARM))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout,
+                         '<disable_collisions link1="base" link2="upper" reason="Adjacent"/>\n')
+        self.assert_refused(self.run_tool("info", "--always-in-contact", "m.obj"),
+                            "m.obj: --always-in-contact expects a robot, a .urdf file")
+
     def test_names_the_place_of_an_error_in_a_robot(self):
         robot = self.file("arm.urdf", self.ARM.replace("m.obj", "package://pack/m.obj"))
         roots = str(pathlib.Path(robot).parent / "roots")
