@@ -1,6 +1,7 @@
 #include <firstcontact/query/closest_approach.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,8 +16,14 @@ namespace {
 class Descent {
  public:
   Descent(const MovingShape& A, const MovingShape& B, Workspace& workspace,
-          ClosestApproachResult& best)
-      : A_(A), B_(B), workspace_(workspace), best_(best) {}
+          const WorkBudget& budget, ClosestApproachResult& best)
+      : A_(A), B_(B), workspace_(workspace), budget_(budget), best_(best) {}
+
+  /// Whether to leave the rest to a search, which says why it ends.
+  [[nodiscard]] bool is_over() const {
+    return budget_.stop.stop_requested() ||
+           (budget_.deadline && std::chrono::steady_clock::now() >= *budget_.deadline);
+  }
 
   double sample(double t) {
     const DistanceResult here = distance(A_, B_, t, workspace_);
@@ -40,7 +47,7 @@ class Descent {
     double dx = sample(x);
     double dy = sample(y);
     constexpr int kSteps = 60;
-    for (int i = 0; i < kSteps && std::abs(dx - dy) > 0.01 * tolerance; ++i) {
+    for (int i = 0; i < kSteps && std::abs(dx - dy) > 0.01 * tolerance && !is_over(); ++i) {
       if (dx < dy) {
         high = y;
         y = x;
@@ -61,6 +68,7 @@ class Descent {
   const MovingShape& A_;
   const MovingShape& B_;
   Workspace& workspace_;
+  const WorkBudget& budget_;
   ClosestApproachResult& best_;
 };
 
@@ -77,7 +85,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   ClosestApproachResult best;
   best.tolerance_used = options.tolerance;
   best.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
-  Descent descent(A, B, workspace, best);
+  Descent descent(A, B, workspace, options.budget, best);
   FirstContactOptions query;
   query.tolerance = options.tolerance;
   query.contacts = ContactState::none;
@@ -98,7 +106,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
     return best;
   }
   constexpr int kSamples = 8;
-  for (int i = 0; i <= kSamples; ++i) {
+  for (int i = 0; i <= kSamples && !descent.is_over(); ++i) {
     descent.sample(static_cast<double>(i) / kSamples);
   }
   descent.improve(best.t, 1.0 / kSamples, options.tolerance);
