@@ -1,0 +1,55 @@
+"""When do two moving bodies touch for the first time?
+
+firstcontact answers for meshes, primitives, hulls and point clouds that turn and translate during a
+step, and proves the answer: before the reported time the bodies are apart, at that time they are
+within a tolerance that you choose.
+
+    >>> import firstcontact as fc
+    >>> ball = fc.make_sphere(0.5)
+    >>> fall = fc.Motion.constant_velocity(fc.Pose((0, 0, 3)), translation=(0, 0, -4))
+    >>> floor = fc.make_box((4, 4, 1))
+    >>> result = fc.first_contact((ball, fall), (floor, fc.Motion.fixed()))
+    >>> print(f"{result.verdict} at t = {result.t:.6f}")
+    contact at t = 0.500000
+
+Lengths are metres, angles radians, t runs from 0 to 1 over the step. Points are rows of n×3 arrays.
+"""
+
+from ._check import Answer, Pair, SceneLike, check, check_many, load_scene
+from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, ElementaryContact,
+                    Feature, FirstContactResult, LinearContact, ManyBodiesResult,
+                    ManyBodiesWorkspace, MeshDefects, Motion, PairAnswer, PairRules, Pose, Result,
+                    Scene, SceneClosest, SceneContact, ScenePair, Shape, ShapeCache, StopSource,
+                    WorkCount, Workspace, __version__, answer_each_pair, closest_approach,
+                    convex_hull, distance, edge_edge_contact, first_contact, inspect,
+                    linear_edge_edge_contact, linear_vertex_face_contact, make_box, make_capsule,
+                    make_cone, make_convex_hull, make_cylinder, make_height_map, make_point_cloud,
+                    make_sphere, parse_obj, parse_off, parse_pcd, parse_ply, parse_ply_points,
+                    parse_scene, parse_stl, parse_xyz, read_heights, read_mesh, read_points,
+                    sample_gap, vertex_face_contact, weld, why_not_solid)
+from ._errors import ParseError
+from ._tuples import GapPoints, GapSamples, HeightMap, Mesh, MovingShape
+from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
+                     UndecidedReason, Verdict)
+
+__all__ = [
+    "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactState",
+    "DistanceResult", "ElementaryContact", "ElementaryVerdict", "Feature", "FeatureType", "Filling",
+    "FirstContactResult", "GapPoints", "GapSamples", "HeightMap", "LinearContact",
+    "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Motion", "MovingShape",
+    "Pair", "PairAnswer", "PairRules", "ParseError", "Pose", "Result", "Scene", "SceneClosest",
+    "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "StartContacts", "StopSource",
+    "UndecidedReason", "Verdict", "WorkCount", "Workspace", "__version__", "answer_each_pair",
+    "check", "check_many", "closest_approach", "convex_hull", "distance", "edge_edge_contact",
+    "first_contact", "inspect", "linear_edge_edge_contact", "linear_vertex_face_contact",
+    "load_scene", "make_box", "make_capsule", "make_cone", "make_convex_hull", "make_cylinder",
+    "make_height_map", "make_point_cloud", "make_sphere", "parse_obj", "parse_off", "parse_pcd",
+    "parse_ply", "parse_ply_points", "parse_scene", "parse_stl", "parse_xyz", "read_heights",
+    "read_mesh", "read_points", "sample_gap", "vertex_face_contact", "weld", "why_not_solid",
+]
+
+# People should see, and pickle, the names that they use.
+for _name in __all__:
+    if getattr(globals()[_name], "__module__", "").startswith("firstcontact._"):
+        globals()[_name].__module__ = "firstcontact"
+del _name

@@ -1,0 +1,82 @@
+"""The words of questions and answers, as in scenes and results."""
+
+import enum
+
+
+class Verdict(enum.StrEnum):
+    """What is proven of a step; each member equals its word, as ``"free"``."""
+
+    free = "free"
+    """Farther apart than the margin at all times."""
+    contact = "contact"
+    """So before t; at t no farther than margin + tolerance."""
+    contact_at_start = "contact_at_start"
+    """As ``contact``, with t = 0."""
+    undecided = "undecided"
+    """So before t, nothing known after it; see ``reason``."""
+
+
+class UndecidedReason(enum.StrEnum):
+    """Why a search ended without a verdict."""
+
+    none = "none"
+    work = "work"
+    deadline = "deadline"
+    memory = "memory"
+    precision = "precision"
+    cancelled = "cancelled"
+
+
+class StartContacts(enum.StrEnum):
+    """What becomes of pairs that start within margin + tolerance."""
+
+    report = "report"
+    """``contact_at_start``."""
+    keep_half = "keep_half"
+    """A feature pair that starts there, but apart, is held to half its start distance."""
+
+
+class ContactState(enum.StrEnum):
+    """Which contacts a result lists."""
+
+    none = "none"
+    """Only the time."""
+    first = "first"
+    """The feature pair that decided."""
+    all = "all"
+    """Every feature pair within the band at t."""
+
+
+class FeatureType(enum.StrEnum):
+    """What a feature is."""
+
+    vertex = "vertex"
+    edge = "edge"
+    face = "face"
+
+
+class Between(enum.StrEnum):
+    """How a motion runs between two poses."""
+
+    constant_velocity = "constant_velocity"
+    """The body origin moves on a line, the body turns at a constant rate."""
+    screw = "screw"
+    """One rotation about, and one translation along, one axis."""
+
+
+class Filling(enum.StrEnum):
+    """Whether the space that a closed mesh encloses belongs to the shape."""
+
+    surface = "surface"
+    solid = "solid"
+
+
+class ElementaryVerdict(enum.StrEnum):
+    """How an elementary test ends."""
+
+    free = "free"
+    """Proven: the features do not meet in the window."""
+    contact = "contact"
+    """They meet between ``t_lower`` and ``t_upper``."""
+    degenerate = "degenerate"
+    """Proven free before ``t_lower``, where they touch up to rounding."""

@@ -1,0 +1,20 @@
+/// @file
+/// The parts of the module, one for each module of the library; in an order in which each names
+/// only classes that are known.
+
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace firstcontact::python {
+
+void bind_errors(pybind11::module_& m);
+void bind_motion(pybind11::module_& m);
+void bind_geometry(pybind11::module_& m);
+void bind_narrowphase(pybind11::module_& m);
+void bind_query(pybind11::module_& m);
+void bind_scene(pybind11::module_& m);
+void bind_result(pybind11::module_& m);
+void bind_check_jobs(pybind11::module_& m);
+
+}  // namespace firstcontact::python

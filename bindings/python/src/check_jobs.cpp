@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/read_scene.h>
+
+#include "bindings.h"
+#include "errors.h"
+#include "interrupts.h"
+#include "query.h"
+#include "scene.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using SharedScene = std::shared_ptr<HeldScene>;
+using SharedCache = std::shared_ptr<ShapeCache>;
+
+/// Checks one scene, whose options are settled. Without the GIL.
+HeldResult answer_scene(SharedScene scene, ManyBodiesWorkspace& workspace,
+                        const CheckOptions& options, std::optional<double> sample_rate) {
+  HeldResult result{.scene = std::move(scene), .answer = {}, .all_pairs = options.all_pairs};
+  const LoadedScene& loaded = result.scene->loaded();
+  result.answer = check_scene(loaded, workspace, options);
+  if (sample_rate) {
+    const auto times = times_at_rate(*sample_rate, loaded.scene.duration);
+    result.sampling =
+        report_sampling(*sample_rate, sample_in_parallel(loaded, times, options.stop));
+  }
+  return result;
+}
+
+/// What is asked of one scene in place of, or beyond, what it says.
+struct SceneQuestion {
+  OtherOptions other;
+  std::optional<double> sample_rate;  ///< [1/s]
+};
+
+std::shared_ptr<HeldResult> check(const SharedScene& scene,
+                                  HeldWorkspace<ManyBodiesWorkspace>* workspace,
+                                  CheckOptions options, const SceneQuestion& question,
+                                  const py::object& progress, const std::stop_source* stop) {
+  const SharedScene asked = question.other.any() ? scene->with(question.other) : scene;
+  Lease<ManyBodiesWorkspace> lease(workspace);
+  return run_query(stop, [&](QueryStop& query) {
+    options.stop = query.token();
+    options.progress = progress_of(progress, query);
+    return std::make_shared<HeldResult>(
+        answer_scene(asked, lease.get(), options, question.sample_rate));
+  });
+}
+
+/// A scene that is not read yet.
+struct SceneSource {
+  std::optional<std::string> text;  // None: the content of the file.
+  std::filesystem::path source;
+};
+
+/// Two shapes of Python, which somebody keeps.
+struct TwoShapes {
+  MovingShape A;
+  MovingShape B;
+};
+
+using Job = std::variant<SharedScene, SceneSource, TwoShapes>;
+using Answer = std::variant<std::exception_ptr, HeldResult, FirstContactResult>;
+
+/// What is asked of every job.
+struct JobOptions {
+  CheckOptions check;
+  OtherOptions other;
+  SharedCache shapes;
+};
+
+/// Answers jobs of any kind with the scratch memory of one thread.
+class JobAnswerer {
+ public:
+  explicit JobAnswerer(const JobOptions& options) : options_(options) {}
+
+  Answer operator()(const Job& job) {
+    try {
+      return std::visit([this](const auto& kind) { return answer(kind); }, job);
+    } catch (...) {
+      return std::current_exception();
+    }
+  }
+
+ private:
+  Answer answer(const SharedScene& scene) {
+    return answer_scene(options_.other.any() ? scene->with(options_.other) : scene, many_bodies_,
+                        options_.check, std::nullopt);
+  }
+
+  Answer answer(const SceneSource& source) {
+    if (!source.text) {
+      require_file(source.source);
+    }
+    Scene scene =
+        source.text ? parse_scene(*source.text, source.source) : read_scene(source.source);
+    return answer(std::make_shared<HeldScene>(std::move(scene), options_.shapes));
+  }
+
+  Answer answer(const TwoShapes& two) {
+    FirstContactOptions options;
+    options.margin = options_.other.margin.value_or(options.margin);
+    options.tolerance = options_.other.tolerance.value_or(options.tolerance);
+    options.budget.deadline = deadline_in(options_.other.deadline);
+    options.budget.stop = options_.check.stop;
+    return first_contact(two.A, two.B, two_bodies_, options);
+  }
+
+  const JobOptions& options_;
+  ManyBodiesWorkspace many_bodies_;
+  Workspace two_bodies_;
+};
+
+std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& options,
+                               std::size_t threads) {
+  std::vector<Answer> answers(jobs.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    JobAnswerer answer(options);
+    for (std::size_t k = next++; k < jobs.size(); k = next++) {
+      answers[k] = answer(jobs[k]);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (std::size_t k = 1; k < std::min(threads, jobs.size()); ++k) {
+    others.emplace_back(work);
+  }
+  work();
+  others.clear();  // Waits for them.
+  return answers;
+}
+
+Job job_from(py::handle value) {
+  if (py::isinstance<HeldScene>(value)) {
+    return value.cast<SharedScene>();
+  }
+  if (py::isinstance<SceneSource>(value)) {
+    return value.cast<SceneSource>();
+  }
+  const auto two = value.cast<py::tuple>();
+  if (two.size() != 2) {
+    throw py::type_error("job: expected a scene or two pairs (Shape, Motion), got " +
+                         std::string(py::repr(value)));
+  }
+  return TwoShapes{moving_shape_from(two[0], "A"), moving_shape_from(two[1], "B")};
+}
+
+/// Turns an answer into an object of Python, and forgets it.
+struct ToPython {
+  py::object operator()(const std::exception_ptr& error) const { return exception_from(error); }
+  py::object operator()(HeldResult& result) const {
+    return py::cast(std::make_shared<HeldResult>(std::move(result)));
+  }
+  py::object operator()(FirstContactResult& result) const { return py::cast(std::move(result)); }
+};
+
+py::list answer_jobs(const py::iterable& given, std::size_t threads, bool all_pairs, bool closest,
+                     const OtherOptions& other, const SharedCache& shapes,
+                     const std::stop_source* stop) {
+  const py::tuple kept(given);  // Keeps shapes and motions.
+  std::vector<Job> jobs;
+  jobs.reserve(kept.size());
+  for (const py::handle job : kept) {
+    jobs.push_back(job_from(job));
+  }
+  JobOptions options{.check = {.all_pairs = all_pairs, .closest = closest, .threads = 1},
+                     .other = other,
+                     .shapes = shapes ? shapes : std::make_shared<ShapeCache>()};
+  std::vector<Answer> answers = run_query(stop, [&](const QueryStop& query) {
+    options.check.stop = query.token();
+    return answer_all(jobs, options, threads > 0 ? threads : std::thread::hardware_concurrency());
+  });
+  py::list list(answers.size());
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    list[k] = std::visit(ToPython{}, answers[k]);
+  }
+  return list;
+}
+
+}  // namespace
+
+void bind_check_jobs(py::module_& m) {
+  m.def(
+      "check",
+      [](const SharedScene& scene, OrNone<HeldWorkspace<ManyBodiesWorkspace>> workspace,
+         bool all_pairs, bool closest, std::optional<double> margin,
+         std::optional<double> tolerance, std::optional<double> deadline,
+         std::optional<double> sample_rate, int threads, const py::object& progress,
+         OrNone<std::stop_source> stop) {
+        return check(
+            scene, workspace, {.all_pairs = all_pairs, .closest = closest, .threads = threads},
+            {.other = {margin, tolerance, deadline}, .sample_rate = sample_rate}, progress, stop);
+      },
+      py::arg("scene"), py::arg("workspace") = py::none(), py::kw_only(),
+      py::arg("all_pairs") = false, py::arg("closest") = false, py::arg("margin") = py::none(),
+      py::arg("tolerance") = py::none(), py::arg("deadline") = py::none(),
+      py::arg("sample_rate") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("stop") = py::none(), "As firstcontact.check, of a Scene.");
+  py::class_<SceneSource>(m, "SceneSource", "A scene that is not read yet.")
+      .def(py::init([](std::optional<std::string> text, std::filesystem::path source) {
+             return SceneSource{std::move(text), std::move(source)};
+           }),
+           py::arg("text"), py::arg("source"))
+      .def(
+          py::pickle([](const SceneSource& s) { return py::make_tuple(s.text, s.source.string()); },
+                     [](const py::tuple& state) {
+                       return SceneSource{state[0].cast<std::optional<std::string>>(),
+                                          state[1].cast<std::string>()};
+                     }));
+  m.def(
+      "answer_jobs",
+      [](const py::iterable& jobs, std::size_t threads, bool all_pairs, bool closest,
+         std::optional<double> margin, std::optional<double> tolerance,
+         std::optional<double> deadline, const SharedCache& shapes, OrNone<std::stop_source> stop) {
+        return answer_jobs(jobs, threads, all_pairs, closest, {margin, tolerance, deadline}, shapes,
+                           stop);
+      },
+      py::arg("jobs"), py::kw_only(), py::arg("threads") = 0, py::arg("all_pairs") = false,
+      py::arg("closest") = false, py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
+      py::arg("deadline") = py::none(), py::arg("shapes") = py::none(),
+      py::arg("stop") = py::none(),
+      "Of each job its answer, or the exception that it raised, in order.");
+}
+
+}  // namespace firstcontact::python

@@ -1,0 +1,336 @@
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pybind11/operators.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/height_map.h>
+#include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/geometry/point_cloud.h>
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/geometry/weld.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "errors.h"
+#include "words.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+using std::filesystem::path;
+
+namespace {
+
+/// Lets other threads run meanwhile.
+template <typename Work>
+auto without_gil(const Work& work) {
+  const py::gil_scoped_release release;
+  return work();
+}
+
+py::object to_tuple(Mesh mesh) {
+  return mesh_tuple(owning(std::move(mesh.vertices)), owning(std::move(mesh.triangles)));
+}
+
+Shape make_shape(const py::object& mesh, double radius, Filling filling, double enclosure_error) {
+  Mesh owned = mesh_from(mesh);
+  return without_gil([&] { return Shape(std::move(owned), radius, filling, enclosure_error); });
+}
+
+py::object to_tuple(const HeightMap& map) {
+  const auto columns = static_cast<py::ssize_t>(map.columns);
+  const auto rows = static_cast<py::ssize_t>(map.heights.size()) / columns;
+  return py::module_::import("firstcontact._tuples")
+      .attr("HeightMap")(py::make_tuple(map.cell.x(), map.cell.y()),
+                         py::array_t<double>({rows, columns}, map.heights.data()));
+}
+
+HeightMap height_map_from(const py::object& value) {
+  if (!PyTuple_Check(value.ptr()) || PyTuple_GET_SIZE(value.ptr()) != 2) {
+    throw py::type_error("map: expected a pair (cell, heights)");
+  }
+  const py::array_t<double> heights = matrix_from(PyTuple_GET_ITEM(value.ptr(), 1), "heights");
+  return {.cell = vector2_from(PyTuple_GET_ITEM(value.ptr(), 0), "cell"),
+          .columns = static_cast<std::size_t>(heights.shape(1)),
+          .heights = {heights.data(), heights.data() + heights.size()}};
+}
+
+/// Reads a file that is there.
+template <typename Read>
+auto read_file(const path& file, const Read& read) {
+  require_file(file);
+  return without_gil([&] { return read(file); });
+}
+
+using ParseMesh = Mesh (*)(std::string_view, const std::string&);
+using ParsePoints = std::vector<Eigen::Vector3d> (*)(std::string_view, const std::string&);
+
+void bind_parser(py::module_& m, const char* name, ParseMesh parse) {
+  m.def(
+      name,
+      [parse](std::string_view data, const std::string& source) {
+        return to_tuple(without_gil([&] { return parse(data, source); }));
+      },
+      py::arg("data"), py::arg("source"),
+      "Parses the content of a file, str or bytes, not welded. source: names it in a ParseError.");
+}
+
+void bind_parser(py::module_& m, const char* name, ParsePoints parse) {
+  m.def(
+      name,
+      [parse](std::string_view data, const std::string& source) {
+        return owning(without_gil([&] { return parse(data, source); }));
+      },
+      py::arg("data"), py::arg("source"),
+      "Parses the content of a file, str or bytes: [m] n×3. source: names it in a ParseError.");
+}
+
+py::object bounds_of(const MeshDefects& defects) {
+  if (defects.bounds.isEmpty()) {
+    return py::none();
+  }
+  return py::make_tuple(copied(defects.bounds.min()), copied(defects.bounds.max()));
+}
+
+void bind_defects(py::module_& m) {
+  py::class_<MeshDefects>(
+      m, "MeshDefects", R"(What is unusual about a mesh; none of it keeps a query from being right.
+
+Vertices count as they are numbered: weld first.)")
+      .def_readonly("edges", &MeshDefects::edges, "Unique ones.")
+      .def_readonly("open_edges", &MeshDefects::open_edges, "Of one triangle.")
+      .def_readonly("nonmanifold_edges", &MeshDefects::nonmanifold_edges,
+                    "Of three triangles or more.")
+      .def_readonly("degenerate_triangles", &MeshDefects::degenerate_triangles,
+                    "Equal corners, or area <= 1e-12 (longest edge)^2.")
+      .def_readonly("doubled_triangles", &MeshDefects::doubled_triangles,
+                    "With the corners of an earlier one, in any order.")
+      .def_readonly("nonfinite_vertices", &MeshDefects::nonfinite_vertices)
+      .def_readonly("unused_vertices", &MeshDefects::unused_vertices)
+      .def_readonly("components", &MeshDefects::components,
+                    "Sets of triangles joined by shared vertices.")
+      .def_readonly("closed", &MeshDefects::closed, "Every edge has exactly two triangles.")
+      .def_readonly("consistently_oriented", &MeshDefects::consistently_oriented,
+                    "Two triangles run their edge in opposite directions.")
+      .def_property_readonly("bounds", &bounds_of,
+                             "[m] Least and greatest corner, each (3,), of the vertices that "
+                             "triangles use; None where there are none.")
+      .def_readonly("signed_volume", &MeshDefects::signed_volume,
+                    "[m^3] Of a closed, consistently oriented mesh, else None.");
+}
+
+void bind_shape(py::module_& m) {
+  py::class_<Shape>(
+      m, "Shape", R"(A union of simplices thickened by a radius, with its bounding-volume hierarchy.
+
+Never changes, and is shared: build it once, ask many times, also from many threads.)")
+      .def(py::init(&make_shape), py::arg("mesh"), py::arg("radius") = 0.0,
+           py::arg("filling") = Filling::surface, py::arg("enclosure_error") = 0.0,
+           R"(Copies the mesh once and builds the hierarchy.
+
+mesh: a Mesh, or any pair (vertices, triangles): n×3 numbers [m], at least one triangle m×3.
+radius: [m] thickens every simplex; >= 0. filling: "solid" needs a closed mesh whose triangles agree
+on their inner side. enclosure_error: [m] where the triangles enclose a curved body from outside.
+ValueError on an empty mesh, a vertex that is not finite, an index out of range.)")
+      .def_property_readonly(
+          "vertices",
+          [](const py::object& self) {
+            return view(self.cast<const Shape&>().mesh().vertices, self);
+          },
+          "[m] n×3, body frame. A read-only view of the shape's own memory.")
+      .def_property_readonly(
+          "triangles",
+          [](const py::object& self) {
+            return view(self.cast<const Shape&>().mesh().triangles, self);
+          },
+          "m×3 of uint32, rows of `vertices`. A read-only view of the shape's own memory.")
+      .def_property_readonly(
+          "mesh",
+          [](const py::object& self) {
+            const Mesh& mesh = self.cast<const Shape&>().mesh();
+            return mesh_tuple(view(mesh.vertices, self), view(mesh.triangles, self));
+          },
+          "Both views.")
+      .def_property_readonly("radius", &Shape::radius, "[m]")
+      .def_property_readonly("is_solid", &Shape::is_solid)
+      .def_property_readonly("enclosure_error", &Shape::enclosure_error,
+                             "[m] No point of the triangles is farther from the body that they "
+                             "enclose; 0 where the shape is what it says.")
+      .def_property_readonly("edge_count", &Shape::edge_count)
+      .def(
+          "edge",
+          [](const Shape& shape, std::size_t index) {
+            if (index >= shape.edge_count()) {
+              throw py::index_error("edge " + std::to_string(index) + " of " +
+                                    std::to_string(shape.edge_count()));
+            }
+            return py::make_tuple(shape.edge(index)[0], shape.edge(index)[1]);
+          },
+          py::arg("index"), "The two vertices of an edge, smaller first.")
+      .def("__eq__",
+           [](const Shape& a, const py::object& b) {
+             return py::isinstance<Shape>(b) && a.compare(b.cast<const Shape&>()) == 0;
+           })
+      .def("__hash__",
+           [](const Shape& shape) {
+             return py::hash(py::make_tuple(shape.mesh().vertices.size(),
+                                            shape.mesh().triangles.size(), shape.radius()));
+           })
+      .def("__repr__",
+           [](const Shape& shape) {
+             return "<Shape of " + std::to_string(shape.mesh().vertices.size()) + " vertices, " +
+                    std::to_string(shape.mesh().triangles.size()) + " triangles" +
+                    (shape.radius() > 0.0
+                         ? ", radius " + std::string(py::repr(py::float_(shape.radius()))) + " m"
+                         : "") +
+                    (shape.is_solid() ? ", solid>" : ">");
+           })
+      .def(py::pickle(
+          [](const py::object& self) {
+            const Shape& shape = self.cast<const Shape&>();
+            return py::make_tuple(py::make_tuple(view(shape.mesh().vertices, self),
+                                                 view(shape.mesh().triangles, self)),
+                                  shape.radius(),
+                                  shape.is_solid() ? Filling::solid : Filling::surface,
+                                  shape.enclosure_error());
+          },
+          [](const py::tuple& state) {
+            return make_shape(state[0], state[1].cast<double>(), state[2].cast<Filling>(),
+                              state[3].cast<double>());
+          }));
+}
+
+void bind_makers(py::module_& m) {
+  m.def("make_sphere", &make_sphere, py::arg("radius"),
+        "A ball about the origin. radius: [m] > 0.");
+  m.def("make_capsule", &make_capsule, py::arg("radius"), py::arg("length"),
+        R"(All points within the radius of a segment along z, centred at the origin.
+
+radius: [m] > 0. length: [m] of the segment, without the caps; >= 0.)");
+  m.def(
+      "make_box", [](const py::object& size) { return make_box(vector_from(size, "size")); },
+      py::arg("size"), "A box along the axes, centred at the origin. size: [m] (3,), > 0.");
+  m.def("make_cylinder", &make_cylinder, py::arg("radius"), py::arg("length"),
+        py::arg("enclosure_error") = py::none(),
+        R"(A cylinder about z, centred at the origin, enclosed by a prism; its ends are exact.
+
+radius: [m] > 0. length: [m] along z; > 0. enclosure_error: [m] the corners stand out by at most
+this; 1e-4 of the radius where it is None.)");
+  m.def("make_cone", &make_cone, py::arg("radius"), py::arg("length"),
+        py::arg("enclosure_error") = py::none(),
+        R"(A cone about z, its base at -length / 2, its tip at length / 2, enclosed by a pyramid.
+
+radius: [m] of the base; > 0. length: [m] > 0. enclosure_error: as of make_cylinder.)");
+  m.def(
+      "make_convex_hull",
+      [](const py::object& points, double radius) {
+        const std::vector<Eigen::Vector3d> owned = points_from(points, "points");
+        return without_gil([&] { return make_convex_hull(owned, radius); });
+      },
+      py::arg("points"), py::arg("radius") = 0.0,
+      "The convex hull as a shape; solid where it encloses space. points: [m] n×3. radius: [m].");
+  m.def(
+      "convex_hull",
+      [](const py::object& points) {
+        const std::vector<Eigen::Vector3d> owned = points_from(points, "points");
+        return to_tuple(without_gil([&] { return convex_hull(owned); }));
+      },
+      py::arg("points"),
+      "The convex hull as a closed Mesh over some of the points in their order; exact. "
+      "points: [m] n×3, at least one.");
+  m.def(
+      "make_point_cloud",
+      [](const py::object& points, double radius) {
+        std::vector<Eigen::Vector3d> owned = points_from(points, "points");
+        return without_gil([&] { return make_point_cloud(std::move(owned), radius); });
+      },
+      py::arg("points"), py::arg("radius") = 0.0,
+      "A union of balls. points: [m] n×3, at least one. radius: [m] >= 0.");
+  m.def(
+      "make_height_map",
+      [](const py::object& map, double radius) {
+        const HeightMap owned = height_map_from(map);
+        return without_gil([&] { return make_height_map(owned, radius); });
+      },
+      py::arg("map"), py::arg("radius") = 0.0,
+      R"(The surface through the samples of a height map, two triangles a cell.
+
+map: a HeightMap, or any pair (cell, heights): [m] (2,) and [m] rows×columns. radius: [m] >= 0.)");
+}
+
+void bind_readers(py::module_& m) {
+  m.def(
+      "read_mesh", [](const path& file) { return to_tuple(read_file(file, read_mesh)); },
+      py::arg("path"),
+      R"(Reads OBJ, STL, PLY, OFF (in double precision), DAE, GLB or glTF; welds equal vertices.
+
+FileNotFoundError where there is no such file, ParseError where it cannot be used.)");
+  m.def(
+      "read_points", [](const path& file) { return owning(read_file(file, read_points)); },
+      py::arg("path"), "Reads the points of a PLY, PCD or XYZ file: [m] n×3. Errors as read_mesh.");
+  m.def(
+      "read_heights",
+      [](const path& file, const py::object& cell) {
+        const Eigen::Vector2d size = vector2_from(cell, "cell");
+        return to_tuple(
+            read_file(file, [&](const path& found) { return read_heights(found, size); }));
+      },
+      py::arg("path"), py::arg("cell"),
+      "Reads a height map as numpy.savetxt writes it. cell: [m] (2,). Errors as read_mesh.");
+  bind_parser(m, "parse_obj", &parse_obj);
+  bind_parser(m, "parse_stl", &parse_stl);
+  bind_parser(m, "parse_ply", &parse_ply);
+  bind_parser(m, "parse_off", &parse_off);
+  bind_parser(m, "parse_pcd", &parse_pcd);
+  bind_parser(m, "parse_xyz", &parse_xyz);
+  bind_parser(m, "parse_ply_points", &parse_ply_points);
+}
+
+void bind_inspection(py::module_& m) {
+  m.def(
+      "weld",
+      [](const py::object& mesh) {
+        Mesh welded = mesh_from(mesh);
+        without_gil([&] { return weld(welded); });
+        return to_tuple(std::move(welded));
+      },
+      py::arg("mesh"),
+      "The mesh with vertices of equal coordinates merged into the first of them; unused ones "
+      "stay.");
+  m.def(
+      "inspect",
+      [](const py::object& mesh) {
+        const Mesh inspected = mesh_from(mesh);
+        return without_gil([&] { return inspect(inspected); });
+      },
+      py::arg("mesh"), "Counts what is unusual about a mesh.");
+  m.def(
+      "why_not_solid",
+      [](const py::object& mesh) {
+        const Mesh inspected = mesh_from(mesh);
+        return without_gil([&] { return why_not_solid(inspected); });
+      },
+      py::arg("mesh"), "Why a mesh encloses no space, as \"12 open edges\"; empty if it does.");
+}
+
+}  // namespace
+
+void bind_geometry(py::module_& m) {
+  bind_shape(m);
+  bind_makers(m);
+  bind_readers(m);
+  bind_defects(m);
+  bind_inspection(m);
+}
+
+}  // namespace firstcontact::python

@@ -1,0 +1,20 @@
+#include <firstcontact/scene/version.h>
+
+#include "bindings.h"
+
+namespace firstcontact::python {
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "The library's questions, in C++. Use the package firstcontact.";
+  m.attr("__version__") = version();
+  bind_errors(m);
+  bind_motion(m);
+  bind_geometry(m);
+  bind_narrowphase(m);
+  bind_query(m);
+  bind_scene(m);
+  bind_result(m);
+  bind_check_jobs(m);
+}
+
+}  // namespace firstcontact::python

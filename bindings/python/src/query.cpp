@@ -1,0 +1,750 @@
+#include "query.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include <firstcontact/query/closest_approach.h>
+#include <firstcontact/query/distance.h>
+#include <firstcontact/scene/write_result.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interrupts.h"
+#include "words.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+
+using PairWorkspace = HeldWorkspace<Workspace>;
+using SetWorkspace = HeldWorkspace<ManyBodiesWorkspace>;
+
+namespace {
+
+const std::uint64_t kAllSteps = WorkBudget{}.steps;
+const std::size_t kMemory = WorkBudget{}.memory;
+
+// Contacts and results
+
+py::tuple state_of(const Feature& feature) {
+  return py::make_tuple(feature.type, feature.index, feature.triangle);
+}
+
+Feature feature_from(const py::tuple& state) {
+  return {.type = state[0].cast<FeatureType>(),
+          .index = state[1].cast<std::uint32_t>(),
+          .triangle = state[2].cast<std::uint32_t>()};
+}
+
+py::tuple plain(const Eigen::Vector3d& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
+
+py::tuple state_of(const Contact& contact) {
+  return py::make_tuple(state_of(contact.feature_A), state_of(contact.feature_B),
+                        plain(contact.p_WA), plain(contact.p_WB),
+                        contact.n_AB_W ? py::object(plain(*contact.n_AB_W)) : py::none(),
+                        contact.distance, contact.normal_velocity);
+}
+
+Contact contact_from(const py::tuple& state) {
+  Contact contact;
+  contact.feature_A = feature_from(state[0]);
+  contact.feature_B = feature_from(state[1]);
+  contact.p_WA = vector_from(state[2], "p_WA");
+  contact.p_WB = vector_from(state[3], "p_WB");
+  if (!state[4].is_none()) {
+    contact.n_AB_W = vector_from(state[4], "n_AB_W");
+  }
+  contact.distance = state[5].cast<double>();
+  contact.normal_velocity = state[6].cast<double>();
+  return contact;
+}
+
+py::tuple state_of(const WorkCount& work) {
+  return py::make_tuple(work.node_groups, work.triangle_pairs, work.steps);
+}
+
+WorkCount work_from(const py::tuple& state) {
+  return {.node_groups = state[0].cast<std::uint64_t>(),
+          .triangle_pairs = state[1].cast<std::uint64_t>(),
+          .steps = state[2].cast<std::uint64_t>()};
+}
+
+py::tuple state_of(const ClosestApproachResult& result) {
+  return py::make_tuple(result.distance, result.lower_bound, result.t, result.reason,
+                        result.tolerance_used, result.enclosure_error,
+                        result.closest ? py::object(state_of(*result.closest)) : py::none(),
+                        state_of(result.work));
+}
+
+std::optional<Contact> optional_contact_from(const py::object& state) {
+  return state.is_none() ? std::nullopt : std::optional(contact_from(state));
+}
+
+ClosestApproachResult closest_approach_result_from(const py::tuple& state) {
+  return {.distance = state[0].cast<double>(),
+          .lower_bound = state[1].cast<double>(),
+          .t = state[2].cast<double>(),
+          .reason = state[3].cast<UndecidedReason>(),
+          .tolerance_used = state[4].cast<double>(),
+          .enclosure_error = state[5].cast<double>(),
+          .closest = optional_contact_from(state[6]),
+          .work = work_from(state[7])};
+}
+
+py::tuple state_of(const DistanceResult& result) {
+  return py::make_tuple(result.distance, result.lower_bound, result.enclosure_error,
+                        result.closest ? py::object(state_of(*result.closest)) : py::none(),
+                        state_of(result.work));
+}
+
+DistanceResult distance_result_from(const py::tuple& state) {
+  return {.distance = state[0].cast<double>(),
+          .lower_bound = state[1].cast<double>(),
+          .enclosure_error = state[2].cast<double>(),
+          .closest = optional_contact_from(state[3]),
+          .work = work_from(state[4])};
+}
+
+py::tuple state_of(const ManyBodiesResult& result) {
+  py::list first;
+  for (const PairAnswer& answer : result.first) {
+    first.append(python::state_of(answer));
+  }
+  return py::make_tuple(result.verdict, result.reason, result.t, result.t_upper, result.clearance,
+                        result.tolerance_used, result.enclosure_error, py::tuple(first),
+                        state_of(result.work));
+}
+
+ManyBodiesResult many_bodies_result_from(const py::tuple& state) {
+  ManyBodiesResult result;
+  result.verdict = state[0].cast<Verdict>();
+  result.reason = state[1].cast<UndecidedReason>();
+  result.t = state[2].cast<double>();
+  result.t_upper = state[3].cast<std::optional<double>>();
+  result.clearance = state[4].cast<double>();
+  result.tolerance_used = state[5].cast<double>();
+  result.enclosure_error = state[6].cast<double>();
+  for (const py::handle answer : state[7]) {
+    result.first.push_back(pair_answer_from(answer.cast<py::tuple>()));
+  }
+  result.work = work_from(state[8]);
+  return result;
+}
+
+/// Defines pickling by a state.
+template <typename T, typename... Options>
+void add_pickling(py::class_<T, Options...>& type, py::tuple (*state)(const T&),
+                  T (*from)(const py::tuple&)) {
+  type.def(py::pickle([state](const T& value) { return state(value); },
+                      [from](const py::tuple& kept) { return from(kept); }));
+}
+
+std::string number_text(double number) { return py::repr(py::float_(number)); }
+
+std::string describe(const Feature& feature) {
+  return std::string(word(feature.type)) + " " + std::to_string(feature.index);
+}
+
+void bind_contact(py::module_& m) {
+  py::class_<Feature> feature(m, "Feature",
+                              "A vertex, a unique edge or a face of a shape, by its index.");
+  feature.def_readonly("type", &Feature::type)
+      .def_readonly("index", &Feature::index, "Of the vertex, the edge or the triangle.")
+      .def_readonly("triangle", &Feature::triangle, "A triangle that the feature belongs to.")
+      .def("__eq__",
+           [](const Feature& a, const py::object& b) {
+             return py::isinstance<Feature>(b) && a == b.cast<const Feature&>();
+           })
+      .def("__hash__", [](const Feature& value) { return py::hash(state_of(value)); })
+      .def("__repr__", [](const Feature& value) { return "<Feature: " + describe(value) + ">"; });
+  add_pickling<Feature>(feature, &state_of, &feature_from);
+
+  py::class_<Contact> contact(m, "Contact",
+                              "Two features within the contact band at the reported time.");
+  contact
+      .def_property_readonly(
+          "features", [](const Contact& c) { return py::make_tuple(c.feature_A, c.feature_B); },
+          "Of A and of B.")
+      .def_property_readonly(
+          "triangles",
+          [](const Contact& c) {
+            return py::make_tuple(c.feature_A.triangle, c.feature_B.triangle);
+          },
+          "A triangle of each feature.")
+      .def_property_readonly(
+          "points",
+          [](const Contact& c) {
+            const std::array<double, 6> rows{c.p_WA.x(), c.p_WA.y(), c.p_WA.z(),
+                                             c.p_WB.x(), c.p_WB.y(), c.p_WB.z()};
+            return py::array_t<double>({2, 3}, rows.data());
+          },
+          "[m] 2×3, world frame: the closest points on A's and B's thickened surfaces.")
+      .def_property_readonly(
+          "normal",
+          [](const Contact& c) { return c.n_AB_W ? py::object(copied(*c.n_AB_W)) : py::none(); },
+          "[-] (3,), unit, world frame, from A to B; None where no feature normal decides.")
+      .def_readonly("distance", &Contact::distance, "[m] Negative: depth of thickened features.")
+      .def_readonly("normal_velocity", &Contact::normal_velocity,
+                    "[m per step] Of B's point relative to A's along the normal; negative when "
+                    "closing. In the result of a scene [m/s].")
+      .def("__repr__", [](const Contact& c) {
+        return "<Contact: " + describe(c.feature_A) + " and " + describe(c.feature_B) +
+               ", distance " + number_text(c.distance) + " m>";
+      });
+  add_pickling<Contact>(contact, &state_of, &contact_from);
+
+  py::class_<WorkCount> work(m, "WorkCount", "Work done: counts, outside of what is proven.");
+  work.def_readonly("node_groups", &WorkCount::node_groups,
+                    "Evaluations of up to 16 pairs of boxes.")
+      .def_readonly("triangle_pairs", &WorkCount::triangle_pairs, "Triangle pairs visited.")
+      .def_readonly("steps", &WorkCount::steps, "Certified steps of triangle pairs.")
+      .def("__repr__", [](const WorkCount& count) {
+        return "<WorkCount: " + std::to_string(count.node_groups) + " node groups, " +
+               std::to_string(count.triangle_pairs) + " triangle pairs, " +
+               std::to_string(count.steps) + " steps>";
+      });
+  add_pickling<WorkCount>(work, &state_of, &work_from);
+}
+
+void bind_pair_results(py::module_& m) {
+  using Result = FirstContactResult;
+  py::class_<Result> first(m, "FirstContactResult", "First contact of two moving shapes.");
+  first.def_readonly("verdict", &Result::verdict)
+      .def_readonly("reason", &Result::reason, "Why it is undecided.")
+      .def_readonly(
+          "t", &Result::t,
+          "[-] Before it the shapes are farther apart than the margin: proven. 1 when free.")
+      .def_readonly("t_upper", &Result::t_upper,
+                    "[-] For `contact` t; for `undecided` a later time that is proven to be in "
+                    "contact, if one is known.")
+      .def_readonly("clearance", &Result::clearance,
+                    "[m] Proven lower bound of the distance before t.")
+      .def_readonly("tolerance_used", &Result::tolerance_used,
+                    "[m] Holds in place of the asked one; larger only if doubles need it.")
+      .def_readonly("enclosure_error", &Result::enclosure_error,
+                    "[m] Of both shapes: adds to the tolerance of a contact.")
+      .def_property_readonly(
+          "contacts", [](const Result& result) { return contact_tuple(result.contacts); },
+          "At t, sorted by features.")
+      .def_readonly("work", &Result::work)
+      .def("__repr__", [](const Result& result) {
+        return "<FirstContactResult: " + verdict_text(result.verdict, result.reason, result.t) +
+               ">";
+      });
+  add_pickling<Result>(first, &python::state_of, &first_contact_result_from);
+
+  using Closest = ClosestApproachResult;
+  py::class_<Closest> closest(m, "ClosestApproachResult",
+                              "Closest approach of two moving shapes over the step.");
+  closest
+      .def_readonly("distance", &Closest::distance,
+                    "[m] Attained at t; an upper bound of the least distance over the step.")
+      .def_readonly("lower_bound", &Closest::lower_bound, "[m] Proven for all t in [0, 1].")
+      .def_readonly("t", &Closest::t, "[-] A time where `distance` is attained.")
+      .def_readonly("reason", &Closest::reason, "Not `none`: the budget ended the search.")
+      .def_readonly("tolerance_used", &Closest::tolerance_used, "[m]")
+      .def_readonly("enclosure_error", &Closest::enclosure_error,
+                    "[m] Of both shapes: the bodies may be farther apart by this.")
+      .def_readonly("closest", &Closest::closest, "The closest feature pair at t, or None.")
+      .def_readonly("work", &Closest::work)
+      .def("__repr__", [](const Closest& result) {
+        return "<ClosestApproachResult: " + number_text(result.distance) +
+               " m at t = " + number_text(result.t) + ">";
+      });
+  add_pickling<Closest>(closest, &state_of, &closest_approach_result_from);
+
+  using Distance = DistanceResult;
+  py::class_<Distance> distance(m, "DistanceResult", "Distance of two shapes at one instant.");
+  distance
+      .def_readonly("distance", &Distance::distance,
+                    "[m] Of the closest points found, 0 when the shapes meet.")
+      .def_readonly("lower_bound", &Distance::lower_bound,
+                    "[m] Proven: the shapes are at least this far apart.")
+      .def_readonly("enclosure_error", &Distance::enclosure_error,
+                    "[m] Of both: the bodies may be farther apart by this.")
+      .def_readonly("closest", &Distance::closest, "The closest feature pair, or None.")
+      .def_readonly("work", &Distance::work)
+      .def("__repr__", [](const Distance& result) {
+        return "<DistanceResult: " + number_text(result.distance) + " m>";
+      });
+  add_pickling<Distance>(distance, &state_of, &distance_result_from);
+}
+
+void bind_set_results(py::module_& m) {
+  py::class_<PairAnswer> answer(m, "PairAnswer", "What one pair of bodies answered.");
+  answer
+      .def_property_readonly(
+          "bodies", [](const PairAnswer& a) { return py::make_tuple(a.bodies[0], a.bodies[1]); },
+          "Their numbers, the smaller first.")
+      .def_readonly("margin", &PairAnswer::margin, "[m]")
+      .def_readonly("first_contact", &PairAnswer::first_contact)
+      .def_readonly("closest_approach", &PairAnswer::closest_approach,
+                    "None where it was not asked.")
+      .def("__repr__", [](const PairAnswer& a) {
+        return "<PairAnswer of " + std::to_string(a.bodies[0]) + " and " +
+               std::to_string(a.bodies[1]) + ": " +
+               verdict_text(a.first_contact.verdict, a.first_contact.reason, a.first_contact.t) +
+               ">";
+      });
+  add_pickling<PairAnswer>(answer, &python::state_of, &pair_answer_from);
+
+  using Result = ManyBodiesResult;
+  py::class_<Result> many(m, "ManyBodiesResult", "The first contact of a set of bodies.");
+  many.def_readonly("verdict", &Result::verdict)
+      .def_readonly("reason", &Result::reason, "Why it is undecided.")
+      .def_readonly("t", &Result::t, "[-] No pair is in contact before it: proven. 1 when free.")
+      .def_readonly("t_upper", &Result::t_upper,
+                    "[-] A time that is proven to be in contact, if one is known.")
+      .def_readonly("clearance", &Result::clearance,
+                    "[m] Proven lower bound of every pair's distance up to t; infinite where there "
+                    "are no pairs.")
+      .def_readonly("tolerance_used", &Result::tolerance_used,
+                    "[m] The greatest of the pairs that were searched.")
+      .def_readonly("enclosure_error", &Result::enclosure_error, "[m] The greatest of these.")
+      .def_property_readonly(
+          "first", [](const Result& result) { return py::tuple(py::cast(result.first)); },
+          "The pairs that decide t, by their order; none when free.")
+      .def_readonly("work", &Result::work)
+      .def("__repr__", [](const Result& result) {
+        return "<ManyBodiesResult: " + verdict_text(result.verdict, result.reason, result.t) + ">";
+      });
+  add_pickling<Result>(many, &state_of, &many_bodies_result_from);
+}
+
+// Questions
+
+FirstContactResult ask_first_contact(const py::object& A, const py::object& B,
+                                     PairWorkspace* workspace, FirstContactOptions options,
+                                     const std::stop_source* stop) {
+  const MovingShape a = moving_shape_from(A, "A");
+  const MovingShape b = moving_shape_from(B, "B");
+  Lease<Workspace> lease(workspace);
+  return run_query(stop, [&](const QueryStop& query) {
+    options.budget.stop = query.token();
+    return first_contact(a, b, lease.get(), options);
+  });
+}
+
+void bind_pair_questions(py::module_& m) {
+  m.def(
+      "first_contact",
+      [](const FirstShape& A, const py::object& B, OrNone<PairWorkspace> workspace, double margin,
+         double tolerance, StartContacts start_contacts, ContactState contacts, double contact_band,
+         std::uint64_t steps, std::size_t memory, std::optional<double> deadline,
+         OrNone<std::stop_source> stop) {
+        return ask_first_contact(A.value, B, workspace,
+                                 {.margin = margin,
+                                  .tolerance = tolerance,
+                                  .start_contacts = start_contacts,
+                                  .contacts = contacts,
+                                  .contact_band = contact_band,
+                                  .budget = {.steps = steps,
+                                             .memory = memory,
+                                             .deadline = deadline_in(deadline),
+                                             .stop = {}}},
+                                 stop);
+      },
+      py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
+      py::arg("margin") = 0.0, py::arg("tolerance") = 1e-6,
+      py::arg("start_contacts") = StartContacts::report, py::arg("contacts") = ContactState::all,
+      py::arg("contact_band") = 0.0, py::arg("steps") = kAllSteps, py::arg("memory") = kMemory,
+      py::arg("deadline") = py::none(), py::arg("stop") = py::none(),
+      R"(Finds the first contact of A and B during the step.
+
+A, B: pairs (Shape, Motion). margin: [m] closer than this counts as contact. tolerance: [m] a
+reported contact is no farther than margin + tolerance. contact_band: [m] reports pairs within
+margin + tolerance + band. steps, memory [byte], deadline [s], stop: a budget; spending it gives
+`undecided`, never a guess.
+
+Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
+Symmetric in A and B, and the same on every run without a deadline or a stop.
+Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.)");
+  m.def(
+      "closest_approach",
+      [](const py::object& A, const py::object& B, OrNone<PairWorkspace> workspace,
+         double tolerance, std::uint64_t steps, std::size_t memory, std::optional<double> deadline,
+         OrNone<std::stop_source> stop) {
+        const MovingShape a = moving_shape_from(A, "A");
+        const MovingShape b = moving_shape_from(B, "B");
+        ClosestApproachOptions options{
+            .tolerance = tolerance,
+            .budget = {
+                .steps = steps, .memory = memory, .deadline = deadline_in(deadline), .stop = {}}};
+        Lease<Workspace> lease(workspace);
+        return run_query(stop, [&](const QueryStop& query) {
+          options.budget.stop = query.token();
+          return closest_approach(a, b, lease.get(), options);
+        });
+      },
+      py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
+      py::arg("tolerance") = 1e-6, py::arg("steps") = kAllSteps, py::arg("memory") = kMemory,
+      py::arg("deadline") = py::none(), py::arg("stop") = py::none(),
+      R"(Least distance of A and B over the step, to the tolerance [m], with a time where it is attained.
+
+A, B: pairs (Shape, Motion). The budget as of first_contact.)");
+  m.def(
+      "distance",
+      [](const py::object& A, const py::object& B, double t, OrNone<PairWorkspace> workspace) {
+        const MovingShape a = moving_shape_from(A, "A");
+        const MovingShape b = moving_shape_from(B, "B");
+        Lease<Workspace> lease(workspace);
+        return run_query(nullptr, [&](const QueryStop&) { return distance(a, b, t, lease.get()); });
+      },
+      py::arg("A"), py::arg("B"), py::arg("t"), py::arg("workspace") = py::none(),
+      "Distance of A(t) and B(t), pairs (Shape, Motion). t: [-] in [0, 1].");
+}
+
+/// A question about a set of bodies, as it comes from Python.
+struct SetQuery {
+  HeldBodySet& set;
+  SetWorkspace* workspace;
+  ManyBodiesOptions options;
+  const py::object& progress;
+  const std::stop_source* stop;
+};
+
+/// Calls `ask` with the workspace and the options, without the GIL.
+template <typename Ask>
+auto ask_set(SetQuery query, const Ask& ask) {
+  const Reading reading(query.set);
+  Lease<ManyBodiesWorkspace> lease(query.workspace);
+  return run_query(query.stop, [&](QueryStop& stop) {
+    query.options.pair.budget.stop = stop.token();
+    query.options.progress = progress_of(query.progress, stop);
+    return ask(query.set.bodies, lease.get(), query.options);
+  });
+}
+
+/// Defines a question about a set of bodies; `extra` are its documentation and arguments of its
+/// own.
+template <typename Question, typename... Extra>
+void bind_set_question(py::module_& m, const char* name, Question question, const Extra&... extra) {
+  m.def(name, question, py::arg("bodies"), py::arg("workspace") = py::none(), py::kw_only(),
+        py::arg("tolerance") = 1e-6, py::arg("start_contacts") = StartContacts::report,
+        py::arg("contacts") = ContactState::all, py::arg("contact_band") = 0.0,
+        py::arg("steps") = kAllSteps, py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
+        py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+        extra...);
+}
+
+ManyBodiesOptions set_options(double tolerance, StartContacts start_contacts, ContactState contacts,
+                              double contact_band, std::uint64_t steps, std::size_t memory,
+                              std::optional<double> deadline) {
+  return {
+      .pair = {
+          .tolerance = tolerance,
+          .start_contacts = start_contacts,
+          .contacts = contacts,
+          .contact_band = contact_band,
+          .budget = {
+              .steps = steps, .memory = memory, .deadline = deadline_in(deadline), .stop = {}}}};
+}
+
+void bind_set_questions(py::module_& m) {
+  bind_set_question(
+      m, "first_contact",
+      [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
+         StartContacts start_contacts, ContactState contacts, double contact_band,
+         std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
+         const py::object& progress, OrNone<std::stop_source> stop) {
+        ManyBodiesOptions options =
+            set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
+        options.threads = threads;
+        return ask_set(
+            {bodies, workspace, options, progress, stop},
+            [](const BodySet& set, ManyBodiesWorkspace& scratch, const ManyBodiesOptions& asked) {
+              return first_contact(set, scratch, asked);
+            });
+      },
+      R"(Finds the first contact of all pairs of bodies that the rules do not ignore.
+
+threads: at most; 0 for one on each core; the answer does not depend on it. progress: called now
+and then with the time that is proven free so far. The rest as for two bodies; margins are in the
+rules, the budget holds for each pair.)");
+  bind_set_question(
+      m, "answer_each_pair",
+      [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
+         StartContacts start_contacts, ContactState contacts, double contact_band,
+         std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
+         const py::object& progress, OrNone<std::stop_source> stop, bool closest) {
+        ManyBodiesOptions options =
+            set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
+        options.threads = threads;
+        options.closest = closest;
+        return ask_set(
+            {bodies, workspace, options, progress, stop},
+            [](const BodySet& set, ManyBodiesWorkspace& scratch, const ManyBodiesOptions& asked) {
+              return answer_each_pair(set, scratch, asked);
+            });
+      },
+      py::arg("closest") = false,
+      R"(The answer of every pair that the rules do not ignore, over the whole step, by their order.
+
+closest: also the closest approach of each. progress: called with the part that is done. The rest as
+of first_contact.)");
+}
+
+// Sets of bodies
+
+/// Rules of their own, or those of a set.
+struct HeldRules {
+  PairRules own;
+  py::object set;  // None for rules of their own.
+
+  PairRules& get() { return set.is_none() ? own : set.cast<HeldBodySet&>().bodies.rules(); }
+  PairRules& changed() { return set.is_none() ? own : set.cast<HeldBodySet&>().changed().rules(); }
+};
+
+BodyPair ordered(const BodyPair& pair) {
+  return {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
+}
+
+std::size_t require_body(const HeldBodySet& set, std::size_t body) {
+  if (body >= set.bodies.size()) {
+    throw py::index_error("body " + std::to_string(body) + " of " +
+                          std::to_string(set.bodies.size()));
+  }
+  return body;
+}
+
+void bind_rules(py::module_& m) {
+  py::class_<HeldRules>(m, "PairRules",
+                        R"(Rules for pairs of bodies, by their numbers, and for groups of them.
+
+A pair that any rule ignores is not tested. Else its own margin holds; or the greatest that groups
+give it; or the general one.)")
+      .def(py::init([](double margin) {
+             return HeldRules{PairRules(margin), py::none()};
+           }),
+           py::arg("margin") = 0.0, "margin: [m] of every pair without another one; >= 0.")
+      .def(
+          "ignore",
+          [](HeldRules& rules, const BodyPair& pair) { rules.changed().ignore(ordered(pair)); },
+          py::arg("pair"), "Does not test this pair.")
+      .def(
+          "set_margin",
+          [](HeldRules& rules, const BodyPair& pair, double margin) {
+            rules.changed().set_margin(ordered(pair), margin);
+          },
+          py::arg("pair"), py::arg("margin"), "margin: [m] >= 0.")
+      .def(
+          "add_group",
+          [](HeldRules& rules, std::vector<std::size_t> bodies) {
+            return rules.changed().add_group(std::move(bodies));
+          },
+          py::arg("bodies"), "Returns the number of the group.")
+      .def(
+          "ignore_groups",
+          [](HeldRules& rules, std::size_t group, std::size_t other) {
+            rules.changed().ignore_groups(group, other);
+          },
+          py::arg("group"), py::arg("other"),
+          "Tests no body of one with a body of the other; with itself: no pair inside it.")
+      .def(
+          "set_group_margin",
+          [](HeldRules& rules, std::size_t group, std::size_t other, double margin) {
+            rules.changed().set_group_margin(group, other, margin);
+          },
+          py::arg("group"), py::arg("other"), py::arg("margin"), "margin: [m] >= 0.")
+      .def(
+          "margin",
+          [](HeldRules& rules, const BodyPair& pair) { return rules.get().margin(ordered(pair)); },
+          py::arg("pair"), "[m] None where the pair is not tested.");
+}
+
+void bind_body_set(py::module_& m) {
+  py::class_<HeldBodySet> type(m, "BodySet",
+                               R"(Moving bodies, numbered from 0, and the rules for their pairs.
+
+Replacing one body's shape or motion costs what that body needs; nothing else is rebuilt. Several
+threads may query one set at once; it cannot change meanwhile.)");
+  type.def(py::init([](HeldRules* rules) {
+             return HeldBodySet{BodySet(rules != nullptr ? rules->get() : PairRules()), {}, {}, 0};
+           }),
+           py::arg("rules") = py::none(), "rules: a PairRules, which is copied.")
+      .def_property_readonly(
+          "rules",
+          [](const py::object& self) {
+            return HeldRules{PairRules(), self};
+          },
+          "The rules of this set, to be changed.")
+      .def(
+          "add",
+          [](HeldBodySet& set, const py::object& shape, const py::object& X_WS) {
+            const std::size_t body = set.changed().add(shape.cast<const Shape&>(),
+                                                       X_WS.cast<const RecordedMotion&>().motion);
+            set.shapes.push_back(shape);
+            set.motions.push_back(X_WS);
+            return body;
+          },
+          py::arg("shape"), py::arg("X_WS"), "Returns the body's number.")
+      .def(
+          "set_shape",
+          [](HeldBodySet& set, std::size_t body, const py::object& shape) {
+            set.changed().set_shape(require_body(set, body), shape.cast<const Shape&>());
+            set.shapes[body] = shape;
+          },
+          py::arg("body"), py::arg("shape"))
+      .def(
+          "set_motion",
+          [](HeldBodySet& set, std::size_t body, const py::object& X_WS) {
+            set.changed().set_motion(require_body(set, body),
+                                     X_WS.cast<const RecordedMotion&>().motion);
+            set.motions[body] = X_WS;
+          },
+          py::arg("body"), py::arg("X_WS"))
+      .def(
+          "shape",
+          [](const HeldBodySet& set, std::size_t body) {
+            return set.shapes[require_body(set, body)];
+          },
+          py::arg("body"))
+      .def(
+          "motion",
+          [](const HeldBodySet& set, std::size_t body) {
+            return set.motions[require_body(set, body)];
+          },
+          py::arg("body"))
+      .def("__len__", [](const HeldBodySet& set) { return set.bodies.size(); })
+      .def("__repr__", [](const HeldBodySet& set) {
+        return "<BodySet of " + std::to_string(set.bodies.size()) + " bodies>";
+      });
+}
+
+void bind_helpers(py::module_& m) {
+  py::class_<PairWorkspace>(
+      m, "Workspace",
+      R"(Scratch memory that queries of two shapes reuse; it carries no state from one to the next.
+
+One for each thread. Without one, a query takes memory that an earlier one left behind.)")
+      .def(py::init<>());
+  py::class_<SetWorkspace>(m, "ManyBodiesWorkspace",
+                           "Scratch memory of the queries of many bodies, as Workspace.")
+      .def(py::init<>());
+  py::class_<std::stop_source>(m, "StopSource",
+                               R"(Ends the queries that it was given to, with what is proven so far.
+
+A copy that was sent to another process never stops anything.)")
+      .def(py::init<>())
+      .def("request_stop", &std::stop_source::request_stop,
+           "From any thread. Returns whether it is the first request.")
+      .def_property_readonly("stop_requested", &std::stop_source::stop_requested)
+      .def(py::pickle([](const std::stop_source&) { return py::make_tuple(); },
+                      [](const py::tuple&) { return std::stop_source(); }));
+}
+
+}  // namespace
+
+std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<double> seconds) {
+  using Clock = std::chrono::steady_clock;
+  if (!seconds) {
+    return std::nullopt;
+  }
+  if (!(*seconds > 0.0)) {
+    throw std::invalid_argument("deadline must be > 0, got " + std::to_string(*seconds));
+  }
+  constexpr double kYear = 3e7;  // [s]  Longer ones are none, and would overflow the clock.
+  return *seconds > kYear
+             ? std::nullopt
+             : std::optional(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                std::chrono::duration<double>(*seconds)));
+}
+
+MovingShape moving_shape_from(py::handle value, const char* name) {
+  if (PyTuple_Check(value.ptr()) && PyTuple_GET_SIZE(value.ptr()) == 2) {
+    py::detail::make_caster<Shape> shape;
+    py::detail::make_caster<RecordedMotion> motion;
+    if (shape.load(PyTuple_GET_ITEM(value.ptr(), 0), false) &&
+        motion.load(PyTuple_GET_ITEM(value.ptr(), 1), false)) {
+      return {py::detail::cast_op<const Shape&>(shape),
+              py::detail::cast_op<const RecordedMotion&>(motion).motion};
+    }
+  }
+  throw py::type_error(std::string(name) + ": expected a pair (Shape, Motion), got " +
+                       std::string(py::repr(value)));
+}
+
+py::tuple contact_tuple(const std::vector<Contact>& contacts) {
+  py::tuple tuple(contacts.size());
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    tuple[k] = contacts[k];
+  }
+  return tuple;
+}
+
+std::string verdict_text(Verdict verdict, UndecidedReason reason, double t) {
+  std::string text = word(verdict);
+  if (verdict == Verdict::undecided) {
+    text += std::string(" (") + word(reason) + "), free until";
+  } else if (verdict == Verdict::contact) {
+    text += " at";
+  } else {
+    return text;
+  }
+  return text + " t = " + number_text(t);
+}
+
+py::tuple state_of(const FirstContactResult& result) {
+  py::tuple contacts(result.contacts.size());
+  for (std::size_t k = 0; k < result.contacts.size(); ++k) {
+    contacts[k] = state_of(result.contacts[k]);
+  }
+  return py::make_tuple(result.verdict, result.reason, result.t, result.t_upper, result.clearance,
+                        result.tolerance_used, result.enclosure_error, contacts,
+                        state_of(result.work));
+}
+
+FirstContactResult first_contact_result_from(const py::tuple& state) {
+  FirstContactResult result;
+  result.verdict = state[0].cast<Verdict>();
+  result.reason = state[1].cast<UndecidedReason>();
+  result.t = state[2].cast<double>();
+  result.t_upper = state[3].cast<std::optional<double>>();
+  result.clearance = state[4].cast<double>();
+  result.tolerance_used = state[5].cast<double>();
+  result.enclosure_error = state[6].cast<double>();
+  for (const py::handle contact : state[7]) {
+    result.contacts.push_back(contact_from(contact.cast<py::tuple>()));
+  }
+  result.work = work_from(state[8]);
+  return result;
+}
+
+py::tuple state_of(const PairAnswer& answer) {
+  return py::make_tuple(
+      answer.bodies[0], answer.bodies[1], answer.margin, state_of(answer.first_contact),
+      answer.closest_approach ? py::object(state_of(*answer.closest_approach)) : py::none());
+}
+
+PairAnswer pair_answer_from(const py::tuple& state) {
+  PairAnswer answer{.bodies = {state[0].cast<std::size_t>(), state[1].cast<std::size_t>()},
+                    .margin = state[2].cast<double>(),
+                    .first_contact = first_contact_result_from(state[3]),
+                    .closest_approach = {}};
+  if (!state[4].is_none()) {
+    answer.closest_approach = closest_approach_result_from(state[4]);
+  }
+  return answer;
+}
+
+void bind_query(py::module_& m) {
+  watch_signals();
+  bind_contact(m);
+  bind_pair_results(m);
+  bind_set_results(m);
+  bind_helpers(m);
+  bind_rules(m);
+  bind_body_set(m);
+  bind_pair_questions(m);  // First, as they take less time.
+  bind_set_questions(m);
+}
+
+}  // namespace firstcontact::python

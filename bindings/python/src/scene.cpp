@@ -1,0 +1,174 @@
+#include "scene.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/write_scene.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "errors.h"
+#include "interrupts.h"
+#include "query.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+using std::filesystem::path;
+
+HeldScene::HeldScene(Scene scene, std::shared_ptr<ShapeCache> shapes)
+    : scene_(std::move(scene)), shapes_(std::move(shapes)) {}
+
+const LoadedScene& HeldScene::loaded() const {
+  const std::lock_guard lock(mutex_);
+  if (!loaded_) {
+    loaded_ = load_scene(scene_, *shapes_);
+  }
+  return *loaded_;
+}
+
+std::shared_ptr<HeldScene> HeldScene::with(const OtherOptions& options) const {
+  if (options.deadline && !(*options.deadline > 0.0)) {
+    throw std::invalid_argument("deadline must be > 0, got " + std::to_string(*options.deadline));
+  }
+  Scene scene = scene_;
+  scene.options.margin = options.margin.value_or(scene.options.margin);
+  scene.options.tolerance = options.tolerance.value_or(scene.options.tolerance);
+  scene.options.deadline = options.deadline ? options.deadline : scene.options.deadline;
+  return std::make_shared<HeldScene>(std::move(scene), shapes_);
+}
+
+const LoadedScene& loaded_without_gil(const HeldScene& scene) {
+  const py::gil_scoped_release release;
+  return scene.loaded();
+}
+
+namespace {
+
+using SharedCache = std::shared_ptr<ShapeCache>;
+
+std::shared_ptr<HeldScene> hold(Scene scene, const SharedCache& shapes) {
+  auto held = std::make_shared<HeldScene>(std::move(scene),
+                                          shapes ? shapes : std::make_shared<ShapeCache>());
+  (void)held->loaded();
+  return held;
+}
+
+std::shared_ptr<HeldScene> read(const path& file, const SharedCache& shapes) {
+  require_file(file);
+  const py::gil_scoped_release release;
+  return hold(read_scene(file), shapes);
+}
+
+std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
+                                 const SharedCache& shapes) {
+  const py::gil_scoped_release release;
+  return hold(parse_scene(text, source), shapes);
+}
+
+py::tuple names_of(const HeldScene& scene) {
+  py::list names;
+  for (const Body& body : scene.scene().bodies) {
+    names.append(body.name);
+  }
+  return py::tuple(names);
+}
+
+std::string describe(const HeldScene& scene) {
+  return "<Scene " + std::string(py::repr(py::str(scene.scene().id))) + " of " +
+         std::to_string(scene.scene().bodies.size()) + " bodies, " +
+         std::string(py::repr(py::float_(scene.scene().duration))) + " s>";
+}
+
+void bind_scenes(py::module_& m) {
+  py::class_<ShapeCache, SharedCache>(
+      m, "ShapeCache",
+      R"(Shapes of scenes, kept from scene to scene; a file that changes is not read again.
+
+Give one to load_scene for scenes that share meshes. Any number of threads may use it.)")
+      .def(py::init<>());
+  py::class_<HeldScene, std::shared_ptr<HeldScene>>(
+      m, "Scene", R"(A scene, read and made ready for questions; never changes.
+
+Made by load_scene and parse_scene. A pickled scene holds the paths of its mesh files, relative to
+the working directory where they were so, and reads them again when they are needed.)")
+      .def_property_readonly("id", [](const HeldScene& s) { return s.scene().id; })
+      .def_property_readonly(
+          "duration", [](const HeldScene& s) { return s.scene().duration; },
+          "[s] Of the step; t = 1 there.")
+      .def_property_readonly("bodies", &names_of, "Their names, in order.")
+      .def_property_readonly(
+          "input_digest", [](const HeldScene& s) { return loaded_without_gil(s).input_digest; },
+          "SHA-256 over everything that was read.")
+      .def(
+          "to_json", [](const HeldScene& s) { return write_scene(s.scene()); },
+          "The resolved scene: poses as position and quaternion, every default written out.")
+      .def(
+          "to_dict",
+          [](const HeldScene& s) {
+            return py::module_::import("json").attr("loads")(write_scene(s.scene()));
+          },
+          "The same as a dict.")
+      .def("__repr__", &describe)
+      .def(py::pickle(
+          [](const HeldScene& s) {
+            return py::make_tuple(write_scene(s.scene()), s.scene().text_digest);
+          },
+          [](const py::tuple& state) {
+            Scene scene = parse_scene(state[0].cast<std::string>(), "pickled scene");
+            scene.text_digest = state[1].cast<std::string>();
+            return std::make_shared<HeldScene>(std::move(scene));
+          }));
+  m.def("read_scene", &read, py::arg("path"), py::arg("shapes") = py::none(),
+        "Reads a scene file and its meshes.");
+  m.def("parse_scene", &parse, py::arg("text"), py::arg("source") = "scene",
+        py::arg("shapes") = py::none(), R"(Reads a scene from text, one JSON object, and its meshes.
+
+source: the file that the text is from: named in errors, and its folder is where relative paths
+begin. shapes: a ShapeCache to share meshes with other scenes. ParseError as load_scene.)");
+}
+
+py::object sample(const HeldScene& scene, const py::object& times, OrNone<std::stop_source> stop) {
+  const std::vector<double> asked = numbers_from(times, "times");
+  for (const double t : asked) {
+    if (!(t >= 0.0 && t <= 1.0)) {
+      throw py::value_error("times must be in [0, 1], got " + std::string(py::repr(py::float_(t))));
+    }
+  }
+  const std::vector<GapSample> samples = run_query(stop, [&](const QueryStop& query) {
+    return sample_in_parallel(scene.loaded(), asked, query.token());
+  });
+  std::vector<double> t;
+  std::vector<double> distance;
+  std::vector<double> lower_bound;
+  for (const GapSample& found : samples) {
+    t.push_back(found.t);
+    distance.push_back(found.distance);
+    lower_bound.push_back(found.lower_bound);
+  }
+  return py::module_::import("firstcontact._tuples")
+      .attr("GapSamples")(owning(std::move(t)), owning(std::move(distance)),
+                          owning(std::move(lower_bound)));
+}
+
+}  // namespace
+
+void bind_scene(py::module_& m) {
+  bind_scenes(m);
+  m.def("sample_gap", &sample, py::arg("scene"), py::arg("times"), py::kw_only(),
+        py::arg("stop") = py::none(),
+        R"(The least distance of all pairs of a Scene at chosen times, sorted; by all cores.
+
+times: [-] (n,), in [0, 1]. Proves nothing about the times between them.)");
+}
+
+}  // namespace firstcontact::python

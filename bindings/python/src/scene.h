@@ -1,0 +1,64 @@
+/// @file
+/// Scenes of Python.
+
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/write_result.h>
+
+namespace firstcontact::python {
+
+/// What is asked in place of what a scene says.
+struct OtherOptions {
+  std::optional<double> margin;     ///< [m]
+  std::optional<double> tolerance;  ///< [m]
+  std::optional<double> deadline;   ///< [s]
+
+  [[nodiscard]] bool any() const { return margin || tolerance || deadline; }
+};
+
+/// A scene that loads its meshes when they are needed, so that a scene from another process is
+/// light.
+class HeldScene {
+ public:
+  explicit HeldScene(Scene scene,
+                     std::shared_ptr<ShapeCache> shapes = std::make_shared<ShapeCache>());
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+
+  /// Without the GIL, as other threads may be loading. Throws as load_scene.
+  [[nodiscard]] const LoadedScene& loaded() const;
+
+  /// The same with other options; shares the meshes of files.
+  ///
+  /// @throws std::invalid_argument on a deadline outside its range
+  [[nodiscard]] std::shared_ptr<HeldScene> with(const OtherOptions& options) const;
+
+ private:
+  Scene scene_;
+  std::shared_ptr<ShapeCache> shapes_;
+  mutable std::mutex mutex_;
+  mutable std::optional<LoadedScene> loaded_;
+};
+
+/// The answer of a scene and what its page needs.
+struct HeldResult {
+  std::shared_ptr<HeldScene> scene;
+  SceneResult answer;
+  bool all_pairs = false;
+  std::optional<SamplingReport> sampling = {};
+};
+
+/// HeldScene::loaded() for a thread that holds the GIL.
+const LoadedScene& loaded_without_gil(const HeldScene& scene);
+
+}  // namespace firstcontact::python

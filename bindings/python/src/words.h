@@ -1,0 +1,153 @@
+/// @file
+/// Enumerators as members of the Python enumerations in firstcontact/_words.py, whose values are
+/// the words of scenes and results. A word in place of a member is as good.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/narrowphase/elementary_contact.h>
+#include <firstcontact/narrowphase/linear_contact.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact::python {
+
+/// The Python enumeration of an enumeration, and its words in the order of the enumerators.
+template <typename Enum>
+struct Words;
+
+template <>
+struct Words<Verdict> {
+  static constexpr const char* kName = "Verdict";
+  static constexpr std::array kWords{"free", "contact", "contact_at_start", "undecided"};
+};
+
+/// Of deforming features, which cannot say `contact_at_start`.
+template <>
+struct Words<LinearVerdict> {
+  static constexpr const char* kName = "Verdict";
+  static constexpr std::array kWords{"free", "contact", "undecided"};
+};
+
+template <>
+struct Words<UndecidedReason> {
+  static constexpr const char* kName = "UndecidedReason";
+  static constexpr std::array kWords{"none",   "work",      "deadline",
+                                     "memory", "precision", "cancelled"};
+};
+
+template <>
+struct Words<StartContacts> {
+  static constexpr const char* kName = "StartContacts";
+  static constexpr std::array kWords{"report", "keep_half"};
+};
+
+template <>
+struct Words<ContactState> {
+  static constexpr const char* kName = "ContactState";
+  static constexpr std::array kWords{"none", "first", "all"};
+};
+
+template <>
+struct Words<FeatureType> {
+  static constexpr const char* kName = "FeatureType";
+  static constexpr std::array kWords{"vertex", "edge", "face"};
+};
+
+template <>
+struct Words<Between> {
+  static constexpr const char* kName = "Between";
+  static constexpr std::array kWords{"constant_velocity", "screw"};
+};
+
+template <>
+struct Words<Filling> {
+  static constexpr const char* kName = "Filling";
+  static constexpr std::array kWords{"surface", "solid"};
+};
+
+template <>
+struct Words<ElementaryVerdict> {
+  static constexpr const char* kName = "ElementaryVerdict";
+  static constexpr std::array kWords{"free", "contact", "degenerate"};
+};
+
+/// A member of a class of firstcontact/_words.py, kept for good.
+pybind11::handle member(const char* enumeration, const char* word);
+
+/// @throws pybind11::value_error that names the words
+[[noreturn]] void refuse_word(const char* enumeration, const char* const* words, std::size_t count,
+                              const std::string& got);
+
+/// The caster of all these enumerations.
+template <typename Enum>
+class WordCaster {
+  static constexpr const auto& kWords = Words<Enum>::kWords;
+
+ public:
+  PYBIND11_TYPE_CASTER(Enum, pybind11::detail::const_name("str"));
+
+  bool load(pybind11::handle source, bool /*convert*/) {
+    if (!PyUnicode_Check(source.ptr())) {
+      return false;
+    }
+    for (std::size_t k = 0; k < kWords.size(); ++k) {
+      if (PyUnicode_CompareWithASCIIString(source.ptr(), kWords[k]) == 0) {
+        value = static_cast<Enum>(k);
+        return true;
+      }
+    }
+    refuse_word(Words<Enum>::kName, kWords.data(), kWords.size(), source.cast<std::string>());
+  }
+
+  static pybind11::handle cast(Enum value, pybind11::return_value_policy /*policy*/,
+                               pybind11::handle /*parent*/) {
+    static std::array<pybind11::handle, kWords.size()> members{};  // Filled as they are used.
+    pybind11::handle& found = members[static_cast<std::size_t>(value)];
+    if (!found) {
+      found = member(Words<Enum>::kName, kWords[static_cast<std::size_t>(value)]);
+    }
+    return found.inc_ref();
+  }
+};
+
+}  // namespace firstcontact::python
+
+namespace pybind11::detail {
+
+template <>
+class type_caster<firstcontact::Verdict>
+    : public firstcontact::python::WordCaster<firstcontact::Verdict> {};
+template <>
+class type_caster<firstcontact::LinearVerdict>
+    : public firstcontact::python::WordCaster<firstcontact::LinearVerdict> {};
+template <>
+class type_caster<firstcontact::UndecidedReason>
+    : public firstcontact::python::WordCaster<firstcontact::UndecidedReason> {};
+template <>
+class type_caster<firstcontact::StartContacts>
+    : public firstcontact::python::WordCaster<firstcontact::StartContacts> {};
+template <>
+class type_caster<firstcontact::ContactState>
+    : public firstcontact::python::WordCaster<firstcontact::ContactState> {};
+template <>
+class type_caster<firstcontact::FeatureType>
+    : public firstcontact::python::WordCaster<firstcontact::FeatureType> {};
+template <>
+class type_caster<firstcontact::Between>
+    : public firstcontact::python::WordCaster<firstcontact::Between> {};
+template <>
+class type_caster<firstcontact::Filling>
+    : public firstcontact::python::WordCaster<firstcontact::Filling> {};
+template <>
+class type_caster<firstcontact::ElementaryVerdict>
+    : public firstcontact::python::WordCaster<firstcontact::ElementaryVerdict> {};
+
+}  // namespace pybind11::detail

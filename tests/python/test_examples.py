@@ -1,0 +1,64 @@
+"""Examples run, and say what is right."""
+
+import math
+import re
+import subprocess
+import sys
+
+from conftest import ROOT
+
+FOLDER = ROOT / "examples/python"
+
+
+def run(name: str, *arguments) -> str:
+    done = subprocess.run([sys.executable, FOLDER / f"{name}.py", *map(str, arguments)],
+                          capture_output=True, text=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_there_are_five():
+    assert len(list(FOLDER.glob("*.py"))) == 5
+
+
+def test_tumbling_box():
+    told = run("tumbling_box")
+    t = float(re.search(r"contact at t = ([0-9.]+)", told).group(1))
+
+    def height(t):
+        """Of the lowest corner over the floor."""
+        turned = [0.1 * math.cos(2 * math.pi * t + k) + 0.1 * math.sin(2 * math.pi * t + k)
+                  for k in (0, math.pi / 2, math.pi, 3 * math.pi / 2)]
+        return 0.9 - t + min(turned)
+
+    assert abs(height(t)) < 1e-3 and all(height(k / 1000 * t) > 0 for k in range(1000))
+    assert "edge" in told or "vertex" in told
+
+
+def test_falling_balls():
+    told = run("falling_balls")
+    first = float(re.search(r"balls \(\d+, \d+\) at t = ([0-9.]+)", told).group(1))
+    then = float(re.search(r"held: t = ([0-9.]+)", told).group(1))
+    assert 0 < first < 1 and first != then
+
+
+def test_drone_and_cloud():
+    told = run("drone_and_cloud")
+    distance, bound, kept = (float(re.search(pattern, told).group(1)) for pattern in (
+        r"([0-9.]+) m at t", r"less than ([0-9.]+) m", r"until t = ([0-9.]+)"))
+    assert bound <= distance <= bound + 2e-3 and 0 < kept < 0.5
+    # The corner of the drone is at 1.2 + 0.3 (cos 0.8 + sin 0.8) half way, the wall at 2 or nearer.
+    assert distance < 2 - (1.2 + 0.3 * (math.cos(0.8) + math.sin(0.8)))
+
+
+def test_peg_in_hole(tmp_path):
+    page = tmp_path / "page.html"
+    told = run("peg_in_hole", page).splitlines()
+    assert told[0] == "Peg, straight: free" and told[1] == "Peg, tilted by 2 degrees: contact"
+    assert told[2].startswith("peg and hole after ") and page.stat().st_size > 100_000
+
+
+def test_many_tries():
+    told = run("many_tries")
+    least, most, free = re.search(r"free from (\S+) mm to (\S+) mm: (\d+) of 21", told).groups()
+    assert -1 < float(least) < 0 < float(most) < 1 and 1 < int(free) < 21

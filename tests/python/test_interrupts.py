@@ -1,0 +1,130 @@
+"""Ctrl-C ends a query at once, and nothing else does."""
+
+import signal
+import subprocess
+import sys
+import textwrap
+
+import pytest
+from conftest import ROOT
+
+PRELUDE = f"""
+import os, signal, sys, threading, time
+sys.path.insert(0, {str(ROOT / "tests/python")!r})
+import firstcontact as fc
+from conftest import long_query
+A, B = long_query()
+deadline = 120  # [s]  Beyond the patience of the test.
+
+def interrupt_soon(times=1):
+    def act():
+        for _ in range(times):
+            time.sleep(0.3)
+            os.kill(os.getpid(), signal.SIGINT)
+    threading.Thread(target=act, daemon=True).start()
+"""
+
+
+def run(script: str) -> str:
+    done = subprocess.run([sys.executable, "-c", PRELUDE + textwrap.dedent(script)], timeout=60,
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+QUESTIONS = {
+    "first_contact": "fc.first_contact(A, B, deadline=deadline)",
+    "closest_approach": "fc.closest_approach(A, B, tolerance=1e-12, deadline=deadline)",
+    "many bodies": "fc.first_contact(bodies, deadline=deadline)",
+    "check_many": "fc.check_many([(A, B)] * 3, deadline=deadline)",
+    "check_many of threads": "fc.check_many([(A, B)] * 3, pool, deadline=deadline)",
+}
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_interrupt_raises_keyboard_interrupt(question):
+    assert run(f"""
+        from concurrent.futures import ThreadPoolExecutor
+        bodies = fc.BodySet()
+        for shape, motion in (A, B):
+            bodies.add(shape, motion)
+        pool = ThreadPoolExecutor(2)
+        for _ in range(2):  # Once more: the first leaves nothing behind.
+            interrupt_soon()
+            try:
+                {QUESTIONS[question]}
+                print("answered")
+            except KeyboardInterrupt:
+                print("interrupted")
+    """).split() == ["interrupted"] * 2
+
+
+def test_handler_that_raises_nothing_changes_no_answer():
+    assert run("""
+        seen = []
+        signal.signal(signal.SIGINT, lambda *_: seen.append(1))
+        bodies = fc.BodySet()
+        one = fc.make_sphere(1.0)
+        for k in range(200):
+            bodies.add(one, fc.Motion.constant_velocity(fc.Pose((1.9 * k, 0, 0)), (0, 0, 1)))
+        expected = [a.__getstate__() for a in fc.answer_each_pair(bodies)]
+        told = []
+        def progress(done):
+            if len(told) < 2:
+                os.kill(os.getpid(), signal.SIGINT)
+            told.append(done)
+        answers = fc.answer_each_pair(bodies, progress=progress)
+        print(len(seen) > 0, [a.__getstate__() for a in answers] == expected)
+    """).split() == ["True", "True"]
+
+
+def test_new_handler_is_obeyed():
+    assert run("""
+        class Enough(Exception):
+            pass
+        def handler(*_):
+            raise Enough
+        interrupt_soon(2)
+        for _ in range(2):
+            try:
+                fc.first_contact(A, B, deadline=deadline)
+            except (KeyboardInterrupt, Enough) as error:
+                print(type(error).__name__)
+            signal.signal(signal.SIGINT, handler)
+    """).split() == ["KeyboardInterrupt", "Enough"]
+
+
+def test_ignored_interrupt_is_ignored():
+    assert run("""
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        interrupt_soon()
+        print(fc.first_contact(A, B, deadline=1.0).reason)
+    """).split() == ["deadline"]
+
+
+def test_default_action_kills():
+    done = subprocess.run([sys.executable, "-c", PRELUDE + textwrap.dedent("""
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        interrupt_soon()
+        fc.first_contact(A, B, deadline=deadline)
+    """)], timeout=60, capture_output=True, check=False)
+    assert done.returncode == -signal.SIGINT
+
+
+def test_forked_child_is_interrupted_too():
+    assert run("""
+        interrupt_soon()
+        try:
+            fc.first_contact(A, B, deadline=deadline)
+        except KeyboardInterrupt:
+            pass
+        child = os.fork()
+        if child == 0:
+            interrupt_soon()
+            try:
+                fc.first_contact(A, B, deadline=deadline)
+            except KeyboardInterrupt:
+                os._exit(7)
+            os._exit(1)
+        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+    """).split() == ["7"]
