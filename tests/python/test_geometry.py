@@ -170,3 +170,17 @@ def test_features_by_number(triangle):
     assert sorted(triangle.edge(k) for k in range(3)) == [(0, 1), (0, 2), (1, 2)]
     with pytest.raises(IndexError):
         triangle.edge(3)
+
+
+def test_vertices_move_on_lines(triangle):
+    to = triangle.vertices + [[0, 0, -2], [0, 0, -2], [0, 0, -4]]
+    up = fc.Motion.fixed(fc.Pose((0.1, 0.1, -1)))
+    moving = fc.move_vertices(triangle, to)
+    # At (0.1, 0.9), which both have, it falls by (0.1 2 + 0.9 4) t onto what waits 1 m below.
+    result = fc.first_contact(moving, (triangle, up), tolerance=1e-9)
+    assert result.verdict == "contact" and result.t == pytest.approx(1 / 3.8, abs=1e-8)
+    assert pickle.loads(pickle.dumps(moving.X_WS)) == moving.X_WS
+    with pytest.raises(TypeError, match="pickle what move_vertices was given"):
+        pickle.dumps(moving.shape)
+    with pytest.raises(ValueError, match="a place for each of the 3 vertices, got 2"):
+        fc.move_vertices(triangle, to[:2])

@@ -24,9 +24,9 @@ from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, Ele
                     convex_hull, distance, edge_edge_contact, first_contact, inspect,
                     linear_edge_edge_contact, linear_vertex_face_contact, make_box, make_capsule,
                     make_cone, make_convex_hull, make_cylinder, make_height_map, make_point_cloud,
-                    make_sphere, parse_obj, parse_off, parse_pcd, parse_ply, parse_ply_points,
-                    parse_scene, parse_stl, parse_xyz, read_heights, read_mesh, read_points,
-                    sample_gap, vertex_face_contact, weld, why_not_solid)
+                    make_sphere, move_vertices, parse_obj, parse_off, parse_pcd, parse_ply,
+                    parse_ply_points, parse_scene, parse_stl, parse_xyz, read_heights, read_mesh,
+                    read_points, sample_gap, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
 from ._tuples import GapPoints, GapSamples, HeightMap, Mesh, MovingShape
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
@@ -43,7 +43,7 @@ __all__ = [
     "check", "check_many", "closest_approach", "convex_hull", "distance", "edge_edge_contact",
     "first_contact", "inspect", "linear_edge_edge_contact", "linear_vertex_face_contact",
     "load_scene", "make_box", "make_capsule", "make_cone", "make_convex_hull", "make_cylinder",
-    "make_height_map", "make_point_cloud", "make_sphere", "parse_obj", "parse_off", "parse_pcd",
+    "make_height_map", "make_point_cloud", "make_sphere", "move_vertices", "parse_obj", "parse_off", "parse_pcd",
     "parse_ply", "parse_ply_points", "parse_scene", "parse_stl", "parse_xyz", "read_heights",
     "read_mesh", "read_points", "sample_gap", "vertex_face_contact", "weld", "why_not_solid",
 ]

@@ -5,7 +5,7 @@ from typing import Any, overload
 import numpy as np
 import numpy.typing as npt
 
-from ._tuples import GapPoints, GapSamples, HeightMap, Mesh
+from ._tuples import GapPoints, GapSamples, HeightMap, Mesh, MovingShape
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      UndecidedReason, Verdict)
 
@@ -125,6 +125,7 @@ def convex_hull(points: _Numbers) -> Mesh: ...
 def make_point_cloud(points: _Numbers, radius: float = ...) -> Shape: ...
 def make_height_map(map: HeightMap | tuple[_Numbers, _Numbers],
                     radius: float = ...) -> Shape: ...
+def move_vertices(shape: Shape, to: _Numbers) -> MovingShape: ...
 def read_mesh(path: _Path) -> Mesh: ...
 def read_points(path: _Path) -> _Doubles: ...
 def read_heights(path: _Path, cell: _Numbers) -> HeightMap: ...
@@ -339,19 +340,19 @@ class BodySet:
     def __len__(self) -> int: ...
 
 @overload
-def first_contact(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
-                  tolerance: float = ..., start_contacts: StartContacts | str = ...,
-                  contacts: ContactState | str = ..., contact_band: float = ..., steps: int = ...,
-                  memory: int = ..., deadline: float | None = ..., threads: int = ...,
-                  progress: Callable[[float], object] | None = ...,
-                  stop: StopSource | None = ...) -> ManyBodiesResult: ...
-@overload
 def first_contact(A: _Moving, B: _Moving, workspace: Workspace | None = ..., *,
                   margin: float = ..., tolerance: float = ...,
                   start_contacts: StartContacts | str = ..., contacts: ContactState | str = ...,
                   contact_band: float = ..., steps: int = ..., memory: int = ...,
                   deadline: float | None = ...,
                   stop: StopSource | None = ...) -> FirstContactResult: ...
+@overload
+def first_contact(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
+                  tolerance: float = ..., start_contacts: StartContacts | str = ...,
+                  contacts: ContactState | str = ..., contact_band: float = ..., steps: int = ...,
+                  memory: int = ..., deadline: float | None = ..., threads: int = ...,
+                  progress: Callable[[float], object] | None = ...,
+                  stop: StopSource | None = ...) -> ManyBodiesResult: ...
 def answer_each_pair(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
                      tolerance: float = ..., start_contacts: StartContacts | str = ...,
                      contacts: ContactState | str = ..., contact_band: float = ...,

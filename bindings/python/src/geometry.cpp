@@ -10,6 +10,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/deforming_body.h>
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/point_cloud.h>
@@ -22,6 +23,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
+#include "motion.h"
 #include "words.h"
 
 namespace firstcontact::python {
@@ -198,6 +200,10 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
       .def(py::pickle(
           [](const py::object& self) {
             const Shape& shape = self.cast<const Shape&>();
+            if (shape.hierarchy().deforms()) {
+              throw py::type_error(
+                  "a deforming shape cannot be pickled; pickle what move_vertices was given");
+            }
             return py::make_tuple(py::make_tuple(view(shape.mesh().vertices, self),
                                                  view(shape.mesh().triangles, self)),
                                   shape.radius(),
@@ -268,6 +274,18 @@ radius: [m] of the base; > 0. length: [m] > 0. enclosure_error: as of make_cylin
 map: a HeightMap, or any pair (cell, heights): [m] (2,) and [m] rows×columns. radius: [m] >= 0.)");
 }
 
+py::object move(const Shape& shape, const py::object& to) {
+  const std::vector<Eigen::Vector3d> places = points_from(to, "to");
+  DeformingBody body = without_gil([&] { return move_vertices(shape, places); });
+  // The motion carries the frame from the origin at a constant velocity.
+  const Eigen::Vector3d translation = body.X_WS.pose(1.0).position;
+  RecordedMotion motion{
+      std::move(body.X_WS), "constant_velocity",
+      py::make_tuple(Pose{}, py::make_tuple(translation.x(), translation.y(), translation.z()))};
+  return py::module_::import("firstcontact._tuples")
+      .attr("MovingShape")(std::move(body.shape), std::move(motion));
+}
+
 void bind_readers(py::module_& m) {
   m.def(
       "read_mesh", [](const path& file) { return to_tuple(read_file(file, read_mesh)); },
@@ -327,6 +345,10 @@ void bind_inspection(py::module_& m) {
 
 void bind_geometry(py::module_& m) {
   bind_shape(m);
+  m.def("move_vertices", &move, py::arg("shape"), py::arg("to"),
+        R"(A MovingShape whose vertices each move on a line: from those of the shape to `to`.
+
+to: [m] n×3, world frame, one for each vertex of the shape.)");
   bind_makers(m);
   bind_readers(m);
   bind_defects(m);
