@@ -21,7 +21,7 @@
 
 #include "benchmarks/support/fcl_scene.h"
 #include "benchmarks/support/normalised_mesh.h"
-#include "benchmarks/support/random.h"
+#include "tests/support/random.h"
 #include "benchmarks/support/random_motion.h"
 #include "benchmarks/support/timing.h"
 #include "benchmarks/support/torus_knot.h"
@@ -36,7 +36,7 @@ constexpr double kDensity = 1.7e-3;  // [1/m^3]  Bodies of radius 1 m that move 
 constexpr std::size_t kMostForFcl = 20'000;
 
 std::vector<PlainMotion> random_scene(std::size_t n) {
-  Random random(kSeed);
+  test::Random random(kSeed);
   const double side = std::cbrt(static_cast<double>(n) / kDensity);
   std::vector<PlainMotion> motions(n);
   for (PlainMotion& motion : motions) {
