@@ -56,19 +56,28 @@ struct Draft {
   std::map<std::string, JointMotion> motions;
 };
 
-/// A motion of constant velocity or a screw about the origin of a joint frame.
+/// A motion of constant velocity or a screw; a ball joint's leaves the origin where it is.
 std::pair<Motion, oracle::MotionInput> random_motion(Random& random, bool at_origin) {
   const Eigen::Quaterniond R = random.rotation();
-  const Eigen::Vector3d spin = random.uniform(0.1, 2.0) * random.direction();
-  const Eigen::Vector3d start =
-      at_origin ? Eigen::Vector3d::Zero()
-                : Eigen::Vector3d(random.uniform(0.1, 1.0) * random.direction());
-  const Eigen::Vector3d way = at_origin
-                                  ? Eigen::Vector3d::Zero()
-                                  : Eigen::Vector3d(random.uniform(0.1, 1.0) * random.direction());
+  const Eigen::Vector3d direction = random.direction();
+  const double angle = random.uniform(0.1, 2.0);
+  const auto vector = [&] {
+    return Eigen::Vector3d((at_origin ? 0.0 : random.uniform(0.1, 1.0)) * random.direction());
+  };
+  const Eigen::Vector3d start = vector();
+  const Eigen::Vector3d way = vector();
   oracle::MotionInput input;
-  input.kind = oracle::MotionKind::constant_velocity;
   input.poses = {{plain(start), {R.w(), R.x(), R.y(), R.z()}}};
+  if (!at_origin && random.chance(0.5)) {
+    input.kind = oracle::MotionKind::screw;
+    input.axis_point = plain(way);
+    input.axis_direction = plain(direction);
+    input.angle = angle;
+    input.along = 0.3;
+    return {Motion::screw({start, R}, way, direction, angle, 0.3), input};
+  }
+  const Eigen::Vector3d spin = angle * direction;
+  input.kind = oracle::MotionKind::constant_velocity;
   input.translation = plain(way);
   input.rotation_vector = plain(spin);
   return {Motion::constant_velocity({start, R}, way, spin), input};

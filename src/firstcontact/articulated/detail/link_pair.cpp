@@ -96,9 +96,9 @@ Separation LinkPair::boxes(LinkBox box_a, LinkBox box_b, double threshold) const
   const Vector3d apart = at_b.centre - at_a.centre;
   std::array<Vector3d, 7> directions;
   directions[0] = apart;
-  for (int k = 0; k < 3; ++k) {
-    directions[static_cast<std::size_t>(1 + k)] = at_a.axes.row(k).transpose();
-    directions[static_cast<std::size_t>(4 + k)] = at_b.axes.row(k).transpose();
+  for (std::size_t k = 0; k < 3; ++k) {
+    directions[1 + k] = at_a.axes.row(static_cast<Eigen::Index>(k)).transpose();
+    directions[4 + k] = at_b.axes.row(static_cast<Eigen::Index>(k)).transpose();
   }
   Separation best{-std::numeric_limits<double>::infinity(), 0.0};
   for (const Vector3d& any : directions) {
