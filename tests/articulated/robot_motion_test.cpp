@@ -119,6 +119,25 @@ TEST(RobotMotion, NamesTheJointThatDoesNotMatch) {
             "no error");
 }
 
+/// Beyond 1e8 rad sines have no error bound.
+TEST(RobotMotion, RefusesAnglesWithoutBounds) {
+  const CoordinatePath still = CoordinatePath::constant(0.0);
+  const std::array<double, 2> q = {0.0, 0.0};
+  const std::array<double, 2> v = {9e7, -9e7};
+  const std::string far =
+      error_of(arm(), {{"shoulder", CoordinatePath::cubic(kTimes, q, v)}, {"elbow", still}});
+  EXPECT_NE(far.find("joint 'shoulder' may run beyond 1e8"), std::string::npos) << far;
+  RobotDescription geared{
+      .name = "geared",
+      .links = {{"a", {}, {}}, {"b", {}, {}}, {"c", {}, {}}},
+      .joints = {{.name = "wheel", .type = JointType::continuous, .parent = "a", .child = "b"},
+                 {.name = "worm", .type = JointType::continuous, .parent = "b", .child = "c"}}};
+  geared.joints[1].mimic = Mimic{.joint = "wheel", .multiplier = 1e7, .offset = 0.0};
+  const std::string geared_error = error_of(RobotModel(geared), {{"wheel", ramp(0.0, 100.0)}});
+  EXPECT_NE(geared_error.find("joint 'worm' may run beyond 1e8"), std::string::npos);
+  EXPECT_EQ(error_of(RobotModel(geared), {{"wheel", ramp(0.0, 1.0)}}), "no error");
+}
+
 /// The Puma's own geometry: at zero its wrist is 0.4318 m before, 0.4331 m above the shoulder.
 TEST(RobotMotion, MovesThePuma) {
   const RobotModel puma = read_urdf(std::filesystem::path(FIRSTCONTACT_SOURCE_DIR) /

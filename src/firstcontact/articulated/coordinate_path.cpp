@@ -226,6 +226,10 @@ CoordinateSegment::Bounds CoordinateSegment::bounds(double t_from, double t_to) 
   return {derivative[1], derivative[2], derivative[3]};
 }
 
+double CoordinateSegment::size_bound() const {
+  return (size_of(*this, 0) + error) * (1.0 + 0x1p-48);
+}
+
 CoordinateSegment CoordinateSegment::mimicked(double multiplier, double offset) const {
   CoordinateSegment result = *this;
   for (DoubleDouble& coefficient : result.a) {

@@ -47,6 +47,9 @@ struct FIRSTCONTACT_API CoordinateSegment {
   /// its greatest size by terms of r only.
   [[nodiscard]] Bounds bounds(double t_from, double t_to) const;
 
+  /// [rad or m]  No value of the piece is greater in size.
+  [[nodiscard]] double size_bound() const;
+
   /// The coordinate of a joint that mimics this one: multiplier q + offset.
   [[nodiscard]] CoordinateSegment mimicked(double multiplier, double offset) const;
 };

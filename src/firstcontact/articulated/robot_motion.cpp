@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <firstcontact/articulated/precise_transform.h>
+#include <firstcontact/math/sine_cosine.h>
 
 namespace firstcontact {
 namespace {
@@ -203,6 +205,44 @@ void add_joint(ChainBuilder& chain, const RobotModel& model, const std::vector<A
   }
 }
 
+/// Refuses coordinates that run so far between what was given, or by a mimic's multiplier, that
+/// sines lose their error bounds.
+void require_sizes(const Joint& joint, const CoordinatePath& path, double multiplier,
+                   double offset) {
+  for (const CoordinateSegment& segment : path.segments()) {
+    const double size = std::abs(multiplier) * segment.size_bound() + std::abs(offset);
+    if (!(size <= kMaximumAngle)) {
+      refuse(joint.name,
+             "may run beyond 1e8 at times between " + std::to_string(segment.t_begin) + " and " +
+                 std::to_string(segment.t_end) +
+                 "; give it smaller positions, velocities, accelerations or multiplier");
+    }
+  }
+}
+
+void require_sizes(const RobotModel& model, const std::vector<AnyMotion>& motions,
+                   std::size_t index) {
+  const Joint& joint = model.joints()[index];
+  if (const auto* planar = std::get_if<PlanarPath>(&motions[index])) {
+    for (const CoordinatePath& path : *planar) {
+      require_sizes(joint, path, 1.0, 0.0);
+    }
+    return;
+  }
+  double multiplier = 1.0;
+  double offset = 0.0;
+  std::size_t source = index;
+  while (model.joints()[source].mimic) {
+    const Mimic& mimic = *model.joints()[source].mimic;
+    offset += std::abs(multiplier * mimic.offset);
+    multiplier *= mimic.multiplier;
+    source = model.find_joint(mimic.joint).value();
+  }
+  if (const auto* path = std::get_if<CoordinatePath>(&motions[source])) {
+    require_sizes(joint, *path, multiplier, offset);
+  }
+}
+
 void add_breaks(std::set<double>& breaks, const CoordinatePath& path) {
   for (const CoordinateSegment& segment : path.segments()) {
     breaks.insert(segment.t_end);
@@ -264,6 +304,9 @@ RobotMotion::RobotMotion(RobotModel model, const std::map<std::string, JointMoti
     if (moves && std::holds_alternative<std::monostate>(joints_[j])) {
       refuse(joint.name, "has no motion; hold it still by a constant one");
     }
+  }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    require_sizes(model_, joints_, j);
   }
 }
 
