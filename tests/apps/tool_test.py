@@ -321,7 +321,7 @@ class Progress(ToolTest):
         process.communicate(timeout=60)
         os.close(theirs)
         shown = os.read(ours, 10000).decode()
-        self.assertIn("tip and wall ... 1.0 s", shown)
+        self.assertRegex(shown, r"tip and wall \.\.\. 1\.\d s")  # A busy machine looks a little later.
         self.assertTrue(shown.endswith("\r\x1b[K"))  # Wiped out in the end.
 
 
