@@ -28,7 +28,7 @@ struct UrdfOptions {
 /// Beyond URDF: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and `ball`
 /// or `spherical`, and `<capsule radius length>`, its length without the caps. Inertia, materials,
 /// dynamics and what is outside of links and joints is passed over. Inside of them a name that
-/// URDF does not know is an error: a misspelt <collision> must not mean "cannot collide".
+/// URDF does not know is an error: a misspelt `<collision>` must not mean "cannot collide".
 ///
 /// Numbers are read exactly, whatever the locale. An `rpy` becomes a quaternion of doubles, which
 /// from then on means the exact rotation.
