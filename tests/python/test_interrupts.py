@@ -10,6 +10,7 @@ from conftest import ROOT
 
 PRELUDE = f"""
 import os, signal, sys, threading, time
+signal.signal(signal.SIGINT, signal.default_int_handler)  # A shell's background jobs ignore it.
 sys.path.insert(0, {str(ROOT / "tests/python")!r})
 import firstcontact as fc
 from conftest import long_query
