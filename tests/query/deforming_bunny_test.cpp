@@ -1,7 +1,6 @@
 // A cloth of a thousand vertices that drapes and folds over the bunny while it turns.
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -13,31 +12,14 @@
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 
+#include "query/sheet.h"
+
 namespace firstcontact {
 namespace {
 
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
-
-template <class Height>
-Mesh sheet(int n, const Height& height) {
-  Mesh mesh;
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      const double x = 4.0 * i / n - 2.0;
-      const double y = 4.0 * j / n - 2.0;
-      mesh.vertices.emplace_back(x, y, height(x, y));
-    }
-  }
-  const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-    }
-  }
-  return mesh;
-}
+using test::sheet;
 
 // Held to the distance at single times, which knows nothing of motion: also where it folds over.
 TEST(Deforming, ClothMeetsAMovingBunny) {

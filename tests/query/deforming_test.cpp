@@ -19,31 +19,14 @@
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/many_bodies.h>
 
+#include "query/sheet.h"
+
 namespace firstcontact {
 namespace {
 
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
-
-template <class Height>
-Mesh sheet(int n, const Height& height) {
-  Mesh mesh;
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) {
-      const double x = 4.0 * i / n - 2.0;
-      const double y = 4.0 * j / n - 2.0;
-      mesh.vertices.emplace_back(x, y, height(x, y));
-    }
-  }
-  const auto index = [n](int i, int j) { return static_cast<std::uint32_t>(i * (n + 1) + j); };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
-      mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
-    }
-  }
-  return mesh;
-}
+using test::sheet;
 
 Mesh flat_sheet(int n) {
   return sheet(n, [](double, double) { return 0.0; });

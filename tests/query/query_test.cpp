@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -210,6 +211,22 @@ TEST(ClosestApproach, OfATouchIsTheFirstContact) {
   const ClosestApproachResult result = closest_approach(resting, {B, fall}, workspace);
   EXPECT_EQ(result.t, t);
   EXPECT_LE(result.distance, result.tolerance_used);
+  EXPECT_EQ(result.lower_bound, 0.0);
+}
+
+// The least claim, at once, however long the proof would take.
+TEST(ClosestApproach, EndsWithItsBudget) {
+  const Shape A = waves(40, 0.1);
+  const Shape B = waves(30, 0.2);
+  const Motion pass = Motion::constant_velocity(at(0.5), {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+  std::stop_source stop;
+  stop.request_stop();
+  Workspace workspace;
+  ClosestApproachOptions options;
+  options.budget.stop = stop.get_token();
+  const ClosestApproachResult result =
+      closest_approach({A, Motion::fixed()}, {B, pass}, workspace, options);
+  EXPECT_EQ(result.reason, UndecidedReason::cancelled);
   EXPECT_EQ(result.lower_bound, 0.0);
 }
 
