@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -111,6 +112,18 @@ std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,
     return describe("larger tolerance", answer, truth);
   }
   return {};
+}
+
+std::string complaint_either_way(const GeneratedCase& c, const FirstContactResult& answer,
+                                 const Truth& truth, Workspace& workspace) {
+  std::string wrong = complaint(c, answer, truth);
+  GeneratedCase swapped = c;
+  std::swap(swapped.A, swapped.B);
+  const FirstContactResult other = ask_library(swapped, workspace);
+  if (other.verdict != answer.verdict || other.t != answer.t) {
+    wrong += " differs when swapped: t = " + std::to_string(other.t);
+  }
+  return wrong;
 }
 
 }  // namespace firstcontact::oracle

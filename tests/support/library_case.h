@@ -25,4 +25,8 @@ FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace);
 /// no missed contact, none too late, none farther than margin + tolerance, decided, as asked.
 std::string complaint(const GeneratedCase& c, const FirstContactResult& answer, const Truth& truth);
 
+/// The same, and what differs when A and B are swapped.
+std::string complaint_either_way(const GeneratedCase& c, const FirstContactResult& answer,
+                                 const Truth& truth, Workspace& workspace);
+
 }  // namespace firstcontact::oracle
