@@ -29,8 +29,8 @@ PAGE = """<!DOCTYPE html>
   .contact {{ color: #c0392b; font-weight: bold; }}
 </style>
 <h1>When do they touch for the first time?</h1>
-<p>Green is proven free of contact, for every instant and not only for those that are drawn. The curve is the
-distance of the two bodies at single instants; it goes on after a contact, as if nothing stopped the bodies.</p>
+<p>Green is proven free of contact, for every instant and not only for those that are drawn. The curve is the least
+distance of any two bodies at single instants; it goes on after a contact, as if nothing stopped the bodies.</p>
 {table}
 {sections}
 </html>
