@@ -86,6 +86,13 @@ bool RobotModel::are_adjacent(std::size_t link, std::size_t other) const {
   return hangs_on(link, other) || hangs_on(other, link);
 }
 
+std::size_t RobotModel::rigid_root(std::size_t link) const {
+  while (parent_joint(link) && joints()[*parent_joint(link)].type == JointType::fixed) {
+    link = parent_link(*parent_joint(link));
+  }
+  return link;
+}
+
 std::vector<std::size_t> RobotModel::chain(std::size_t ancestor, std::size_t link) const {
   std::vector<std::size_t> joints;
   while (link != ancestor) {

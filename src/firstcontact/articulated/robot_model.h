@@ -40,6 +40,9 @@ class FIRSTCONTACT_API RobotModel {
   /// Whether one joint connects the two.
   [[nodiscard]] bool are_adjacent(std::size_t link, std::size_t other) const;
 
+  /// The link nearest to the root, or itself, from which only fixed joints lead to this one.
+  [[nodiscard]] std::size_t rigid_root(std::size_t link) const;
+
   /// The joints from a link down to one that hangs on it, in that order; empty if they are one.
   ///
   /// @param ancestor  the link itself, or one between it and the root

@@ -318,6 +318,8 @@ LinkMotion RobotMotion::link(std::size_t ancestor, std::size_t link) const {
   return along(model_.chain(ancestor, link), false);
 }
 
+LinkPath RobotMotion::path(std::size_t link, double t) const { return this->link(link).at(t); }
+
 RelativeLinkMotion RobotMotion::relative(std::size_t A, std::size_t B) const {
   const std::size_t ancestor = model_.last_common_ancestor(A, B);
   return {link(ancestor, A), link(ancestor, B)};

@@ -75,6 +75,9 @@ class FIRSTCONTACT_API RobotMotion {
   /// In the frame of a link on which it hangs, or of itself.
   [[nodiscard]] LinkMotion link(std::size_t ancestor, std::size_t link) const;
 
+  /// The piece of link(link) that holds t, the earlier one at a break.
+  [[nodiscard]] LinkPath path(std::size_t link, double t) const;
+
   [[nodiscard]] RelativeLinkMotion relative(std::size_t A, std::size_t B) const;
 
  private:

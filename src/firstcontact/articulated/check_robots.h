@@ -1,0 +1,119 @@
+/// @file
+/// First contact of robots and bodies: the question, its options and its answer.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/articulated/robot_scene.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/pair_rules.h>
+
+namespace firstcontact {
+
+struct RobotCheckOptions {
+  double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than threshold + tolerance.
+  WorkBudget budget = {};   ///< `steps` holds for each pair; `memory` is not used.
+  int threads = 0;          ///< At most; 0 for one on each core. Answers do not depend on it.
+  bool all_pairs = false;   ///< The answer of every tested pair over the whole step.
+  bool all_contact_intervals = false;  ///< So too, with every interval of contact of each.
+  bool least_clearance = false;        ///< So too, with the least distance of each.
+  double time_resolution = 1e-3;  ///< [-]  Of contact intervals: see ContactInterval; in (0, 1].
+  /// Called now and then from the calling thread with the part that is done, in [0, 1]; without
+  /// all_pairs the time proven free so far. May be empty.
+  std::function<void(double)> progress = {};
+};
+
+/// The closest triangles of two members at the reported time.
+struct RobotContact {
+  BodyPair members = {};
+  std::array<std::size_t, 2> geometries = {};   ///< Of each member, by index.
+  std::array<std::uint32_t, 2> triangles = {};  ///< Of each geometry, by index in its shape.
+  std::array<Eigen::Vector3d, 2> points_W = {Eigen::Vector3d::Zero(),
+                                             Eigen::Vector3d::Zero()};  ///< [m]  On the surfaces.
+  std::optional<Eigen::Vector3d> n_AB_W = {};  ///< [-]  From the first to the second, if apart.
+  double distance = 0.0;                       ///< [m]  0 too for one inside a solid.
+};
+
+/// A stretch of time that may be in contact: outside of its intervals a pair is proven free.
+///
+/// At `enter` the pair is within threshold + tolerance, and proven free before, back to the `leave`
+/// of the interval before. Of `leave` it is claimed that the pair was within threshold + tolerance
+/// at some time in [leave - resolution, leave]. Gaps in which the pair comes apart for less than
+/// twice the resolution may be counted to the interval around them.
+struct ContactInterval {
+  double enter = 0.0;  ///< [-]
+  double leave = 1.0;  ///< [-]
+  /// Not none: the interval was not searched to its end, nothing is known in it after `enter`.
+  UndecidedReason reason = UndecidedReason::none;
+};
+
+/// The least distance of a pair over all times at which it is tested, without padding, margin and
+/// tracking errors.
+struct LeastClearance {
+  double lower_bound = 0.0;  ///< [m]  Proven for all times; distance - lower_bound <= tolerance.
+  double distance = std::numeric_limits<double>::infinity();  ///< [m]  Attained at t.
+  double t = 0.0;                                             ///< [-]
+  UndecidedReason reason = UndecidedReason::none;  ///< Not none: the budget ended the search.
+};
+
+/// What one pair of members answered.
+struct RobotPairAnswer {
+  BodyPair members = {};
+  /// [m]  Margin, both paddings, and the effect of the tracking errors about t: closer than this
+  /// counts as contact.
+  double threshold = 0.0;
+  Verdict verdict = Verdict::undecided;
+  UndecidedReason reason = UndecidedReason::none;
+  double t = 0.0;                               ///< [-]  [0, t) is proven free; 1 when free.
+  std::optional<double> t_upper = {};           ///< [-]  A time proven in contact, if one is known.
+  double tolerance_used = 0.0;                  ///< [m]  Larger than asked only if f64 needs it.
+  double enclosure_error = 0.0;                 ///< [m]  Of both shapes: adds to the tolerance.
+  std::vector<RobotContact> contacts = {};      ///< At t; at least one at a contact.
+  std::vector<ContactInterval> intervals = {};  ///< In order, where asked.
+  std::optional<LeastClearance> least_clearance = {};  ///< Where asked.
+  std::uint64_t steps = 0;                             ///< Node pairs and steps of triangle pairs.
+};
+
+struct RobotCheckResult {
+  Verdict verdict = Verdict::undecided;
+  UndecidedReason reason = UndecidedReason::none;
+  double t = 0.0;                 ///< [-]  No pair is in contact in [0, t): proven. 1 when free.
+  std::optional<double> t_upper;  ///< [-]  A time that is proven to be in contact, if one is known.
+  double clearance = 0.0;         ///< [m]  Proven lower bound of every pair's distance up to t;
+                                  ///<      infinite where no pair is tested.
+  double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
+  double enclosure_error = 0.0;   ///< [m]  The greatest of these.
+
+  /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
+  /// free.
+  std::optional<std::size_t> first;
+  /// Index into `pairs` of the one that comes closest, where that was asked.
+  std::optional<std::size_t> closest;
+  /// Every tested pair where that was asked, else those that decide `t`; by the order of members.
+  std::vector<RobotPairAnswer> pairs;
+  std::uint64_t steps = 0;  ///< Of all pairs that were searched.
+};
+
+/// Finds the first contact of all members that are tested against each other.
+///
+/// Before t every pair is farther apart than its threshold: proven for the exact motions that the
+/// input defines, and for all that stay within the tracking errors. At a contact the nominal
+/// motion's distance is no more than threshold + tolerance. The step is walked piece by piece of
+/// the trajectories, several at once, and left at the first contact. The same on every run and for
+/// every number of threads, as long as neither the deadline nor the stop token ends it.
+///
+/// @throws std::invalid_argument if an option is outside its documented range
+[[nodiscard]] FIRSTCONTACT_API RobotCheckResult check_robots(const RobotScene& scene,
+                                                             const RobotCheckOptions& options = {});
+
+}  // namespace firstcontact
