@@ -66,6 +66,10 @@ JointPath JointPath::of_motion(const PreciseTransform& X_PJ, const ConstantRateP
   return JointPath(Piece{X_PJ, rounded(X_PJ.columns), X_JL});
 }
 
+JointPath JointPath::rigid(const PreciseTransform& X_PL) {
+  return polynomial(X_PL, {}, {}, {}, {});
+}
+
 JointState JointPath::state(double t) const {
   return std::visit([t](const auto& joint) { return state(joint, t); }, kind_);
 }

@@ -62,6 +62,9 @@ class FIRSTCONTACT_API JointPath {
   /// As one piece of a motion of the child's origin says.
   static JointPath of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL);
 
+  /// X_PL, always.
+  static JointPath rigid(const PreciseTransform& X_PL);
+
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 

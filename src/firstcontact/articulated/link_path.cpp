@@ -102,12 +102,19 @@ struct LinkPath::Walk {
   }
 };
 
-LinkPath::LinkPath(double t_begin, double t_end, std::vector<JointPath> joints)
+LinkPath::LinkPath(double t_begin, double t_end,
+                   std::vector<std::shared_ptr<const JointPath>> joints)
     : t_begin_(t_begin), t_end_(t_end), joints_(std::move(joints)) {}
 
 LinkPath LinkPath::then(const PreciseTransform& X_LG) const {
-  std::vector<JointPath> joints = joints_;
-  joints.push_back(JointPath::polynomial(X_LG, {}, {}, {}, {}));
+  return then(std::make_shared<const JointPath>(JointPath::rigid(X_LG)));
+}
+
+LinkPath LinkPath::then(std::shared_ptr<const JointPath> X_LG) const {
+  std::vector<std::shared_ptr<const JointPath>> joints;
+  joints.reserve(joints_.size() + 1);
+  joints = joints_;
+  joints.push_back(std::move(X_LG));
   return {t_begin_, t_end_, std::move(joints)};
 }
 
@@ -119,7 +126,7 @@ LinkPath::Walk LinkPath::walk(double t, const DoubleDoubleVector3& p_FO,
     walk.p.add(p_OF.value(), 0.0);
   }
   for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const JointState joint = joints_[k].state(t);
+    const JointState joint = joints_[k]->state(t);
     // F does not turn, so that large numbers cancel before they are rounded.
     const DoubleDoubleVector3 step = k == 0 ? p_OF + joint.p_PQ : joint.p_PQ;
     const double error =
@@ -178,7 +185,7 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   double j = 0.0;
   for (std::size_t k = joints_.size(); k-- > 0;) {
     const LinkScratch::JointPlace& place = scratch.places_[k];
-    const JointBounds bounds = joints_[k].bounds(t_from, t_to);
+    const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
     const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
     const double error = 2.0 * end.p.error +

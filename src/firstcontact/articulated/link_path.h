@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -104,14 +105,17 @@ class FIRSTCONTACT_API LinkScratch {
 /// The path of a link L in the frame F of an ancestor, over one smooth piece of time.
 class FIRSTCONTACT_API LinkPath {
  public:
-  /// @param joints  from F to L
-  LinkPath(double t_begin, double t_end, std::vector<JointPath> joints);
+  /// @param joints  from F to L, none of them null; paths of other links share them
+  LinkPath(double t_begin, double t_end, std::vector<std::shared_ptr<const JointPath>> joints);
 
   [[nodiscard]] double t_begin() const { return t_begin_; }
   [[nodiscard]] double t_end() const { return t_end_; }
 
   /// The path of a frame that is fixed in L.
   [[nodiscard]] LinkPath then(const PreciseTransform& X_LG) const;
+
+  /// The same with that transform as a joint that does not move, to be shared.
+  [[nodiscard]] LinkPath then(std::shared_ptr<const JointPath> X_LG) const;
 
   /// X_FL(t).
   ///
@@ -141,7 +145,7 @@ class FIRSTCONTACT_API LinkPath {
 
   double t_begin_;
   double t_end_;
-  std::vector<JointPath> joints_;
+  std::vector<std::shared_ptr<const JointPath>> joints_;
 };
 
 }  // namespace firstcontact

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include <Eigen/Core>
 
@@ -28,6 +29,18 @@ struct PreciseTransform {
             a.position + a.rotated(b.position)};
   }
 };
+
+/// X_BA of X_AB, whose columns are orthogonal to 2^-90.
+inline PreciseTransform inverse(const PreciseTransform& X_AB) {
+  PreciseTransform X_BA;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      X_BA.columns[j].c[i] = X_AB.columns[i].c[j];
+    }
+  }
+  X_BA.position = DoubleDouble(-1.0) * X_BA.rotated(X_AB.position);
+  return X_BA;
+}
 
 /// The exact pose: the quaternion divided by its length.
 inline PreciseTransform precise(const Pose& pose) {

@@ -93,6 +93,14 @@ std::size_t RobotModel::rigid_root(std::size_t link) const {
   return link;
 }
 
+PreciseTransform RobotModel::from_rigid_root(std::size_t link) const {
+  PreciseTransform X;
+  for (const std::size_t joint : chain(rigid_root(link), link)) {
+    X = X * precise(joints()[joint].X_PJ);
+  }
+  return X;
+}
+
 std::vector<std::size_t> RobotModel::chain(std::size_t ancestor, std::size_t link) const {
   std::vector<std::size_t> joints;
   while (link != ancestor) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/math/export.h>
 
@@ -42,6 +43,9 @@ class FIRSTCONTACT_API RobotModel {
 
   /// The link nearest to the root, or itself, from which only fixed joints lead to this one.
   [[nodiscard]] std::size_t rigid_root(std::size_t link) const;
+
+  /// X_RL, with R the frame of rigid_root(link).
+  [[nodiscard]] PreciseTransform from_rigid_root(std::size_t link) const;
 
   /// The joints from a link down to one that hangs on it, in that order; empty if they are one.
   ///

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <firstcontact/articulated/precise_transform.h>
+#include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/sine_cosine.h>
 
 namespace firstcontact {
@@ -85,61 +86,6 @@ const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, 
   return *found;
 }
 
-/// The joints of a chain over one piece of time; what is rigid goes to its neighbours.
-class ChainBuilder {
- public:
-  void add_rigid(const PreciseTransform& X) { tail_ = tail_ ? *tail_ * X : X; }
-
-  void add_polynomial(const PreciseTransform& X_PJ, const DoubleDoubleVector3& axis,
-                      std::optional<CoordinateSegment> angle,
-                      std::vector<JointPath::Slide> slides) {
-    const PreciseTransform X = close(X_PJ);
-    open_ = Open{X, axis, std::move(angle), std::move(slides)};
-  }
-
-  void add_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL) {
-    const PreciseTransform X = close(X_PJ);
-    joints_.push_back(JointPath::of_motion(X, X_JL));
-  }
-
-  std::vector<JointPath> finish() {
-    const bool has_open = open_.has_value();
-    const PreciseTransform rest = close({});
-    if (!has_open && tail_was_rigid_) {
-      joints_.push_back(JointPath::polynomial(rest, {}, {}, {}, {}));
-    }
-    return std::move(joints_);
-  }
-
- private:
-  struct Open {
-    PreciseTransform X_PJ;
-    DoubleDoubleVector3 axis;
-    std::optional<CoordinateSegment> angle;
-    std::vector<JointPath::Slide> slides;
-  };
-
-  /// Gives the rigid transforms so far to the joint before them, or else to the next one: returned
-  /// is what that starts with.
-  PreciseTransform close(const PreciseTransform& X_PJ) {
-    tail_was_rigid_ = tail_.has_value();
-    const PreciseTransform tail = tail_.value_or(PreciseTransform{});
-    tail_.reset();
-    if (!open_) {
-      return tail_was_rigid_ ? tail * X_PJ : X_PJ;
-    }
-    joints_.push_back(
-        JointPath::polynomial(open_->X_PJ, open_->axis, open_->angle, open_->slides, tail));
-    open_.reset();
-    return X_PJ;
-  }
-
-  std::vector<JointPath> joints_;
-  std::optional<Open> open_;
-  std::optional<PreciseTransform> tail_;
-  bool tail_was_rigid_ = false;
-};
-
 /// A joint's coordinate, through those that it mimics.
 const CoordinatePath& source_path(const RobotModel& model, const std::vector<AnyMotion>& motions,
                                   std::size_t joint) {
@@ -166,43 +112,44 @@ std::size_t piece_of(const Motion& motion, double t_begin) {
   return static_cast<std::size_t>(next - breaks.begin()) - 1;
 }
 
-void add_joint(ChainBuilder& chain, const RobotModel& model, const std::vector<AnyMotion>& motions,
-               std::size_t index, double t_begin, double t_end) {
+/// A joint that moves, over one piece of its own.
+///
+/// @param X_RJ  its frame J in that of the link that moves before it
+JointPath path_of(const RobotModel& model, const std::vector<AnyMotion>& motions, std::size_t index,
+                  const PreciseTransform& X_RJ, double t_begin, double t_end) {
   const Joint& joint = model.joints()[index];
-  const PreciseTransform X_PJ = precise(joint.X_PJ);
   const DoubleDoubleVector3 axis = precise_direction(joint.axis);
+  const PreciseTransform rest;
   switch (joint.type) {
     case JointType::fixed:
-      chain.add_rigid(X_PJ);
-      return;
+      break;
     case JointType::revolute:
     case JointType::continuous:
-      chain.add_polynomial(X_PJ, axis, coordinate(model, motions, index, t_begin, t_end), {});
-      return;
+      return JointPath::polynomial(X_RJ, axis, coordinate(model, motions, index, t_begin, t_end),
+                                   {}, rest);
     case JointType::prismatic:
-      chain.add_polynomial(X_PJ, axis, {},
-                           {{axis, coordinate(model, motions, index, t_begin, t_end)}});
-      return;
+      return JointPath::polynomial(
+          X_RJ, axis, {}, {{axis, coordinate(model, motions, index, t_begin, t_end)}}, rest);
     case JointType::screw: {
       const CoordinateSegment q = coordinate(model, motions, index, t_begin, t_end);
-      chain.add_polynomial(X_PJ, axis, q, {{axis, q.mimicked(joint.pitch, 0.0)}});
-      return;
+      return JointPath::polynomial(X_RJ, axis, q, {{axis, q.mimicked(joint.pitch, 0.0)}}, rest);
     }
     case JointType::planar: {
       const auto& path = std::get<PlanarPath>(motions[index]);
       const auto [x, y] = planar_directions(axis);
-      chain.add_polynomial(
-          X_PJ, axis, segment_of(path[2], t_begin, t_end),
-          {{x, segment_of(path[0], t_begin, t_end)}, {y, segment_of(path[1], t_begin, t_end)}});
-      return;
+      return JointPath::polynomial(
+          X_RJ, axis, segment_of(path[2], t_begin, t_end),
+          {{x, segment_of(path[0], t_begin, t_end)}, {y, segment_of(path[1], t_begin, t_end)}},
+          rest);
     }
     case JointType::floating:
     case JointType::ball: {
       const auto& motion = std::get<Motion>(motions[index]);
-      chain.add_motion(X_PJ, motion.path(piece_of(motion, t_begin), Eigen::Vector3d::Zero()));
-      return;
+      return JointPath::of_motion(X_RJ,
+                                  motion.path(piece_of(motion, t_begin), Eigen::Vector3d::Zero()));
     }
   }
+  return JointPath::rigid(X_RJ);
 }
 
 /// Refuses coordinates that run so far between what was given, or by a mimic's multiplier, that
@@ -261,22 +208,103 @@ void add_breaks(std::set<double>& breaks, const PlanarPath& path) {
 
 void add_breaks(std::set<double>&, std::monostate) {}
 
+std::vector<AnyMotion> checked_motions(const RobotModel& model,
+                                       const std::map<std::string, JointMotion>& joints) {
+  std::vector<AnyMotion> motions(model.joints().size());
+  for (const auto& [name, motion] : joints) {
+    const std::optional<std::size_t> index = model.find_joint(name);
+    if (!index) {
+      refuse(name, "is not a joint of the robot '" + model.name() + "'");
+    }
+    require_match(model.joints()[*index], motion);
+    std::visit([&](const auto& kind) { motions[*index] = kind; }, motion);
+  }
+  for (std::size_t j = 0; j < motions.size(); ++j) {
+    const Joint& joint = model.joints()[j];
+    const bool moves = joint.type != JointType::fixed && !joint.mimic;
+    if (moves && std::holds_alternative<std::monostate>(motions[j])) {
+      refuse(joint.name, "has no motion; hold it still by a constant one");
+    }
+  }
+  for (std::size_t j = 0; j < motions.size(); ++j) {
+    require_sizes(model, motions, j);
+  }
+  return motions;
+}
+
+/// The paths of one joint, or of the base: path k ends at ends[k].
+struct Pieces {
+  std::vector<double> ends;
+  std::vector<std::shared_ptr<const JointPath>> paths;
+
+  void add(double t_end, JointPath path) {
+    ends.push_back(t_end);
+    paths.push_back(std::make_shared<const JointPath>(std::move(path)));
+  }
+
+  /// The piece that holds t, the earlier one at a break.
+  [[nodiscard]] std::size_t at(double t) const {
+    return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end() - 1, t) -
+                                    ends.begin());
+  }
+};
+
+Pieces pieces_of(const RobotModel& model, const std::vector<AnyMotion>& motions,
+                 std::size_t joint) {
+  std::set<double> breaks = {0.0, 1.0};
+  if (model.joints()[joint].mimic) {
+    add_breaks(breaks, source_path(model, motions, joint));
+  } else {
+    std::visit([&](const auto& kind) { add_breaks(breaks, kind); }, motions[joint]);
+  }
+  const PreciseTransform X_RJ =
+      model.from_rigid_root(model.parent_link(joint)) * precise(model.joints()[joint].X_PJ);
+  Pieces pieces;
+  for (auto begin = breaks.begin(); std::next(begin) != breaks.end(); ++begin) {
+    const double t_end = *std::next(begin);
+    pieces.add(t_end, path_of(model, motions, joint, X_RJ, *begin, t_end));
+  }
+  return pieces;
+}
+
+Pieces pieces_of(const Motion& motion) {
+  Pieces pieces;
+  for (std::size_t k = 0; k + 1 < motion.breaks().size(); ++k) {
+    pieces.add(motion.breaks()[k + 1],
+               JointPath::of_motion({}, motion.path(k, Eigen::Vector3d::Zero())));
+  }
+  return pieces;
+}
+
 }  // namespace
+
+/// Paths of joints lead from the link that moves before them to their child; what fixed joints add
+/// beyond is a path of its own.
+struct RobotMotion::Data {
+  std::vector<AnyMotion> motions;
+  Motion base = Motion::fixed();
+  Pieces base_pieces;
+  std::vector<Pieces> joint_pieces;                     // Empty for fixed joints.
+  std::vector<std::shared_ptr<const JointPath>> tails;  // Of links behind fixed joints, else null.
+  std::vector<double> breaks;
+};
 
 LinkMotion::LinkMotion(std::vector<LinkPath> pieces) : pieces_(std::move(pieces)) {}
 
 LinkMotion::LinkMotion(const Motion& X_WB) {
   for (std::size_t k = 0; k + 1 < X_WB.breaks().size(); ++k) {
-    pieces_.emplace_back(
-        X_WB.breaks()[k], X_WB.breaks()[k + 1],
-        std::vector{JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero()))});
+    pieces_.emplace_back(X_WB.breaks()[k], X_WB.breaks()[k + 1],
+                         std::vector{std::make_shared<const JointPath>(
+                             JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero())))});
   }
 }
 
 LinkMotion LinkMotion::then(const PreciseTransform& X_LG) const {
+  const auto rigid = std::make_shared<const JointPath>(JointPath::rigid(X_LG));
   std::vector<LinkPath> pieces;
+  pieces.reserve(pieces_.size());
   for (const LinkPath& piece : pieces_) {
-    pieces.push_back(piece.then(X_LG));
+    pieces.push_back(piece.then(rigid));
   }
   return LinkMotion(std::move(pieces));
 }
@@ -289,66 +317,102 @@ const LinkPath& LinkMotion::at(double t) const {
 
 RobotMotion::RobotMotion(RobotModel model, const std::map<std::string, JointMotion>& joints,
                          Motion base)
-    : model_(std::move(model)), joints_(model_.joints().size()), base_(std::move(base)) {
-  for (const auto& [name, motion] : joints) {
-    const std::optional<std::size_t> index = model_.find_joint(name);
-    if (!index) {
-      refuse(name, "is not a joint of the robot '" + model_.name() + "'");
-    }
-    require_match(model_.joints()[*index], motion);
-    std::visit([&](const auto& kind) { joints_[*index] = kind; }, motion);
+    : model_(std::move(model)) {
+  const FloatEnvironmentGuard guard;
+  auto data = std::make_shared<Data>();
+  data->motions = checked_motions(model_, joints);
+  data->base = std::move(base);
+  data->base_pieces = pieces_of(data->base);
+  std::set<double> breaks(data->base.breaks().begin(), data->base.breaks().end());
+  for (std::size_t j = 0; j < model_.joints().size(); ++j) {
+    const bool moves = model_.joints()[j].type != JointType::fixed;
+    data->joint_pieces.push_back(moves ? pieces_of(model_, data->motions, j) : Pieces{});
+    breaks.insert(data->joint_pieces.back().ends.begin(), data->joint_pieces.back().ends.end());
   }
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = model_.joints()[j];
-    const bool moves = joint.type != JointType::fixed && !joint.mimic;
-    if (moves && std::holds_alternative<std::monostate>(joints_[j])) {
-      refuse(joint.name, "has no motion; hold it still by a constant one");
-    }
+  for (std::size_t link = 0; link < model_.links().size(); ++link) {
+    const bool is_root = model_.rigid_root(link) == link;
+    data->tails.push_back(is_root ? nullptr
+                                  : std::make_shared<const JointPath>(
+                                        JointPath::rigid(model_.from_rigid_root(link))));
   }
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    require_sizes(model_, joints_, j);
+  data->breaks.assign(breaks.begin(), breaks.end());
+  data_ = std::move(data);
+}
+
+std::span<const double> RobotMotion::breaks() const { return data_->breaks; }
+const Motion& RobotMotion::base() const { return data_->base; }
+
+std::vector<CoordinateSegment> RobotMotion::coordinate(std::size_t joint) const {
+  if (coordinate_count(model_.joints()[joint].type) != 1) {
+    return {};
   }
+  const CoordinatePath& source = source_path(model_, data_->motions, joint);
+  std::vector<CoordinateSegment> segments;
+  for (const CoordinateSegment& segment : source.segments()) {
+    segments.push_back(
+        firstcontact::coordinate(model_, data_->motions, joint, segment.t_begin, segment.t_end));
+  }
+  return segments;
 }
 
 LinkMotion RobotMotion::link(std::size_t link) const {
-  return along(model_.chain(model_.root(), link), true);
+  return all_along(model_.root(), link, true);
 }
 
 LinkMotion RobotMotion::link(std::size_t ancestor, std::size_t link) const {
-  return along(model_.chain(ancestor, link), false);
+  return all_along(ancestor, link, false);
 }
-
-LinkPath RobotMotion::path(std::size_t link, double t) const { return this->link(link).at(t); }
 
 RelativeLinkMotion RobotMotion::relative(std::size_t A, std::size_t B) const {
   const std::size_t ancestor = model_.last_common_ancestor(A, B);
   return {link(ancestor, A), link(ancestor, B)};
 }
 
-LinkMotion RobotMotion::along(std::span<const std::size_t> joints, bool from_world) const {
-  std::set<double> breaks = {0.0, 1.0};
+LinkPath RobotMotion::path(std::size_t link, double t) const {
+  return along(model_.root(), link, t, true);
+}
+
+LinkPath RobotMotion::path(std::size_t ancestor, std::size_t link, double t) const {
+  return along(ancestor, link, t, false);
+}
+
+LinkPath RobotMotion::along(std::size_t frame, std::size_t link, double t, bool from_world) const {
+  double t_begin = 0.0;
+  double t_end = 1.0;
+  std::vector<std::shared_ptr<const JointPath>> joints;
+  const auto add = [&](const Pieces& pieces) {
+    const std::size_t k = pieces.at(t);
+    t_begin = std::max(t_begin, k == 0 ? 0.0 : pieces.ends[k - 1]);
+    t_end = std::min(t_end, pieces.ends[k]);
+    joints.push_back(pieces.paths[k]);
+  };
+  const std::vector<std::size_t> chain = model_.chain(frame, link);
+  joints.reserve(chain.size() + 2);
   if (from_world) {
-    add_breaks(breaks, base_);
+    add(data_->base_pieces);
+  } else if (data_->tails[frame] && !chain.empty()) {
+    // Paths of joints start where the last joint before them moved.
+    joints.push_back(std::make_shared<const JointPath>(
+        JointPath::rigid(inverse(model_.from_rigid_root(frame)))));
   }
-  for (const std::size_t joint : joints) {
-    if (model_.joints()[joint].mimic) {
-      add_breaks(breaks, source_path(model_, joints_, joint));
-    } else {
-      std::visit([&](const auto& kind) { add_breaks(breaks, kind); }, joints_[joint]);
+  for (const std::size_t joint : chain) {
+    if (model_.joints()[joint].type != JointType::fixed) {
+      add(data_->joint_pieces[joint]);
     }
   }
+  if (data_->tails[link] && (from_world || !chain.empty())) {
+    joints.push_back(data_->tails[link]);
+  }
+  return {t_begin, t_end, std::move(joints)};
+}
+
+LinkMotion RobotMotion::all_along(std::size_t frame, std::size_t link, bool from_world) const {
   std::vector<LinkPath> pieces;
-  for (auto begin = breaks.begin(); std::next(begin) != breaks.end(); ++begin) {
-    const double t_begin = *begin;
-    const double t_end = *std::next(begin);
-    ChainBuilder chain;
-    if (from_world) {
-      chain.add_motion({}, base_.path(piece_of(base_, t_begin), Eigen::Vector3d::Zero()));
-    }
-    for (const std::size_t joint : joints) {
-      add_joint(chain, model_, joints_, joint, t_begin, t_end);
-    }
-    pieces.emplace_back(t_begin, t_end, chain.finish());
+  double t = 0.0;
+  while (t < 1.0) {
+    // The piece that begins at t is the one that holds the next number.
+    pieces.push_back(along(frame, link, std::nextafter(t, 1.0), from_world));
+    t = pieces.back().t_end();
   }
   return LinkMotion(std::move(pieces));
 }

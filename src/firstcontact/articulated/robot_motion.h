@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <variant>
@@ -55,14 +56,14 @@ struct RelativeLinkMotion {
   LinkMotion B;
 };
 
-/// X_WL(t) of every link L of a robot, t in [0, 1]. Immutable.
+/// X_WL(t) of every link L of a robot, t in [0, 1]. Immutable and cheap to copy: copies share their
+/// data, and the paths of links share those of joints.
 class FIRSTCONTACT_API RobotMotion {
  public:
   /// @param joints  the motion of every joint that moves, by name; mimic joints follow theirs
   /// @param base    of the root link in the world
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it
-  /// is
-  ///         fixed, mimics another, or is not of the robot; a joint that is not continuous is to
+  ///         is fixed, mimics another, or is not of the robot; a joint that is not continuous is to
   ///         take the shortest way
   RobotMotion(RobotModel model, const std::map<std::string, JointMotion>& joints,
               Motion base = Motion::fixed());
@@ -75,17 +76,32 @@ class FIRSTCONTACT_API RobotMotion {
   /// In the frame of a link on which it hangs, or of itself.
   [[nodiscard]] LinkMotion link(std::size_t ancestor, std::size_t link) const;
 
-  /// The piece of link(link) that holds t, the earlier one at a break.
-  [[nodiscard]] LinkPath path(std::size_t link, double t) const;
-
   [[nodiscard]] RelativeLinkMotion relative(std::size_t A, std::size_t B) const;
 
+  /// Of a link, in the world: the piece that holds t, the earlier one at a break. Costs as much as
+  /// the chain of joints is long.
+  [[nodiscard]] LinkPath path(std::size_t link, double t) const;
+
+  /// The same in the frame of a link on which it hangs, or of itself.
+  [[nodiscard]] LinkPath path(std::size_t ancestor, std::size_t link, double t) const;
+
+  /// All times at which a piece of a joint's path, or of the base's, ends; 0 and 1 included.
+  [[nodiscard]] std::span<const double> breaks() const;
+
+  /// The pieces of a joint of one coordinate, those of a mimic joint by its own coordinate; empty
+  /// for other joints.
+  [[nodiscard]] std::vector<CoordinateSegment> coordinate(std::size_t joint) const;
+
+  [[nodiscard]] const Motion& base() const;
+
  private:
-  [[nodiscard]] LinkMotion along(std::span<const std::size_t> joints, bool from_world) const;
+  struct Data;
+  [[nodiscard]] LinkPath along(std::size_t frame, std::size_t link, double t,
+                               bool from_world) const;
+  [[nodiscard]] LinkMotion all_along(std::size_t frame, std::size_t link, bool from_world) const;
 
   RobotModel model_;
-  std::vector<std::variant<std::monostate, CoordinatePath, PlanarPath, Motion>> joints_;
-  Motion base_;
+  std::shared_ptr<const Data> data_;
 };
 
 }  // namespace firstcontact
