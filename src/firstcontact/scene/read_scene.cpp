@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,6 +14,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pairs.h>
 #include <firstcontact/scene/detail/read_pose.h>
@@ -209,22 +207,6 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   return scene;
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    throw ParseError(path.string(), "expected a scene file, got a folder");
-  }
-  if (!std::filesystem::exists(path, error)) {
-    throw ParseError(path.string(), "expected a scene file, found none");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    throw ParseError(path.string(), "expected a scene file, cannot open this one");
-  }
-  return text;
-}
-
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& source,
@@ -237,6 +219,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& source,
   return scene;
 }
 
-Scene read_scene(const std::filesystem::path& path) { return parse_scene(read_text(path), path); }
+Scene read_scene(const std::filesystem::path& path) {
+  return parse_scene(detail::read_file(path, "a scene file"), path);
+}
 
 }  // namespace firstcontact

@@ -1,0 +1,262 @@
+#include <firstcontact/scene/detail/parse_yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <map>
+#include <optional>
+#include <set>
+#include <streambuf>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/utf8.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+std::optional<double> decimal(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-') {
+    text.remove_prefix(1);
+  }
+  const std::size_t first_digit = text.find_first_not_of("-.");
+  if (first_digit == std::string_view::npos || text[first_digit] < '0' || text[first_digit] > '9') {
+    return std::nullopt;  // std::from_chars knows "nan" and "inf", too.
+  }
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+JsonVariant plain_scalar(const std::string& text) {
+  constexpr std::array<std::string_view, 3> kTrue = {"true", "True", "TRUE"};
+  constexpr std::array<std::string_view, 3> kFalse = {"false", "False", "FALSE"};
+  if (std::find(kTrue.begin(), kTrue.end(), text) != kTrue.end()) {
+    return true;
+  }
+  if (std::find(kFalse.begin(), kFalse.end(), text) != kFalse.end()) {
+    return false;
+  }
+  if (const std::optional<double> number = decimal(text)) {
+    return *number;
+  }
+  return text;
+}
+
+std::size_t count_values(const JsonValue& value) {
+  std::size_t count = 1;
+  if (const auto* array = std::get_if<JsonArray>(&value.value)) {
+    for (const JsonValue& element : *array) {
+      count += count_values(element);
+    }
+  } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
+    for (const JsonMember& member : *object) {
+      count += count_values(member.value);
+    }
+  }
+  return count;
+}
+
+/// Builds the tree from what yaml-cpp finds.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(const std::string& source) : source_(source) {}
+
+  /// None where the document held nothing.
+  std::optional<JsonValue> take() { return std::exchange(root_, std::nullopt); }
+
+  void OnDocumentStart(const YAML::Mark&) override { anchors_.clear(); }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(mark, anchor, JsonNull{});
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = anchors_.find(anchor);
+    if (found == anchors_.end()) {
+      fail(mark, "expected an alias of something before it, got one of what is around it");
+    }
+    reserve(mark, count_values(found->second));
+    finish(mark, 0, JsonValue(found->second));
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    const bool quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
+    add(mark, anchor, quoted ? JsonVariant(value) : plain_scalar(value));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(mark, anchor, JsonArray{});
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(mark, anchor, JsonObject{});
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  /// A container that has begun and not ended.
+  struct Open {
+    JsonValue value;
+    YAML::anchor_t anchor;
+    YAML::Mark mark;
+    std::optional<std::string> key;  // Of the member to come, in an object.
+    std::set<std::string> keys;
+  };
+
+  [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const {
+    throw ParseError(source_, static_cast<std::size_t>(mark.line) + 1, message);
+  }
+
+  void reserve(const YAML::Mark& mark, std::size_t values) {
+    count_ += values;
+    if (count_ > kMaximumYamlValues) {
+      fail(mark, "expected at most " + std::to_string(kMaximumYamlValues) +
+                     " values (aliases repeat theirs), got more");
+    }
+  }
+
+  static std::size_t line_of(const YAML::Mark& mark) {
+    return static_cast<std::size_t>(mark.line) + 1;
+  }
+
+  void add(const YAML::Mark& mark, YAML::anchor_t anchor, JsonVariant value) {
+    reserve(mark, 1);
+    finish(mark, anchor, {.value = std::move(value), .line = line_of(mark)});
+  }
+
+  void open(const YAML::Mark& mark, YAML::anchor_t anchor, JsonVariant empty) {
+    if (expects_key()) {
+      fail(mark, "expected a word as key, got a list or map");
+    }
+    if (open_.size() >= kMaximumJsonDepth) {
+      fail(mark, "expected at most " + std::to_string(kMaximumJsonDepth) +
+                     " lists and maps inside each other, got more");
+    }
+    reserve(mark, 1);
+    open_.push_back(
+        {{.value = std::move(empty), .line = line_of(mark)}, anchor, mark, std::nullopt, {}});
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    finish(done.mark, done.anchor, std::move(done.value));
+  }
+
+  [[nodiscard]] bool expects_key() const {
+    return !open_.empty() && std::holds_alternative<JsonObject>(open_.back().value.value) &&
+           !open_.back().key;
+  }
+
+  /// Puts a whole value where it belongs.
+  void finish(const YAML::Mark& mark, YAML::anchor_t anchor, JsonValue value) {
+    if (anchor != 0) {
+      reserve(mark, count_values(value));
+      anchors_[anchor] = value;
+    }
+    if (open_.empty()) {
+      root_ = std::move(value);
+    } else if (auto* array = std::get_if<JsonArray>(&open_.back().value.value)) {
+      array->push_back(std::move(value));
+    } else if (expects_key()) {
+      take_key(mark, value);
+    } else {
+      auto& object = std::get<JsonObject>(open_.back().value.value);
+      object.push_back({*std::exchange(open_.back().key, std::nullopt), std::move(value)});
+    }
+  }
+
+  void take_key(const YAML::Mark& mark, const JsonValue& value) {
+    const auto* word = std::get_if<std::string>(&value.value);
+    const auto* number = std::get_if<double>(&value.value);
+    if (word == nullptr && number == nullptr) {
+      fail(mark, "expected a word as key");
+    }
+    std::string key = word != nullptr ? *word : write_json(*number);
+    if (!open_.back().keys.insert(key).second) {
+      fail(mark, "expected each key once, got " + in_quotes(key) + " again");
+    }
+    open_.back().key = std::move(key);
+  }
+
+  const std::string& source_;
+  std::optional<JsonValue> root_;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, JsonValue> anchors_;
+  std::size_t count_ = 0;
+};
+
+/// A text as a stream, without a copy.
+class TextBuffer : public std::streambuf {
+ public:
+  explicit TextBuffer(std::string_view text) {
+    char* begin = const_cast<char*>(text.data());  // Only read: there is no put area.
+    setg(begin, begin, begin + text.size());
+  }
+};
+
+bool holds_nothing(const std::optional<JsonValue>& value) {
+  return !value || std::holds_alternative<JsonNull>(value->value);
+}
+
+JsonValue first_document(std::string_view text, const std::string& source) {
+  TextBuffer buffer(text);
+  std::istream stream(&buffer);
+  YAML::Parser parser(stream);
+  TreeBuilder builder(source);
+  std::optional<JsonValue> document;
+  if (parser.HandleNextDocument(builder)) {
+    document = builder.take();
+  }
+  while (parser.HandleNextDocument(builder)) {
+    const std::optional<JsonValue> next = builder.take();
+    if (!holds_nothing(next)) {
+      throw ParseError(source, next->line, "expected one YAML document, got a second one");
+    }
+  }
+  if (holds_nothing(document)) {
+    throw ParseError(source, 1, "expected a YAML document, got none");
+  }
+  return std::move(*document);
+}
+
+}  // namespace
+
+JsonValue parse_yaml(std::string_view text, const std::string& source) {
+  const std::size_t bad = find_not_utf8(text);
+  if (bad != text.size()) {
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n');
+    throw ParseError(source, static_cast<std::size_t>(line) + 1, "expected UTF-8, got other bytes");
+  }
+  try {
+    return first_document(text, source);
+  } catch (const YAML::Exception& error) {
+    const std::size_t line =
+        error.mark.is_null() ? 1 : static_cast<std::size_t>(error.mark.line) + 1;
+    throw ParseError(source, line, "expected YAML: " + error.msg);
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,25 @@
+/// @file
+/// The tree of a JSON or YAML text, by the extension of its file.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/scene/detail/json_tree.h>
+
+namespace firstcontact::detail {
+
+/// ".yaml" of "A.YAML".
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
+
+/// Of JSON or YAML.
+[[nodiscard]] bool is_tree_extension(std::string_view extension);
+
+/// JSON where the extension is .json, else YAML.
+///
+/// @throws ParseError
+[[nodiscard]] JsonValue parse_tree(std::string_view text, const std::filesystem::path& source);
+
+}  // namespace firstcontact::detail

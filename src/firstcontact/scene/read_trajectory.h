@@ -1,0 +1,34 @@
+/// @file
+/// Reads a robot's trajectory from a file.
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+
+/// Reads a trajectory for a robot (docs/formats.md).
+///
+/// - .json, .yaml, .yml: `joint_names` and `points` with `time` [s], `positions`, and if wanted
+///   `velocities` and `accelerations`; or trajectory_msgs/JointTrajectory as ROS prints it, alone
+///   or inside of a message that holds one. A single trajectory; unknown keys are errors.
+/// - .csv: a header with `time` and joint names, then a line of numbers for each point. Columns
+///   NAME.velocity and NAME.acceleration, where there are any, of every joint.
+///
+/// Numbers are read exactly, whatever the locale.
+///
+/// @throws ParseError  one line with path, line, place and what was expected
+[[nodiscard]] FIRSTCONTACT_API Trajectory read_trajectory(const std::filesystem::path& path,
+                                                          const RobotModel& robot);
+
+/// @param source  names the text in errors; its extension says the format
+[[nodiscard]] FIRSTCONTACT_API Trajectory parse_trajectory(std::string_view text,
+                                                           const std::filesystem::path& source,
+                                                           const RobotModel& robot);
+
+}  // namespace firstcontact
