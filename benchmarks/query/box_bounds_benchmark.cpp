@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
 
+#include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/query/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
@@ -30,7 +31,8 @@ void bound_knots(benchmark::State& state, std::int64_t target) {
   const Motion motion_A = Motion::constant_velocity({}, Vector3d::Zero(), {0.3, 0.2, 1.0});
   const Motion motion_B =
       Motion::constant_velocity({.position = {1.5, 0.2, 0.1}}, {-1.0, 0.1, 0.0}, {0.8, 0.1, -0.2});
-  const RelativeMotion motion(motion_A.path(0, knot.centre), motion_B.path(0, knot.centre), 1e-6);
+  ConstantRatePair motion(motion_A, motion_B, knot.centre, knot.centre, 1e-6);
+  motion.enter(0.0);
   const detail::MovingPair pair(knot, knot, motion);
   detail::BoxFrame frame = pair.box_frame();
   pair.place(motion.state(0.5), 1e-9, frame);

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/query/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
@@ -31,8 +32,10 @@ using test::RealBox;
 using test::RealVector;
 
 BoxFrame frame_of(const MovingBoxes& c) {
-  const RelativeMotion motion(c.A.motion().path(0, c.A.hierarchy.centre),
-                              c.B.motion().path(0, c.B.hierarchy.centre), 1e-6);
+  const Motion A = c.A.motion();
+  const Motion B = c.B.motion();
+  ConstantRatePair motion(A, B, c.A.hierarchy.centre, c.B.hierarchy.centre, 1e-6);
+  motion.enter(c.t);
   const MovingPair pair(c.A.hierarchy, c.B.hierarchy, motion);
   const RelativeState state = motion.state(c.t);
   BoxFrame frame = pair.box_frame();

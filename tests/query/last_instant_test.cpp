@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/first_contact.h>
@@ -44,11 +45,14 @@ Motion fall(double gap) {
 detail::PieceResult search_last_instant(double gap) {
   const Shape floor = tent(16, 0.0);
   const Shape tip = tent(16, -1.0);
-  const RelativeMotion motion(Motion::fixed().path(0, floor.hierarchy().centre),
-                              fall(gap).path(0, tip.hierarchy().centre), 1e-6);
+  const Motion rest = Motion::fixed();
+  const Motion falling = fall(gap);
+  ConstantRatePair motion(rest, falling, floor.hierarchy().centre, tip.hierarchy().centre, 1e-6);
+  motion.enter(1.0);
+  const RelativeState start = motion.state(1.0);
   const detail::MovingPair pair(floor.hierarchy(), tip.hierarchy(), motion);
   const WorkBudget budget;
-  const detail::SearchLimits limits{.tolerance = 1e-6, .start = pair, .budget = budget};
+  const detail::SearchLimits limits{.tolerance = 1e-6, .start = start, .budget = budget};
   Workspace workspace;
   WorkCount work;
   return detail::search_piece(pair, 1.0, 1.0, limits, workspace.data(), work);

@@ -1,5 +1,6 @@
 #include <firstcontact/articulated/joint_path.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,17 @@ Matrix3d rounded(const std::array<DoubleDoubleVector3, 3>& columns) {
     m.col(j) = columns[static_cast<std::size_t>(j)].value();
   }
   return m;
+}
+
+bool is_zero(const DoubleDoubleVector3& v) {
+  return std::all_of(v.c.begin(), v.c.end(),
+                     [](const DoubleDouble& x) { return x.hi == 0.0 && x.lo == 0.0; });
+}
+
+bool is_identity(const PreciseTransform& X) {
+  const PreciseTransform identity;
+  return is_zero(X.position) && is_zero(X.columns[0] - identity.columns[0]) &&
+         is_zero(X.columns[1] - identity.columns[1]) && is_zero(X.columns[2] - identity.columns[2]);
 }
 
 /// Rot(axis, angle) v = along + cos across + sin turned.
@@ -63,7 +75,12 @@ JointPath JointPath::polynomial(const PreciseTransform& X_PJ, const DoubleDouble
 }
 
 JointPath JointPath::of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL) {
-  return JointPath(Piece{X_PJ, rounded(X_PJ.columns), X_JL});
+  return JointPath(Piece{X_PJ, rounded(X_PJ.columns), X_JL, is_identity(X_PJ)});
+}
+
+const ConstantRatePath* JointPath::free_body() const {
+  const auto* piece = std::get_if<Piece>(&kind_);
+  return piece != nullptr && piece->is_free_body ? &piece->path : nullptr;
 }
 
 JointPath JointPath::rigid(const PreciseTransform& X_PL) {

@@ -65,6 +65,9 @@ class FIRSTCONTACT_API JointPath {
   /// X_PL, always.
   static JointPath rigid(const PreciseTransform& X_PL);
 
+  /// Of a free body, whose parent's frame is J: the path of its origin. Else null.
+  [[nodiscard]] const ConstantRatePath* free_body() const;
+
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 
@@ -85,6 +88,7 @@ class FIRSTCONTACT_API JointPath {
     PreciseTransform X_PJ;
     Eigen::Matrix3d R_PJ;
     ConstantRatePath path;
+    bool is_free_body;  // X_PJ is the identity.
   };
 
   explicit JointPath(std::variant<Polynomial, Piece> kind) : kind_(std::move(kind)) {}

@@ -12,6 +12,8 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/query/closest_approach.h>
+#include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact {
@@ -44,13 +46,29 @@ struct LinkContactResult {
   std::uint64_t steps = 0;
 };
 
-/// Finds the first contact of A and B during the step, with the promises of `first_contact`: before
-/// t they are farther apart than the margin, at t of a contact no farther than margin + tolerance.
+/// Finds the first contact of A and B during the step, with the promises of `first_contact` of two
+/// moving shapes; contacts are in the frame F.
 ///
 /// The search is that of docs/algorithm.md, over windows of time in which no point's path bends by
-/// more than about half of itself, with the bounds of LinkWindow.
+/// more than about half of itself (LinkPairMotion). The same for A and B swapped, up to the swap.
 ///
 /// @throws std::invalid_argument if an option is outside its range, or a shape deforms
+FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+                                    const FirstContactOptions& options, FirstContactResult& result);
+[[nodiscard]] FIRSTCONTACT_API FirstContactResult
+first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+              const FirstContactOptions& options = {});
+
+/// As distance() of two moving shapes, in the frame F.
+[[nodiscard]] FIRSTCONTACT_API DistanceResult distance(const MovingLink& A, const MovingLink& B,
+                                                       double t, Workspace& workspace);
+
+/// As closest_approach() of two moving shapes, in the frame F.
+[[nodiscard]] FIRSTCONTACT_API ClosestApproachResult
+closest_approach(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+                 const ClosestApproachOptions& options = {});
+
+/// The same with a result of its own.
 [[nodiscard]] FIRSTCONTACT_API LinkContactResult
 first_contact(const MovingLink& A, const MovingLink& B, const LinkContactOptions& options = {});
 

@@ -146,6 +146,23 @@ LinkPath::Walk LinkPath::walk(double t, const DoubleDoubleVector3& p_FO,
   return walk;
 }
 
+LinkState LinkPath::state(double t, const DoubleDoubleVector3& p_FO) const {
+  const Walk end = walk(t, p_FO, nullptr);
+  return {{end.R, end.p.value, end.rotation_error, end.p.error},
+          end.v.value,
+          end.a.value,
+          end.w.value,
+          end.al.value,
+          end.v.error,
+          end.a.error,
+          end.w.error,
+          end.al.error};
+}
+
+const ConstantRatePath* LinkPath::constant_rates() const {
+  return joints_.size() == 1 ? joints_.front()->free_body() : nullptr;
+}
+
 LinkPose LinkPath::pose(double t, const DoubleDoubleVector3& p_FO) const {
   const Walk end = walk(t, p_FO, nullptr);
   return {end.R, end.p.value, end.rotation_error, end.p.error};

@@ -24,6 +24,19 @@ struct LinkPose {
   double position_error = 0.0;                     ///< [m]
 };
 
+/// Where a link is and how it moves: derivatives of its origin's place and of its rotation.
+struct LinkState {
+  LinkPose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m per step]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m per step^2]
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();          ///< [rad per step]
+  Eigen::Vector3d spin_rate = Eigen::Vector3d::Zero();     ///< [rad per step^2]
+  double velocity_error = 0.0;                             ///< How far each may be from exact.
+  double acceleration_error = 0.0;
+  double spin_error = 0.0;
+  double spin_rate_error = 0.0;
+};
+
 /// A part of a link: a box with any axes, thickened. A ball is a box without extent.
 struct LinkPart {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  In L.
@@ -121,6 +134,12 @@ class FIRSTCONTACT_API LinkPath {
   ///
   /// @param p_FO  [m]  positions are taken from here on, in double-double as far as the first joint
   [[nodiscard]] LinkPose pose(double t, const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// The same, with the link's derivatives.
+  [[nodiscard]] LinkState state(double t, const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// The path, where it is that of a free body; else null.
+  [[nodiscard]] const ConstantRatePath* constant_rates() const;
 
   /// Bounds over [t_from, t_to], which contains t and lies in the piece.
   ///

@@ -34,6 +34,14 @@ RelativeState RelativeMotion::state(double t) const {
   }
   state.p_AQa = -a.p_QC_W;
   state.p_AQb = state.p_AB - b.p_QC_W;
+  state.axis_A = A_.axis();
+  state.axis_B = B_.axis();
+  state.rate_A = A_.rate();
+  state.rate_B = B_.rate();
+  state.pivot_velocity = velocity_;
+  state.position_error = position_error_;
+  state.rotation_error_A = A_.rotation_error();
+  state.rotation_error_B = B_.rotation_error();
   return state;
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// The relative motion of two bodies, seen from the centre of the first.
+/// The relative motion of two bodies of constant rates, seen from the centre of the first.
 
 #pragma once
 
@@ -7,18 +7,9 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/constant_rate_path.h>
+#include <firstcontact/motion/relative_state.h>
 
 namespace firstcontact {
-
-/// Positions at one instant: world axes, origin at point C of body A.
-struct RelativeState {
-  double t = 0.0;
-  Eigen::Matrix3d R_WA;
-  Eigen::Matrix3d R_WB;
-  Eigen::Vector3d p_AB;   ///< [m]  From A's point C to B's.
-  Eigen::Vector3d p_AQa;  ///< [m]  A's pivot.
-  Eigen::Vector3d p_AQb;  ///< [m]  B's pivot.
-};
 
 /// Two paths that share a piece of time. Differences of far-away positions are taken in
 /// double-double, so that large offsets common to both bodies cost no precision.

@@ -55,20 +55,21 @@ Reach reach_of(const TrianglePair& pair, const RelativeState& state) {
   return {std::sqrt(square.A) * (1.0 + 0x1p-48), std::sqrt(square.B) * (1.0 + 0x1p-48)};
 }
 
-double along_direction_fixed(const RelativeMotion& motion, const RelativeState& state,
-                             const TrianglePair& pair, const Vector3d& n, double clearance_error,
-                             const Reach& reach, double enough) {
-  const double wA = motion.A().rate();
-  const double wB = motion.B().rate();
+double along_direction_fixed(const RelativeState& state, const TrianglePair& pair,
+                             const Vector3d& n, double clearance_error, const Reach& reach,
+                             double enough) {
+  const double wA = state.rate_A;
+  const double wB = state.rate_B;
   // n . (w u x r) = r . (n x u) w.
-  const Vector3d turn_A = wA * n.cross(motion.A().axis());
-  const Vector3d turn_B = wB * n.cross(motion.B().axis());
-  const double slip = kSpeedError * (motion.pivot_velocity().norm() + wA * reach.A + wB * reach.B);
+  const Vector3d turn_A = wA * n.cross(state.axis_A);
+  const Vector3d turn_B = wB * n.cross(state.axis_B);
+  const double slip =
+      state.drift + kSpeedError * (state.pivot_velocity.norm() + wA * reach.A + wB * reach.B);
   Gaps<9> gaps;
   gaps.half_acceleration =
       0.5 * (1.0 + 0x1p-46) *
-      (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B + slip * (wA + wB));
-  const double drift = n.dot(motion.pivot_velocity());
+      (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B + slip * (wA + wB) + state.bend);
+  const double drift = n.dot(state.pivot_velocity);
   int k = 0;
   for (const Vector3d& a : pair.A) {
     const double opening_a = slip - drift + turn_A.dot(a - state.p_AQa);
@@ -91,6 +92,8 @@ struct CarriedView {
   Vector3d other_pivot;
   Vector3d other_velocity;  // of the other's pivot relative to the carrier's
   double other_reach = 0.0;
+  double drift = 0.0;
+  double bend = 0.0;
 };
 
 /// n points from the carrier to the other.
@@ -103,12 +106,12 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
   // The pivots move on lines, so that their distance is greatest at an end.
   const double distance =
       std::max(apart.norm(), (apart + time_left * view.other_velocity).norm()) + view.other_reach;
-  const double slip = kSpeedError * (other_speed + view.rate * distance);
+  const double slip = view.drift + kSpeedError * (other_speed + view.rate * distance);
   Gaps<3> gaps;
   gaps.half_acceleration =
       0.5 * (1.0 + 0x1p-46) *
       (view.other_rate * view.other_rate * view.other_reach + 2.0 * spin * other_speed +
-       view.rate * spin * distance + slip * (view.rate + view.other_rate));
+       view.rate * spin * distance + slip * (view.rate + view.other_rate) + view.bend);
   const double wall = std::max({n.dot(carrier[0]), n.dot(carrier[1]), n.dot(carrier[2])});
   for (int k = 0; k < 3; ++k) {
     const Vector3d& b = other[k];
@@ -123,29 +126,27 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
 
 }  // namespace
 
-double advance(const RelativeMotion& motion, const RelativeState& state, const TrianglePair& pair,
-               const Vector3d& n, double threshold, double error, double t, double t_end) {
+double advance(const RelativeState& state, const TrianglePair& pair, const Vector3d& n,
+               double threshold, double error, double t_end) {
   const Reach reach = reach_of(pair, state);
   const double clearance_error = threshold + error;
-  const double time_left = t_end - t;
-  const ConstantRatePath& A = motion.A();
-  const ConstantRatePath& B = motion.B();
-  const Vector3d& s = motion.pivot_velocity();
+  const double time_left = t_end - state.t;
   const double enough = time_left * (1.0 + 0x1p-40) + 0x1p-100;
-  const double fixed =
-      along_direction_fixed(motion, state, pair, n, clearance_error, reach, enough);
+  const double fixed = along_direction_fixed(state, pair, n, clearance_error, reach, enough);
   if (fixed >= enough) {
     return fixed;
   }
-  const CarriedView by_A{A.rate(), A.axis(),    state.p_AQa, B.rate(),
-                         B.axis(), state.p_AQb, s,           reach.B};
+  const CarriedView by_A{state.rate_A, state.axis_A, state.p_AQa,          state.rate_B,
+                         state.axis_B, state.p_AQb,  state.pivot_velocity, reach.B,
+                         state.drift,  state.bend};
   const double carried_by_A =
       along_direction_carried(by_A, pair.A, pair.B, n, clearance_error, time_left, enough);
   if (carried_by_A >= enough) {
     return carried_by_A;
   }
-  const CarriedView by_B{B.rate(), B.axis(),    state.p_AQb, A.rate(),
-                         A.axis(), state.p_AQa, -s,          reach.A};
+  const CarriedView by_B{state.rate_B, state.axis_B, state.p_AQb,           state.rate_A,
+                         state.axis_A, state.p_AQa,  -state.pivot_velocity, reach.A,
+                         state.drift,  state.bend};
   return std::max(
       {fixed, carried_by_A,
        along_direction_carried(by_B, pair.B, pair.A, -n, clearance_error, time_left, enough)});

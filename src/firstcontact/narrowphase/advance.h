@@ -7,7 +7,7 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/math/root_isolation.h>
-#include <firstcontact/motion/relative_motion.h>
+#include <firstcontact/motion/relative_state.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
 namespace firstcontact {
@@ -29,16 +29,17 @@ struct TrianglePair {
 /// body A, n turns with it; A's points stand still, and in A's turning frame a point b of B has
 ///   K = w_B^2 rho_B + 2 w_A |n x u_A| (|s| + w_B rho_B) + w_A^2 |n x u_A| D,
 /// the accelerations of B, of Coriolis and of the turning frame, with s the relative velocity of
-/// the pivots and D a bound of |b - Q_A| up to t_end. Every direction certifies; the best of the
-/// three is taken, or the first that holds beyond t_end.
+/// the pivots and D a bound of |b - Q_A| up to t_end. That holds for the model motions; what exact
+/// ones may depart from them adds the state's drift to the rate and its bend to K. Every direction
+/// certifies; the best of the three is taken, or the first that holds beyond t_end.
 ///
-/// @param pair       positions at t
+/// @param pair       positions at the state's time t
 /// @param n          [-]  unit up to rounding, from A towards B
 /// @param threshold  [m]
 /// @param error      [m]  of the gap: positions, transforms and products
 /// @param t_end      no farther is of interest; at most the end of the piece
-FIRSTCONTACT_API double advance(const RelativeMotion& motion, const RelativeState& state,
-                                const TrianglePair& pair, const Eigen::Vector3d& n,
-                                double threshold, double error, double t, double t_end);
+FIRSTCONTACT_API double advance(const RelativeState& state, const TrianglePair& pair,
+                                const Eigen::Vector3d& n, double threshold, double error,
+                                double t_end);
 
 }  // namespace firstcontact

@@ -1,7 +1,9 @@
 #include <firstcontact/narrowphase/advance_deforming.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 
 #include <firstcontact/narrowphase/detail/turning_gap.h>
 
@@ -18,36 +20,45 @@ double longest(const Triangle& v, const Vector3d& from) {
       {(v[0] - from).squaredNorm(), (v[1] - from).squaredNorm(), (v[2] - from).squaredNorm()}));
 }
 
+/// One body's part of a RelativeState.
+struct BodyState {
+  const Vector3d& axis;
+  double rate;
+  const Vector3d& pivot;
+  Vector3d pivot_velocity;
+};
+
 /// @param offset  [m]  that positions were rounded by
-MovingCorners corners(const ConstantRatePath& path, const Triangle& position, const Triangle& rates,
-                      const Vector3d& pivot, const Vector3d& pivot_velocity, double offset,
-                      double time_left) {
+MovingCorners corners(const BodyState& body, const Triangle& position, const Triangle& rates,
+                      double offset, double time_left) {
   MovingCorners c;
   c.position = position;
-  c.rate = path.rate();
-  c.axis = path.axis();
+  c.rate = body.rate;
+  c.axis = body.axis;
   for (std::size_t k = 0; k < 3; ++k) {
-    c.velocity[k] = pivot_velocity + c.rate * c.axis.cross(position[k] - pivot) + rates[k];
+    c.velocity[k] =
+        body.pivot_velocity + c.rate * c.axis.cross(position[k] - body.pivot) + rates[k];
   }
   c.speed = longest(rates, Vector3d::Zero()) * kUp;
-  c.reach = (longest(position, pivot) + c.speed * time_left) * kUp;
-  c.slip = detail::kGapRounding * (pivot_velocity.norm() + c.rate * (c.reach + offset) + c.speed);
+  c.reach = (longest(position, body.pivot) + c.speed * time_left) * kUp;
+  c.slip =
+      detail::kGapRounding * (body.pivot_velocity.norm() + c.rate * (c.reach + offset) + c.speed);
   return c;
 }
 
 }  // namespace
 
-double advance_deforming(const RelativeMotion& motion, const RelativeState& state,
-                         const TrianglePair& pair, const TrianglePair& rates,
-                         const ClosestFeatures& closest, const Vector3d& n, double threshold,
-                         double error, double t, double t_end) {
-  const double time_left = t_end - t;
+double advance_deforming(const RelativeState& state, const TrianglePair& pair,
+                         const TrianglePair& rates, const ClosestFeatures& closest,
+                         const Vector3d& n, double threshold, double error, double t_end) {
+  assert(state.drift == 0.0 && state.bend == 0.0);
+  const double time_left = t_end - state.t;
   const double enough = time_left * (1.0 + 0x1p-40) + 0x1p-100;
   const double offset = state.p_AB.norm();
-  const MovingCorners A =
-      corners(motion.A(), pair.A, rates.A, state.p_AQa, Vector3d::Zero(), offset, time_left);
-  const MovingCorners B =
-      corners(motion.B(), pair.B, rates.B, state.p_AQb, motion.pivot_velocity(), offset, time_left);
+  const BodyState body_A{state.axis_A, state.rate_A, state.p_AQa, Vector3d::Zero()};
+  const BodyState body_B{state.axis_B, state.rate_B, state.p_AQb, state.pivot_velocity};
+  const MovingCorners A = corners(body_A, pair.A, rates.A, offset, time_left);
+  const MovingCorners B = corners(body_B, pair.B, rates.B, offset, time_left);
   return detail::time_apart_along(A, B, closest, threshold + error, n, enough);
 }
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/motion/relative_motion.h>
+#include <firstcontact/motion/relative_state.h>
 #include <firstcontact/narrowphase/advance.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
@@ -28,14 +28,15 @@ namespace firstcontact {
 /// the gaps of all their corners begin at the same rate: a corner that slides along a turning face
 /// is advanced with a loss of second order, as in the frame of a rigid one.
 ///
-/// @param pair     positions at t
+/// @param state    of motions that are their models: without drift and bend
+/// @param pair     positions at the state's time t
 /// @param rates    [m per step]  of the corners as their bodies see them, in world axes
 /// @param closest  of the pair; chooses n', and has no part in the claim
 /// @param n        [-]  unit up to rounding, from A towards B
-/// @param threshold, error, t, t_end  as in advance()
-FIRSTCONTACT_API double advance_deforming(const RelativeMotion& motion, const RelativeState& state,
-                                          const TrianglePair& pair, const TrianglePair& rates,
-                                          const ClosestFeatures& closest, const Eigen::Vector3d& n,
-                                          double threshold, double error, double t, double t_end);
+/// @param threshold, error, t_end  as in advance()
+FIRSTCONTACT_API double advance_deforming(const RelativeState& state, const TrianglePair& pair,
+                                          const TrianglePair& rates, const ClosestFeatures& closest,
+                                          const Eigen::Vector3d& n, double threshold, double error,
+                                          double t_end);
 
 }  // namespace firstcontact

@@ -7,7 +7,9 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/distance.h>
+#include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/order.h>
+#include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact {
 namespace {
@@ -15,9 +17,9 @@ namespace {
 /// An upper bound by sampling, lowered by local descent; the certificate is first_contact's.
 class Descent {
  public:
-  Descent(const MovingShape& A, const MovingShape& B, Workspace& workspace,
-          const WorkBudget& budget, ClosestApproachResult& best)
-      : A_(A), B_(B), workspace_(workspace), budget_(budget), best_(best) {}
+  Descent(const ShapePair& pair, Workspace& workspace, const WorkBudget& budget,
+          ClosestApproachResult& best)
+      : pair_(pair), workspace_(workspace), budget_(budget), best_(best) {}
 
   /// Whether to leave the rest to a search, which says why it ends.
   [[nodiscard]] bool is_over() const {
@@ -26,7 +28,7 @@ class Descent {
   }
 
   double sample(double t) {
-    const DistanceResult here = distance(A_, B_, t, workspace_);
+    const DistanceResult here = distance(pair_, t, workspace_);
     best_.work.node_groups += here.work.node_groups;
     best_.work.triangle_pairs += here.work.triangle_pairs;
     if (here.distance < best_.distance) {
@@ -65,8 +67,7 @@ class Descent {
   }
 
  private:
-  const MovingShape& A_;
-  const MovingShape& B_;
+  const ShapePair& pair_;
   Workspace& workspace_;
   const WorkBudget& budget_;
   ClosestApproachResult& best_;
@@ -74,8 +75,7 @@ class Descent {
 
 }  // namespace
 
-ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& B,
-                                       Workspace& workspace,
+ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspace,
                                        const ClosestApproachOptions& options) {
   if (!(options.tolerance > 0.0 && std::isfinite(options.tolerance))) {
     throw std::invalid_argument("ClosestApproachOptions::tolerance must be finite and > 0, got " +
@@ -84,14 +84,15 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   const FloatEnvironmentGuard guard;
   ClosestApproachResult best;
   best.tolerance_used = options.tolerance;
-  best.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
-  Descent descent(A, B, workspace, options.budget, best);
+  best.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
+  Descent descent(pair, workspace, options.budget, best);
   FirstContactOptions query;
   query.tolerance = options.tolerance;
   query.contacts = ContactState::none;
   query.budget = options.budget;
-  const auto search = [&] {
-    const FirstContactResult found = first_contact(A, B, workspace, query);
+  FirstContactResult found;
+  const auto search = [&]() -> const FirstContactResult& {
+    first_contact(pair, {}, workspace, query, found);
     best.work.node_groups += found.work.node_groups;
     best.work.triangle_pairs += found.work.triangle_pairs;
     best.work.steps += found.work.steps;
@@ -101,7 +102,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
     return found;
   };
   // Bodies that touch are closest there, for the first time.
-  if (const FirstContactResult touch = search(); touch.verdict != Verdict::free) {
+  if (const FirstContactResult& touch = search(); touch.verdict != Verdict::free) {
     descent.sample(touch.t);
     return best;
   }
@@ -114,7 +115,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   query.tolerance = 0.5 * options.tolerance;
   while (best.distance > options.tolerance) {
     query.margin = best.distance - options.tolerance;
-    const FirstContactResult closer = search();
+    const FirstContactResult& closer = search();
     if (closer.verdict == Verdict::free) {
       best.lower_bound = query.margin;
       return best;
@@ -131,6 +132,25 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
     }
   }
   return best;
+}
+
+ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& B,
+                                       Workspace& workspace,
+                                       const ClosestApproachOptions& options) {
+  const auto ask = [&](const MovingShape& first, const MovingShape& second) {
+    const FloatEnvironmentGuard guard;
+    // Distances are to be far better than the tolerance.
+    ConstantRatePair motion = detail::motion_of(first, second, 1e-3 * options.tolerance);
+    return closest_approach({first.shape, second.shape, motion}, workspace, options);
+  };
+  if (detail::in_order(A, B)) {
+    return ask(A, B);
+  }
+  ClosestApproachResult result = ask(B, A);
+  if (result.closest) {
+    detail::swap_bodies(*result.closest);
+  }
+  return result;
 }
 
 }  // namespace firstcontact

@@ -10,6 +10,7 @@
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/order.h>
+#include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact {
 namespace {
@@ -63,31 +64,27 @@ Nearest find_nearest(const MovingPair& pair, const RelativeState& state,
   return best;
 }
 
-DistanceResult solve(const MovingShape& A, const MovingShape& B, double t,
-                     detail::WorkspaceData& workspace) {
-  detail::SharedPiece piece(A.X_WS, B.X_WS);
-  while (piece.end() < t) {
-    piece.next();
+}  // namespace
+
+DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace) {
+  if (!(t >= 0.0 && t <= 1.0)) {
+    throw std::invalid_argument("distance: t must lie in [0, 1], got " + std::to_string(t));
   }
-  const Hierarchy& hA = A.shape.hierarchy();
-  const Hierarchy& hB = B.shape.hierarchy();
-  const double resolution = 1e-14 * (hA.radius + hB.radius);
-  const RelativeMotion motion(A.X_WS.path(piece.index_A(), hA.centre),
-                              B.X_WS.path(piece.index_B(), hB.centre), resolution);
-  const MovingPair pair(hA, hB, motion);
+  const FloatEnvironmentGuard guard;
+  const auto& [A, B, motion] = shapes;
+  motion.enter(t);
+  const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
   const RelativeState state = motion.state(t);
   DistanceResult result;
-  result.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
-  const ConstantRatePath& path = motion.A();
-  const detail::ContactFrame frame{A.shape, B.shape, pair, t,
-                                   (path.pivot(t) + path.precise_lever(t)).value()};
-  const detail::Containment found = detail::find_containment(A.shape, B.shape, pair, state);
+  result.enclosure_error = A.enclosure_error() + B.enclosure_error();
+  const detail::ContactFrame frame{A, B, pair, t, motion.origin(t)};
+  const detail::Containment found = detail::find_containment(A, B, pair, state);
   if (found.inside == detail::Inside::yes) {
     result.closest = detail::make_contact(frame, state, found);
     return result;
   }
-  const Nearest nearest = find_nearest(pair, state, workspace, result.work);
-  const double radii = A.shape.radius() + B.shape.radius();
+  const Nearest nearest = find_nearest(pair, state, workspace.data(), result.work);
+  const double radii = A.radius() + B.radius();
   result.distance = std::max(0.0, nearest.distance - radii);
   result.lower_bound = found.inside == detail::Inside::unsure
                            ? 0.0
@@ -97,18 +94,20 @@ DistanceResult solve(const MovingShape& A, const MovingShape& B, double t,
   return result;
 }
 
-}  // namespace
-
 DistanceResult distance(const MovingShape& A, const MovingShape& B, double t,
                         Workspace& workspace) {
-  if (!(t >= 0.0 && t <= 1.0)) {
-    throw std::invalid_argument("distance: t must lie in [0, 1], got " + std::to_string(t));
-  }
-  const FloatEnvironmentGuard guard;
+  const auto ask = [&](const MovingShape& first, const MovingShape& second) {
+    const FloatEnvironmentGuard guard;
+    // Of the order of the rounding: the exact distance is asked for.
+    const double resolution =
+        1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
+    ConstantRatePair motion = detail::motion_of(first, second, resolution);
+    return distance({first.shape, second.shape, motion}, t, workspace);
+  };
   if (detail::in_order(A, B)) {
-    return solve(A, B, t, workspace.data());
+    return ask(A, B);
   }
-  DistanceResult result = solve(B, A, t, workspace.data());
+  DistanceResult result = ask(B, A);
   detail::swap_bodies(*result.closest);
   return result;
 }

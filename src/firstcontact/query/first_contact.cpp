@@ -13,12 +13,12 @@
 #include <firstcontact/query/detail/containment.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/pair_query.h>
+#include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact {
 namespace {
 
 using detail::MovingPair;
-using detail::Window;
 
 void require_range(bool holds, const char* option, const char* range, double value) {
   if (!holds) {
@@ -28,11 +28,9 @@ void require_range(bool holds, const char* option, const char* range, double val
 }
 
 /// Eight times the error of a gap near contact: below it doubles cannot tell distances apart.
-double resolvable_distance(const MovingPair& pair, double margin) {
-  const double size = pair.A().radius + pair.B().radius;
-  RelativeState touching;
-  touching.p_AB = Eigen::Vector3d(size + margin, 0.0, 0.0);
-  return 8.0 * pair.gap_error(touching);
+double resolvable_distance(const MovingPair& pair, RelativeState state, double margin) {
+  state.p_AB = Eigen::Vector3d(pair.A().radius + pair.B().radius + margin, 0.0, 0.0);
+  return 8.0 * pair.gap_error(state);
 }
 
 /// Far above the motion between neighbouring times, which ends a search of very fast bodies.
@@ -41,7 +39,7 @@ double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_b
 /// Searches a part of a piece in windows of time. Bodies that stay close for long are opened to
 /// their triangles and never closed again; a new search from the root costs less than to drag these
 /// along. Most pieces are one window.
-detail::PieceResult search_windows(const MovingPair& pair, const Window& part,
+detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& part,
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
   constexpr std::uint64_t kPatience = 1u << 17;
@@ -70,8 +68,9 @@ detail::PieceResult search_windows(const MovingPair& pair, const Window& part,
 
 /// Searches a part of a piece with the tolerance in use; where time is too coarse for it, with a
 /// larger one.
-detail::PieceResult search(const MovingPair& pair, const Window& part, detail::SearchLimits limits,
-                           detail::WorkspaceData& workspace, FirstContactResult& result) {
+detail::PieceResult search(const MovingPair& pair, const TimeWindow& part,
+                           detail::SearchLimits limits, detail::WorkspaceData& workspace,
+                           FirstContactResult& result) {
   detail::PieceResult found = search_windows(pair, part, limits, workspace, result.work);
   if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
     limits.tolerance = result.tolerance_used = resolvable_motion(pair);
@@ -80,19 +79,19 @@ detail::PieceResult search(const MovingPair& pair, const Window& part, detail::S
   return found;
 }
 
-void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPair& pair,
-                     const Eigen::Vector3d& p_WC, const detail::PieceResult& found,
-                     const FirstContactOptions& options, detail::WorkspaceData& workspace,
-                     FirstContactResult& result) {
-  const detail::ContactFrame frame{A.shape, B.shape, pair, result.t, p_WC};
+void report_contacts(const ShapePair& shapes, const MovingPair& pair,
+                     const detail::PieceResult& found, const FirstContactOptions& options,
+                     detail::WorkspaceData& workspace, FirstContactResult& result) {
+  const auto& [A, B, motion] = shapes;
+  const detail::ContactFrame frame{A, B, pair, result.t, motion.origin(result.t)};
   if (options.contacts == ContactState::first) {
-    const RelativeState state = pair.motion().state(result.t);
+    const RelativeState state = motion.state(result.t);
     const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
     result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
                                                    triangle_distance(triangles.A, triangles.B)));
   } else if (options.contacts == ContactState::all) {
-    const double band = options.margin + result.tolerance_used + options.contact_band +
-                        A.shape.radius() + B.shape.radius();
+    const double band =
+        options.margin + result.tolerance_used + options.contact_band + A.radius() + B.radius();
     if (found.all_remembered && options.contact_band == 0.0) {
       detail::collect_contacts_of(workspace.opened_pairs, frame, band, result.contacts);
     } else {
@@ -101,86 +100,82 @@ void report_contacts(const MovingShape& A, const MovingShape& B, const MovingPai
   }
 }
 
-void solve(const MovingShape& A, const MovingShape& B, const Window& window,
+/// Searches the piece that was entered; whether that ends the query.
+bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const RelativeState& start,
+                 detail::WorkspaceData& workspace, const FirstContactOptions& options,
+                 FirstContactResult& result) {
+  const auto& [A, B, motion] = shapes;
+  const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const double radii = A.radius() + B.radius();
+  result.tolerance_used =
+      std::max(result.tolerance_used,
+               resolvable_distance(pair, motion.state(part.begin), options.margin + radii));
+  const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
+                                    options.start_contacts, start, options.budget};
+  const detail::PieceResult found = search(pair, part, limits, workspace, result);
+  result.t = found.t;
+  if (found.contact) {
+    result.t_upper = found.t;
+  }
+  if (found.reason != UndecidedReason::none) {
+    result.verdict = Verdict::undecided;
+    result.reason = found.reason;
+    return true;
+  }
+  if (found.contact) {
+    result.verdict = found.t > 0.0 ? Verdict::contact : Verdict::contact_at_start;
+    report_contacts(shapes, pair, found, options, workspace, result);
+  }
+  return found.contact;
+}
+
+/// @param start  where start distances are taken, if they are
+void solve(const ShapePair& shapes, const TimeWindow& window, const RelativeState& start,
            detail::WorkspaceData& workspace, const FirstContactOptions& options,
            FirstContactResult& result) {
-  const Hierarchy& hA = A.shape.hierarchy();
-  const Hierarchy& hB = B.shape.hierarchy();
-  const RelativeMotion start_motion(A.X_WS.path(0, hA.centre), B.X_WS.path(0, hB.centre),
-                                    options.tolerance);
-  const MovingPair start(hA, hB, start_motion);
   result.tolerance_used = options.tolerance;
-  result.t = window.begin;
-  for (detail::SharedPiece piece(A.X_WS, B.X_WS); piece.valid(); piece.next()) {
-    const Window part{std::max(piece.begin(), window.begin), std::min(piece.end(), window.end)};
-    if (part.begin > part.end) {
-      continue;
-    }
-    const RelativeMotion motion(A.X_WS.path(piece.index_A(), hA.centre),
-                                B.X_WS.path(piece.index_B(), hB.centre), options.tolerance);
-    const MovingPair pair(hA, hB, motion);
-    const double radii = A.shape.radius() + B.shape.radius();
-    result.tolerance_used =
-        std::max(result.tolerance_used, resolvable_distance(pair, options.margin + radii));
-    const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
-                                      options.start_contacts, start, options.budget};
-    const detail::PieceResult found = search(pair, part, limits, workspace, result);
-    result.t = found.t;
-    if (found.contact) {
-      result.t_upper = found.t;
-    }
-    if (found.reason != UndecidedReason::none) {
-      result.verdict = Verdict::undecided;
-      result.reason = found.reason;
+  double begin = window.begin;
+  while (true) {
+    const double end = std::min(shapes.motion.enter(begin), window.end);
+    if (solve_piece(shapes, {begin, end}, start, workspace, options, result)) {
       return;
     }
-    if (found.contact) {
-      result.verdict = found.t > 0.0 ? Verdict::contact : Verdict::contact_at_start;
-      const ConstantRatePath& path = motion.A();
-      const Eigen::Vector3d p_WC = (path.pivot(found.t) + path.precise_lever(found.t)).value();
-      report_contacts(A, B, pair, p_WC, found, options, workspace, result);
-      return;
+    if (end >= window.end) {
+      break;
     }
+    begin = end;
   }
   result.verdict = Verdict::free;
 }
 
 /// A contact at t = 0 of a body that lies in another.
-void report_contained(const MovingShape& A, const MovingShape& B, const MovingPair& start,
-                      const RelativeState& state, const detail::Containment& found,
-                      const FirstContactOptions& options, FirstContactResult& result) {
+void report_contained(const ShapePair& shapes, const RelativeState& state,
+                      const detail::Containment& found, const FirstContactOptions& options,
+                      FirstContactResult& result) {
   result.verdict = Verdict::contact_at_start;
   result.t = 0.0;
   result.t_upper = 0.0;
   result.tolerance_used = options.tolerance;
   if (options.contacts != ContactState::none) {
-    const ConstantRatePath& path = start.motion().A();
-    const Eigen::Vector3d p_WC = (path.pivot(0.0) + path.precise_lever(0.0)).value();
+    const auto& [A, B, motion] = shapes;
+    const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
     result.contacts.push_back(
-        detail::make_contact({A.shape, B.shape, start, 0.0, p_WC}, state, found));
+        detail::make_contact({A, B, pair, 0.0, motion.origin(0.0)}, state, found));
   }
 }
 
 /// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
-void solve_solids(const MovingShape& A, const MovingShape& B, const Window& window,
+void solve_solids(const ShapePair& shapes, const TimeWindow& window, const RelativeState& start,
                   detail::WorkspaceData& workspace, const FirstContactOptions& options,
                   FirstContactResult& result) {
-  if (!A.shape.is_solid() && !B.shape.is_solid()) {
-    solve(A, B, window, workspace, options, result);
-    return;
-  }
-  const Hierarchy& hA = A.shape.hierarchy();
-  const Hierarchy& hB = B.shape.hierarchy();
-  const RelativeMotion motion(A.X_WS.path(0, hA.centre), B.X_WS.path(0, hB.centre),
-                              options.tolerance);
-  const MovingPair start(hA, hB, motion);
-  const RelativeState state = motion.state(0.0);
-  const detail::Containment found = detail::find_containment(A.shape, B.shape, start, state);
+  const auto& [A, B, motion] = shapes;
+  const detail::Containment found =
+      detail::find_containment(A, B, MovingPair(A.hierarchy(), B.hierarchy(), motion), start);
   if (found.inside == detail::Inside::yes) {
-    report_contained(A, B, start, state, found, options, result);
+    report_contained(shapes, start, found, options, result);
     return;
   }
-  solve(A, B, window, workspace, options, result);
+  solve(shapes, window, start, workspace, options, result);
   if (found.inside == detail::Inside::unsure && result.verdict != Verdict::contact_at_start) {
     result.verdict = Verdict::undecided;
     result.reason = UndecidedReason::precision;
@@ -200,24 +195,38 @@ void detail::validate(const FirstContactOptions& options) {
                 "finite and >= 0", options.contact_band);
 }
 
-void detail::first_contact_within(const MovingShape& A, const MovingShape& B, const Window& window,
-                                  Workspace& workspace, const FirstContactOptions& options,
-                                  FirstContactResult& result) {
-  validate(options);
+void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  detail::validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
+  result.t = window.begin;
   result.t_upper.reset();
   result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
-  result.enclosure_error = A.shape.enclosure_error() + B.shape.enclosure_error();
+  result.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
   result.contacts.clear();
   result.work = {};
+  const bool has_inside = window.begin == 0.0 && (pair.A.is_solid() || pair.B.is_solid());
+  RelativeState start;
+  if (has_inside || options.start_contacts == StartContacts::keep_half) {
+    pair.motion.enter(0.0);
+    start = pair.motion.state(0.0);
+  }
+  if (has_inside) {
+    solve_solids(pair, window, start, workspace.data(), options, result);
+  } else {
+    solve(pair, window, start, workspace.data(), options, result);
+  }
+}
+
+void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
+                                  const TimeWindow& window, Workspace& workspace,
+                                  const FirstContactOptions& options, FirstContactResult& result) {
   const auto ask = [&](const MovingShape& first, const MovingShape& second) {
-    if (window.begin == 0.0) {
-      solve_solids(first, second, window, workspace.data(), options, result);
-    } else {
-      solve(first, second, window, workspace.data(), options, result);
-    }
+    ConstantRatePair motion = detail::motion_of(first, second, options.tolerance);
+    first_contact({first.shape, second.shape, motion}, window, workspace, options, result);
   };
+  const FloatEnvironmentGuard guard;
   if (in_order(A, B)) {
     ask(A, B);
     return;

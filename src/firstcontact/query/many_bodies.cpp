@@ -27,7 +27,6 @@ ManyBodiesWorkspace& ManyBodiesWorkspace::operator=(ManyBodiesWorkspace&&) noexc
 namespace {
 
 using detail::Candidate;
-using detail::Window;
 
 void add(const WorkCount& work, WorkCount& sum) {
   sum.node_groups += work.node_groups;
@@ -145,7 +144,7 @@ class PairQueries {
   }
 
  private:
-  void ask(PairAnswer& pair, const Window& window) {
+  void ask(PairAnswer& pair, const TimeWindow& window) {
     FirstContactOptions options = options_.pair;
     options.margin = pair.margin;
     detail::first_contact_within(bodies_.moving_shape(pair.bodies[0]),
@@ -174,7 +173,7 @@ ManyBodiesResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& works
   detail::Workers workers(options.threads);
   PairQueries queries(bodies, workers, data, options);
   FirstOfAll first(bodies, options);
-  const auto search = [&](const Window& window, std::span<const Candidate> left) {
+  const auto search = [&](const TimeWindow& window, std::span<const Candidate> left) {
     while (!left.empty()) {
       const double end = std::min(window.end, first.horizon());
       const auto may_touch = [end](const Candidate& c) { return c.free_until <= end; };
@@ -185,7 +184,7 @@ ManyBodiesResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& works
         break;
       }
       report(options, std::min(due.front().free_until, first.horizon()));
-      const auto in_window = [end](const Candidate& c) { return Window{c.free_until, end}; };
+      const auto in_window = [end](const Candidate& c) { return TimeWindow{c.free_until, end}; };
       for (const PairAnswer& answer : queries.first_contacts(due, in_window)) {
         first.take(answer);
       }

@@ -57,7 +57,7 @@ double step(const ConstantRatePath& A, const ConstantRatePath& B, double distanc
 
 }  // namespace
 
-AlignedBox3d swept_box(const BallPath& ball, const Window& window) {
+AlignedBox3d swept_box(const BallPath& ball, const TimeWindow& window) {
   AlignedBox3d box;
   for (const ConstantRatePath& path : ball.centre) {
     const double begin = std::max(window.begin, path.t_begin());
@@ -78,7 +78,7 @@ AlignedBox3d swept_box(const BallPath& ball, const Window& window) {
   return box;
 }
 
-double apart_until(const BallPath& A, const BallPath& B, double margin, const Window& window) {
+double apart_until(const BallPath& A, const BallPath& B, double margin, const TimeWindow& window) {
   constexpr int kSteps = 6;
   const double distance_kept = A.radius + B.radius + margin;
   double t = window.begin;

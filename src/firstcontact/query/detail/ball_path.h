@@ -23,12 +23,12 @@ struct BallPath {
 ///
 /// Between two times the centre stays within min(w^2 l h^2 / 8, 2 l) of the line between its ends:
 /// its acceleration is w^2 l, with l its distance from the axis, and h the time between them.
-[[nodiscard]] Eigen::AlignedBox3d swept_box(const BallPath& ball, const Window& window);
+[[nodiscard]] Eigen::AlignedBox3d swept_box(const BallPath& ball, const TimeWindow& window);
 
 /// [-]  A time before which the two balls are farther apart than the margin; infinite where they
 /// are so on the whole window. At least its begin; takes a few steps of conservative advancement
 /// along the line of centres, then leaves the pair to a search.
 [[nodiscard]] double apart_until(const BallPath& A, const BallPath& B, double margin,
-                                 const Window& window);
+                                 const TimeWindow& window);
 
 }  // namespace firstcontact::detail

@@ -455,9 +455,11 @@ struct Pairs {
     const V<D> slack = hn::MulAdd(hn::Add(of_a(placed.size), of_b(placed.size)),
                                   hn::Set(d, kGapSlack), hn::Set(d, kTinyLength));
     s.charge = hn::MulAdd(hn::Set(d, frame.threshold), hn::Set(d, 1.0f + 2.0f * kRoughness), slack);
-    s.slip = hn::Mul(hn::Set(d, kSpeedSlack),
-                     hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)));
-    s.slip_acceleration = hn::Mul(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])));
+    s.slip = hn::MulAdd(hn::Set(d, kSpeedSlack),
+                        hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)),
+                        hn::Set(d, (1.0f + kRoughness) * frame.drift));
+    s.slip_acceleration = hn::MulAdd(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])),
+                                     hn::Set(d, (1.0f + 2.0f * kRoughness) * frame.bend));
 
     const V<D> doubt = hn::Add(of_a(placed.doubt), of_b(placed.doubt));
     s.doubt_middle = hn::Mul(hn::Set(d, 0.5f), hn::Add(slack, doubt));

@@ -21,6 +21,8 @@ struct BoxFrame {
   float rate[2];         ///< [rad per step]
   float velocity[2][3];  ///< Of the pivots: zero for A, relative to A's for B.
   float speed;           ///< At least the length of the latter.
+  float drift;           ///< At least those of RelativeState.
+  float bend;
   float threshold;       ///< Closer is contact; the error of positions in double is included.
   float horizon;         ///< Pairs apart for this long are done with.
   double t;              ///< Where boxes are interpolated, of bodies that deform.

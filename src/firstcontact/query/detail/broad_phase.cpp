@@ -20,10 +20,10 @@ BroadPhase::BroadPhase(const BodySet& bodies, Workers& workers, BroadPhaseData& 
       margins_(bodies.rules().greatest_margins(bodies.size())) {}
 
 void BroadPhase::for_each_interval(
-    const std::function<bool(const Window&, const std::vector<Candidate>&)>& use) {
-  std::vector<Window> left{{0.0, 1.0}};
+    const std::function<bool(const TimeWindow&, const std::vector<Candidate>&)>& use) {
+  std::vector<TimeWindow> left{{0.0, 1.0}};
   while (!left.empty()) {
-    const Window window = left.back();
+    const TimeWindow window = left.back();
     left.pop_back();
     if (!find_overlaps(window)) {
       const double middle = 0.5 * (window.begin + window.end);
@@ -44,21 +44,21 @@ BallPath BroadPhase::ball(std::size_t body, double more) const {
 }
 
 /// Half of a pair's margin, at least, belongs to each body.
-void BroadPhase::place_boxes(const Window& window) {
+void BroadPhase::place_boxes(const TimeWindow& window) {
   data_.boxes.resize(bodies_.size());
   workers_.for_each(bodies_.size(), 64, [&](std::size_t k) {
     data_.boxes[k] = swept_box(ball(k, 0.5 * margins_[k]), window);
   });
 }
 
-bool BroadPhase::join(const Window& window, std::size_t most) {
+bool BroadPhase::join(const TimeWindow& window, std::size_t most) {
   place_boxes(window);
   data_.overlaps.clear();
   return data_.join.join(data_.boxes, most, data_.overlaps);
 }
 
 /// False where the interval is better halved.
-bool BroadPhase::find_overlaps(const Window& window) {
+bool BroadPhase::find_overlaps(const TimeWindow& window) {
   const std::size_t usual = kPairsPerBody * bodies_.size();
   if (join(window, usual)) {
     return true;
@@ -72,7 +72,7 @@ bool BroadPhase::find_overlaps(const Window& window) {
   return 2 * at_one_time > usual && join(window, 4 * at_one_time);
 }
 
-void BroadPhase::find_candidates(const Window& window) {
+void BroadPhase::find_candidates(const TimeWindow& window) {
   std::vector<Candidate>& candidates = data_.candidates;
   candidates.clear();
   for (const BodyPair& pair : data_.overlaps) {

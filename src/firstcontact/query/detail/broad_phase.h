@@ -44,14 +44,14 @@ class BroadPhase {
   /// Calls use(window, candidates) in the order of time until it returns false. The candidates of
   /// a window come by the time until which they are proven free; all other pairs are free in it.
   void for_each_interval(
-      const std::function<bool(const Window&, const std::vector<Candidate>&)>& use);
+      const std::function<bool(const TimeWindow&, const std::vector<Candidate>&)>& use);
 
  private:
   [[nodiscard]] BallPath ball(std::size_t body, double more) const;
-  void place_boxes(const Window& window);
-  bool join(const Window& window, std::size_t most);
-  bool find_overlaps(const Window& window);
-  void find_candidates(const Window& window);
+  void place_boxes(const TimeWindow& window);
+  bool join(const TimeWindow& window, std::size_t most);
+  bool find_overlaps(const TimeWindow& window);
+  void find_candidates(const TimeWindow& window);
 
   const BodySet& bodies_;
   Workers& workers_;

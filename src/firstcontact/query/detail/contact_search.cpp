@@ -314,8 +314,8 @@ class Search {
   bool bound_in_double(const BoxGroup& group, int lane, float& time) const {
     const BoxId a{group.node_a, static_cast<std::uint32_t>(lane / HierarchyNode::kWidth)};
     const BoxId b{group.node_b, static_cast<std::uint32_t>(lane % HierarchyNode::kWidth)};
-    const double apart = pair_.time_apart(pair_.place_A(state_, a), pair_.place_B(state_, b),
-                                          box_threshold_, error_);
+    const double apart = pair_.time_apart(state_, pair_.place_A(state_, a),
+                                          pair_.place_B(state_, b), box_threshold_, error_);
     if (covered(state_t_, apart)) {
       return false;
     }
@@ -391,7 +391,7 @@ class Search {
     const auto consider = [&](const Eigen::Vector3d& direction) {
       const double length = direction.norm();
       if (length > 0.0 && best <= horizon() - t) {
-        best = std::max(best, step_along(entry, triangles, closest, direction / length, t));
+        best = std::max(best, step_along(entry, triangles, closest, direction / length));
       }
     };
     consider(d);
@@ -409,14 +409,12 @@ class Search {
   }
 
   [[nodiscard]] double step_along(const TriangleEntry& entry, const TrianglePair& triangles,
-                                  const ClosestFeatures& closest, const Eigen::Vector3d& n,
-                                  double t) const {
+                                  const ClosestFeatures& closest, const Eigen::Vector3d& n) const {
     if (!pair_.deforms()) {
-      return advance(pair_.motion(), state_, triangles, n, entry.threshold, error_, t, horizon());
+      return advance(state_, triangles, n, entry.threshold, error_, horizon());
     }
-    return advance_deforming(pair_.motion(), state_, triangles,
-                             pair_.rates(state_, entry.a, entry.b), closest, n, entry.threshold,
-                             error_, t, horizon());
+    return advance_deforming(state_, triangles, pair_.rates(state_, entry.a, entry.b), closest, n,
+                             entry.threshold, error_, horizon());
   }
 
   [[nodiscard]] double tolerance_of(const TriangleEntry& entry) const {
@@ -432,10 +430,9 @@ class Search {
     }
     entry.start_checked = true;
     entry.threshold = limits_.margin;
-    const RelativeState state = limits_.start.motion().state(0.0);
-    const TrianglePair triangles = limits_.start.place(state, entry.a, entry.b);
+    const TrianglePair triangles = pair_.place(limits_.start, entry.a, entry.b);
     const double distance = triangle_distance(triangles.A, triangles.B).distance;
-    const double error = limits_.start.gap_error(state);
+    const double error = pair_.gap_error(limits_.start);
     const double apart = distance - limits_.radii;
     if (apart > 16.0 * error && distance <= limits_.margin + limits_.tolerance) {
       entry.threshold = limits_.radii + 0.5 * apart;

@@ -29,7 +29,7 @@ struct SearchLimits {
   double radii = 0.0;      ///< [m]  Sum of the two.
   double tolerance = 0.0;  ///< [m]
   StartContacts start_contacts = StartContacts::report;
-  const MovingPair& start;  ///< At t = 0, where start distances are taken.
+  const RelativeState& start;  ///< At t = 0, where start distances are taken.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
 };

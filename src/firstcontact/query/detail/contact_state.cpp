@@ -49,11 +49,10 @@ Vector3d feature_normal(const TrianglePair& pair, const ClosestFeatures& closest
   return Vector3d::Zero();
 }
 
-Vector3d relative_velocity(const RelativeMotion& motion, const RelativeState& state,
-                           const Vector3d& p_A, const Vector3d& p_B) {
-  const Vector3d v_A = motion.A().rate() * motion.A().axis().cross(p_A - state.p_AQa);
-  const Vector3d v_B = motion.B().rate() * motion.B().axis().cross(p_B - state.p_AQb);
-  return motion.pivot_velocity() + v_B - v_A;
+Vector3d relative_velocity(const RelativeState& state, const Vector3d& p_A, const Vector3d& p_B) {
+  const Vector3d v_A = state.rate_A * state.axis_A.cross(p_A - state.p_AQa);
+  const Vector3d v_B = state.rate_B * state.axis_B.cross(p_B - state.p_AQb);
+  return state.pivot_velocity + v_B - v_A;
 }
 
 /// The velocity of a feature's point between those of its corners.
@@ -81,7 +80,7 @@ Vector3d rate_at(const Triangle& T, const Triangle& rates, const TriangleFeature
 Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
                           std::uint32_t triangle_A, std::uint32_t triangle_B,
                           const ClosestFeatures& closest) {
-  const Vector3d velocity = relative_velocity(pair.motion(), state, closest.p_A, closest.p_B);
+  const Vector3d velocity = relative_velocity(state, closest.p_A, closest.p_B);
   if (!pair.deforms()) {
     return velocity;
   }

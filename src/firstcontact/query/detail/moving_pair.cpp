@@ -121,31 +121,29 @@ void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) 
 
 }  // namespace
 
-MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const RelativeMotion& motion)
+MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion& motion)
     : A_(A),
       B_(B),
       motion_(motion),
-      speed_bound_((motion.pivot_velocity().norm() +
-                    motion.A().rate() * (motion.A().lever_length() + A.radius) +
-                    motion.B().rate() * (motion.B().lever_length() + B.radius) +
-                    A.deformation_speed + B.deformation_speed) *
-                   (1.0 + 0x1p-40)) {}
+      speed_bound_(
+          (motion.speed_bound(A.radius, B.radius) + A.deformation_speed + B.deformation_speed) *
+          (1.0 + 0x1p-50)) {}
 
 double MovingPair::gap_error(const RelativeState& state) const {
-  return 0x1p-47 * (A_.radius + B_.radius + state.p_AB.norm()) + motion_.position_error() +
-         motion_.A().rotation_error() * A_.radius + motion_.B().rotation_error() * B_.radius;
+  return 0x1p-47 * (A_.radius + B_.radius + state.p_AB.norm()) + state.position_error +
+         state.rotation_error_A * A_.radius + state.rotation_error_B * B_.radius;
 }
 
 PlacedBox MovingPair::place_A(const RelativeState& state, BoxId box) const {
   PlacedBox placed = detail::place(A_, box, state.t, state.R_WA, Vector3d::Zero(), state.p_AQa);
-  placed.velocity += motion_.A().rate() * motion_.A().axis().cross(placed.centre - state.p_AQa);
+  placed.velocity += state.rate_A * state.axis_A.cross(placed.centre - state.p_AQa);
   return placed;
 }
 
 PlacedBox MovingPair::place_B(const RelativeState& state, BoxId box) const {
   PlacedBox placed = detail::place(B_, box, state.t, state.R_WB, state.p_AB, state.p_AQb);
-  placed.velocity += motion_.pivot_velocity() +
-                     motion_.B().rate() * motion_.B().axis().cross(placed.centre - state.p_AQb);
+  placed.velocity +=
+      state.pivot_velocity + state.rate_B * state.axis_B.cross(placed.centre - state.p_AQb);
   return placed;
 }
 
@@ -174,28 +172,29 @@ TrianglePair MovingPair::rates(const RelativeState& state, std::uint32_t triangl
   return {rates_of(A_, state.R_WA, triangle_A), rates_of(B_, state.R_WB, triangle_B)};
 }
 
-double MovingPair::time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
-                              double error) const {
-  const double wA = motion_.A().rate();
-  const double wB = motion_.B().rate();
+double MovingPair::time_apart(const RelativeState& state, const PlacedBox& a, const PlacedBox& b,
+                              double threshold, double error) const {
+  const double wA = state.rate_A;
+  const double wB = state.rate_B;
   const double dA = A_.deformation_speed;
   const double dB = B_.deformation_speed;
   const Vector3d velocity = b.velocity - a.velocity;
   const double slip =
-      0x1p-47 * (motion_.pivot_velocity().norm() + wA * a.reach + wB * b.reach + dA + dB);
+      state.drift + 0x1p-47 * (state.pivot_velocity.norm() + wA * a.reach + wB * b.reach + dA + dB);
   double best = 0.0;
   for_each_direction(a, b, [&](const Separation& s) {
     const double clear = s.gap - threshold - error;
     if (!(clear > 0.0)) {
       return;
     }
-    const double turn_A = wA * s.n.cross(motion_.A().axis()).norm();
-    const double turn_B = wB * s.n.cross(motion_.B().axis()).norm();
+    const double turn_A = wA * s.n.cross(state.axis_A).norm();
+    const double turn_B = wB * s.n.cross(state.axis_B).norm();
     const double speed = slip - s.n.dot(velocity) + turn_A * a.radius + turn_B * b.radius +
                          growth_along(a, s.n) + growth_along(b, -s.n);
-    const double half_acceleration = 0.5 * (1.0 + 0x1p-46) *
-                                     (turn_A * (wA * a.reach + 2.0 * dA) +
-                                      turn_B * (wB * b.reach + 2.0 * dB) + slip * (wA + wB));
+    const double half_acceleration =
+        0.5 * (1.0 + 0x1p-46) *
+        (turn_A * (wA * a.reach + 2.0 * dA) + turn_B * (wB * b.reach + 2.0 * dB) +
+         slip * (wA + wB) + state.bend);
     best = std::max(best, time_to_close(clear, speed, half_acceleration));
   });
   return best;
@@ -222,23 +221,12 @@ double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
 
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
-  const std::array<const ConstantRatePath*, 2> paths{&motion_.A(), &motion_.B()};
   const std::array<double, 2> units{A_.unit, B_.unit};
   const std::array<double, 2> deformation{A_.deformation_speed, B_.deformation_speed};
   for (int body = 0; body < 2; ++body) {
     frame.ratio[body] = units[body] / unit();
-    frame.rate[body] = static_cast<float>(paths[body]->rate());
     frame.deformation[body] = deformation[body] > 0.0 ? round_up(deformation[body] / unit()) : 0.0f;
-    for (int k = 0; k < 3; ++k) {
-      frame.axis[body][k] = static_cast<float>(paths[body]->axis()[k]);
-    }
   }
-  for (int k = 0; k < 3; ++k) {
-    frame.velocity[1][k] = static_cast<float>(motion_.pivot_velocity()[k] / unit());
-  }
-  // What deforms brings rounding of its own: box_bounds.cpp.
-  frame.speed = round_up(
-      (motion_.pivot_velocity().norm() + 4.0 * (deformation[0] + deformation[1])) / unit());
   return frame;
 }
 
@@ -252,7 +240,17 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
     frame.origin[1][i] = state.p_AB[i] * scale;
     frame.pivot[0][i] = state.p_AQa[i] * scale;
     frame.pivot[1][i] = state.p_AQb[i] * scale;
+    frame.axis[0][i] = static_cast<float>(state.axis_A[i]);
+    frame.axis[1][i] = static_cast<float>(state.axis_B[i]);
+    frame.velocity[1][i] = static_cast<float>(state.pivot_velocity[i] * scale);
   }
+  frame.rate[0] = static_cast<float>(state.rate_A);
+  frame.rate[1] = static_cast<float>(state.rate_B);
+  // What deforms brings rounding of its own: box_bounds.cpp.
+  frame.speed = round_up(
+      (state.pivot_velocity.norm() + 4.0 * (A_.deformation_speed + B_.deformation_speed)) * scale);
+  frame.drift = state.drift > 0.0 ? round_up(state.drift * scale) : 0.0f;
+  frame.bend = state.bend > 0.0 ? round_up(state.bend * scale) : 0.0f;
   frame.threshold = round_up(threshold * scale);
   frame.t = state.t;
 }

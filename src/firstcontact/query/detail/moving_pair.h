@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/motion/relative_motion.h>
+#include <firstcontact/motion/pair_motion.h>
 #include <firstcontact/narrowphase/advance.h>
 #include <firstcontact/query/detail/box_bounds.h>
 
@@ -52,11 +52,12 @@ inline float round_down(double value) {
 
 class MovingPair {
  public:
-  MovingPair(const Hierarchy& A, const Hierarchy& B, const RelativeMotion& motion);
+  /// @param motion  that has entered a piece
+  MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion& motion);
 
   [[nodiscard]] const Hierarchy& A() const { return A_; }
   [[nodiscard]] const Hierarchy& B() const { return B_; }
-  [[nodiscard]] const RelativeMotion& motion() const { return motion_; }
+  [[nodiscard]] const PairMotion& motion() const { return motion_; }
 
   /// [m]  How far any gap computed from positions at this state may be from the exact one.
   ///
@@ -81,8 +82,8 @@ class MovingPair {
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
   /// time. Turning adds the velocities of where the vertices are now, and the accelerations of
   /// advance_deforming().
-  [[nodiscard]] double time_apart(const PlacedBox& a, const PlacedBox& b, double threshold,
-                                  double error) const;
+  [[nodiscard]] double time_apart(const RelativeState& state, const PlacedBox& a,
+                                  const PlacedBox& b, double threshold, double error) const;
 
   /// [m]  Lower bound of the distance of two boxes at this instant, by the same directions;
   /// negative where none separates.
@@ -110,7 +111,7 @@ class MovingPair {
  private:
   const Hierarchy& A_;
   const Hierarchy& B_;
-  const RelativeMotion& motion_;
+  const PairMotion& motion_;
   double speed_bound_;
 };
 

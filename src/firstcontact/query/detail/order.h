@@ -1,11 +1,9 @@
 /// @file
-/// The order in which two bodies are treated, and the pieces of time that they share.
+/// The order in which two bodies are treated, and how they then move against each other.
 
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-
+#include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
@@ -16,29 +14,9 @@ inline bool in_order(const MovingShape& A, const MovingShape& B) {
   return shapes != 0 ? shapes < 0 : A.X_WS.compare(B.X_WS) <= 0;
 }
 
-/// Walks the pieces of time over which both motions are smooth.
-class SharedPiece {
- public:
-  SharedPiece(const Motion& A, const Motion& B) : A_(A.breaks()), B_(B.breaks()) {}
-
-  [[nodiscard]] bool valid() const { return begin_ < 1.0; }
-  [[nodiscard]] double begin() const { return begin_; }
-  [[nodiscard]] double end() const { return std::min(A_[index_A_ + 1], B_[index_B_ + 1]); }
-  [[nodiscard]] std::size_t index_A() const { return index_A_; }
-  [[nodiscard]] std::size_t index_B() const { return index_B_; }
-
-  void next() {
-    begin_ = end();
-    index_A_ += A_[index_A_ + 1] == begin_ ? 1 : 0;
-    index_B_ += B_[index_B_ + 1] == begin_ ? 1 : 0;
-  }
-
- private:
-  std::span<const double> A_;
-  std::span<const double> B_;
-  std::size_t index_A_ = 0;
-  std::size_t index_B_ = 0;
-  double begin_ = 0.0;
-};
+/// How the centres of two shapes move against each other.
+inline ConstantRatePair motion_of(const MovingShape& A, const MovingShape& B, double resolution) {
+  return {A.X_WS, B.X_WS, A.shape.hierarchy().centre, B.shape.hierarchy().centre, resolution};
+}
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,198 @@
+#include <firstcontact/articulated/link_pair_motion.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kUp = 1.0 + 0x1p-40;
+
+/// Sums of a few products of numbers and vectors, each rounded.
+constexpr double kRounding = 0x1p-47;
+
+/// [-]  A pole is not taken farther than this many times the sizes that are there anyway: the
+/// rounding of a velocity grows with its distance.
+constexpr double kFarPole = 4.0;
+
+const LinkPath& piece_at(const LinkMotion& motion, double t) {
+  const std::span<const LinkPath> pieces = motion.pieces();
+  const auto ends_later = [](double time, const LinkPath& piece) { return time < piece.t_end(); };
+  return *std::upper_bound(pieces.begin(), pieces.end() - 1, t, ends_later);
+}
+
+/// The time in which second-order terms stand for the path: V T bounds the way that a point goes,
+/// J T^3 / 6 what they miss of it.
+double window_length(double speed, double jerk) {
+  return jerk > 0.0 ? std::sqrt(0.5 * speed / jerk) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+/// One body's part of a RelativeState, positions from the pair's origin.
+struct LinkPairMotion::BodyState {
+  Eigen::Matrix3d R;
+  Vector3d centre;
+  Vector3d pivot;
+  Vector3d pivot_velocity;
+  Vector3d axis = Vector3d::Zero();
+  double rate = 0.0;
+  double drift = 0.0;
+  double bend = 0.0;
+  double position_error = 0.0;
+  double rotation_error = 0.0;
+};
+
+LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B) : bodies_{Body{A}, Body{B}} {}
+
+double LinkPairMotion::enter(double t) {
+  double piece_end = 1.0;
+  for (Body& body : bodies_) {
+    body.path = &piece_at(body.ball.X_FL, t);
+    piece_end = std::min(piece_end, body.path->t_end());
+  }
+  p_FO_ = DoubleDoubleVector3(bodies_[0].path->pose(t).p_OL);
+  double length = piece_end - t;
+  bool bends = false;
+  for (Body& body : bodies_) {
+    bound(body, t, piece_end);
+    length = std::min(length, window_length(body.speed, body.jerk));
+    bends = bends || body.jerk > 0.0;
+  }
+  // At least a thousandth of what is left, so that windows end; and no short rest.
+  const double least = std::max(length, 1e-3 * (piece_end - t));
+  end_ = t + 1.3 * least < piece_end ? t + least : piece_end;
+  if (bends && end_ < piece_end) {
+    for (Body& body : bodies_) {
+      bound(body, t, end_);
+    }
+  }
+  return end_;
+}
+
+void LinkPairMotion::bound(Body& body, double t, double end) {
+  if (const ConstantRatePath* path = body.path->constant_rates()) {
+    // The path is that of the origin.
+    body.speed =
+        (path->pivot_velocity().value().norm() +
+         path->rate() * (path->lever_length() + body.ball.p_LC.norm() + body.ball.radius)) *
+        kUp;
+    body.jerk = 0.0;
+    return;
+  }
+  const LinkPart whole{.centre = body.ball.p_LC, .radius = body.ball.radius};
+  const CoordinateSegment::Bounds bounds =
+      body.path->window(t, t, end, whole, scratch_, p_FO_).bounds();
+  body.speed = bounds.rate;
+  body.jerk = bounds.jerk;
+}
+
+LinkPairMotion::BodyState LinkPairMotion::free_state(const Body& body, const ConstantRatePath& path,
+                                                     double t) const {
+  const ConstantRatePath::State at = path.state(t);
+  const Vector3d offset = at.R_WB * body.ball.p_LC;
+  BodyState state;
+  state.R = at.R_WB;
+  state.pivot = (path.pivot(t) - p_FO_).value();
+  state.centre = state.pivot + (at.p_QC_W + offset);
+  state.pivot_velocity = path.pivot_velocity().value();
+  state.axis = path.axis();
+  state.rate = path.rate();
+  // The pivot is known as well as its distance from the centre.
+  state.drift = kRounding * state.rate * (at.p_QC_W.norm() + offset.norm());
+  state.rotation_error = path.rotation_error();
+  state.position_error = path.position_error() + path.rotation_error() * body.ball.p_LC.norm() +
+                         kRounding * (at.p_QC_W.norm() + offset.norm() + state.pivot.norm());
+  return state;
+}
+
+LinkPairMotion::BodyState LinkPairMotion::state_of(const Body& body, double t) const {
+  if (const ConstantRatePath* path = body.path->constant_rates()) {
+    return free_state(body, *path, t);
+  }
+  const LinkState link = body.path->state(t, p_FO_);
+  const double radius = body.ball.radius * kUp;
+  const Vector3d offset = link.pose.R_FL * body.ball.p_LC;
+  const double far = offset.norm();
+  const Vector3d& w = link.spin;
+  const Vector3d inward = w.cross(offset);
+  const Vector3d velocity = link.velocity + inward;
+  const Vector3d acceleration = link.acceleration + link.spin_rate.cross(offset) + w.cross(inward);
+
+  BodyState state;
+  state.R = link.pose.R_FL;
+  state.centre = link.pose.p_OL + offset;
+  state.rotation_error = link.pose.rotation_error;
+  state.position_error = link.pose.position_error + link.pose.rotation_error * far +
+                         kRounding * (far + link.pose.p_OL.norm());
+  state.rate = w.norm();
+  Vector3d lever = Vector3d::Zero();  // From the pole to the centre.
+  if (state.rate > 0.0) {
+    state.axis = w / state.rate;
+    const Vector3d across = acceleration - state.axis.dot(acceleration) * state.axis;
+    const double most = state.rate * (velocity.norm() + state.rate * radius);
+    const double scale = std::min(1.0, kFarPole * most / std::max(across.norm(), 1e-300));
+    lever = -scale / (state.rate * state.rate) * across;
+  }
+  state.pivot = state.centre - lever;
+  state.pivot_velocity = velocity - w.cross(lever);
+  const double reach = lever.norm() + radius;
+  const Vector3d bent = acceleration - w.cross(w.cross(lever));
+  const double w2 = state.rate * state.rate;
+  const double misplaced = (far + radius) * (link.pose.rotation_error + kRounding);
+  state.drift = (link.velocity_error + link.spin_error * (far + radius) + state.rate * misplaced +
+                 kRounding * (link.velocity.norm() + state.rate * (far + reach))) *
+                kUp;
+  const double turn_error =
+      link.spin_rate_error + link.spin_error * (2.0 * state.rate + link.spin_error);
+  const double turn = link.spin_rate.norm() + w2;
+  state.bend = (bent.norm() + link.spin_rate.norm() * radius + link.acceleration_error +
+                turn_error * (far + reach) + turn * misplaced +
+                kRounding * (link.acceleration.norm() + turn * (far + reach)) +
+                (body.jerk + w2 * state.rate * reach) * std::max(end_ - t, 0.0) / 3.0) *
+               kUp;
+  return state;
+}
+
+RelativeState LinkPairMotion::state(double t) const {
+  const BodyState A = state_of(bodies_[0], t);
+  const BodyState B = state_of(bodies_[1], t);
+  RelativeState state;
+  state.t = t;
+  state.R_WA = A.R;
+  state.R_WB = B.R;
+  state.p_AB = B.centre - A.centre;
+  state.p_AQa = A.pivot - A.centre;
+  state.p_AQb = B.pivot - A.centre;
+  state.axis_A = A.axis;
+  state.axis_B = B.axis;
+  state.rate_A = A.rate;
+  state.rate_B = B.rate;
+  state.pivot_velocity = B.pivot_velocity - A.pivot_velocity;
+  state.drift = A.drift + B.drift + kRounding * (A.pivot_velocity.norm() + B.pivot_velocity.norm());
+  state.bend = A.bend + B.bend;
+  state.position_error =
+      A.position_error + B.position_error + kRounding * (A.centre.norm() + B.centre.norm());
+  state.rotation_error_A = A.rotation_error;
+  state.rotation_error_B = B.rotation_error;
+  return state;
+}
+
+double LinkPairMotion::speed_bound([[maybe_unused]] double radius_A,
+                                   [[maybe_unused]] double radius_B) const {
+  assert(radius_A <= bodies_[0].ball.radius && radius_B <= bodies_[1].ball.radius);
+  return (bodies_[0].speed + bodies_[1].speed) * kUp;
+}
+
+Vector3d LinkPairMotion::origin(double t) const {
+  return p_FO_.value() + state_of(bodies_[0], t).centre;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,63 @@
+/// @file
+/// Two bodies that move by joints, as a query sees them.
+
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <firstcontact/articulated/link_path.h>
+#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pair_motion.h>
+
+namespace firstcontact {
+
+/// A body of a pair: its motion in a frame F that both share, and a ball around its shape.
+struct LinkBall {
+  const LinkMotion& X_FL;
+  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 0.0;                             ///< [m]
+};
+
+/// Each body turns about its pole of acceleration: the point whose acceleration across the spin is
+/// zero. A link on one axle that turns at a constant rate then has no bend at the start of a piece.
+///
+/// Derivation: let w, al be the spin and its rate, c the acceleration of the ball's centre C at t,
+/// across w: a, and Q = C + a / w^2. A point at e from C has the acceleration c + al x e +
+/// w x (w x e); its model's is w x (w x (C - Q + e)). They differ by c - a + al x e at t, and after
+/// tau by (J + w^3 |Q - C| + w^3 r) tau more at most, with J a bound of the point's jerk. Twice
+/// integrated that is (|c - a| + |al| r + (J + w^3 (|Q - C| + r)) T / 3) tau^2 / 2 for tau <= T.
+///
+/// Pieces are windows of time in which no point's path bends by more than about half of itself; of
+/// bodies that follow a Motion they are its pieces, and nothing bends. Refers to the motions.
+class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
+ public:
+  LinkPairMotion(const LinkBall& A, const LinkBall& B);
+
+  double enter(double t) override;
+  [[nodiscard]] RelativeState state(double t) const override;
+  [[nodiscard]] double speed_bound(double radius_A, double radius_B) const override;
+  [[nodiscard]] Eigen::Vector3d origin(double t) const override;
+
+ private:
+  struct Body {
+    LinkBall ball;
+    const LinkPath* path = nullptr;  ///< The piece entered.
+    double speed = 0.0;              ///< Of any point of the ball.
+    double jerk = 0.0;
+  };
+  struct BodyState;
+  void bound(Body& body, double t, double end);
+  [[nodiscard]] BodyState state_of(const Body& body, double t) const;
+  [[nodiscard]] BodyState free_state(const Body& body, const ConstantRatePath& path,
+                                     double t) const;
+
+  std::array<Body, 2> bodies_;
+  double end_ = 0.0;
+  DoubleDoubleVector3 p_FO_;  ///< Positions are taken from here on.
+  LinkScratch scratch_;
+};
+
+}  // namespace firstcontact

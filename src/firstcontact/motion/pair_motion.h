@@ -1,0 +1,38 @@
+/// @file
+/// How two bodies move against each other: all that a query of two bodies knows of their motions.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/relative_state.h>
+
+namespace firstcontact {
+
+/// Two motions over the step, t in [0, 1], piece after piece. Pieces are entered in any order; what
+/// is asked after that belongs to the piece entered last.
+class FIRSTCONTACT_API PairMotion {
+ public:
+  virtual ~PairMotion() = default;
+
+  /// Enters the piece that contains t, the later one at a break. Returns its end.
+  virtual double enter(double t) = 0;
+
+  /// Both bodies at a time of the piece.
+  [[nodiscard]] virtual RelativeState state(double t) const = 0;
+
+  /// [m per step]  No distance of two points within the radii from the bodies' points C changes
+  /// faster during the piece.
+  [[nodiscard]] virtual double speed_bound(double radius_A, double radius_B) const = 0;
+
+  /// [m]  A's point C in the frame of the motions, where points are reported.
+  [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;
+
+ protected:
+  PairMotion() = default;
+  PairMotion(const PairMotion&) = default;
+  PairMotion& operator=(const PairMotion&) = default;
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,40 @@
+/// @file
+/// Two bodies at one instant, and how they move against each other from there on.
+
+#pragma once
+
+#include <Eigen/Core>
+
+namespace firstcontact {
+
+/// World axes, origin at point C of body A. Any frame serves as the world that both motions share.
+///
+/// From t on each body P turns at a constant rate about its pivot Qp, and the pivots move on lines:
+/// what follows from these numbers alone is the body's model motion. The exact motion of a point
+/// may depart from it. Summed over both bodies, for points within the radii that the state was made
+/// for, that is at most
+///   drift tau + bend tau^2 / 2,   0 <= tau <= time left of the piece;
+/// both are zero for motions of constant rates, up to the rounding of what stands here.
+struct RelativeState {
+  double t = 0.0;
+  Eigen::Matrix3d R_WA = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_AB = Eigen::Vector3d::Zero();   ///< [m]  From A's point C to B's.
+  Eigen::Vector3d p_AQa = Eigen::Vector3d::Zero();  ///< [m]  A's pivot.
+  Eigen::Vector3d p_AQb = Eigen::Vector3d::Zero();  ///< [m]  B's pivot.
+
+  Eigen::Vector3d axis_A = Eigen::Vector3d::Zero();  ///< [-]  Unit; zero where A does not turn.
+  Eigen::Vector3d axis_B = Eigen::Vector3d::Zero();
+  double rate_A = 0.0;  ///< [rad per step]  >= 0
+  double rate_B = 0.0;
+  Eigen::Vector3d pivot_velocity =
+      Eigen::Vector3d::Zero();  ///< [m per step]  Of B's relative to A's.
+  double drift = 0.0;           ///< [m per step]
+  double bend = 0.0;            ///< [m per step^2]
+
+  double position_error = 0.0;    ///< [m]  Of p_AB, beyond one rounding of its size.
+  double rotation_error_A = 0.0;  ///< [-]  Of R y: times |y|, beyond 22 2^-53 of it.
+  double rotation_error_B = 0.0;
+};
+
+}  // namespace firstcontact
