@@ -71,6 +71,9 @@ class FIRSTCONTACT_API JointPath {
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 
+  /// Whether it turns about one axis, else about any through the child's origin.
+  [[nodiscard]] bool has_axis() const { return std::holds_alternative<Polynomial>(kind_); }
+
  private:
   struct Polynomial {
     DoubleDoubleVector3 p_PJ;

@@ -24,12 +24,13 @@ auto place_key(const LinkPose& pose) {
 }
 
 /// Whether A comes before B by content, so that a question and its swap do the same arithmetic.
-bool in_order(const MovingLink& A, const MovingLink& B) {
+bool in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window) {
   const int shapes = A.shape.compare(B.shape);
   if (shapes != 0) {
     return shapes < 0;
   }
-  for (const double t : {0.0, 0.375, 1.0}) {
+  for (const double part : {0.0, 0.375, 1.0}) {
+    const double t = std::min(window.begin + part * (window.end - window.begin), window.end);
     const auto a = place_key(A.X_FS.at(t).pose(t));
     const auto b = place_key(B.X_FS.at(t).pose(t));
     if (a != b) {
@@ -49,12 +50,13 @@ void swap_bodies(Contact& contact) {
 
 /// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
 template <class Ask>
-bool ask_in_order(const MovingLink& A, const MovingLink& B, const Ask& ask) {
+bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                  const Ask& ask) {
   if (A.shape.hierarchy().deforms() || B.shape.hierarchy().deforms()) {
     throw std::invalid_argument("queries of links: a shape deforms; links are rigid");
   }
   const FloatEnvironmentGuard guard;
-  const bool swapped = !in_order(A, B);
+  const bool swapped = !in_order(A, B, window);
   const MovingLink& first = swapped ? B : A;
   const MovingLink& second = swapped ? A : B;
   LinkPairMotion motion(ball_of(first), ball_of(second));
@@ -64,13 +66,20 @@ bool ask_in_order(const MovingLink& A, const MovingLink& B, const Ask& ask) {
 
 }  // namespace
 
-void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
-                   const FirstContactOptions& options, FirstContactResult& result) {
-  const bool swapped = ask_in_order(
-      A, B, [&](const ShapePair& pair) { first_contact(pair, {}, workspace, options, result); });
+void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                   Workspace& workspace, const FirstContactOptions& options,
+                   FirstContactResult& result) {
+  const bool swapped = ask_in_order(A, B, window, [&](const ShapePair& pair) {
+    first_contact(pair, window, workspace, options, result);
+  });
   if (swapped) {
     std::for_each(result.contacts.begin(), result.contacts.end(), swap_bodies);
   }
+}
+
+void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  first_contact(A, B, {}, workspace, options, result);
 }
 
 FirstContactResult first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
@@ -82,8 +91,8 @@ FirstContactResult first_contact(const MovingLink& A, const MovingLink& B, Works
 
 DistanceResult distance(const MovingLink& A, const MovingLink& B, double t, Workspace& workspace) {
   DistanceResult result;
-  const bool swapped =
-      ask_in_order(A, B, [&](const ShapePair& pair) { result = distance(pair, t, workspace); });
+  const bool swapped = ask_in_order(
+      A, B, {t, t}, [&](const ShapePair& pair) { result = distance(pair, t, workspace); });
   if (swapped && result.closest) {
     swap_bodies(*result.closest);
   }
@@ -94,8 +103,9 @@ ClosestApproachResult closest_approach(const MovingLink& A, const MovingLink& B,
                                        Workspace& workspace,
                                        const ClosestApproachOptions& options) {
   ClosestApproachResult result;
-  const bool swapped = ask_in_order(
-      A, B, [&](const ShapePair& pair) { result = closest_approach(pair, workspace, options); });
+  const bool swapped = ask_in_order(A, B, {}, [&](const ShapePair& pair) {
+    result = closest_approach(pair, workspace, options);
+  });
   if (swapped && result.closest) {
     swap_bodies(*result.closest);
   }

@@ -15,6 +15,7 @@
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact {
 
@@ -58,6 +59,12 @@ FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Wo
 [[nodiscard]] FIRSTCONTACT_API FirstContactResult
 first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
               const FirstContactOptions& options = {});
+
+/// The same in a part of the step; before it the shapes are proven free. The motions may have only
+/// the pieces that the part lies in. When free, `t` is its end.
+FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B,
+                                    const TimeWindow& window, Workspace& workspace,
+                                    const FirstContactOptions& options, FirstContactResult& result);
 
 /// As distance() of two moving shapes, in the frame F.
 [[nodiscard]] FIRSTCONTACT_API DistanceResult distance(const MovingLink& A, const MovingLink& B,

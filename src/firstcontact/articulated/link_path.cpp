@@ -23,6 +23,8 @@ constexpr double kRotationStep = 0x1p-47;
 /// Sums and products of up to some hundred joints' bounds.
 constexpr double kUp = 1.0 + 0x1p-40;
 
+constexpr double kHalfTurn = 3.141592653589793;
+
 Matrix3d cross_matrix(const Vector3d& w) {
   Matrix3d m;
   m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
@@ -138,7 +140,8 @@ LinkPath::Walk LinkPath::walk(double t, const DoubleDoubleVector3& p_FO,
     const Vector3d lever = walk.R * joint.p_QL;  // In the parent's axes: before the turn.
     const double lever_length = joint.p_QL.norm();
     if (scratch != nullptr) {
-      scratch->places_[k] = {walk.p.value, axis.value, step.value().norm(), lever_length};
+      scratch->places_[k] = {walk.p.value, axis.value, step.value().norm(), lever_length,
+                             walk.p.value + lever};
     }
     walk.turn(joint, axis);
     walk.move({lever, (walk.rotation_error + kRounding) * lever_length});
@@ -218,6 +221,32 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   }
   window.bounds_ = {v * kUp, a * kUp, j * kUp};
   return window;
+}
+
+double LinkPath::tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
+                                std::span<const TrackingError> errors, LinkScratch& scratch) const {
+  assert(errors.size() == joints_.size());
+  scratch.places_.resize(joints_.size());
+  const Walk end = walk(t, {}, &scratch);
+  const double T = std::max(t_to - t, t - t_from) * kUp;
+  const Vector3d centre = end.p.value + end.R * part.centre;
+  double v = 0.0;  // Of the part's points, as seen from the child.
+  double bound = 0.0;
+  for (std::size_t k = joints_.size(); k-- > 0;) {
+    const LinkScratch::JointPlace& place = scratch.places_[k];
+    const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
+    const Vector3d arm = centre - place.p_OQ;
+    const double error = 2.0 * end.p.error + (end.rotation_error + 8.0 * kRounding) *
+                                                 (arm.norm() + place.lever + part.centre.norm());
+    const double from_axis = arm.cross(place.axis).norm() + error + part.reach() + v * T;
+    const double rho = joints_[k]->has_axis()
+                           ? from_axis
+                           : (centre - place.p_OL).norm() + error + part.reach() + v * T;
+    const double chord = 2.0 * std::sin(0.5 * std::min(errors[k].angle, kHalfTurn));
+    bound += (chord * rho + errors[k].distance) * kUp;
+    v = (bounds.pivot.rate + v + bounds.angle.rate * from_axis) * kUp;
+  }
+  return bound * kUp;
 }
 
 double LinkWindow::support(const LinkPart& part, const Vector3d& n, const Vector3d& linear,

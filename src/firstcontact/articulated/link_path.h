@@ -4,13 +4,16 @@
 
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <firstcontact/articulated/joint_path.h>
 #include <firstcontact/articulated/precise_transform.h>
+#include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/math/double_double.h>
 #include <firstcontact/math/export.h>
 
@@ -111,6 +114,7 @@ class FIRSTCONTACT_API LinkScratch {
     Eigen::Vector3d axis;  // In F.
     double step = 0.0;     // |p_PQ| at t.
     double lever = 0.0;    // |p_QL|.
+    Eigen::Vector3d p_OL;  // The child's origin, in F.
   };
   std::vector<JointPlace> places_;
 };
@@ -156,6 +160,23 @@ class FIRSTCONTACT_API LinkPath {
   /// @param part  the link, or as much of it as is of interest
   [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const LinkPart& part,
                                   LinkScratch& scratch, const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// [m]  No point of the part is farther from its place, at any time of [t_from, t_to], where each
+  /// joint is within an error of its path.
+  ///
+  /// Derivation: let e bound how far the part's points are from their places as seen from a child.
+  /// With the joint at its path they are as far as seen from the parent. An error of the angle
+  /// moves what is at a distance rho from the axis by 2 sin(error / 2) rho, one of the slide by as
+  /// much:
+  ///   e' <= e + 2 sin(min(angle, pi) / 2) rho + distance,
+  /// from the tip to F, with rho as in window().
+  ///
+  /// @param errors  one for each joint of the path, from F on
+  [[nodiscard]] double tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
+                                      std::span<const TrackingError> errors,
+                                      LinkScratch& scratch) const;
+
+  [[nodiscard]] std::size_t joint_count() const { return joints_.size(); }
 
  private:
   struct Walk;

@@ -79,15 +79,6 @@ const BodyStretch& stretch_at(std::span<const BodyStretch> stretches, double t) 
 
 }  // namespace
 
-TrackingError tracking_error_of(const Joint& joint, double coordinate) {
-  if (coordinate_count(joint.type) != 1) {
-    throw std::invalid_argument("tracking_error_of: joint '" + joint.name +
-                                "' does not have one coordinate");
-  }
-  return joint.type == JointType::prismatic ? TrackingError{.distance = coordinate}
-                                            : TrackingError{.angle = coordinate};
-}
-
 void RobotScene::require_member(std::size_t member) const {
   if (member >= members_.size()) {
     refuse("there is no member " + std::to_string(member));

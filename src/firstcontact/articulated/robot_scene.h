@@ -13,6 +13,7 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
@@ -20,19 +21,6 @@
 #include <firstcontact/query/pair_rules.h>
 
 namespace firstcontact {
-
-/// How far a joint may be from its nominal motion at any time.
-struct TrackingError {
-  double angle = 0.0;     ///< [rad]  Of a joint that turns; >= 0.
-  double distance = 0.0;  ///< [m]  Of a joint that slides; >= 0.
-};
-
-/// The error of a joint of one coordinate, in the unit of the coordinate.
-///
-/// @param coordinate  [rad or m]
-/// @throws std::invalid_argument if the joint has none or more
-[[nodiscard]] FIRSTCONTACT_API TrackingError tracking_error_of(const Joint& joint,
-                                                               double coordinate);
 
 /// A body that a link carries for a while. All by their numbers as members of the scene.
 ///
