@@ -11,10 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/pair_rules.h>
 
@@ -22,26 +21,25 @@ namespace firstcontact {
 
 struct RobotCheckOptions {
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than threshold + tolerance.
-  WorkBudget budget = {};   ///< `steps` holds for each pair; `memory` is not used.
-  int threads = 0;          ///< At most; 0 for one on each core. Answers do not depend on it.
-  bool all_pairs = false;   ///< The answer of every tested pair over the whole step.
+  ContactState contacts = ContactState::all;  ///< What is said about a contact.
+  WorkBudget budget = {};  ///< Steps and memory are those of one pair in one piece of time.
+  int threads = 0;         ///< At most; 0 for one on each core. Answers do not depend on it.
+
+  bool all_pairs = false;              ///< The answer of every tested pair over the whole step.
   bool all_contact_intervals = false;  ///< So too, with every interval of contact of each.
   bool least_clearance = false;        ///< So too, with the least distance of each.
-  double time_resolution = 1e-3;  ///< [-]  Of contact intervals: see ContactInterval; in (0, 1].
+  double time_resolution = 1e-3;       ///< [-]  Of contact intervals: see there; in (0, 1].
+
   /// Called now and then from the calling thread with the part that is done, in [0, 1]; without
   /// all_pairs the time proven free so far. May be empty.
   std::function<void(double)> progress = {};
 };
 
-/// The closest triangles of two members at the reported time.
+/// Two features of members in contact, in the world.
 struct RobotContact {
   BodyPair members = {};
-  std::array<std::size_t, 2> geometries = {};   ///< Of each member, by index.
-  std::array<std::uint32_t, 2> triangles = {};  ///< Of each geometry, by index in its shape.
-  std::array<Eigen::Vector3d, 2> points_W = {Eigen::Vector3d::Zero(),
-                                             Eigen::Vector3d::Zero()};  ///< [m]  On the surfaces.
-  std::optional<Eigen::Vector3d> n_AB_W = {};  ///< [-]  From the first to the second, if apart.
-  double distance = 0.0;                       ///< [m]  0 too for one inside a solid.
+  std::array<std::size_t, 2> geometries = {};  ///< Of each member, by index.
+  Contact contact = {};                        ///< Features by their indices in the shapes.
 };
 
 /// A stretch of time that may be in contact: outside of its intervals a pair is proven free.

@@ -1,0 +1,269 @@
+#include <firstcontact/articulated/check_robots.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <firstcontact/articulated/detail/candidates.h>
+#include <firstcontact/articulated/detail/contact_intervals.h>
+#include <firstcontact/articulated/detail/least_clearance.h>
+#include <firstcontact/articulated/detail/part_search.h>
+#include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/parallel_for.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::Candidate;
+using detail::is_contact;
+using detail::PartAnswer;
+using detail::PartSearch;
+
+/// Pieces of time looked at together, and searches done side by side with the same horizon. Fixed,
+/// so that answers do not depend on the number of threads.
+constexpr std::size_t kBlock = 32;
+constexpr std::size_t kRound = 32;
+
+void require(bool condition, const char* message) {
+  if (!condition) {
+    throw std::invalid_argument(std::string("RobotCheckOptions::") + message);
+  }
+}
+
+void validate(const RobotCheckOptions& options) {
+  require(options.tolerance > 0.0 && std::isfinite(options.tolerance),
+          "tolerance must be finite and > 0");
+  require(options.time_resolution > 0.0 && options.time_resolution <= 1.0,
+          "time_resolution must be in (0, 1]");
+}
+
+class RobotCheck {
+ public:
+  RobotCheck(const RobotScene& scene, const RobotCheckOptions& options)
+      : timeline_(scene), candidates_(timeline_), options_(options) {
+    for (const detail::TestedPair& pair : timeline_.pairs()) {
+      RobotPairAnswer answer;
+      answer.members = pair.members;
+      answer.threshold = pair.margin;
+      answer.verdict = Verdict::free;
+      answer.t = 1.0;
+      answer.tolerance_used = options.tolerance;
+      pairs_.push_back(std::move(answer));
+    }
+  }
+
+  RobotCheckResult run() {
+    std::size_t k = 0;
+    while (k < timeline_.piece_count() && timeline_.piece(k).begin <= horizon()) {
+      const double begin = timeline_.piece(k).begin;
+      if (const UndecidedReason reason = detail::spent(options_.budget);
+          reason != UndecidedReason::none) {
+        give_up(begin, reason);
+        break;
+      }
+      const std::size_t end = std::min(k + kBlock, timeline_.piece_count());
+      search(find_candidates(k, end));
+      k = end;
+    }
+    if (options_.least_clearance) {
+      find_least_clearances();
+    }
+    report(1.0);
+    return result();
+  }
+
+ private:
+  [[nodiscard]] bool asks_each_pair() const {
+    return options_.all_pairs || options_.all_contact_intervals || options_.least_clearance;
+  }
+
+  /// Nothing after it matters.
+  [[nodiscard]] double horizon() const { return asks_each_pair() ? 1.0 : first_; }
+
+  void report(double done) const {
+    if (options_.progress) {
+      options_.progress(std::min(done, first_));
+    }
+  }
+
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& use) const {
+    parallel_for(options_.threads, count, use);
+  }
+
+  std::vector<Candidate> find_candidates(std::size_t first, std::size_t last) const {
+    const auto wanted = [&](std::size_t pair) {
+      return options_.all_contact_intervals || pairs_[pair].verdict == Verdict::free ||
+             !asks_each_pair();
+    };
+    std::vector<std::vector<Candidate>> found(last - first);
+    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
+    std::vector<Candidate> all;
+    for (const std::vector<Candidate>& of_piece : found) {
+      all.insert(all.end(), of_piece.begin(), of_piece.end());
+    }
+    return all;
+  }
+
+  void search(std::span<const Candidate> left) {
+    while (!left.empty()) {
+      const double end = horizon();
+      const auto may_matter = [end](const Candidate& c) { return c.window.begin <= end; };
+      const auto round = left.first(std::min(kRound, left.size()));
+      const auto due = round.first(static_cast<std::size_t>(
+          std::partition_point(round.begin(), round.end(), may_matter) - round.begin()));
+      if (due.empty()) {
+        return;
+      }
+      report(due.front().window.begin);
+      std::vector<PartAnswer> answers(due.size());
+      for_each(due.size(), [&](std::size_t k) { answers[k] = ask(due[k], end); });
+      for (std::size_t k = 0; k < due.size(); ++k) {
+        take(due[k], std::move(answers[k]));
+      }
+      left = left.subspan(due.size());
+    }
+  }
+
+  PartAnswer ask(const Candidate& candidate, double end) {
+    PartSearch search(timeline_, candidate, options_, workspaces_.local());
+    if (options_.all_contact_intervals) {
+      return contact_intervals_of(search, candidate, options_.time_resolution);
+    }
+    return first_contact_of(search, candidate, end, is_tested_anew(candidate));
+  }
+
+  /// Bodies that come to be tested may be inside of each other by then.
+  [[nodiscard]] bool is_tested_anew(const Candidate& candidate) const {
+    return candidate.piece > 0 &&
+           candidate.window.begin == timeline_.piece(candidate.piece).begin &&
+           !timeline_.is_tested(timeline_.pairs()[candidate.pair], candidate.piece - 1);
+  }
+
+  /// A contact holds for the pair even beside an undecided search: nothing touches before it.
+  void take(const Candidate& candidate, PartAnswer&& answer) {
+    RobotPairAnswer& pair = pairs_[candidate.pair];
+    FirstContactResult& found = answer.first;
+    pair.steps += answer.steps;
+    pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
+    pair.enclosure_error = std::max(pair.enclosure_error, found.enclosure_error);
+    pair.intervals.insert(pair.intervals.end(), answer.intervals.begin(), answer.intervals.end());
+    if (found.t_upper) {
+      pair.t_upper = std::min(pair.t_upper.value_or(1.0), *found.t_upper);
+    }
+    if (found.verdict == Verdict::free) {
+      return;
+    }
+    const bool is_earlier = pair.verdict == Verdict::free || found.t < pair.t;
+    const bool says_more = found.t == pair.t && is_contact(found.verdict);
+    if (is_earlier || (says_more && !is_contact(pair.verdict))) {
+      pair.verdict = found.verdict;
+      pair.reason = found.reason;
+      pair.t = found.t;
+      pair.threshold = candidate.threshold;
+      pair.contacts = std::move(answer.contacts);
+    } else if (says_more) {
+      pair.contacts.insert(pair.contacts.end(), answer.contacts.begin(), answer.contacts.end());
+    }
+    first_ = std::min(first_, pair.t);
+  }
+
+  /// All that is free so far is known to be so before t only.
+  void give_up(double t, UndecidedReason reason) {
+    for (RobotPairAnswer& pair : pairs_) {
+      pair.intervals.push_back({t, 1.0, reason});
+      if (pair.verdict == Verdict::free) {
+        pair.verdict = Verdict::undecided;
+        pair.reason = reason;
+        pair.t = t;
+      }
+    }
+    first_ = std::min(first_, t);
+  }
+
+  void find_least_clearances() {
+    detail::BallsOfPieces balls(timeline_.piece_count());
+    for_each(balls.size(), [&](std::size_t piece) {
+      for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
+        balls[piece].push_back(swept_ball(timeline_, part, timeline_.piece(piece)));
+      }
+    });
+    for_each(pairs_.size(), [&](std::size_t k) {
+      pairs_[k].least_clearance =
+          least_clearance_of(timeline_, balls, k, options_, workspaces_.local());
+    });
+  }
+
+  RobotCheckResult result() {
+    RobotCheckResult result;
+    result.verdict = Verdict::free;
+    result.t = pairs_.empty() ? 1.0 : first_;
+    result.clearance = std::numeric_limits<double>::infinity();
+    result.tolerance_used = options_.tolerance;
+    for (RobotPairAnswer& pair : pairs_) {
+      pair.intervals = options_.all_contact_intervals
+                           ? detail::joined(std::move(pair.intervals), options_.time_resolution)
+                           : std::vector<ContactInterval>();
+      gather(pair, result);
+      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
+      if (asks_each_pair() || decides) {
+        result.pairs.push_back(std::move(pair));
+      }
+    }
+    take_verdict(result);
+    return result;
+  }
+
+  static void gather(const RobotPairAnswer& pair, RobotCheckResult& result) {
+    const double least = pair.least_clearance ? pair.least_clearance->lower_bound : 0.0;
+    const double kept = pair.t > 0.0 ? pair.threshold : 0.0;
+    result.clearance = std::min(result.clearance, std::max(kept, least));
+    result.tolerance_used = std::max(result.tolerance_used, pair.tolerance_used);
+    result.enclosure_error = std::max(result.enclosure_error, pair.enclosure_error);
+    result.steps += pair.steps;
+    if (pair.t_upper) {
+      result.t_upper = std::min(result.t_upper.value_or(1.0), *pair.t_upper);
+    }
+  }
+
+  static void take_verdict(RobotCheckResult& result) {
+    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+      const RobotPairAnswer& pair = result.pairs[k];
+      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
+      if (decides && (!result.first || (is_contact(pair.verdict) && !is_contact(result.verdict)))) {
+        result.first = k;
+        result.verdict = pair.verdict;
+        result.reason = pair.reason;
+      }
+      const auto distance = [&](std::size_t index) {
+        return result.pairs[index].least_clearance->distance;
+      };
+      if (pair.least_clearance && (!result.closest || distance(k) < distance(*result.closest))) {
+        result.closest = k;
+      }
+    }
+  }
+
+  detail::RobotTimeline timeline_;
+  detail::CandidateSearch candidates_;
+  const RobotCheckOptions& options_;
+  tbb::enumerable_thread_specific<Workspace> workspaces_;
+  std::vector<RobotPairAnswer> pairs_;
+  double first_ = 1.0;  // Before it all pairs are proven free.
+};
+
+}  // namespace
+
+RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
+  validate(options);
+  const FloatEnvironmentGuard guard;
+  return RobotCheck(scene, options).run();
+}
+
+}  // namespace firstcontact

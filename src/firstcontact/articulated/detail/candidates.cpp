@@ -1,0 +1,189 @@
+#include <firstcontact/articulated/detail/candidates.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <tuple>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr double kUp = 1.0 + 0x1p-40;
+
+/// Halvings of a piece. More cost more places of links than they spare searches.
+constexpr int kDepth = 5;
+
+/// [-]  Of the radii: balls that sweep over more are looked at in shorter windows.
+constexpr double kShortSweep = 0.5;
+
+/// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
+constexpr double kLooseError = 0.05;
+constexpr int kErrorDepth = 8;
+
+/// Two parts that are still in question.
+struct Question {
+  std::size_t pair = 0;
+  std::array<std::size_t, 2> parts = {};
+};
+
+class Search {
+ public:
+  Search(const RobotTimeline& timeline, std::size_t piece,
+         const std::vector<std::optional<SweptBall>>& resting)
+      : timeline_(timeline), piece_(piece), balls_(resting) {}
+
+  std::vector<Candidate> run(const std::vector<Question>& questions) {
+    narrow(timeline_.piece(piece_), questions, 0);
+    join_windows();
+    std::vector<Candidate> whole;
+    whole.swap(found_);
+    for (Candidate& candidate : whole) {
+      if (timeline_.has_tracking_errors()) {
+        add_thresholds(candidate, 0);
+      } else {
+        candidate.threshold = timeline_.pairs()[candidate.pair].margin;
+        found_.push_back(candidate);
+      }
+    }
+    std::sort(found_.begin(), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  const SweptBall& ball(std::size_t part, const TimeWindow& window) {
+    std::optional<SweptBall>& ball = balls_[part];
+    if (!ball) {
+      ball = swept_ball(timeline_, part, window);
+      placed_.push_back(part);
+    }
+    return *ball;
+  }
+
+  void forget_balls() {
+    for (const std::size_t part : placed_) {
+      balls_[part].reset();
+    }
+    placed_.clear();
+  }
+
+  void narrow(const TimeWindow& window, std::span<const Question> questions, int depth) {
+    std::vector<Question> open;
+    bool is_long = false;
+    for (const Question& question : questions) {
+      const SweptBall& a = ball(question.parts[0], window);
+      const SweptBall& b = ball(question.parts[1], window);
+      const double threshold = timeline_.pairs()[question.pair].margin;
+      if (gap_bound(a, b) > (threshold + a.tracking_error + b.tracking_error) * kUp) {
+        continue;
+      }
+      open.push_back(question);
+      const double sweep = a.sweep + b.sweep;
+      is_long = is_long || sweep > kShortSweep * (a.radius + b.radius - sweep);
+    }
+    forget_balls();
+    if (is_long && depth < kDepth) {
+      const double middle = 0.5 * (window.begin + window.end);
+      narrow({window.begin, middle}, open, depth + 1);
+      narrow({middle, window.end}, open, depth + 1);
+      return;
+    }
+    for (const Question& question : open) {
+      found_.push_back({window, piece_, question.pair, question.parts, 0.0});
+    }
+  }
+
+  void join_windows() {
+    const auto key = [](const Candidate& c) { return std::tuple(c.pair, c.parts, c.window.begin); };
+    std::sort(found_.begin(), found_.end(),
+              [&](const Candidate& x, const Candidate& y) { return key(x) < key(y); });
+    std::vector<Candidate> joined;
+    for (const Candidate& c : found_) {
+      const bool follows = !joined.empty() && joined.back().pair == c.pair &&
+                           joined.back().parts == c.parts &&
+                           joined.back().window.end == c.window.begin;
+      if (follows) {
+        joined.back().window.end = c.window.end;
+      } else {
+        joined.push_back(c);
+      }
+    }
+    found_ = std::move(joined);
+  }
+
+  /// Windows so short that the bound of tracking errors is tight.
+  void add_thresholds(const Candidate& candidate, int depth) {
+    const auto& [window, piece, pair, parts, unused] = candidate;
+    const double middle = 0.5 * (window.begin + window.end);
+    const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
+    const auto error_over = [&](const TimeWindow& part) {
+      return (paths.A.tracking_bound(timeline_.parts()[parts[0]].ball, part) +
+              paths.B.tracking_bound(timeline_.parts()[parts[1]].ball, part)) *
+             kUp;
+    };
+    const double error = error_over(window);
+    if (depth < kErrorDepth && error > (1.0 + kLooseError) * error_over({middle, middle})) {
+      add_thresholds({{window.begin, middle}, piece, pair, parts, 0.0}, depth + 1);
+      add_thresholds({{middle, window.end}, piece, pair, parts, 0.0}, depth + 1);
+      return;
+    }
+    found_.push_back({window, piece, pair, parts, timeline_.pairs()[pair].margin + error});
+  }
+
+  const RobotTimeline& timeline_;
+  std::size_t piece_;
+  std::vector<std::optional<SweptBall>> balls_;
+  std::vector<std::size_t> placed_;
+  std::vector<Candidate> found_;
+};
+
+}  // namespace
+
+SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part, const TimeWindow& window) {
+  const LinkPart& ball = timeline.parts()[part].ball;
+  const double middle = 0.5 * (window.begin + window.end);
+  const PartPath path = timeline.path(part, middle);
+  LinkScratch scratch;
+  const LinkWindow at = path.X_FS.window(middle, window.begin, window.end, ball, scratch);
+  SweptBall swept;
+  swept.centre = at.pose().p_OL + at.pose().R_FL * ball.centre;
+  swept.sweep = at.bounds().rate * std::max(window.end - middle, middle - window.begin) * kUp;
+  const double error = at.pose().position_error + at.pose().rotation_error * ball.centre.norm() +
+                       0x1p-48 * swept.centre.norm();
+  swept.radius = (ball.radius + swept.sweep + error) * kUp;
+  swept.tracking_error = path.tracking_bound(ball, window);
+  return swept;
+}
+
+double gap_bound(const SweptBall& a, const SweptBall& b) {
+  return (a.centre - b.centre).norm() * (1.0 - 0x1p-48) - (a.radius + b.radius) * kUp;
+}
+
+CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
+    : timeline_(timeline), resting_(timeline.parts().size()) {
+  for (std::size_t part = 0; part < resting_.size(); ++part) {
+    if (timeline.parts()[part].rests) {
+      resting_[part] = swept_ball(timeline, part, {0.0, 1.0});
+    }
+  }
+}
+
+std::vector<Candidate> CandidateSearch::find(std::size_t piece,
+                                             const std::function<bool(std::size_t)>& wanted) const {
+  std::vector<Question> questions;
+  for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
+    const TestedPair& pair = timeline_.pairs()[k];
+    if (!wanted(k) || !timeline_.is_tested(pair, piece)) {
+      continue;
+    }
+    const auto [first, second] = pair.members;
+    for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
+      for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
+           ++b) {
+        questions.push_back({k, {a, b}});
+      }
+    }
+  }
+  return Search(timeline_, piece, resting_).run(questions);
+}
+
+}  // namespace firstcontact::detail

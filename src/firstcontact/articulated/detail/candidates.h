@@ -1,0 +1,66 @@
+/// @file
+/// Which parts of a scene may touch in a piece of time, by balls around them.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/query/shape_pair.h>
+
+namespace firstcontact::detail {
+
+/// Two parts that may touch in a window of time.
+struct Candidate {
+  TimeWindow window;
+  std::size_t piece = 0;
+  std::size_t pair = 0;                   ///< Index among the tested pairs.
+  std::array<std::size_t, 2> parts = {};  ///< Of its members, in their order.
+  double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
+
+  /// Least time first.
+  friend bool operator<(const Candidate& x, const Candidate& y) {
+    return x.window.begin != y.window.begin ? x.window.begin < y.window.begin
+           : x.pair != y.pair               ? x.pair < y.pair
+                                            : x.parts < y.parts;
+  }
+};
+
+/// A ball around a part wherever it is in a window.
+struct SweptBall {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the world.
+  double radius = 0.0;                               ///< [m]
+  double sweep = 0.0;           ///< [m]  How much of the radius is due to the motion.
+  double tracking_error = 0.0;  ///< [m]  Bounds that of the part; not in the radius.
+};
+
+[[nodiscard]] SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part,
+                                   const TimeWindow& window);
+
+/// [m]  A proven lower bound of the distance of two parts throughout the window; may be negative.
+[[nodiscard]] double gap_bound(const SweptBall& a, const SweptBall& b);
+
+/// Finds the parts that may touch, piece by piece. Thread-safe.
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const RobotTimeline& timeline);
+
+  /// In order; outside of their windows all pairs that are tested in the piece are farther apart
+  /// than their thresholds. Of one pair of parts the windows do not overlap.
+  ///
+  /// @param wanted  whether a tested pair is of interest, by index
+  [[nodiscard]] std::vector<Candidate> find(std::size_t piece,
+                                            const std::function<bool(std::size_t)>& wanted) const;
+
+ private:
+  const RobotTimeline& timeline_;
+  std::vector<std::optional<SweptBall>> resting_;  // Of each part that rests.
+};
+
+}  // namespace firstcontact::detail

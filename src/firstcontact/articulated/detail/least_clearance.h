@@ -1,0 +1,28 @@
+/// @file
+/// How close two members come.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/articulated/detail/candidates.h>
+#include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/query/workspace.h>
+
+namespace firstcontact::detail {
+
+/// Of each piece of time, a ball around each part throughout it.
+using BallsOfPieces = std::vector<std::vector<SweptBall>>;
+
+/// The least distance of a tested pair over all pieces in which it is tested.
+///
+/// Pieces are taken in the order of what balls say of them. Samples and descent find a distance;
+/// first contact with a margin of it less the tolerance proves it, or finds a lesser one.
+[[nodiscard]] LeastClearance least_clearance_of(const RobotTimeline& timeline,
+                                                const BallsOfPieces& balls, std::size_t pair,
+                                                const RobotCheckOptions& options,
+                                                Workspace& workspace);
+
+}  // namespace firstcontact::detail
