@@ -52,6 +52,10 @@ struct FIRSTCONTACT_API CoordinateSegment {
 
   /// The coordinate of a joint that mimics this one: multiplier q + offset.
   [[nodiscard]] CoordinateSegment mimicked(double multiplier, double offset) const;
+
+ private:
+  [[nodiscard]] State quick_state(double t) const;
+  [[nodiscard]] State precise_state(double t) const;
 };
 
 /// Which way a continuous joint turns from one position to the next.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <firstcontact/math/sine_cosine.h>
+#include <firstcontact/math/fast_sine_cosine.h>
 
 namespace firstcontact {
 namespace {
@@ -96,7 +96,7 @@ JointState JointPath::state(const Polynomial& joint, double t) {
   state.axis = joint.axis.value();
   if (joint.angle) {
     const CoordinateSegment::State q = joint.angle->state(t);
-    const SineCosine sc = sine_cosine(q.value);
+    const SineCosine sc = fast_sine_cosine(q.value);
     state.R_PL =
         joint.rotation_constant + sc.cosine * joint.rotation_cosine + sc.sine * joint.rotation_sine;
     state.p_QL = joint.lever_constant + sc.cosine * joint.lever_cosine + sc.sine * joint.lever_sine;
@@ -110,6 +110,7 @@ JointState JointPath::state(const Polynomial& joint, double t) {
     state.p_QL = joint.lever_constant;
   }
   state.p_PQ = joint.p_PJ;
+  state.slides = !joint.slides.empty();
   for (const Slide& slide : joint.slides) {
     const CoordinateSegment::State q = slide.coordinate.state(t);
     state.p_PQ = state.p_PQ + q.value * slide.direction;
@@ -134,6 +135,7 @@ JointState JointPath::state(const Piece& joint, double t) {
   state.p_QL = joint.R_PJ * body.p_QC_W;
   state.axis = joint.R_PJ * path.axis();
   state.rate = path.rate();
+  state.slides = true;
   state.pivot_velocity = joint.R_PJ * path.pivot_velocity().value();
   // The product of two rotations, 9 2^-53, and the rounding of R_PJ.
   state.angle_error = path.rotation_error() + 0x1p-49;

@@ -27,6 +27,7 @@ struct JointState {
   Eigen::Vector3d axis;       ///< [-]  Within 2^-52.
   double rate = 0.0;          ///< [rad per step]    About the axis.
   double acceleration = 0.0;  ///< [rad per step^2]  About the axis.
+  bool slides = false;        ///< Else the pivot rests.
   Eigen::Vector3d pivot_velocity = Eigen::Vector3d::Zero();      ///< [m per step]
   Eigen::Vector3d pivot_acceleration = Eigen::Vector3d::Zero();  ///< [m per step^2]
   double angle_error = 0.0;

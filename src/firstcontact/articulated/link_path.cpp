@@ -31,76 +31,103 @@ Matrix3d cross_matrix(const Vector3d& w) {
   return m;
 }
 
-/// A vector and how far it may be from exact.
-struct Uncertain {
-  Vector3d value = Vector3d::Zero();
-  double error = 0.0;
-
-  [[nodiscard]] double most() const { return value.norm() + error; }
-
-  void add(const Vector3d& term, double term_error) {
-    value += term;
-    error += term_error + kRounding * (value.norm() + term.norm());
-  }
-};
-
-/// a x b, with both factors uncertain; second-order terms included.
-Uncertain cross(const Uncertain& a, const Uncertain& b) {
-  return {a.value.cross(b.value),
-          a.error * b.most() + a.most() * b.error + kRounding * a.most() * b.most()};
-}
-
-Uncertain scaled(double factor, double factor_error, const Uncertain& a) {
-  return {factor * a.value, std::abs(factor) * a.error + factor_error * a.most() +
-                                kRounding * std::abs(factor) * a.most()};
-}
+/// At least the length, without a square root: errors need not be tight.
+double size(const Vector3d& v) { return v.lpNorm<1>(); }
 
 }  // namespace
 
-/// Newton-Euler's recursion from F outwards: place and twist of the last link reached.
+/// Newton-Euler's recursion from F outwards: place and derivatives of the last link reached, and
+/// the sums of the sizes of all that enters them, from which the errors follow.
+///
+/// Derivation of the errors: vectors r of the chain are within e |r|, e the error of the last
+/// rotation, the greatest; rates of joints within d, summed over the joints; axes like vectors.
+/// Each term of v is a product of one rate and one vector, within (2 e + d / rate) of its size; of
+/// al two rates and an axis; of a two rates or their derivative, two axes and a vector. Roundings
+/// are some dozen of each term, and two for each sum that a joint adds to.
 struct LinkPath::Walk {
   Matrix3d R = Matrix3d::Identity();
+  Vector3d p = Vector3d::Zero();
+  Vector3d v = Vector3d::Zero();
+  Vector3d a = Vector3d::Zero();
+  Vector3d w = Vector3d::Zero();
+  Vector3d al = Vector3d::Zero();
+
   double rotation_error = 0.0;
-  Uncertain p;
-  Uncertain v;
-  Uncertain a;
-  Uncertain w;
-  Uncertain al;
+  double position_error = 0.0;  ///< By rotations and pivots.
+  double length = 0.0;          ///< [m]  Of the chain.
+  double speed = 0.0;           ///< At least |v|, and what cancelled in it; the same of the others.
+  double acceleration = 0.0;
+  double spin = 0.0;
+  double spin_rate = 0.0;
+  double sliding = 0.0;
+  double spin_error = 0.0;  ///< By the rates of joints; the same of the others.
+  double spin_rate_error = 0.0;
+  double sliding_error = 0.0;
+  double sliding_rate_error = 0.0;
 
-  /// R y for a vector y of the link reached.
-  [[nodiscard]] Uncertain rotated(const Vector3d& y, double y_error) const {
-    const double size = y.norm();
-    return {R * y, rotation_error * size + (1.0 + rotation_error) * y_error + kRounding * size};
-  }
-
-  /// From the origin of the link reached to a point that is fixed in it.
-  void move(const Uncertain& r) {
-    const Uncertain speed = cross(w, r);
-    const Uncertain inward = cross(w, speed);
-    const Uncertain turning = cross(al, r);
-    a.add(inward.value, inward.error);
-    a.add(turning.value, turning.error);
-    v.add(speed.value, speed.error);
-    p.add(r.value, r.error);
+  /// From the origin of the link reached to a point r that is fixed in it.
+  void move(const Vector3d& r) {
+    const Vector3d velocity = w.cross(r);
+    a += al.cross(r) + w.cross(velocity);
+    v += velocity;
+    p += r;
+    const double far = size(r);
+    length += far;
+    speed += spin * far;
+    acceleration += (spin_rate + spin * spin) * far;
+    position_error += rotation_error * far;
   }
 
   /// The point slides in the link.
-  void slide(const Uncertain& velocity, const Uncertain& acceleration) {
-    const Uncertain coriolis = cross(w, velocity);
-    a.add(2.0 * coriolis.value, 2.0 * coriolis.error);
-    a.add(acceleration.value, acceleration.error);
-    v.add(velocity.value, velocity.error);
+  void slide(const JointState& joint) {
+    const Vector3d velocity = R * joint.pivot_velocity;
+    const Vector3d rate = R * joint.pivot_acceleration;
+    a += 2.0 * w.cross(velocity) + rate;
+    v += velocity;
+    const double fast = size(velocity);
+    speed += fast;
+    sliding += fast;
+    acceleration += 2.0 * spin * fast + size(rate);
+    sliding_error += joint.pivot_velocity_error;
+    sliding_rate_error +=
+        joint.pivot_acceleration_error + 2.0 * (spin + spin_error) * joint.pivot_velocity_error;
   }
 
-  void turn(const JointState& joint, const Uncertain& axis) {
-    const Uncertain rate = scaled(joint.rate, joint.rate_error, axis);
-    const Uncertain swing = cross(w, rate);
-    const Uncertain acceleration = scaled(joint.acceleration, joint.acceleration_error, axis);
-    al.add(swing.value, swing.error);
-    al.add(acceleration.value, acceleration.error);
-    w.add(rate.value, rate.error);
+  void turn(const JointState& joint, const Vector3d& axis) {
+    const Vector3d rate = joint.rate * axis;
+    al += w.cross(rate) + joint.acceleration * axis;
+    w += rate;
+    const double fast = std::abs(joint.rate);
+    spin_rate_error += joint.acceleration_error + spin * joint.rate_error + spin_error * fast +
+                       spin_error * joint.rate_error;
+    spin_rate += spin * fast + std::abs(joint.acceleration);
+    spin += fast;
+    spin_error += joint.rate_error;
     R = (R * joint.R_PL).eval();
     rotation_error += kRotationStep + joint.angle_error;
+  }
+
+  /// @param joints  how many were passed
+  [[nodiscard]] LinkState state(std::size_t joints) const {
+    constexpr double kSecondOrder = 1.0 + 0x1p-30;
+    const double rounding = static_cast<double>(joints + 2) * kRounding;
+    const double e = rotation_error + 0x1p-51;
+    LinkState state;
+    state.pose = {R, p, rotation_error, (position_error + rounding * length) * kSecondOrder};
+    state.velocity = v;
+    state.acceleration = a;
+    state.spin = w;
+    state.spin_rate = al;
+    state.velocity_error =
+        ((2.0 * e + rounding) * speed + spin_error * length + sliding_error) * kSecondOrder;
+    state.acceleration_error =
+        ((4.0 * e + rounding) * acceleration +
+         (spin_rate_error + (2.0 * spin + spin_error) * spin_error) * length +
+         2.0 * spin_error * sliding + sliding_rate_error) *
+        kSecondOrder;
+    state.spin_error = ((e + rounding) * spin + spin_error) * kSecondOrder;
+    state.spin_rate_error = ((2.0 * e + rounding) * spin_rate + spin_rate_error) * kSecondOrder;
+    return state;
   }
 };
 
@@ -120,46 +147,35 @@ LinkPath LinkPath::then(std::shared_ptr<const JointPath> X_LG) const {
   return {t_begin_, t_end_, std::move(joints)};
 }
 
-LinkPath::Walk LinkPath::walk(double t, const DoubleDoubleVector3& p_FO,
-                              LinkScratch* scratch) const {
+LinkState LinkPath::walk(double t, const DoubleDoubleVector3& p_FO, LinkScratch* scratch) const {
   Walk walk;
   const DoubleDoubleVector3 p_OF = DoubleDouble(-1.0) * p_FO;
   if (joints_.empty()) {
-    walk.p.add(p_OF.value(), 0.0);
+    walk.move(p_OF.value());
   }
+  const double far = size(p_FO.value());
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const JointState joint = joints_[k]->state(t);
     // F does not turn, so that large numbers cancel before they are rounded.
-    const DoubleDoubleVector3 step = k == 0 ? p_OF + joint.p_PQ : joint.p_PQ;
-    const double error =
-        joint.position_error + 0x1p-90 * (joint.p_PQ.value().norm() + p_FO.value().norm());
-    walk.move(walk.rotated(step.value(), error));
-    walk.slide(walk.rotated(joint.pivot_velocity, joint.pivot_velocity_error),
-               walk.rotated(joint.pivot_acceleration, joint.pivot_acceleration_error));
-    const Uncertain axis = walk.rotated(joint.axis, 0x1p-51);
+    const Vector3d step = (k == 0 ? p_OF + joint.p_PQ : joint.p_PQ).value();
+    walk.position_error += joint.position_error + 0x1p-90 * (size(joint.p_PQ.value()) + far);
+    walk.move(walk.R * step);
+    if (joint.slides) {
+      walk.slide(joint);
+    }
+    const Vector3d axis = walk.R * joint.axis;
     const Vector3d lever = walk.R * joint.p_QL;  // In the parent's axes: before the turn.
-    const double lever_length = joint.p_QL.norm();
     if (scratch != nullptr) {
-      scratch->places_[k] = {walk.p.value, axis.value, step.value().norm(), lever_length,
-                             walk.p.value + lever};
+      scratch->places_[k] = {walk.p, axis, step.norm(), lever.norm(), walk.p + lever};
     }
     walk.turn(joint, axis);
-    walk.move({lever, (walk.rotation_error + kRounding) * lever_length});
+    walk.move(lever);
   }
-  return walk;
+  return walk.state(joints_.size());
 }
 
 LinkState LinkPath::state(double t, const DoubleDoubleVector3& p_FO) const {
-  const Walk end = walk(t, p_FO, nullptr);
-  return {{end.R, end.p.value, end.rotation_error, end.p.error},
-          end.v.value,
-          end.a.value,
-          end.w.value,
-          end.al.value,
-          end.v.error,
-          end.a.error,
-          end.w.error,
-          end.al.error};
+  return walk(t, p_FO, nullptr);
 }
 
 const ConstantRatePath* LinkPath::constant_rates() const {
@@ -167,37 +183,39 @@ const ConstantRatePath* LinkPath::constant_rates() const {
 }
 
 LinkPose LinkPath::pose(double t, const DoubleDoubleVector3& p_FO) const {
-  const Walk end = walk(t, p_FO, nullptr);
-  return {end.R, end.p.value, end.rotation_error, end.p.error};
+  return walk(t, p_FO, nullptr).pose;
 }
 
 LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart& part,
                             LinkScratch& scratch, const DoubleDoubleVector3& p_FO) const {
   assert(t_begin_ <= t_from && t_from <= t && t <= t_to && t_to <= t_end_);
   scratch.places_.resize(joints_.size());
-  const Walk end = walk(t, p_FO, &scratch);
+  const LinkState end = walk(t, p_FO, &scratch);
   LinkWindow window;
   window.t_ = t;
   window.t_from_ = t_from;
   window.t_to_ = t_to;
-  window.pose_ = {end.R, end.p.value, end.rotation_error, end.p.error};
-  window.velocity_ = end.v.value;
-  window.acceleration_ = end.a.value;
-  window.spin_ = cross_matrix(end.w.value);
-  window.spin_rate_ = cross_matrix(end.al.value) + window.spin_ * window.spin_;
+  window.pose_ = end.pose;
+  window.velocity_ = end.velocity;
+  window.acceleration_ = end.acceleration;
+  window.spin_ = cross_matrix(end.spin);
+  window.spin_rate_ = cross_matrix(end.spin_rate) + window.spin_ * window.spin_;
   // A point at offset e: errors of its velocity and acceleration, and of their products with n.
   const double e = (part.centre.norm() + part.reach()) * kUp;
-  const double w = end.w.most();
-  const double turn = end.al.most() + w * w;
-  const double relative = end.rotation_error + 8.0 * kRounding;
-  window.speed_error_ =
-      (end.v.error + 8.0 * kRounding * end.v.most() + (end.w.error + w * relative) * e) * kUp;
-  window.acceleration_error_ = (end.a.error + 8.0 * kRounding * end.a.most() +
-                                (end.al.error + 2.0 * w * end.w.error + turn * relative) * e) *
-                               kUp;
+  const double w = size(end.spin) + end.spin_error;
+  const double turn = size(end.spin_rate) + end.spin_rate_error + w * w;
+  const double relative = end.pose.rotation_error + 8.0 * kRounding;
+  window.speed_error_ = (end.velocity_error + 8.0 * kRounding * size(end.velocity) +
+                         (end.spin_error + w * relative) * e) *
+                        kUp;
+  window.acceleration_error_ =
+      (end.acceleration_error + 8.0 * kRounding * size(end.acceleration) +
+       (end.spin_rate_error + 2.0 * w * end.spin_error + turn * relative) * e) *
+      kUp;
 
   const double T = std::max(t_to - t, t - t_from) * kUp;
-  const Vector3d centre = end.p.value + end.R * part.centre;
+  const LinkPose& pose = end.pose;
+  const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
   const double reach = part.reach();
   double beyond = part.centre.norm() + reach;  // Of any point from the origin reached.
   double v = 0.0;
@@ -208,8 +226,8 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
     const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
     const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
-    const double error = 2.0 * end.p.error +
-                         (end.rotation_error + 8.0 * kRounding) * (arm.norm() + part.centre.norm());
+    const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
+                                                         (arm.norm() + part.centre.norm());
     beyond += place.lever;
     const double rho = std::min(arm.cross(place.axis).norm() + error + reach + v * T, beyond) * kUp;
     const double turning = std::hypot(w2, w1 * w1) * kUp;
@@ -227,17 +245,19 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
                                 std::span<const TrackingError> errors, LinkScratch& scratch) const {
   assert(errors.size() == joints_.size());
   scratch.places_.resize(joints_.size());
-  const Walk end = walk(t, {}, &scratch);
+  const LinkState end = walk(t, {}, &scratch);
   const double T = std::max(t_to - t, t - t_from) * kUp;
-  const Vector3d centre = end.p.value + end.R * part.centre;
+  const LinkPose& pose = end.pose;
+  const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
   double v = 0.0;  // Of the part's points, as seen from the child.
   double bound = 0.0;
   for (std::size_t k = joints_.size(); k-- > 0;) {
     const LinkScratch::JointPlace& place = scratch.places_[k];
     const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
     const Vector3d arm = centre - place.p_OQ;
-    const double error = 2.0 * end.p.error + (end.rotation_error + 8.0 * kRounding) *
-                                                 (arm.norm() + place.lever + part.centre.norm());
+    const double error =
+        2.0 * pose.position_error +
+        (pose.rotation_error + 8.0 * kRounding) * (arm.norm() + place.lever + part.centre.norm());
     const double from_axis = arm.cross(place.axis).norm() + error + part.reach() + v * T;
     const double rho = joints_[k]->has_axis()
                            ? from_axis

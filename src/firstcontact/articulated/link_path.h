@@ -181,7 +181,8 @@ class FIRSTCONTACT_API LinkPath {
  private:
   struct Walk;
   /// Fills in the places of the joints where scratch is given.
-  Walk walk(double t, const DoubleDoubleVector3& p_FO, LinkScratch* scratch) const;
+  [[nodiscard]] LinkState walk(double t, const DoubleDoubleVector3& p_FO,
+                               LinkScratch* scratch) const;
 
   double t_begin_;
   double t_end_;

@@ -58,4 +58,16 @@ inline std::array<SineCosine, 2> fast_sine_cosine(double a, double b) {
   return {{{sines[0], cosines[0]}, {sines[1], cosines[1]}}};
 }
 
+/// The same of one angle in double-double, |angle.lo| at most half a unit in the last place of hi.
+///
+/// Derivation: up to 10^6 the tail is below 2^-33, its square below 2^-66; it enters by the
+/// derivative, with another rounding of half a unit. The errors above sum up to 3.1 u.
+inline SineCosine fast_sine_cosine(const DoubleDouble& angle) {
+  if (!(std::abs(angle.hi) <= 1e6)) {
+    return sine_cosine(angle);
+  }
+  const SineCosine sc = fast_sine_cosine(angle.hi, angle.hi)[0];
+  return {sc.sine + angle.lo * sc.cosine, sc.cosine - angle.lo * sc.sine};
+}
+
 }  // namespace firstcontact

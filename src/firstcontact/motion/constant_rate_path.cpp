@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <firstcontact/math/fast_sine_cosine.h>
 #include <firstcontact/math/sine_cosine.h>
 
 namespace firstcontact {
@@ -69,7 +70,7 @@ ConstantRatePath::State ConstantRatePath::state(double t) const {
   if (rate_.hi == 0.0) {
     return {rotation_constant_, Eigen::Vector3d::Zero()};
   }
-  const SineCosine sc = sine_cosine(angle_at(rate_, t, t_begin_));
+  const SineCosine sc = fast_sine_cosine(angle_at(rate_, t, t_begin_));
   return {rotation_constant_ + sc.cosine * rotation_cosine_ + sc.sine * rotation_sine_,
           sc.cosine * lever_cosine_.value() + sc.sine * lever_sine_.value()};
 }
