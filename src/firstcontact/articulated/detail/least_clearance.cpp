@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <optional>
 
 #include <firstcontact/articulated/detail/part_search.h>
@@ -44,9 +44,10 @@ class Descent {
 
   /// Proves the piece farther than the best distance less the tolerance, or finds a lesser one.
   void run(PartSearch& search, const TimeWindow& window) {
-    const double length = window.end - window.begin;
-    sample(search, window);
     double t = window.begin;
+    if (!std::isfinite(best_.distance)) {
+      sample(search, window);
+    }
     while (best_.distance > tolerance_ && best_.reason == UndecidedReason::none) {
       best_.reason = spent(options_.budget);
       if (best_.reason != UndecidedReason::none) {
@@ -63,8 +64,7 @@ class Descent {
       }
       const double before = best_.distance;
       t = found.t;
-      const double reach = length / 64.0;
-      narrow(search, std::max(window.begin, t - reach), t, std::min(window.end, t + reach));
+      sample(search, {t, window.end});
       if (!(best_.distance < before - 0.5 * tolerance_)) {
         best_.reason = UndecidedReason::precision;
       }
