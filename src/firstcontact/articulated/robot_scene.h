@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -78,6 +79,8 @@ struct BodyStretch {
 /// Functions throw std::invalid_argument on bad input, with the name of what is wrong.
 class FIRSTCONTACT_API RobotScene {
  public:
+  explicit RobotScene(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
+
   /// Returns the body's number as a member. Shapes that deform are refused.
   std::size_t add_body(std::string name, Shape shape, Motion X_WB = Motion::fixed());
 
