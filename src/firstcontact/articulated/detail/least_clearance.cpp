@@ -10,6 +10,9 @@
 namespace firstcontact::detail {
 namespace {
 
+/// [-]  Of the tolerance: room for the rounding of differences.
+constexpr double kPart = 0.999;
+
 /// Two parts in one piece of time, and how far apart balls say that they are.
 struct Place {
   Candidate candidate;
@@ -40,7 +43,7 @@ std::vector<Place> places_by_distance(const RobotTimeline& timeline, const Balls
 class Descent {
  public:
   Descent(const RobotCheckOptions& options, LeastClearance& best)
-      : options_(options), tolerance_(options.tolerance), best_(best) {}
+      : options_(options), tolerance_(kPart * options.tolerance), best_(best) {}
 
   /// Proves the piece farther than the best distance less the tolerance, or finds a lesser one.
   void run(PartSearch& search, const TimeWindow& window) {
@@ -126,16 +129,17 @@ LeastClearance least_clearance_of(const RobotTimeline& timeline, const BallsOfPi
   LeastClearance best;
   Descent descent(options, best);
   for (const Place& place : places_by_distance(timeline, balls, pair)) {
-    const bool is_known =
-        place.bound >= best.distance - options.tolerance || best.distance <= options.tolerance;
+    const bool is_known = place.bound >= best.distance - kPart * options.tolerance ||
+                          best.distance <= kPart * options.tolerance;
     if (is_known || best.reason != UndecidedReason::none) {
       break;
     }
     PartSearch search(timeline, place.candidate, options, workspace);
     descent.run(search, place.candidate.window);
   }
-  best.lower_bound =
-      best.reason == UndecidedReason::none ? std::max(0.0, best.distance - options.tolerance) : 0.0;
+  best.lower_bound = best.reason == UndecidedReason::none
+                         ? std::max(0.0, best.distance - kPart * options.tolerance)
+                         : 0.0;
   return best;
 }
 
