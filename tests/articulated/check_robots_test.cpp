@@ -7,7 +7,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <stdexcept>
 #include <stop_token>
@@ -15,11 +17,14 @@
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
 #include "articulated/chain_case.h"
 #include "articulated/planar_arm.h"
+#include "support/data_dir.h"
 #include "support/random.h"
 
 namespace firstcontact::test {
@@ -638,6 +643,48 @@ TEST(CheckRobots, NothingToTestIsFree) {
   EXPECT_EQ(empty.t, 1.0);
   EXPECT_EQ(empty.clearance, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(empty.pairs.empty());
+}
+
+/// All coordinates 0 are outside of the Panda's limits: the arm is folded into itself.
+TEST(CheckRobots, ThePandaFoldedUpTouchesItself) {
+  const std::filesystem::path data = data_dir();
+  if (data.empty()) {
+    GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR";
+  }
+  const std::filesystem::path folder = data / "robots/moveit_resources_panda_description";
+  const RobotModel panda = read_urdf(folder / "urdf/panda.urdf");
+  const RobotSemantics semantics = read_srdf(folder / "srdf/panda.srdf", panda);
+  const auto check = [&](double elbow, double wrist) {
+    std::map<std::string, JointMotion> joints;
+    for (const Joint& joint : panda.joints()) {
+      const double q = joint.name == "panda_joint4"   ? elbow
+                       : joint.name == "panda_joint6" ? wrist
+                                                      : 0.0;
+      if (joint.type != JointType::fixed && !joint.mimic) {
+        joints.emplace(joint.name, ramp(q, q + (joint.name == "panda_joint1" ? 1.0 : 0.0)));
+      }
+    }
+    RobotScene scene;
+    scene.add_robot("panda", {panda, joints}, semantics.disabled);
+    RobotCheckOptions options;
+    options.all_pairs = true;
+    const RobotCheckResult result = check_robots(scene, options);
+    std::vector<std::string> names;
+    for (const RobotPairAnswer& pair : result.pairs) {
+      if (pair.verdict != Verdict::free) {
+        EXPECT_EQ(pair.verdict, Verdict::contact_at_start);
+        names.push_back(scene.name(pair.members[0]) + " " + scene.name(pair.members[1]));
+      }
+    }
+    return names;
+  };
+  const std::vector<std::string> folded = check(0.0, 0.0);
+  const auto has = [&](const char* pair) {
+    return std::find(folded.begin(), folded.end(), pair) != folded.end();
+  };
+  EXPECT_TRUE(has("panda/panda_link5 panda/panda_hand"));
+  EXPECT_TRUE(has("panda/panda_link5 panda/panda_link7"));
+  EXPECT_TRUE(check(-1.5, 1.5).empty());
 }
 
 TEST(CheckRobots, FarFromTheOriginNothingIsLost) {

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include <tbb/global_control.h>
+
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/geometry/primitives.h>
 
@@ -95,6 +97,7 @@ std::vector<std::uint64_t> bits(const RobotCheckResult& result) {
 }
 
 TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     RobotScene scene = waving_arm(100, seed, 0.8);
     if (seed % 2 == 1) {
@@ -108,7 +111,7 @@ TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
       options.time_resolution = 0.01;
       options.threads = 1;
       const std::vector<std::uint64_t> alone = bits(check_robots(scene, options));
-      for (const int threads : {2, 3, 0}) {
+      for (const int threads : {2, 3, 8, 0}) {
         options.threads = threads;
         ASSERT_EQ(bits(check_robots(scene, options)), alone) << seed << ' ' << kind;
       }
