@@ -97,13 +97,15 @@ class RobotCheck {
     parallel_for(options_.threads, count, use);
   }
 
-  std::vector<Candidate> find_candidates(std::size_t first, std::size_t last) const {
+  std::vector<Candidate> find_candidates(std::size_t first, std::size_t last) {
     const auto wanted = [&](std::size_t pair) {
       return options_.all_contact_intervals || pairs_[pair].verdict == Verdict::free ||
              !asks_each_pair();
     };
     std::vector<std::vector<Candidate>> found(last - first);
-    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
+    for_each(found.size(), [&](std::size_t k) {
+      found[k] = candidates_.find(first + k, wanted, workspaces_.local().places);
+    });
     std::vector<Candidate> all;
     for (const std::vector<Candidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
@@ -191,7 +193,8 @@ class RobotCheck {
     detail::BallsOfPieces balls(timeline_.piece_count());
     for_each(balls.size(), [&](std::size_t piece) {
       for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
-        balls[piece].push_back(swept_ball(timeline_, part, timeline_.piece(piece)));
+        balls[piece].push_back(
+            swept_ball(timeline_, part, timeline_.piece(piece), workspaces_.local().places));
       }
     });
     for_each(pairs_.size(), [&](std::size_t k) {
@@ -253,7 +256,7 @@ class RobotCheck {
   detail::RobotTimeline timeline_;
   detail::CandidateSearch candidates_;
   const RobotCheckOptions& options_;
-  tbb::enumerable_thread_specific<Workspace> workspaces_;
+  tbb::enumerable_thread_specific<detail::LinkWorkspace> workspaces_;
   std::vector<RobotPairAnswer> pairs_;
   double first_ = 1.0;  // Before it all pairs are proven free.
 };

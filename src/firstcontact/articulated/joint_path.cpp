@@ -71,11 +71,12 @@ JointPath JointPath::polynomial(const PreciseTransform& X_PJ, const DoubleDouble
   joint.lever_constant = lever.along.value();
   joint.lever_cosine = lever.across.value();
   joint.lever_sine = lever.turned.value();
-  return JointPath(std::move(joint));
+  return {X_PJ.position.value(), std::move(joint)};
 }
 
 JointPath JointPath::of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL) {
-  return JointPath(Piece{X_PJ, rounded(X_PJ.columns), X_JL, is_identity(X_PJ)});
+  const DoubleDoubleVector3 pivot = X_PJ.position + X_PJ.rotated(X_JL.pivot_begin());
+  return {pivot.value(), Piece{X_PJ, rounded(X_PJ.columns), X_JL, is_identity(X_PJ)}};
 }
 
 const ConstantRatePath* JointPath::free_body() const {

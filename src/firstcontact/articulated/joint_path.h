@@ -69,6 +69,9 @@ class FIRSTCONTACT_API JointPath {
   /// Of a free body, whose parent's frame is J: the path of its origin. Else null.
   [[nodiscard]] const ConstantRatePath* free_body() const;
 
+  /// [m]  A place in P near the joint's pivot, rounded.
+  [[nodiscard]] const Eigen::Vector3d& anchor() const { return anchor_; }
+
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 
@@ -95,11 +98,13 @@ class FIRSTCONTACT_API JointPath {
     bool is_free_body;  // X_PJ is the identity.
   };
 
-  explicit JointPath(std::variant<Polynomial, Piece> kind) : kind_(std::move(kind)) {}
+  JointPath(const Eigen::Vector3d& anchor, std::variant<Polynomial, Piece> kind)
+      : anchor_(anchor), kind_(std::move(kind)) {}
 
   static JointState state(const Polynomial& joint, double t);
   static JointState state(const Piece& joint, double t);
 
+  Eigen::Vector3d anchor_;
   std::variant<Polynomial, Piece> kind_;
 };
 

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include <firstcontact/articulated/detail/link_query.h>
 #include <firstcontact/articulated/link_pair_motion.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/shape_pair.h>
@@ -51,7 +52,7 @@ void swap_bodies(Contact& contact) {
 /// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
 template <class Ask>
 bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
-                  const Ask& ask) {
+                  LinkScratch& scratch, const Ask& ask) {
   if (A.shape.hierarchy().deforms() || B.shape.hierarchy().deforms()) {
     throw std::invalid_argument("queries of links: a shape deforms; links are rigid");
   }
@@ -59,22 +60,55 @@ bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& wi
   const bool swapped = !in_order(A, B, window);
   const MovingLink& first = swapped ? B : A;
   const MovingLink& second = swapped ? A : B;
-  LinkPairMotion motion(ball_of(first), ball_of(second));
+  LinkPairMotion motion(ball_of(first), ball_of(second), scratch);
   ask(ShapePair{first.shape, second.shape, motion});
   return swapped;
 }
 
 }  // namespace
 
-void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
-                   Workspace& workspace, const FirstContactOptions& options,
-                   FirstContactResult& result) {
-  const bool swapped = ask_in_order(A, B, window, [&](const ShapePair& pair) {
+namespace {
+
+void ask_first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                       Workspace& workspace, LinkScratch& scratch,
+                       const FirstContactOptions& options, FirstContactResult& result) {
+  const bool swapped = ask_in_order(A, B, window, scratch, [&](const ShapePair& pair) {
     first_contact(pair, window, workspace, options, result);
   });
   if (swapped) {
     std::for_each(result.contacts.begin(), result.contacts.end(), swap_bodies);
   }
+}
+
+DistanceResult ask_distance(const MovingLink& A, const MovingLink& B, double t,
+                            Workspace& workspace, LinkScratch& scratch) {
+  DistanceResult result;
+  const bool swapped = ask_in_order(
+      A, B, {t, t}, scratch, [&](const ShapePair& pair) { result = distance(pair, t, workspace); });
+  if (swapped && result.closest) {
+    swap_bodies(*result.closest);
+  }
+  return result;
+}
+
+}  // namespace
+
+void detail::first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                           LinkWorkspace& workspace, const FirstContactOptions& options,
+                           FirstContactResult& result) {
+  ask_first_contact(A, B, window, workspace.queries, workspace.places, options, result);
+}
+
+DistanceResult detail::distance(const MovingLink& A, const MovingLink& B, double t,
+                                LinkWorkspace& workspace) {
+  return ask_distance(A, B, t, workspace.queries, workspace.places);
+}
+
+void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                   Workspace& workspace, const FirstContactOptions& options,
+                   FirstContactResult& result) {
+  LinkScratch scratch;
+  ask_first_contact(A, B, window, workspace, scratch, options, result);
 }
 
 void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
@@ -90,20 +124,16 @@ FirstContactResult first_contact(const MovingLink& A, const MovingLink& B, Works
 }
 
 DistanceResult distance(const MovingLink& A, const MovingLink& B, double t, Workspace& workspace) {
-  DistanceResult result;
-  const bool swapped = ask_in_order(
-      A, B, {t, t}, [&](const ShapePair& pair) { result = distance(pair, t, workspace); });
-  if (swapped && result.closest) {
-    swap_bodies(*result.closest);
-  }
-  return result;
+  LinkScratch scratch;
+  return ask_distance(A, B, t, workspace, scratch);
 }
 
 ClosestApproachResult closest_approach(const MovingLink& A, const MovingLink& B,
                                        Workspace& workspace,
                                        const ClosestApproachOptions& options) {
   ClosestApproachResult result;
-  const bool swapped = ask_in_order(A, B, {}, [&](const ShapePair& pair) {
+  LinkScratch scratch;
+  const bool swapped = ask_in_order(A, B, {}, scratch, [&](const ShapePair& pair) {
     result = closest_approach(pair, workspace, options);
   });
   if (swapped && result.closest) {

@@ -34,6 +34,26 @@ double window_length(double speed, double jerk) {
   return jerk > 0.0 ? std::sqrt(0.5 * speed / jerk) : std::numeric_limits<double>::infinity();
 }
 
+struct TimeSpan {
+  double begin = 0.0;
+  double end = 1.0;
+};
+
+/// The end of the smallest part of the piece, of those that halving makes, that begins before t and
+/// ends about a length after it. Windows end: they are a thousandth of the piece at least.
+double end_of_window(const TimeSpan& piece, double t, double length) {
+  constexpr double kLeast = 0x1p-10;
+  constexpr double kEnough = 0.75;
+  double part = 1.0;
+  while (part > kLeast && part * (piece.end - piece.begin) > length / kEnough) {
+    part *= 0.5;
+  }
+  const double done = (t - piece.begin) / (piece.end - piece.begin);
+  const double next = (std::floor(done / part) + 1.0) * part;
+  const double end = piece.begin + next * (piece.end - piece.begin);
+  return end > t && next < 1.0 ? std::min(end, piece.end) : piece.end;
+}
+
 }  // namespace
 
 /// One body's part of a RelativeState, positions from the pair's origin.
@@ -50,26 +70,26 @@ struct LinkPairMotion::BodyState {
   double rotation_error = 0.0;
 };
 
-LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B) : bodies_{Body{A}, Body{B}} {}
+LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch)
+    : bodies_{Body{A}, Body{B}}, scratch_(scratch) {}
 
 double LinkPairMotion::enter(double t) {
-  double piece_end = 1.0;
+  TimeSpan piece{0.0, 1.0};
   for (Body& body : bodies_) {
     body.path = &piece_at(body.ball.X_FL, t);
-    piece_end = std::min(piece_end, body.path->t_end());
+    piece = {std::max(piece.begin, body.path->t_begin()), std::min(piece.end, body.path->t_end())};
   }
-  p_FO_ = DoubleDoubleVector3(bodies_[0].path->pose(t).p_OL);
-  double length = piece_end - t;
+  const bool A_is_free = bodies_[0].path->constant_rates() != nullptr;
+  p_FO_ = bodies_[A_is_free ? 1 : 0].path->anchor();
+  double length = piece.end - t;
   bool bends = false;
   for (Body& body : bodies_) {
-    bound(body, t, piece_end);
+    bound(body, t, piece.end);
     length = std::min(length, window_length(body.speed, body.jerk));
     bends = bends || body.jerk > 0.0;
   }
-  // At least a thousandth of what is left, so that windows end; and no short rest.
-  const double least = std::max(length, 1e-3 * (piece_end - t));
-  end_ = t + 1.3 * least < piece_end ? t + least : piece_end;
-  if (bends && end_ < piece_end) {
+  end_ = bends ? end_of_window(piece, t, length) : piece.end;
+  if (end_ < piece.end) {
     for (Body& body : bodies_) {
       bound(body, t, end_);
     }
@@ -117,7 +137,7 @@ LinkPairMotion::BodyState LinkPairMotion::state_of(const Body& body, double t) c
   if (const ConstantRatePath* path = body.path->constant_rates()) {
     return free_state(body, *path, t);
   }
-  const LinkState link = body.path->state(t, p_FO_);
+  const LinkState link = body.path->state(t, scratch_, p_FO_);
   const double radius = body.ball.radius * kUp;
   const Vector3d offset = link.pose.R_FL * body.ball.p_LC;
   const double far = offset.norm();

@@ -31,10 +31,12 @@ struct LinkBall {
 /// integrated that is (|c - a| + |al| r + (J + w^3 (|Q - C| + r)) T / 3) tau^2 / 2 for tau <= T.
 ///
 /// Pieces are windows of time in which no point's path bends by more than about half of itself; of
-/// bodies that follow a Motion they are its pieces, and nothing bends. Refers to the motions.
+/// bodies that follow a Motion they are its pieces, and nothing bends. Windows are halves of halves
+/// of a smooth piece, so that pairs of one robot share them. Refers to the motions and the scratch
+/// memory.
 class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
  public:
-  LinkPairMotion(const LinkBall& A, const LinkBall& B);
+  LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch);
 
   double enter(double t) override;
   [[nodiscard]] RelativeState state(double t) const override;
@@ -57,7 +59,7 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
   std::array<Body, 2> bodies_;
   double end_ = 0.0;
   DoubleDoubleVector3 p_FO_;  ///< Positions are taken from here on.
-  LinkScratch scratch_;
+  LinkScratch& scratch_;
 };
 
 }  // namespace firstcontact

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/articulated/detail/chain_walk.h>
+
 namespace firstcontact {
 namespace {
 
@@ -15,10 +17,6 @@ using Eigen::Vector3d;
 
 /// A few rounded operations on vectors of three.
 constexpr double kRounding = 0x1p-49;
-
-/// One joint's rotation, its product with those before it, and what hangs on it: 24 2^-53 for each
-/// of three columns, 9 2^-53 for the product.
-constexpr double kRotationStep = 0x1p-47;
 
 /// Sums and products of up to some hundred joints' bounds.
 constexpr double kUp = 1.0 + 0x1p-40;
@@ -31,105 +29,7 @@ Matrix3d cross_matrix(const Vector3d& w) {
   return m;
 }
 
-/// At least the length, without a square root: errors need not be tight.
-double size(const Vector3d& v) { return v.lpNorm<1>(); }
-
 }  // namespace
-
-/// Newton-Euler's recursion from F outwards: place and derivatives of the last link reached, and
-/// the sums of the sizes of all that enters them, from which the errors follow.
-///
-/// Derivation of the errors: vectors r of the chain are within e |r|, e the error of the last
-/// rotation, the greatest; rates of joints within d, summed over the joints; axes like vectors.
-/// Each term of v is a product of one rate and one vector, within (2 e + d / rate) of its size; of
-/// al two rates and an axis; of a two rates or their derivative, two axes and a vector. Roundings
-/// are some dozen of each term, and two for each sum that a joint adds to.
-struct LinkPath::Walk {
-  Matrix3d R = Matrix3d::Identity();
-  Vector3d p = Vector3d::Zero();
-  Vector3d v = Vector3d::Zero();
-  Vector3d a = Vector3d::Zero();
-  Vector3d w = Vector3d::Zero();
-  Vector3d al = Vector3d::Zero();
-
-  double rotation_error = 0.0;
-  double position_error = 0.0;  ///< By rotations and pivots.
-  double length = 0.0;          ///< [m]  Of the chain.
-  double speed = 0.0;           ///< At least |v|, and what cancelled in it; the same of the others.
-  double acceleration = 0.0;
-  double spin = 0.0;
-  double spin_rate = 0.0;
-  double sliding = 0.0;
-  double spin_error = 0.0;  ///< By the rates of joints; the same of the others.
-  double spin_rate_error = 0.0;
-  double sliding_error = 0.0;
-  double sliding_rate_error = 0.0;
-
-  /// From the origin of the link reached to a point r that is fixed in it.
-  void move(const Vector3d& r) {
-    const Vector3d velocity = w.cross(r);
-    a += al.cross(r) + w.cross(velocity);
-    v += velocity;
-    p += r;
-    const double far = size(r);
-    length += far;
-    speed += spin * far;
-    acceleration += (spin_rate + spin * spin) * far;
-    position_error += rotation_error * far;
-  }
-
-  /// The point slides in the link.
-  void slide(const JointState& joint) {
-    const Vector3d velocity = R * joint.pivot_velocity;
-    const Vector3d rate = R * joint.pivot_acceleration;
-    a += 2.0 * w.cross(velocity) + rate;
-    v += velocity;
-    const double fast = size(velocity);
-    speed += fast;
-    sliding += fast;
-    acceleration += 2.0 * spin * fast + size(rate);
-    sliding_error += joint.pivot_velocity_error;
-    sliding_rate_error +=
-        joint.pivot_acceleration_error + 2.0 * (spin + spin_error) * joint.pivot_velocity_error;
-  }
-
-  void turn(const JointState& joint, const Vector3d& axis) {
-    const Vector3d rate = joint.rate * axis;
-    al += w.cross(rate) + joint.acceleration * axis;
-    w += rate;
-    const double fast = std::abs(joint.rate);
-    spin_rate_error += joint.acceleration_error + spin * joint.rate_error + spin_error * fast +
-                       spin_error * joint.rate_error;
-    spin_rate += spin * fast + std::abs(joint.acceleration);
-    spin += fast;
-    spin_error += joint.rate_error;
-    R = (R * joint.R_PL).eval();
-    rotation_error += kRotationStep + joint.angle_error;
-  }
-
-  /// @param joints  how many were passed
-  [[nodiscard]] LinkState state(std::size_t joints) const {
-    constexpr double kSecondOrder = 1.0 + 0x1p-30;
-    const double rounding = static_cast<double>(joints + 2) * kRounding;
-    const double e = rotation_error + 0x1p-51;
-    LinkState state;
-    state.pose = {R, p, rotation_error, (position_error + rounding * length) * kSecondOrder};
-    state.velocity = v;
-    state.acceleration = a;
-    state.spin = w;
-    state.spin_rate = al;
-    state.velocity_error =
-        ((2.0 * e + rounding) * speed + spin_error * length + sliding_error) * kSecondOrder;
-    state.acceleration_error =
-        ((4.0 * e + rounding) * acceleration +
-         (spin_rate_error + (2.0 * spin + spin_error) * spin_error) * length +
-         2.0 * spin_error * sliding + sliding_rate_error) *
-        kSecondOrder;
-    state.spin_error = ((e + rounding) * spin + spin_error) * kSecondOrder;
-    state.spin_rate_error = ((2.0 * e + rounding) * spin_rate + spin_rate_error) * kSecondOrder;
-    return state;
-  }
-};
 
 LinkPath::LinkPath(double t_begin, double t_end,
                    std::vector<std::shared_ptr<const JointPath>> joints)
@@ -147,35 +47,17 @@ LinkPath LinkPath::then(std::shared_ptr<const JointPath> X_LG) const {
   return {t_begin_, t_end_, std::move(joints)};
 }
 
-LinkState LinkPath::walk(double t, const DoubleDoubleVector3& p_FO, LinkScratch* scratch) const {
-  Walk walk;
-  const DoubleDoubleVector3 p_OF = DoubleDouble(-1.0) * p_FO;
-  if (joints_.empty()) {
-    walk.move(p_OF.value());
-  }
-  const double far = size(p_FO.value());
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const JointState joint = joints_[k]->state(t);
-    // F does not turn, so that large numbers cancel before they are rounded.
-    const Vector3d step = (k == 0 ? p_OF + joint.p_PQ : joint.p_PQ).value();
-    walk.position_error += joint.position_error + 0x1p-90 * (size(joint.p_PQ.value()) + far);
-    walk.move(walk.R * step);
-    if (joint.slides) {
-      walk.slide(joint);
-    }
-    const Vector3d axis = walk.R * joint.axis;
-    const Vector3d lever = walk.R * joint.p_QL;  // In the parent's axes: before the turn.
-    if (scratch != nullptr) {
-      scratch->places_[k] = {walk.p, axis, step.norm(), lever.norm(), walk.p + lever};
-    }
-    walk.turn(joint, axis);
-    walk.move(lever);
-  }
-  return walk.state(joints_.size());
+LinkScratch::LinkScratch() : memory_(std::make_unique<detail::ChainMemory>()) {}
+LinkScratch::~LinkScratch() = default;
+LinkScratch::LinkScratch(LinkScratch&&) noexcept = default;
+LinkScratch& LinkScratch::operator=(LinkScratch&&) noexcept = default;
+
+LinkState LinkPath::state(double t, LinkScratch& scratch, const DoubleDoubleVector3& p_FO) const {
+  return scratch.memory().walk(joints_, t, p_FO).end().state();
 }
 
-LinkState LinkPath::state(double t, const DoubleDoubleVector3& p_FO) const {
-  return walk(t, p_FO, nullptr);
+DoubleDoubleVector3 LinkPath::anchor() const {
+  return joints_.empty() ? DoubleDoubleVector3() : DoubleDoubleVector3(joints_.front()->anchor());
 }
 
 const ConstantRatePath* LinkPath::constant_rates() const {
@@ -183,14 +65,15 @@ const ConstantRatePath* LinkPath::constant_rates() const {
 }
 
 LinkPose LinkPath::pose(double t, const DoubleDoubleVector3& p_FO) const {
-  return walk(t, p_FO, nullptr).pose;
+  return detail::walk_along(joints_, t, p_FO).state().pose;
 }
 
 LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart& part,
                             LinkScratch& scratch, const DoubleDoubleVector3& p_FO) const {
   assert(t_begin_ <= t_from && t_from <= t && t <= t_to && t_to <= t_end_);
-  scratch.places_.resize(joints_.size());
-  const LinkState end = walk(t, p_FO, &scratch);
+  detail::ChainMemory& memory = scratch.memory();
+  const auto walked = memory.walk(joints_, t, p_FO);
+  const LinkState end = walked.end().state();
   LinkWindow window;
   window.t_ = t;
   window.t_from_ = t_from;
@@ -202,14 +85,14 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   window.spin_rate_ = cross_matrix(end.spin_rate) + window.spin_ * window.spin_;
   // A point at offset e: errors of its velocity and acceleration, and of their products with n.
   const double e = (part.centre.norm() + part.reach()) * kUp;
-  const double w = size(end.spin) + end.spin_error;
-  const double turn = size(end.spin_rate) + end.spin_rate_error + w * w;
+  const double w = detail::rough_size(end.spin) + end.spin_error;
+  const double turn = detail::rough_size(end.spin_rate) + end.spin_rate_error + w * w;
   const double relative = end.pose.rotation_error + 8.0 * kRounding;
-  window.speed_error_ = (end.velocity_error + 8.0 * kRounding * size(end.velocity) +
+  window.speed_error_ = (end.velocity_error + 8.0 * kRounding * detail::rough_size(end.velocity) +
                          (end.spin_error + w * relative) * e) *
                         kUp;
   window.acceleration_error_ =
-      (end.acceleration_error + 8.0 * kRounding * size(end.acceleration) +
+      (end.acceleration_error + 8.0 * kRounding * detail::rough_size(end.acceleration) +
        (end.spin_rate_error + 2.0 * w * end.spin_error + turn * relative) * e) *
       kUp;
 
@@ -221,9 +104,9 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   double v = 0.0;
   double a = 0.0;
   double j = 0.0;
-  for (std::size_t k = joints_.size(); k-- > 0;) {
-    const LinkScratch::JointPlace& place = scratch.places_[k];
-    const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
+  for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
+    const detail::PassedJoint& place = walked.nodes[at].passed;
+    const JointBounds& bounds = memory.bounds(walked.nodes[at].joint, t_from, t_to);
     const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
     const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
@@ -244,16 +127,18 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
 double LinkPath::tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
                                 std::span<const TrackingError> errors, LinkScratch& scratch) const {
   assert(errors.size() == joints_.size());
-  scratch.places_.resize(joints_.size());
-  const LinkState end = walk(t, {}, &scratch);
+  detail::ChainMemory& memory = scratch.memory();
+  const auto walked = memory.walk(joints_, t, {});
+  const LinkState end = walked.end().state();
   const double T = std::max(t_to - t, t - t_from) * kUp;
   const LinkPose& pose = end.pose;
   const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
   double v = 0.0;  // Of the part's points, as seen from the child.
   double bound = 0.0;
-  for (std::size_t k = joints_.size(); k-- > 0;) {
-    const LinkScratch::JointPlace& place = scratch.places_[k];
-    const JointBounds bounds = joints_[k]->bounds(t_from, t_to);
+  std::size_t at = walked.last;
+  for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
+    const detail::PassedJoint& place = walked.nodes[at].passed;
+    const JointBounds& bounds = memory.bounds(joints_[k], t_from, t_to);
     const Vector3d arm = centre - place.p_OQ;
     const double error =
         2.0 * pose.position_error +

@@ -105,18 +105,23 @@ class FIRSTCONTACT_API LinkWindow {
   CoordinateSegment::Bounds bounds_;
 };
 
-/// Scratch memory: one per thread, reused, so that a warm query allocates nothing.
+namespace detail {
+class ChainMemory;
+}
+
+/// Scratch memory: one per thread. It remembers the last places of joints, so that links that share
+/// joints, and questions that share times, share the work.
 class FIRSTCONTACT_API LinkScratch {
+ public:
+  LinkScratch();
+  ~LinkScratch();
+  LinkScratch(LinkScratch&&) noexcept;
+  LinkScratch& operator=(LinkScratch&&) noexcept;
+
+  [[nodiscard]] detail::ChainMemory& memory() { return *memory_; }
+
  private:
-  friend class LinkPath;
-  struct JointPlace {
-    Eigen::Vector3d p_OQ;  // Pivot, in F.
-    Eigen::Vector3d axis;  // In F.
-    double step = 0.0;     // |p_PQ| at t.
-    double lever = 0.0;    // |p_QL|.
-    Eigen::Vector3d p_OL;  // The child's origin, in F.
-  };
-  std::vector<JointPlace> places_;
+  std::unique_ptr<detail::ChainMemory> memory_;
 };
 
 /// The path of a link L in the frame F of an ancestor, over one smooth piece of time.
@@ -140,7 +145,12 @@ class FIRSTCONTACT_API LinkPath {
   [[nodiscard]] LinkPose pose(double t, const DoubleDoubleVector3& p_FO = {}) const;
 
   /// The same, with the link's derivatives.
-  [[nodiscard]] LinkState state(double t, const DoubleDoubleVector3& p_FO = {}) const;
+  [[nodiscard]] LinkState state(double t, LinkScratch& scratch,
+                                const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// A place F O near which the links of a robot are, the same for all that share a first joint:
+  /// where positions are best taken from.
+  [[nodiscard]] DoubleDoubleVector3 anchor() const;
 
   /// The path, where it is that of a free body; else null.
   [[nodiscard]] const ConstantRatePath* constant_rates() const;
@@ -179,11 +189,6 @@ class FIRSTCONTACT_API LinkPath {
   [[nodiscard]] std::size_t joint_count() const { return joints_.size(); }
 
  private:
-  struct Walk;
-  /// Fills in the places of the joints where scratch is given.
-  [[nodiscard]] LinkState walk(double t, const DoubleDoubleVector3& p_FO,
-                               LinkScratch* scratch) const;
-
   double t_begin_;
   double t_end_;
   std::vector<std::shared_ptr<const JointPath>> joints_;

@@ -29,8 +29,8 @@ struct Question {
 class Search {
  public:
   Search(const RobotTimeline& timeline, std::size_t piece,
-         const std::vector<std::optional<SweptBall>>& resting)
-      : timeline_(timeline), piece_(piece), balls_(resting) {}
+         const std::vector<std::optional<SweptBall>>& resting, LinkScratch& scratch)
+      : timeline_(timeline), piece_(piece), scratch_(scratch), balls_(resting) {}
 
   std::vector<Candidate> run(const std::vector<Question>& questions) {
     narrow(timeline_.piece(piece_), questions, 0);
@@ -53,7 +53,7 @@ class Search {
   const SweptBall& ball(std::size_t part, const TimeWindow& window) {
     std::optional<SweptBall>& ball = balls_[part];
     if (!ball) {
-      ball = swept_ball(timeline_, part, window);
+      ball = swept_ball(timeline_, part, window, scratch_);
       placed_.push_back(part);
     }
     return *ball;
@@ -131,6 +131,7 @@ class Search {
 
   const RobotTimeline& timeline_;
   std::size_t piece_;
+  LinkScratch& scratch_;
   std::vector<std::optional<SweptBall>> balls_;
   std::vector<std::size_t> placed_;
   std::vector<Candidate> found_;
@@ -138,11 +139,11 @@ class Search {
 
 }  // namespace
 
-SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part, const TimeWindow& window) {
+SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part, const TimeWindow& window,
+                     LinkScratch& scratch) {
   const LinkPart& ball = timeline.parts()[part].ball;
   const double middle = 0.5 * (window.begin + window.end);
   const PartPath path = timeline.path(part, middle);
-  LinkScratch scratch;
   const LinkWindow at = path.X_FS.window(middle, window.begin, window.end, ball, scratch);
   SweptBall swept;
   swept.centre = at.pose().p_OL + at.pose().R_FL * ball.centre;
@@ -160,15 +161,17 @@ double gap_bound(const SweptBall& a, const SweptBall& b) {
 
 CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
     : timeline_(timeline), resting_(timeline.parts().size()) {
+  LinkScratch scratch;
   for (std::size_t part = 0; part < resting_.size(); ++part) {
     if (timeline.parts()[part].rests) {
-      resting_[part] = swept_ball(timeline, part, {0.0, 1.0});
+      resting_[part] = swept_ball(timeline, part, {0.0, 1.0}, scratch);
     }
   }
 }
 
 std::vector<Candidate> CandidateSearch::find(std::size_t piece,
-                                             const std::function<bool(std::size_t)>& wanted) const {
+                                             const std::function<bool(std::size_t)>& wanted,
+                                             LinkScratch& scratch) const {
   std::vector<Question> questions;
   for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
     const TestedPair& pair = timeline_.pairs()[k];
@@ -183,7 +186,7 @@ std::vector<Candidate> CandidateSearch::find(std::size_t piece,
       }
     }
   }
-  return Search(timeline_, piece, resting_).run(questions);
+  return Search(timeline_, piece, resting_, scratch).run(questions);
 }
 
 }  // namespace firstcontact::detail

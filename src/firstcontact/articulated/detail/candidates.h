@@ -41,7 +41,7 @@ struct SweptBall {
 };
 
 [[nodiscard]] SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part,
-                                   const TimeWindow& window);
+                                   const TimeWindow& window, LinkScratch& scratch);
 
 /// [m]  A proven lower bound of the distance of two parts throughout the window; may be negative.
 [[nodiscard]] double gap_bound(const SweptBall& a, const SweptBall& b);
@@ -56,7 +56,8 @@ class CandidateSearch {
   ///
   /// @param wanted  whether a tested pair is of interest, by index
   [[nodiscard]] std::vector<Candidate> find(std::size_t piece,
-                                            const std::function<bool(std::size_t)>& wanted) const;
+                                            const std::function<bool(std::size_t)>& wanted,
+                                            LinkScratch& scratch) const;
 
  private:
   const RobotTimeline& timeline_;

@@ -125,7 +125,7 @@ class Descent {
 
 LeastClearance least_clearance_of(const RobotTimeline& timeline, const BallsOfPieces& balls,
                                   std::size_t pair, const RobotCheckOptions& options,
-                                  Workspace& workspace) {
+                                  LinkWorkspace& workspace) {
   LeastClearance best;
   Descent descent(options, best);
   for (const Place& place : places_by_distance(timeline, balls, pair)) {

@@ -9,7 +9,7 @@
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/articulated/detail/candidates.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
-#include <firstcontact/query/workspace.h>
+#include <firstcontact/articulated/detail/link_query.h>
 
 namespace firstcontact::detail {
 
@@ -23,6 +23,6 @@ using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 [[nodiscard]] LeastClearance least_clearance_of(const RobotTimeline& timeline,
                                                 const BallsOfPieces& balls, std::size_t pair,
                                                 const RobotCheckOptions& options,
-                                                Workspace& workspace);
+                                                LinkWorkspace& workspace);
 
 }  // namespace firstcontact::detail

@@ -3,8 +3,6 @@
 #include <chrono>
 #include <utility>
 
-#include <firstcontact/articulated/link_contact.h>
-
 namespace firstcontact::detail {
 namespace {
 
@@ -23,7 +21,7 @@ UndecidedReason spent(const WorkBudget& budget) {
 }
 
 PartSearch::PartSearch(const RobotTimeline& timeline, const Candidate& candidate,
-                       const RobotCheckOptions& options, Workspace& workspace)
+                       const RobotCheckOptions& options, LinkWorkspace& workspace)
     : timeline_(timeline),
       candidate_(candidate),
       options_(options),
@@ -43,8 +41,7 @@ FirstContactResult PartSearch::first_contact(double t_begin, double t_end, doubl
   query.contacts = options_.contacts;
   query.budget = options_.budget;
   FirstContactResult result;
-  firstcontact::first_contact({A_, X_FA_}, {B_, X_FB_}, {t_begin, t_end}, workspace_, query,
-                              result);
+  detail::first_contact({A_, X_FA_}, {B_, X_FB_}, {t_begin, t_end}, workspace_, query, result);
   return result;
 }
 
@@ -53,7 +50,7 @@ FirstContactResult PartSearch::first_contact(double t_begin, double t_end) {
 }
 
 double PartSearch::distance(double t) {
-  return firstcontact::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_).distance;
+  return detail::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_).distance;
 }
 
 bool PartSearch::is_inside(double t) {
@@ -65,7 +62,7 @@ bool PartSearch::touch(double t, double tolerance_used) {
 }
 
 Contact PartSearch::closest(double t) {
-  return firstcontact::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_).closest.value();
+  return detail::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_).closest.value();
 }
 
 std::vector<RobotContact> PartSearch::in_world(const std::vector<Contact>& contacts,

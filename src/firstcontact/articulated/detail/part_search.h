@@ -7,9 +7,9 @@
 
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/articulated/detail/candidates.h>
+#include <firstcontact/articulated/detail/link_query.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/workspace.h>
 
 namespace firstcontact::detail {
 
@@ -24,7 +24,7 @@ namespace firstcontact::detail {
 class PartSearch {
  public:
   PartSearch(const RobotTimeline& timeline, const Candidate& candidate,
-             const RobotCheckOptions& options, Workspace& workspace);
+             const RobotCheckOptions& options, LinkWorkspace& workspace);
 
   /// First contact in [t_begin, t_end], before which the two are proven free and not inside of each
   /// other; when free, `t` is its end.
@@ -54,7 +54,7 @@ class PartSearch {
   const RobotTimeline& timeline_;
   const Candidate& candidate_;
   const RobotCheckOptions& options_;
-  Workspace& workspace_;
+  LinkWorkspace& workspace_;
   PairPaths paths_;
   LinkMotion X_FA_;
   LinkMotion X_FB_;

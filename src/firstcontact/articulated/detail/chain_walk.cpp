@@ -1,0 +1,116 @@
+#include <firstcontact/articulated/detail/chain_walk.h>
+
+#include <algorithm>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// F does not turn, so that large numbers cancel before they are rounded: before the first joint.
+Vector3d step_to(const JointState& joint, bool is_first, const DoubleDoubleVector3& p_FO) {
+  return (is_first ? joint.p_PQ - p_FO : joint.p_PQ).value();
+}
+
+PassedJoint pass(const JointState& joint, bool is_first, const DoubleDoubleVector3& p_FO,
+                 ChainWalk& walk) {
+  const Vector3d step = step_to(joint, is_first, p_FO);
+  walk.position_error +=
+      joint.position_error +
+      0x1p-90 * (rough_size(joint.p_PQ.value()) + (is_first ? rough_size(p_FO.value()) : 0.0));
+  walk.move(walk.R * step);
+  if (joint.slides) {
+    walk.slide(joint);
+  }
+  const Vector3d axis = walk.R * joint.axis;
+  const Vector3d lever = walk.R * joint.p_QL;  // In the parent's axes: before the turn.
+  const PassedJoint passed{walk.p, axis, step.norm(), lever.norm(), walk.p + lever};
+  walk.turn(joint, axis);
+  walk.move(lever);
+  ++walk.joints;
+  return passed;
+}
+
+ChainWalk start_at(const DoubleDoubleVector3& p_FO, bool has_joints) {
+  ChainWalk walk;
+  if (!has_joints) {
+    walk.move(-p_FO.value());
+  }
+  return walk;
+}
+
+bool equal(const DoubleDoubleVector3& a, const DoubleDoubleVector3& b) {
+  return std::equal(
+      a.c.begin(), a.c.end(), b.c.begin(),
+      [](const DoubleDouble& x, const DoubleDouble& y) { return x.hi == y.hi && x.lo == y.lo; });
+}
+
+}  // namespace
+
+ChainWalk walk_along(Joints joints, double t, const DoubleDoubleVector3& p_FO) {
+  ChainWalk walk = start_at(p_FO, !joints.empty());
+  for (const std::shared_ptr<const JointPath>& joint : joints) {
+    pass(joint->state(t), walk.joints == 0, p_FO, walk);
+  }
+  return walk;
+}
+
+ChainMemory::Instant& ChainMemory::instant(double t, const DoubleDoubleVector3& p_FO) {
+  for (Instant& known : instants_) {
+    if (known.t == t && equal(known.p_FO, p_FO)) {
+      return known;
+    }
+  }
+  Instant& fresh = instants_[next_instant_];
+  next_instant_ = (next_instant_ + 1) % kInstants;
+  fresh.t = t;
+  fresh.p_FO = p_FO;
+  fresh.nodes.assign(1, Node{});
+  return fresh;
+}
+
+ChainMemory::Walked ChainMemory::walk(Joints joints, double t, const DoubleDoubleVector3& p_FO) {
+  std::vector<Node>& nodes = instant(t, p_FO).nodes;
+  nodes[0].walk = start_at(p_FO, !joints.empty());
+  std::size_t at = 0;
+  for (const std::shared_ptr<const JointPath>& joint : joints) {
+    std::size_t child = nodes[at].first_child;
+    while (child != 0 && nodes[child].joint != joint) {
+      child = nodes[child].next_sibling;
+    }
+    if (child == 0) {
+      child = nodes.size();
+      Node node{joint, at, 0, nodes[at].first_child, nodes[at].walk, {}};
+      node.passed = pass(joint->state(t), at == 0, p_FO, node.walk);
+      nodes[at].first_child = child;
+      nodes.push_back(std::move(node));
+    }
+    at = child;
+  }
+  return {nodes, at};
+}
+
+ChainMemory::Window& ChainMemory::window(double t_from, double t_to) {
+  for (Window& known : windows_) {
+    if (known.t_from == t_from && known.t_to == t_to) {
+      return known;
+    }
+  }
+  Window& fresh = windows_[next_window_];
+  next_window_ = (next_window_ + 1) % kWindows;
+  fresh.t_from = t_from;
+  fresh.t_to = t_to;
+  fresh.bounds.clear();
+  return fresh;
+}
+
+const JointBounds& ChainMemory::bounds(const std::shared_ptr<const JointPath>& joint, double t_from,
+                                       double t_to) {
+  auto& known = window(t_from, t_to).bounds;
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const auto& entry) { return entry.first == joint; });
+  return found != known.end() ? found->second
+                              : known.emplace_back(joint, joint->bounds(t_from, t_to)).second;
+}
+
+}  // namespace firstcontact::detail
