@@ -102,6 +102,7 @@ std::size_t RobotScene::add_body(std::string name, Shape shape, Motion X_WB) {
   }
   Member body{.name = std::move(name), .geometries = {}, .link = {}};
   body.geometries.push_back({std::move(shape), {}});
+  body.rests = is_at_rest(X_WB);
   body.motion = std::move(X_WB);
   body.stretches = {{}};
   members_.push_back(std::move(body));
@@ -168,6 +169,7 @@ void RobotScene::attach(Attachment attachment) {
 
 void RobotScene::divide_into_stretches(std::size_t body) {
   const FloatEnvironmentGuard guard;
+  members_[body].rests = false;
   std::vector<BodyStretch>& stretches = members_[body].stretches;
   stretches = {{}};
   for (const Attachment& attachment : attachments_) {
@@ -257,12 +259,6 @@ std::span<const BodyStretch> RobotScene::stretches(std::size_t member) const {
   return members_[member].stretches;
 }
 
-bool RobotScene::rests(const Member& member) const {
-  return member.motion && member.stretches.size() == 1 &&
-         std::holds_alternative<BodyStretch::Given>(member.stretches[0].how) &&
-         is_at_rest(*member.motion);
-}
-
 std::optional<double> RobotScene::margin(const BodyPair& members) const {
   const Member& a = members_[members[0]];
   const Member& b = members_[members[1]];
@@ -273,7 +269,7 @@ std::optional<double> RobotScene::margin(const BodyPair& members) const {
       return std::nullopt;
     }
   }
-  if (rests(a) && rests(b)) {
+  if (a.rests && b.rests) {
     return std::nullopt;
   }
   const std::optional<double> margin = rules_.margin(members);

@@ -155,6 +155,7 @@ class FIRSTCONTACT_API RobotScene {
     std::optional<RobotLink> link;
     std::optional<Motion> motion = {};        // Of a body.
     std::vector<BodyStretch> stretches = {};  // Of a body.
+    bool rests = false;                       // A body that never moves.
   };
   struct Robot {
     std::string name;
@@ -166,7 +167,6 @@ class FIRSTCONTACT_API RobotScene {
   void require_member(std::size_t member) const;
   void require_new(const std::string& name) const;
   void divide_into_stretches(std::size_t body);
-  [[nodiscard]] bool rests(const Member& member) const;
 
   std::vector<Member> members_;
   std::vector<Robot> robots_;

@@ -11,10 +11,10 @@ namespace {
 constexpr double kUp = 1.0 + 0x1p-40;
 
 /// Halvings of a piece. More cost more places of links than they spare searches.
-constexpr int kDepth = 5;
+constexpr int kDepth = 4;
 
-/// [-]  Of the radii: balls that sweep over more are looked at in shorter windows.
-constexpr double kShortSweep = 0.5;
+/// [-]  Of the sweeps of both balls: halved, they have to be enough for the other pairs.
+constexpr double kSweepThatHelps = 1.0;
 
 /// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
 constexpr double kLooseError = 0.05;
@@ -68,27 +68,27 @@ class Search {
 
   void narrow(const TimeWindow& window, std::span<const Question> questions, int depth) {
     std::vector<Question> open;
-    bool is_long = false;
     for (const Question& question : questions) {
       const SweptBall& a = ball(question.parts[0], window);
       const SweptBall& b = ball(question.parts[1], window);
       const double threshold = timeline_.pairs()[question.pair].margin;
-      if (gap_bound(a, b) > (threshold + a.tracking_error + b.tracking_error) * kUp) {
+      const double missing =
+          (threshold + a.tracking_error + b.tracking_error) * kUp - gap_bound(a, b);
+      if (missing < 0.0) {
         continue;
       }
-      open.push_back(question);
-      const double sweep = a.sweep + b.sweep;
-      is_long = is_long || sweep > kShortSweep * (a.radius + b.radius - sweep);
+      // Shorter windows help where the balls are apart but for their sweeps.
+      if (depth < kDepth && missing < kSweepThatHelps * (a.sweep + b.sweep)) {
+        open.push_back(question);
+      } else {
+        found_.push_back({window, piece_, question.pair, question.parts, 0.0});
+      }
     }
     forget_balls();
-    if (is_long && depth < kDepth) {
+    if (!open.empty()) {
       const double middle = 0.5 * (window.begin + window.end);
       narrow({window.begin, middle}, open, depth + 1);
       narrow({middle, window.end}, open, depth + 1);
-      return;
-    }
-    for (const Question& question : open) {
-      found_.push_back({window, piece_, question.pair, question.parts, 0.0});
     }
   }
 
