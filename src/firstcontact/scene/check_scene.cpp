@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace firstcontact {
@@ -134,10 +135,52 @@ SceneResult from_each_pair(std::vector<PairAnswer> pairs, const SceneOptions& as
   return result;
 }
 
+void require_for_robots(const SceneOptions& asked) {
+  if (asked.start_contacts != StartContacts::report || asked.contact_band > 0.0) {
+    throw std::invalid_argument(
+        "options: start_contacts and contact_band are not for scenes with robots");
+  }
+}
+
+SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& options) {
+  const SceneOptions& asked = loaded.scene.options;
+  require_for_robots(asked);
+  const bool all_pairs = options.all_pairs || options.closest || options.all_contacts_in_time;
+  RobotCheckResult found =
+      check_robots(*loaded.robots, {.tolerance = asked.tolerance,
+                                    .budget = budget_of(loaded.scene, options),
+                                    .threads = options.threads,
+                                    .all_pairs = all_pairs,
+                                    .all_contact_intervals = options.all_contacts_in_time,
+                                    .least_clearance = options.closest,
+                                    .progress = options.progress});
+  if (asked.contacts == ContactState::none) {
+    for (RobotPairAnswer& pair : found.pairs) {
+      pair.contacts.clear();
+    }
+  }
+  SceneResult result;
+  result.verdict = found.verdict;
+  result.reason = found.reason;
+  result.t = found.t;
+  result.t_upper = found.t_upper;
+  result.clearance = found.clearance;
+  result.tolerance_used = found.tolerance_used;
+  result.work.steps = found.steps;
+  result.robots = std::move(found);
+  return result;
+}
+
 }  // namespace
 
 SceneResult check_scene(const LoadedScene& loaded, ManyBodiesWorkspace& workspace,
                         const CheckOptions& options) {
+  if (loaded.robots) {
+    return check_with_robots(loaded, options);
+  }
+  if (options.all_contacts_in_time) {
+    throw std::invalid_argument("all contacts in time are found in scenes with robots only");
+  }
   const ManyBodiesOptions query = query_options(loaded.scene, options);
   if (options.all_pairs || options.closest) {
     return from_each_pair(answer_each_pair(loaded.bodies, workspace, query), loaded.scene.options,

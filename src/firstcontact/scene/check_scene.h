@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <vector>
 
+#include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/many_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
@@ -15,8 +16,10 @@
 namespace firstcontact {
 
 struct CheckOptions {
-  bool all_pairs = false;     ///< The answer of every pair over the whole step.
-  bool closest = false;       ///< So too, with the closest approach of each.
+  bool all_pairs = false;  ///< The answer of every pair over the whole step.
+  bool closest = false;    ///< So too, with the closest approach of each.
+  /// So too, with every interval of contact of each; of scenes with robots.
+  bool all_contacts_in_time = false;
   int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
   std::stop_token stop = {};  ///< Ends the check with what is proven so far.
   /// As ManyBodiesOptions::progress.
@@ -41,15 +44,19 @@ struct SceneResult {
   /// Every tested pair where that was asked, else those that decide `t`; by the order of bodies.
   std::vector<PairAnswer> pairs;
   WorkCount work;  ///< Of all pairs that were searched.
+
+  /// The answer of a scene with robots, by members; then `first`, `closest` and `pairs` are empty.
+  std::optional<RobotCheckResult> robots = {};
 };
 
-/// Answers a scene by the first contact of its bodies, or by that of every pair over the whole
-/// step.
+/// Answers a scene by the first contact of its bodies and robots, or by that of every pair over the
+/// whole step.
 ///
 /// The scene's deadline starts with this call; loading does not count. A pair that the deadline
 /// or the stop token keeps from being asked is undecided. Deterministic without either.
 ///
-/// @throws std::invalid_argument if an option of the scene is outside its range
+/// @throws std::invalid_argument if an option of the scene is outside its range, or not for scenes
+///         with (without) robots
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_scene(const LoadedScene& loaded,
                                                        ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});

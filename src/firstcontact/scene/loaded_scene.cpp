@@ -8,31 +8,12 @@
 
 #include <firstcontact/geometry/deforming_body.h>
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/sha256.h>
 
 namespace firstcontact {
 
 namespace {
-
-PairRules rules_of(const Scene& scene) {
-  PairRules rules(scene.options.margin);
-  for (const BodyGroup& group : scene.groups) {
-    rules.add_group(group.bodies);
-  }
-  for (const BodyPair& pair : scene.ignored_pairs) {
-    rules.ignore(pair);
-  }
-  for (const PairMargin& pair : scene.pair_margins) {
-    rules.set_margin(pair.bodies, pair.margin);
-  }
-  for (const GroupPair& pair : scene.ignored_groups) {
-    rules.ignore_groups(pair[0], pair[1]);
-  }
-  for (const GroupMargin& pair : scene.group_margins) {
-    rules.set_group_margin(pair.groups[0], pair.groups[1], pair.margin);
-  }
-  return rules;
-}
 
 DeformingBody moving(const Body& body, Shape shape, double duration) {
   const auto* vertices = std::get_if<VertexMotion>(&body.motion);
@@ -53,7 +34,10 @@ DeformingBody moving(const Body& body, Shape shape, double duration) {
 }  // namespace
 
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
-  LoadedScene loaded{.scene = {}, .bodies = BodySet(rules_of(scene)), .input_digest = {}};
+  if (!scene.robots.empty()) {
+    return detail::load_robots(std::move(scene), cache);
+  }
+  LoadedScene loaded{.scene = {}, .bodies = BodySet(detail::rules_of(scene)), .input_digest = {}};
   std::string digests = scene.text_digest + '\n';
   for (const Body& body : scene.bodies) {
     CachedShape cached = cache.load(body.shape);

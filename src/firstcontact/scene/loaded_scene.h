@@ -3,8 +3,13 @@
 
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <firstcontact/articulated/limit_report.h>
+#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/body_set.h>
 #include <firstcontact/scene/scene.h>
@@ -12,11 +17,21 @@
 
 namespace firstcontact {
 
+/// The limits that a robot of the scene leaves.
+struct SceneLimits {
+  std::size_t robot = 0;
+  std::vector<LimitViolation> violations;
+};
+
 /// A scene and all that its queries need.
 struct LoadedScene {
   Scene scene;
-  BodySet bodies;            ///< In the scene's order; t = time / duration.
+  BodySet bodies;  ///< In the scene's order; t = time / duration. Empty where there are robots.
   std::string input_digest;  ///< SHA-256 over the digests of the scene's text and its files.
+  /// Of a scene with robots; its members are numbered as those of the scene.
+  std::shared_ptr<const RobotScene> robots = {};
+  std::vector<SceneLimits> limits = {};    ///< Of robots that leave any.
+  std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
 };
 
 /// Loads the meshes of a scene, as far as the cache does not hold them yet.

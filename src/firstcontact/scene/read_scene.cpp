@@ -17,7 +17,9 @@
 #include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pairs.h>
+#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/detail/read_pose.h>
+#include <firstcontact/scene/detail/read_robots.h>
 #include <firstcontact/scene/detail/read_shape.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/write_json.h>
@@ -51,9 +53,7 @@ SceneFolders read_folders(const JsonObject& scene, const std::filesystem::path& 
                           const JsonReader& read) {
   SceneFolders folders{.scene = source.parent_path(), .package_roots = {}};
   if (const JsonValue* roots = find(scene, "package_roots")) {
-    for (const JsonValue& root : read.array(*roots, "an array of folders")) {
-      folders.package_roots.push_back(folders.scene / read.string(root, "a folder"));
-    }
+    folders.package_roots = detail::read_package_roots(*roots, folders.scene, read);
   }
   return folders;
 }
@@ -110,9 +110,6 @@ std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folder
       read.fail_expected("a name that no other body has", read.member(element, "name"));
     }
   }
-  if (bodies.empty()) {
-    read.fail(value, "expected at least one body, got none");
-  }
   return bodies;
 }
 
@@ -141,29 +138,36 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   return options;
 }
 
-/// [s]  The greatest last time of waypoints; 0 where there is none.
-double last_time(const std::vector<Body>& bodies) {
+/// [s]  The last time of waypoints; 0 where there is none.
+double last_time(const BodyMotion& motion) {
+  const auto* waypoints = std::get_if<WaypointMotion>(&motion);
+  return waypoints == nullptr ? 0.0 : waypoints->times.back();
+}
+
+/// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.
+double last_time(const Scene& scene) {
   double last = 0.0;
-  for (const Body& body : bodies) {
-    if (const auto* waypoints = std::get_if<WaypointMotion>(&body.motion)) {
-      last = std::max(last, waypoints->times.back());
-    }
+  for (const Body& body : scene.bodies) {
+    last = std::max(last, last_time(body.motion));
+  }
+  for (const SceneRobot& robot : scene.robots) {
+    last = std::max({last, last_time(robot.base), robot.trajectory.points.back().time});
   }
   return last;
 }
 
 /// `asked` may be null.
-double scene_duration(const std::vector<Body>& bodies, const JsonValue* asked,
-                      const JsonReader& read) {
-  const double last = last_time(bodies);
+double scene_duration(const Scene& scene, const JsonValue* asked, const JsonReader& read) {
+  const double last = last_time(scene);
   if (asked == nullptr) {
     return last > 0.0 ? last : 1.0;
   }
   const double duration = read.positive(*asked);
   if (last > 0.0 && duration != last) {
-    read.fail_expected(
-        detail::write_json(last) + ", the last time of the waypoints (or no \"duration\" at all)",
-        *asked);
+    read.fail_expected(detail::write_json(last) + ", the last time of the waypoints" +
+                           (scene.robots.empty() ? "" : " and trajectories") +
+                           " (or no \"duration\" at all)",
+                       *asked);
   }
   return duration;
 }
@@ -180,17 +184,55 @@ void require_motions(const Scene& scene, const JsonArray& bodies, const JsonRead
   }
 }
 
+/// What only all times together tell.
+void require_times(const Scene& scene, const JsonObject& object, const JsonReader& read) {
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    const SceneRobot& robot = scene.robots[i];
+    const JsonValue& value = std::get<JsonArray>(find(object, "robots")->value)[i];
+    for (const SceneAttachment& attachment : robot.attached) {
+      if (!(attachment.from_time < scene.duration &&
+            attachment.to_time.value_or(scene.duration) <= scene.duration)) {
+        read.fail(read.member(value, "attached"), "expected times within the scene's duration, " +
+                                                      detail::write_json(scene.duration) + " s");
+      }
+    }
+    try {
+      (void)normalised_motion(robot.base, scene.duration);
+    } catch (const std::invalid_argument& error) {
+      read.fail(value, error.what());
+    }
+  }
+}
+
+/// The bodies and robots; at least one of them.
+void read_members(const JsonValue& root, const JsonObject& object, const SceneFolders& folders,
+                  Scene& scene, const JsonReader& read) {
+  const JsonValue* robots = find(object, "robots");
+  const JsonValue* bodies =
+      robots == nullptr ? &read.member(root, "bodies") : find(object, "bodies");
+  if (bodies != nullptr) {
+    scene.bodies = read_bodies(*bodies, folders, read);
+  }
+  if (robots != nullptr) {
+    detail::read_robots(*robots, folders, scene, read);
+  }
+  if (scene.bodies.empty() && scene.robots.empty()) {
+    read.fail(bodies != nullptr ? *bodies : *robots,
+              robots == nullptr ? "expected at least one body, got none"
+                                : "expected at least one body or robot, got none");
+  }
+}
+
 Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read) {
   require_version(root, read);
   const JsonObject& object = read.object(
-      root, {{"firstcontact", "id", "package_roots", "bodies", "pairs", "options"}, {"robots"}});
+      root, {{"firstcontact", "id", "package_roots", "bodies", "robots", "pairs", "options"}});
   Scene scene;
   if (const JsonValue* id = find(object, "id")) {
     const auto* text = std::get_if<std::string>(&id->value);
     scene.id = text != nullptr ? *text : read.string(*id, "a string");
   }
-  const JsonValue& bodies = read.member(root, "bodies");
-  scene.bodies = read_bodies(bodies, read_folders(object, source, read), read);
+  read_members(root, object, read_folders(object, source, read), scene, read);
   if (const JsonValue* pairs = find(object, "pairs")) {
     detail::read_pairs(*pairs, scene, read);
   }
@@ -202,8 +244,11 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
     scene.options = read_options(given, read);
     duration = find(given, "duration");
   }
-  scene.duration = scene_duration(scene.bodies, duration, read);
-  require_motions(scene, std::get<JsonArray>(bodies.value), read);
+  scene.duration = scene_duration(scene, duration, read);
+  if (const JsonValue* bodies = find(object, "bodies")) {
+    require_motions(scene, std::get<JsonArray>(bodies->value), read);
+  }
+  require_times(scene, object, read);
   return scene;
 }
 

@@ -1,46 +1,29 @@
 #include <firstcontact/scene/scene.h>
 
-#include <variant>
-#include <vector>
+#include <stdexcept>
 
 namespace firstcontact {
-namespace {
 
-/// Motion of each kind; the overloads are picked by std::visit.
-struct MotionMaker {
-  double duration;
-
-  Motion operator()(const FixedMotion& motion) const { return Motion::fixed(motion.pose); }
-
-  Motion operator()(const ConstantVelocityMotion& motion) const {
-    return Motion::constant_velocity(motion.from, motion.translation, motion.rotation_vector);
+std::size_t first_member(const Scene& scene, std::size_t robot) {
+  std::size_t first = scene.bodies.size();
+  for (std::size_t k = 0; k < robot; ++k) {
+    first += scene.robots.at(k).model.links().size();
   }
+  return first;
+}
 
-  Motion operator()(const ScrewMotion& motion) const {
-    return Motion::screw(motion.from, motion.axis_point, motion.axis_direction, motion.angle,
-                         motion.translation);
+std::string member_name(const Scene& scene, std::size_t member) {
+  if (member < scene.bodies.size()) {
+    return scene.bodies[member].name;
   }
-
-  Motion operator()(const TwoPoseMotion& motion) const {
-    return motion.between == Between::screw ? Motion::screw(motion.from, motion.to)
-                                            : Motion::constant_velocity(motion.from, motion.to);
-  }
-
-  Motion operator()(const WaypointMotion& motion) const {
-    std::vector<double> times = motion.times;
-    for (double& time : times) {
-      time /= duration;
+  member -= scene.bodies.size();
+  for (const SceneRobot& robot : scene.robots) {
+    if (member < robot.model.links().size()) {
+      return robot.name + "/" + robot.model.links()[member].name;
     }
-    return Motion::waypoints(times, motion.poses, motion.between);
+    member -= robot.model.links().size();
   }
-
-  Motion operator()(const VertexMotion&) const { return Motion::fixed(); }
-};
-
-}  // namespace
-
-Motion normalised_motion(const BodyMotion& motion, double duration) {
-  return std::visit(MotionMaker{duration}, motion);
+  throw std::out_of_range("member_name: the scene has no such member");
 }
 
 }  // namespace firstcontact

@@ -1,13 +1,17 @@
 #include <firstcontact/scene/shape_cache.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include <tbb/task_arena.h>
 
+#include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/make_shape.h>
 #include <firstcontact/scene/detail/sha256.h>
 
@@ -65,6 +69,47 @@ CachedShape make(const BodyShape& shape) {
   return {.shape = detail::make_shape(shape), .digest = file == nullptr ? "" : digest_of(*file)};
 }
 
+/// The robot with what can touch as its collision geometry.
+RobotModel read_touching(const RobotFile& file) {
+  const bool visual = file.surface == RobotSurface::visual;
+  RobotModel model =
+      read_urdf(file.urdf, {.package_roots = file.package_roots,
+                            .shapes = visual ? LoadShapes::all : LoadShapes::collision});
+  if (visual) {
+    RobotDescription description{.name = model.name(),
+                                 .links = {model.links().begin(), model.links().end()},
+                                 .joints = {model.joints().begin(), model.joints().end()}};
+    for (Link& link : description.links) {
+      link.collision = link.visual;
+    }
+    model = RobotModel(std::move(description));
+  }
+  const auto is_empty = [](const Link& link) { return link.collision.empty(); };
+  if (std::all_of(model.links().begin(), model.links().end(), is_empty)) {
+    throw ParseError(file.urdf.string(),
+                     visual ? "expected links with <visual> geometry, none has any"
+                            : "expected links with <collision> geometry, none has any; the surface "
+                              "\"visual\" takes what they look like");
+  }
+  return model;
+}
+
+std::string digest_of(const RobotFile& file, const RobotModel& model) {
+  std::set<std::filesystem::path> meshes;
+  for (const Link& link : model.links()) {
+    for (const LinkGeometry& geometry : link.collision) {
+      if (const auto* mesh = std::get_if<MeshGeometry>(&geometry.source)) {
+        meshes.insert(mesh->path);
+      }
+    }
+  }
+  std::string digests = digest_of(file.urdf) + '\n';
+  for (const std::filesystem::path& mesh : meshes) {
+    digests += digest_of(mesh) + '\n';
+  }
+  return detail::sha256(digests);
+}
+
 }  // namespace
 
 CachedShape ShapeCache::load(const BodyShape& shape) {
@@ -86,6 +131,23 @@ CachedShape ShapeCache::load(const BodyShape& shape) {
     tbb::this_task_arena::isolate([&] { entry.shape = make(shape); });
   }
   return *entry.shape;
+}
+
+CachedRobot ShapeCache::load(const RobotFile& file) {
+  std::vector<std::filesystem::path> paths = file.package_roots;
+  paths.push_back(file.urdf);
+  std::unique_lock map_lock(mutex_);
+  RobotEntry& entry = robots_[RobotKey(file.surface, std::move(paths))];
+  map_lock.unlock();
+  const std::scoped_lock lock(entry.making);
+  if (!entry.robot) {
+    tbb::this_task_arena::isolate([&] {
+      RobotModel model = read_touching(file);
+      std::string digest = digest_of(file, model);
+      entry.robot = CachedRobot{std::move(model), std::move(digest)};
+    });
+  }
+  return *entry.robot;
 }
 
 }  // namespace firstcontact

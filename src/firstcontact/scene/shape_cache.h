@@ -1,18 +1,22 @@
 /// @file
-/// Shapes of scenes, kept from scene to scene.
+/// Shapes and robots of scenes, kept from scene to scene.
 
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/scene_robot.h>
 
 namespace firstcontact {
 
@@ -20,6 +24,12 @@ namespace firstcontact {
 struct CachedShape {
   Shape shape;
   std::string digest;  ///< SHA-256 of the file, in hexadecimal; empty where there is none.
+};
+
+/// A robot with the shapes of what can touch, and the digest of all its files.
+struct CachedRobot {
+  RobotModel model;
+  std::string digest;  ///< SHA-256, in hexadecimal.
 };
 
 /// Makes each shape once, with its hierarchy, but for what a scene writes inline. A file that
@@ -34,6 +44,11 @@ class FIRSTCONTACT_API ShapeCache {
   ///         std::invalid_argument if a number is out of its range, or an inline solid not closed
   CachedShape load(const BodyShape& shape);
 
+  /// A robot of a file, whose collision geometries are those of the surface that was asked for.
+  ///
+  /// @throws ParseError as read_urdf, and where the surface has no geometry at all
+  CachedRobot load(const RobotFile& file);
+
  private:
   /// The kind of shape, the file, and all numbers.
   using Key = std::tuple<std::size_t, std::string, std::vector<double>>;
@@ -43,8 +58,17 @@ class FIRSTCONTACT_API ShapeCache {
     std::optional<CachedShape> shape;  // None before, or where it cannot be made.
   };
 
-  std::mutex mutex_;  // Of the map; its entries stay where they are.
+  /// The surface, and the paths.
+  using RobotKey = std::pair<RobotSurface, std::vector<std::filesystem::path>>;
+
+  struct RobotEntry {
+    std::mutex making;
+    std::optional<CachedRobot> robot;
+  };
+
+  std::mutex mutex_;  // Of the maps; their entries stay where they are.
   std::map<Key, Entry> shapes_;
+  std::map<RobotKey, RobotEntry> robots_;
 };
 
 }  // namespace firstcontact

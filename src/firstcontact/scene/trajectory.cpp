@@ -161,8 +161,15 @@ class MotionBuilder {
     if (const auto column = columns_.find(which); column != columns_.end()) {
       return trajectory_.points[point].positions[column->second];
     }
-    const auto held = held_.find(which);
-    return held != held_.end() ? held->second : default_position(robot_.joints()[joint]);
+    if (const auto held = held_.find(which); held != held_.end()) {
+      return held->second;
+    }
+    const Joint& what = robot_.joints()[joint];
+    return what.mimic ? mimicked(*what.mimic, point) : default_position(what);
+  }
+
+  [[nodiscard]] double mimicked(const Mimic& mimic, std::size_t point) const {
+    return mimic.multiplier * position(*robot_.find_joint(mimic.joint), point) + mimic.offset;
   }
 
   /// A mimic joint goes where the other one says, and nowhere else.
@@ -173,12 +180,8 @@ class MotionBuilder {
     if (!columns_.contains(which) && !held_.contains(which)) {
       return;
     }
-    const std::size_t source = *robot_.find_joint(what.mimic->joint);
-    if (robot_.joints()[source].mimic) {
-      refuse(what.name, "expected no position of a joint that mimics a mimic joint");
-    }
     for (std::size_t point = 0; point < trajectory_.points.size(); ++point) {
-      const double follows = what.mimic->multiplier * position(source, point) + what.mimic->offset;
+      const double follows = mimicked(*what.mimic, point);
       const double said = position(joint, point);
       if (!(std::abs(said - follows) <= kSlack)) {
         refuse(what.name, "expected " + detail::write_json(follows) + " at " +

@@ -8,6 +8,8 @@
 
 #include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene/detail/robot_result.h>
 #include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene/write_scene.h>
@@ -19,43 +21,28 @@ using detail::JsonArray;
 using detail::JsonNull;
 using detail::JsonObject;
 using detail::JsonValue;
-
-JsonValue to_json(double number) {
-  return std::isfinite(number) ? JsonValue{.value = number} : JsonValue{.value = JsonNull{}};
-}
-
-JsonValue to_json(std::size_t count) { return to_json(static_cast<double>(count)); }
-
-JsonValue to_json(std::string_view text) { return {.value = std::string(text)}; }
-
-JsonValue to_json(const Eigen::Vector3d& v) {
-  return {.value = JsonArray{to_json(v.x()), to_json(v.y()), to_json(v.z())}};
-}
-
-template <typename T>
-JsonValue to_json(const std::optional<T>& value) {
-  return value ? to_json(*value) : JsonValue{.value = JsonNull{}};
-}
-
-JsonValue two(JsonValue first, JsonValue second) {
-  return {.value = JsonArray{std::move(first), std::move(second)}};
-}
-
-JsonValue to_json(const Feature& feature) {
-  return {.value = JsonObject{{"type", to_json(word(feature.type))},
-                              {"index", to_json(std::size_t{feature.index})}}};
-}
-
-JsonValue to_json(UndecidedReason reason) {
-  return reason == UndecidedReason::none ? JsonValue{.value = JsonNull{}} : to_json(word(reason));
-}
+using detail::to_json;
+using detail::two;
 
 /// Writes the parts of one scene's result.
 class ResultWriter {
  public:
   explicit ResultWriter(const LoadedScene& loaded) : scene_(loaded.scene), loaded_(loaded) {}
 
-  [[nodiscard]] JsonObject result(const SceneResult& result) const {
+  [[nodiscard]] JsonObject result(const SceneResult& result, bool all_pairs) const {
+    JsonObject object = head(result);
+    if (result.closest) {
+      object.push_back({"closest", closest(result.pairs[*result.closest])});
+    }
+    if (all_pairs) {
+      object.push_back({"pairs", JsonValue{.value = pairs(result)}});
+    }
+    append_tolerance(result.tolerance_used, object);
+    append_enclosure_error(greatest_enclosure_error(), object);
+    return object;
+  }
+
+  [[nodiscard]] JsonObject head(const SceneResult& result) const {
     return {{"id", to_json(scene_.id)},
             {"verdict", to_json(word(result.verdict))},
             {"reason", to_json(result.reason)},
@@ -170,6 +157,18 @@ class ResultWriter {
     return array;
   }
 
+  /// [m]  Of any two bodies.
+  [[nodiscard]] double greatest_enclosure_error() const {
+    double greatest = 0.0;
+    double second = 0.0;
+    for (std::size_t k = 0; k < loaded_.bodies.size(); ++k) {
+      const double error = loaded_.bodies.shape(k).enclosure_error();
+      second = std::max(second, std::min(error, greatest));
+      greatest = std::max(greatest, error);
+    }
+    return greatest + second;
+  }
+
   const Scene& scene_;
   const LoadedScene& loaded_;
 };
@@ -178,18 +177,6 @@ JsonValue to_json(const WorkCount& work) {
   return {.value = JsonObject{{"node_groups", to_json(std::size_t{work.node_groups})},
                               {"triangle_pairs", to_json(std::size_t{work.triangle_pairs})},
                               {"steps", to_json(std::size_t{work.steps})}}};
-}
-
-/// [m]  Of any two bodies.
-double greatest_enclosure_error(const LoadedScene& loaded) {
-  double greatest = 0.0;
-  double second = 0.0;
-  for (std::size_t k = 0; k < loaded.bodies.size(); ++k) {
-    const double error = loaded.bodies.shape(k).enclosure_error();
-    second = std::max(second, std::min(error, greatest));
-    greatest = std::max(greatest, error);
-  }
-  return greatest + second;
 }
 
 }  // namespace
@@ -208,15 +195,9 @@ SamplingReport report_sampling(double rate, std::span<const GapSample> samples) 
 std::string write_result(const LoadedScene& loaded, const SceneResult& result,
                          const WriteResultOptions& options) {
   const ResultWriter writer(loaded);
-  JsonObject object = writer.result(result);
-  if (result.closest) {
-    object.push_back({"closest", writer.closest(result.pairs[*result.closest])});
-  }
-  if (options.all_pairs) {
-    object.push_back({"pairs", JsonValue{.value = writer.pairs(result)}});
-  }
-  writer.append_tolerance(result.tolerance_used, object);
-  ResultWriter::append_enclosure_error(greatest_enclosure_error(loaded), object);
+  JsonObject object = result.robots
+                          ? detail::robot_result(loaded, *result.robots, options.all_pairs)
+                          : writer.result(result, options.all_pairs);
   if (options.sampling) {
     object.push_back({"sampling", writer.sampling(*options.sampling)});
   }

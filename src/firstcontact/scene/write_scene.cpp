@@ -1,8 +1,10 @@
 #include <firstcontact/scene/write_scene.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,6 +48,8 @@ JsonValue to_json(const Pose& pose) {
 }
 
 JsonValue to_json(const Body& body);
+
+JsonValue to_json(const TrajectoryPoint& point);
 
 JsonValue to_json(Between between) {
   return to_json(between == Between::screw ? "screw" : "constant_velocity");
@@ -199,8 +203,87 @@ JsonValue to_json(const Body& body) {
   return {.value = std::move(object)};
 }
 
+JsonValue to_json(const TrajectoryPoint& point) {
+  JsonObject object{{"time", to_json(point.time)}, {"positions", to_json(point.positions)}};
+  if (!point.velocities.empty()) {
+    object.push_back({"velocities", to_json(point.velocities)});
+  }
+  if (!point.accelerations.empty()) {
+    object.push_back({"accelerations", to_json(point.accelerations)});
+  }
+  return {.value = std::move(object)};
+}
+
+JsonValue to_json(const SceneAttachment& attached, const Scene& scene, const RobotModel& model) {
+  const auto link = [&](std::size_t index) { return to_json(model.links()[index].name); };
+  JsonArray touch_links;
+  for (const std::size_t index : attached.touch_links) {
+    touch_links.push_back(link(index));
+  }
+  JsonObject object{{"body", to_json(scene.bodies.at(attached.body).name)},
+                    {"link", link(attached.link)},
+                    {"from_time", to_json(attached.from_time)}};
+  if (attached.to_time) {
+    object.push_back({"to_time", to_json(*attached.to_time)});
+  }
+  object.push_back({"touch_links", {.value = std::move(touch_links)}});
+  return {.value = std::move(object)};
+}
+
+JsonObject tracking_errors(const SceneRobot& robot) {
+  JsonObject object;
+  for (const auto& [joint, error] : robot.tracking_error) {
+    const Joint& what = robot.model.joints()[joint];
+    object.push_back({what.name, to_json(std::max(error.angle, error.distance))});
+  }
+  return object;
+}
+
+JsonArray paths(const std::vector<std::filesystem::path>& folders) {
+  JsonArray array;
+  for (const std::filesystem::path& folder : folders) {
+    array.push_back(to_json(folder.string()));
+  }
+  return array;
+}
+
+JsonValue robot_to_json(const SceneRobot& robot, const Scene& scene) {
+  JsonObject object{{"name", to_json(robot.name)}, {"urdf", to_json(robot.file.urdf.string())}};
+  if (!robot.srdf.empty()) {
+    object.push_back({"srdf", to_json(robot.srdf.string())});
+  }
+  object.push_back({"package_roots", {.value = paths(robot.file.package_roots)}});
+  if (robot.file.surface == RobotSurface::visual) {
+    object.push_back({"surface", to_json("visual")});
+  }
+  JsonMember base = std::visit(MotionMember{}, robot.base);
+  object.push_back({base.key == "pose" ? "base" : "base_motion", std::move(base.value)});
+  if (!robot.trajectory.joint_names.empty()) {
+    object.push_back({"trajectory",
+                      {.value = JsonObject{{"joint_names", to_json(robot.trajectory.joint_names)},
+                                           {"points", to_json(robot.trajectory.points)}}}});
+  }
+  JsonObject state;
+  for (const auto& [joint, position] : robot.state) {
+    state.push_back({joint, to_json(position)});
+  }
+  object.push_back({"state", {.value = std::move(state)}});
+  JsonArray attached;
+  for (const SceneAttachment& attachment : robot.attached) {
+    attached.push_back(to_json(attachment, scene, robot.model));
+  }
+  object.push_back({"attached", {.value = std::move(attached)}});
+  JsonObject padding;
+  for (const auto& [link, number] : robot.padding) {
+    padding.push_back({robot.model.links()[link].name, to_json(number)});
+  }
+  object.push_back({"padding", {.value = std::move(padding)}});
+  object.push_back({"tracking_error", {.value = tracking_errors(robot)}});
+  return {.value = std::move(object)};
+}
+
 JsonValue pairs_to_json(const Scene& scene) {
-  const auto name = [&](std::size_t body) { return to_json(scene.bodies.at(body).name); };
+  const auto name = [&](std::size_t member) { return to_json(member_name(scene, member)); };
   const auto group_name = [&](std::size_t group) { return to_json(scene.groups.at(group).name); };
   JsonObject groups;
   for (const BodyGroup& group : scene.groups) {
@@ -264,11 +347,18 @@ JsonValue options_to_json(const Scene& scene) {
 }  // namespace
 
 std::string write_scene(const Scene& scene) {
-  return detail::write_json({.value = JsonObject{{"firstcontact", to_json(1.0)},
-                                                 {"id", to_json(scene.id)},
-                                                 {"bodies", to_json(scene.bodies)},
-                                                 {"pairs", pairs_to_json(scene)},
-                                                 {"options", options_to_json(scene)}}});
+  JsonObject object{
+      {"firstcontact", to_json(1.0)}, {"id", to_json(scene.id)}, {"bodies", to_json(scene.bodies)}};
+  if (!scene.robots.empty()) {
+    JsonArray robots;
+    for (const SceneRobot& robot : scene.robots) {
+      robots.push_back(robot_to_json(robot, scene));
+    }
+    object.push_back({"robots", {.value = std::move(robots)}});
+  }
+  object.push_back({"pairs", pairs_to_json(scene)});
+  object.push_back({"options", options_to_json(scene)});
+  return detail::write_json({.value = std::move(object)});
 }
 
 }  // namespace firstcontact

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
+#include <numeric>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <firstcontact/scene/detail/write_json.h>
@@ -13,17 +14,24 @@
 namespace firstcontact::detail {
 namespace {
 
-/// A body or a group of bodies, by its index in the scene.
+/// A body, a link, a robot or a group.
 struct Named {
-  std::size_t index = 0;
-  bool is_group = false;
+  enum class Kind { member, robot, group };
+  Kind kind = Kind::member;
+  std::size_t index = 0;  ///< Of the member, robot or group.
 };
 
 class PairsReader {
  public:
   PairsReader(Scene& scene, const JsonReader& read) : scene_(scene), read_(read) {
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-      names_[scene.bodies[k].name] = {k, false};
+      names_[scene.bodies[k].name] = {Named::Kind::member, k};
+    }
+    for (std::size_t k = 0; k < scene.robots.size(); ++k) {
+      names_[scene.robots[k].name] = {Named::Kind::robot, k};
+      for (const std::size_t member : members_of({Named::Kind::robot, k})) {
+        names_.insert({member_name(scene, member), {Named::Kind::member, member}});
+      }
     }
   }
 
@@ -32,15 +40,16 @@ class PairsReader {
     if (groups == nullptr) {
       read_.fail_expected("an object of groups, such as {\"fixtures\": [\"a\", \"b\"]}", value);
     }
-    std::map<std::string_view, Named> names = names_;
+    std::map<std::string, Named> names = names_;
     for (const auto& [name, members] : *groups) {
       BodyGroup group{name, {}};
       for (const JsonValue& member : read_.array(members, "an array of names of bodies")) {
-        group.bodies.push_back(named(member, "the name of a body").index);
+        const std::vector<std::size_t> meant = members_of(named(member, "the name of a body"));
+        group.bodies.insert(group.bodies.end(), meant.begin(), meant.end());
       }
       scene_.groups.push_back(std::move(group));
-      const Named entry{scene_.groups.size() - 1, true};
-      if (name.empty() || !names.insert({std::string_view(name), entry}).second) {
+      const Named entry{Named::Kind::group, scene_.groups.size() - 1};
+      if (name.empty() || !names.insert({name, entry}).second) {
         read_.fail(members, "expected for the group a name that no body has");
       }
     }
@@ -50,35 +59,60 @@ class PairsReader {
   void ignore(const JsonValue& value) {
     for (const JsonValue& element : read_.array(value, "an array of pairs of names")) {
       const auto [first, second] = sides(element, 2, "a pair of names, such as [\"a\", \"b\"]");
-      if (first.is_group && second.is_group) {
+      if (are_groups(first, second)) {
         scene_.ignored_groups.push_back({first.index, second.index});
-      } else {
-        for_each_pair(first, second,
-                      [&](const BodyPair& pair) { scene_.ignored_pairs.push_back(pair); });
+        continue;
       }
+      const std::vector<BodyPair> pairs = pairs_of(first, second);
+      scene_.ignored_pairs.insert(scene_.ignored_pairs.end(), pairs.begin(), pairs.end());
     }
   }
 
   void margin(const JsonValue& value) {
-    std::set<BodyPair> own;
+    std::map<BodyPair, Own> own;
     for (const JsonValue& element : read_.array(value, "an array of pairs with their margins")) {
       const auto [first, second] =
           sides(element, 3, "two names and a margin, such as [\"a\", \"b\", 0.01]");
       const double margin = read_.not_negative(std::get<JsonArray>(element.value)[2]);
-      if (first.is_group && second.is_group) {
+      if (are_groups(first, second)) {
         scene_.group_margins.push_back({{first.index, second.index}, margin});
         continue;
       }
-      for_each_pair(first, second, [&](const BodyPair& pair) {
-        if (!own.insert(pair).second) {
-          read_.fail(element, "expected one margin for each pair, got a second one");
-        }
-        scene_.pair_margins.push_back({pair, margin});
-      });
+      for (const BodyPair& pair : pairs_of(first, second)) {
+        take_margin({pair, margin}, exactness(first, second), element, own);
+      }
     }
   }
 
  private:
+  /// A margin of the scene. What is said of a link prevails over what is said of its robot.
+  struct Own {
+    std::size_t index;
+    int exactness;
+  };
+
+  static bool are_groups(const Named& first, const Named& second) {
+    return first.kind == Named::Kind::group && second.kind == Named::Kind::group;
+  }
+
+  static int exactness(const Named& first, const Named& second) {
+    return (first.kind == Named::Kind::robot ? 0 : 1) + (second.kind == Named::Kind::robot ? 0 : 1);
+  }
+
+  void take_margin(const PairMargin& margin, int exactness, const JsonValue& element,
+                   std::map<BodyPair, Own>& own) const {
+    const auto [known, is_new] =
+        own.insert({margin.bodies, {scene_.pair_margins.size(), exactness}});
+    if (is_new) {
+      scene_.pair_margins.push_back(margin);
+    } else if (exactness == known->second.exactness) {
+      read_.fail(element, "expected one margin for each pair, got a second one");
+    } else if (exactness > known->second.exactness) {
+      known->second.exactness = exactness;
+      scene_.pair_margins[known->second.index] = margin;
+    }
+  }
+
   Named named(const JsonValue& value, const std::string& what) const {
     const std::string& name = read_.string(value, what);
     const auto found = names_.find(name);
@@ -94,6 +128,17 @@ class PairsReader {
                           (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
   }
 
+  [[nodiscard]] std::string what_is_named() const {
+    std::string what = "the name of a body";
+    if (!scene_.robots.empty()) {
+      what +=
+          scene_.groups.empty() ? " or robot, or robot/link" : ", robot or group, or robot/link";
+    } else if (!scene_.groups.empty()) {
+      what += " or group";
+    }
+    return what;
+  }
+
   /// The first two of `size` elements.
   std::pair<Named, Named> sides(const JsonValue& value, std::size_t size,
                                 const std::string& expected) const {
@@ -101,36 +146,49 @@ class PairsReader {
     if (elements.size() != size) {
       read_.fail_expected(expected, value);
     }
-    const std::string what =
-        scene_.groups.empty() ? "the name of a body" : "the name of a body or group";
+    const std::string what = what_is_named();
     const Named first = named(elements[0], what);
     const Named second = named(elements[1], what);
-    if (!first.is_group && !second.is_group && first.index == second.index) {
+    const auto is_member = [](const Named& side) { return side.kind == Named::Kind::member; };
+    if (is_member(first) && is_member(second) && first.index == second.index) {
       read_.fail(value, "expected two bodies, got one twice");
     }
     return {first, second};
   }
 
-  /// A group beside a body stands for its pairs with that body.
-  template <class Use>
-  void for_each_pair(const Named& first, const Named& second, const Use& use) const {
-    for (const std::size_t a : bodies_of(first)) {
-      for (const std::size_t b : bodies_of(second)) {
-        if (a != b) {
-          use({std::min(a, b), std::max(a, b)});
+  /// A group or robot beside another name stands for the pairs of all its members.
+  [[nodiscard]] std::vector<BodyPair> pairs_of(const Named& first, const Named& second) const {
+    std::vector<BodyPair> pairs;
+    std::set<BodyPair> seen;
+    for (const std::size_t a : members_of(first)) {
+      for (const std::size_t b : members_of(second)) {
+        const BodyPair pair = {std::min(a, b), std::max(a, b)};
+        if (a != b && seen.insert(pair).second) {
+          pairs.push_back(pair);
         }
       }
     }
+    return pairs;
   }
 
-  [[nodiscard]] std::vector<std::size_t> bodies_of(const Named& named) const {
-    return named.is_group ? scene_.groups[named.index].bodies
-                          : std::vector<std::size_t>{named.index};
+  [[nodiscard]] std::vector<std::size_t> members_of(const Named& named) const {
+    switch (named.kind) {
+      case Named::Kind::group:
+        return scene_.groups[named.index].bodies;
+      case Named::Kind::robot: {
+        std::vector<std::size_t> links(scene_.robots[named.index].model.links().size());
+        std::iota(links.begin(), links.end(), first_member(scene_, named.index));
+        return links;
+      }
+      case Named::Kind::member:
+        break;
+    }
+    return {named.index};
   }
 
   Scene& scene_;
   const JsonReader& read_;
-  std::map<std::string_view, Named> names_;
+  std::map<std::string, Named> names_;
 };
 
 }  // namespace

@@ -3,19 +3,11 @@
 
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact::detail {
-
-/// Where the paths of a scene begin.
-struct SceneFolders {
-  std::filesystem::path scene;                       ///< Relative paths begin here.
-  std::vector<std::filesystem::path> package_roots;  ///< As opened. For "package://name/...".
-};
 
 /// One of `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
 /// `capsule`, `box`, `cylinder`, `cone`, `convex_hull` (of a mesh or vertices), `points` (a file or

@@ -1,0 +1,69 @@
+/// @file
+/// How a body moves, as a scene says it.
+
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+struct FixedMotion {
+  Pose pose;
+};
+
+/// Over the whole duration of the scene.
+struct ConstantVelocityMotion {
+  Pose from;
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]    world frame
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  world frame
+};
+
+/// Over the whole duration of the scene.
+struct ScrewMotion {
+  Pose from;
+  Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();       ///< [m]  world frame
+  Eigen::Vector3d axis_direction = Eigen::Vector3d::UnitZ();  ///< [-]  world frame, not zero
+  double angle = 0.0;                                         ///< [rad]
+  double translation = 0.0;                                   ///< [m]  along the axis
+};
+
+/// From one pose to another over the whole duration of the scene, by the shortest rotation.
+struct TwoPoseMotion {
+  Pose from;
+  Pose to;
+  Between between = Between::constant_velocity;
+};
+
+/// At rest before the first and after the last time.
+struct WaypointMotion {
+  std::vector<double> times;  ///< [s]  >= 0, strictly increasing, as many as poses
+  std::vector<Pose> poses;
+  Between between = Between::constant_velocity;
+};
+
+/// Every vertex of a mesh moves on a line over the whole duration of the scene, from its
+/// coordinates.
+struct VertexMotion {
+  std::vector<Eigen::Vector3d> to;  ///< [m]  World frame; as many as the mesh has vertices.
+};
+
+using BodyMotion = std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion, TwoPoseMotion,
+                                WaypointMotion, VertexMotion>;
+
+/// The certified motion of a body's frame over the scene, t = time / duration in [0, 1]. Where
+/// vertices move it stays: the frame is the world's.
+/// Waypoint times are divided by the duration in double precision; the certificate holds for the
+/// rounded quotients.
+///
+/// @param duration  [s]  > 0, at least the last waypoint's time
+/// @throws std::invalid_argument as the factories of Motion do
+[[nodiscard]] FIRSTCONTACT_API Motion normalised_motion(const BodyMotion& motion, double duration);
+
+}  // namespace firstcontact

@@ -1,0 +1,187 @@
+#include <firstcontact/scene/detail/load_robots.h>
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// "6.5 mm", "1.2 rad": as many digits as a person reads.
+std::string quantity(double value, const char* unit) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6)
+          .ptr;
+  return std::string(text.data(), end) + " " + unit;
+}
+
+const char* unit_of(const Joint& joint, JointLimit limit) {
+  const bool slides = joint.type == JointType::prismatic;
+  if (limit == JointLimit::velocity) {
+    return slides ? "m/s" : "rad/s";
+  }
+  return slides ? "m" : "rad";
+}
+
+std::string describe(const SceneRobot& robot, const LimitViolation& violation, double duration) {
+  const Joint& joint = robot.model.joints()[violation.joint];
+  const char* unit = unit_of(joint, violation.what);
+  const char* what = violation.what == JointLimit::velocity         ? "velocity limit"
+                     : violation.what == JointLimit::lower_position ? "lower limit"
+                                                                    : "upper limit";
+  return robot.name + ": joint " + in_quotes(joint.name) + " leaves its " + what + " of " +
+         quantity(violation.limit, unit) + " by " + quantity(violation.excess, unit) + " at " +
+         quantity(violation.t_excess * duration, "s");
+}
+
+/// "a, b and 7 more".
+std::string some_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 9;
+  std::string text;
+  for (std::size_t k = 0; k < names.size() && k < kMost; ++k) {
+    text += (k == 0 ? "" : ", ") + names[k];
+  }
+  return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more"
+                              : text;
+}
+
+class RobotLoader {
+ public:
+  RobotLoader(Scene scene, ShapeCache& cache)
+      : scene_(std::move(scene)), cache_(cache), digests_(scene_.text_digest + '\n') {}
+
+  LoadedScene load() {
+    robots_.rules() = rules_of(scene_);
+    for (const Body& body : scene_.bodies) {
+      add(body);
+    }
+    for (const SceneRobot& robot : scene_.robots) {
+      add(robot);
+    }
+    for (std::size_t k = 0; k < scene_.robots.size(); ++k) {
+      attach(k);
+      report_limits(k);
+    }
+    loaded_.robots = std::make_shared<const RobotScene>(std::move(robots_));
+    loaded_.input_digest = sha256(digests_);
+    loaded_.scene = std::move(scene_);
+    return std::move(loaded_);
+  }
+
+ private:
+  void add(const Body& body) {
+    if (std::holds_alternative<VertexMotion>(body.motion)) {
+      throw std::invalid_argument("body " + in_quotes(body.name) +
+                                  ": expected a rigid motion in a scene with robots, got "
+                                  "\"vertices\"");
+    }
+    CachedShape cached = cache_.load(body.shape);
+    digests_ += cached.digest.empty() ? "" : cached.digest + '\n';
+    robots_.add_body(body.name, std::move(cached.shape),
+                     normalised_motion(body.motion, scene_.duration));
+  }
+
+  void add(const SceneRobot& robot) {
+    CachedRobot cached = cache_.load(robot.file);
+    digests_ += cached.digest + '\n' + robot.files_digest + '\n';
+    TrajectoryMotion motion =
+        joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
+    warn(robot, motion.at_default);
+    const std::size_t first = robots_.size();
+    const std::size_t index =
+        robots_.add_robot(robot.name,
+                          RobotMotion(std::move(cached.model), motion.joints,
+                                      normalised_motion(robot.base, scene_.duration)),
+                          robot.semantics.disabled);
+    for (const auto& [link, padding] : robot.padding) {
+      robots_.set_padding(first + link, padding);
+    }
+    for (const auto& [joint, error] : robot.tracking_error) {
+      robots_.set_tracking_error(index, robot.model.joints()[joint].name, error);
+    }
+  }
+
+  void warn(const SceneRobot& robot, const std::vector<std::string>& at_default) {
+    std::vector<std::string>& warnings = loaded_.warnings;
+    warnings.insert(warnings.end(), robot.semantics.warnings.begin(),
+                    robot.semantics.warnings.end());
+    if (!at_default.empty()) {
+      warnings.push_back(robot.name + ": nothing says where " + some_of(at_default) +
+                         (at_default.size() == 1 ? " is; it rests" : " are; they rest") +
+                         " at 0, or at the limit next to it");
+    }
+    const double first = robot.trajectory.points.front().time;
+    if (!robot.trajectory.joint_names.empty() && first > 0.0) {
+      warnings.push_back(robot.name + ": the trajectory begins at " + quantity(first, "s") +
+                         "; until then the robot rests where it begins");
+    }
+  }
+
+  void attach(std::size_t robot) {
+    const std::size_t first = first_member(scene_, robot);
+    for (const SceneAttachment& attached : scene_.robots[robot].attached) {
+      Attachment attachment{.body = attached.body,
+                            .link = first + attached.link,
+                            .t_from = attached.from_time / scene_.duration,
+                            .t_to = attached.to_time ? *attached.to_time / scene_.duration : 1.0};
+      for (const std::size_t link : attached.touch_links) {
+        attachment.touch_links.push_back(first + link);
+      }
+      robots_.attach(std::move(attachment));
+    }
+  }
+
+  void report_limits(std::size_t robot) {
+    SceneLimits limits{robot, limit_report(robots_.robot_motion(robot), scene_.duration)};
+    for (const LimitViolation& violation : limits.violations) {
+      loaded_.warnings.push_back(describe(scene_.robots[robot], violation, scene_.duration));
+    }
+    if (!limits.violations.empty()) {
+      loaded_.limits.push_back(std::move(limits));
+    }
+  }
+
+  Scene scene_;
+  ShapeCache& cache_;
+  std::string digests_;
+  RobotScene robots_;
+  LoadedScene loaded_;
+};
+
+}  // namespace
+
+PairRules rules_of(const Scene& scene) {
+  PairRules rules(scene.options.margin);
+  for (const BodyGroup& group : scene.groups) {
+    rules.add_group(group.bodies);
+  }
+  for (const BodyPair& pair : scene.ignored_pairs) {
+    rules.ignore(pair);
+  }
+  for (const PairMargin& pair : scene.pair_margins) {
+    rules.set_margin(pair.bodies, pair.margin);
+  }
+  for (const GroupPair& pair : scene.ignored_groups) {
+    rules.ignore_groups(pair[0], pair[1]);
+  }
+  for (const GroupMargin& pair : scene.group_margins) {
+    rules.set_group_margin(pair.groups[0], pair.groups[1], pair.margin);
+  }
+  return rules;
+}
+
+LoadedScene load_robots(Scene scene, ShapeCache& cache) {
+  return RobotLoader(std::move(scene), cache).load();
+}
+
+}  // namespace firstcontact::detail

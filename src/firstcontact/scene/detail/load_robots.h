@@ -1,0 +1,19 @@
+/// @file
+/// Makes a scene with robots ready for queries.
+
+#pragma once
+
+#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/scene/loaded_scene.h>
+
+namespace firstcontact::detail {
+
+/// By members.
+[[nodiscard]] PairRules rules_of(const Scene& scene);
+
+/// Loads the meshes of bodies and robots, sets their motions, and says what of them is unusual.
+///
+/// @throws as load_scene
+[[nodiscard]] LoadedScene load_robots(Scene scene, ShapeCache& cache);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,33 @@
+/// @file
+/// Finds the files that a scene names.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <firstcontact/scene/detail/json_reader.h>
+
+namespace firstcontact::detail {
+
+/// Where the paths of a scene begin.
+struct SceneFolders {
+  std::filesystem::path scene;                       ///< Relative paths begin here.
+  std::vector<std::filesystem::path> package_roots;  ///< As opened. For "package://name/...".
+};
+
+/// An array of folders, as they are to be opened.
+///
+/// @param scene  where relative paths begin
+[[nodiscard]] std::vector<std::filesystem::path> read_package_roots(
+    const JsonValue& value, const std::filesystem::path& scene, const JsonReader& read);
+
+/// The path of a file that must exist, as it is to be opened.
+///
+/// @param what  "a mesh file"
+/// @throws ParseError
+[[nodiscard]] std::filesystem::path read_path(const JsonValue& value, const std::string& what,
+                                              const SceneFolders& folders, const JsonReader& read);
+
+}  // namespace firstcontact::detail

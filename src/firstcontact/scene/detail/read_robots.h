@@ -1,0 +1,19 @@
+/// @file
+/// Reads the robots of a scene.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/detail/read_path.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// Reads "robots" into a scene that has its bodies: reads their URDF and SRDF and trajectories, but
+/// no meshes.
+///
+/// @throws ParseError
+void read_robots(const JsonValue& value, const SceneFolders& folders, Scene& scene,
+                 const JsonReader& read);
+
+}  // namespace firstcontact::detail

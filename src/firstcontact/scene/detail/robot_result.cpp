@@ -1,0 +1,181 @@
+#include <firstcontact/scene/detail/robot_result.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <firstcontact/scene/detail/result_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+const char* word(JointLimit limit) {
+  switch (limit) {
+    case JointLimit::lower_position:
+      return "lower_position";
+    case JointLimit::upper_position:
+      return "upper_position";
+    case JointLimit::velocity:
+      break;
+  }
+  return "velocity";
+}
+
+class RobotResultWriter {
+ public:
+  explicit RobotResultWriter(const LoadedScene& loaded)
+      : scene_(loaded.scene), members_(*loaded.robots) {}
+
+  [[nodiscard]] JsonObject head(const RobotCheckResult& result) const {
+    JsonArray contacts;
+    for (const RobotPairAnswer& pair : result.pairs) {
+      if (result.first && pair.t == result.t) {
+        append_contacts(pair, contacts);
+      }
+    }
+    return {{"id", to_json(scene_.id)},
+            {"verdict", to_json(firstcontact::word(result.verdict))},
+            {"reason", to_json(result.reason)},
+            {"t", to_json(result.t)},
+            {"t_upper", to_json(result.t_upper)},
+            {"time", seconds(result.t)},
+            {"pair", result.first ? names(result.pairs[*result.first].members)
+                                  : JsonValue{.value = JsonNull{}}},
+            {"contacts", {.value = std::move(contacts)}},
+            {"clearance", to_json(result.clearance)}};
+  }
+
+  [[nodiscard]] JsonValue closest(const RobotPairAnswer& pair) const {
+    const LeastClearance& found = *pair.least_clearance;
+    return {.value = JsonObject{{"pair", names(pair.members)},
+                                {"distance", to_json(found.distance)},
+                                {"lower_bound", to_json(found.lower_bound)},
+                                {"t", to_json(found.t)},
+                                {"time", seconds(found.t)},
+                                {"reason", to_json(found.reason)}}};
+  }
+
+  [[nodiscard]] JsonValue pair(const RobotPairAnswer& pair) const {
+    JsonArray contacts;
+    append_contacts(pair, contacts);
+    // Proven either way: before t the pair is farther apart than its threshold.
+    const double clearance =
+        std::max(pair.t > 0.0 ? pair.threshold : 0.0,
+                 pair.least_clearance ? pair.least_clearance->lower_bound : 0.0);
+    JsonObject object{{"pair", names(pair.members)},
+                      {"margin", to_json(pair.threshold)},
+                      {"verdict", to_json(firstcontact::word(pair.verdict))},
+                      {"reason", to_json(pair.reason)},
+                      {"t", to_json(pair.t)},
+                      {"t_upper", to_json(pair.t_upper)},
+                      {"time", seconds(pair.t)},
+                      {"contacts", {.value = std::move(contacts)}},
+                      {"clearance", to_json(clearance)}};
+    append_tolerances(pair.tolerance_used, pair.enclosure_error, object);
+    if (pair.least_clearance) {
+      object.push_back({"closest", closest(pair)});
+    }
+    if (!pair.intervals.empty()) {
+      object.push_back({"intervals", intervals(pair)});
+    }
+    return {.value = std::move(object)};
+  }
+
+  /// Only where they differ from what was asked, and from 0.
+  void append_tolerances(double tolerance_used, double enclosure_error, JsonObject& object) const {
+    if (tolerance_used > scene_.options.tolerance) {
+      object.push_back({"tolerance_used", to_json(tolerance_used)});
+    }
+    if (enclosure_error > 0.0) {
+      object.push_back({"enclosure_error", to_json(enclosure_error)});
+    }
+  }
+
+  [[nodiscard]] JsonValue limit(const SceneRobot& robot, const LimitViolation& violation) const {
+    JsonArray intervals;
+    for (const StepInterval& interval : violation.intervals) {
+      intervals.push_back(two(seconds(interval.begin), seconds(interval.end)));
+    }
+    return {.value = JsonObject{{"robot", to_json(robot.name)},
+                                {"joint", to_json(robot.model.joints()[violation.joint].name)},
+                                {"limit", to_json(word(violation.what))},
+                                {"value", to_json(violation.limit)},
+                                {"excess", to_json(violation.excess)},
+                                {"time", seconds(violation.t_excess)},
+                                {"intervals", {.value = std::move(intervals)}}}};
+  }
+
+ private:
+  [[nodiscard]] JsonValue seconds(double t) const { return to_json(t * scene_.duration); }
+
+  [[nodiscard]] JsonValue names(const BodyPair& members) const {
+    return two(to_json(members_.name(members[0])), to_json(members_.name(members[1])));
+  }
+
+  [[nodiscard]] JsonValue intervals(const RobotPairAnswer& pair) const {
+    JsonArray array;
+    for (const ContactInterval& interval : pair.intervals) {
+      array.push_back({.value = JsonObject{{"enter", to_json(interval.enter)},
+                                           {"leave", to_json(interval.leave)},
+                                           {"enter_time", seconds(interval.enter)},
+                                           {"leave_time", seconds(interval.leave)},
+                                           {"reason", to_json(interval.reason)}}});
+    }
+    return {.value = std::move(array)};
+  }
+
+  void append_contacts(const RobotPairAnswer& pair, JsonArray& array) const {
+    for (const RobotContact& contact : pair.contacts) {
+      const auto face = [&](std::size_t side) {
+        const Feature feature{FeatureType::face, contact.triangles[side], contact.triangles[side]};
+        return to_json(feature);
+      };
+      const auto index = [](std::size_t value) { return to_json(value); };
+      array.push_back(
+          {.value = JsonObject{
+               {"bodies", names(contact.members)},
+               {"geometries", two(index(contact.geometries[0]), index(contact.geometries[1]))},
+               {"features", two(face(0), face(1))},
+               {"triangles", two(index(contact.triangles[0]), index(contact.triangles[1]))},
+               {"points", two(to_json(contact.points_W[0]), to_json(contact.points_W[1]))},
+               {"normal", to_json(contact.n_AB_W)},
+               {"distance", to_json(contact.distance)}}});
+    }
+  }
+
+  const Scene& scene_;
+  const RobotScene& members_;
+};
+
+}  // namespace
+
+JsonObject robot_result(const LoadedScene& loaded, const RobotCheckResult& result, bool all_pairs) {
+  const RobotResultWriter writer(loaded);
+  JsonObject object = writer.head(result);
+  if (result.closest) {
+    object.push_back({"closest", writer.closest(result.pairs[*result.closest])});
+  }
+  if (all_pairs) {
+    JsonArray pairs;
+    for (const RobotPairAnswer& pair : result.pairs) {
+      pairs.push_back(writer.pair(pair));
+    }
+    object.push_back({"pairs", {.value = std::move(pairs)}});
+  }
+  writer.append_tolerances(result.tolerance_used, result.enclosure_error, object);
+  JsonArray limits;
+  for (const SceneLimits& of_robot : loaded.limits) {
+    for (const LimitViolation& violation : of_robot.violations) {
+      limits.push_back(writer.limit(loaded.scene.robots[of_robot.robot], violation));
+    }
+  }
+  object.push_back({"limits", {.value = std::move(limits)}});
+  JsonArray warnings;
+  for (const std::string& warning : loaded.warnings) {
+    warnings.push_back(to_json(warning));
+  }
+  object.push_back({"warnings", {.value = std::move(warnings)}});
+  return object;
+}
+
+}  // namespace firstcontact::detail

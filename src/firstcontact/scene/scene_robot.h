@@ -1,0 +1,79 @@
+/// @file
+/// A robot of a scene, as the scene says it.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/articulated/robot_scene.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+
+/// What of a robot can touch.
+enum class RobotSurface { collision, visual };
+
+/// A robot that lies in a file of its own.
+struct RobotFile {
+  std::filesystem::path urdf;  ///< As MeshFile::path.
+  std::vector<std::filesystem::path> package_roots = {};
+  RobotSurface surface = RobotSurface::collision;
+};
+
+/// A body that a link carries for a while; see Attachment.
+struct SceneAttachment {
+  std::size_t body = 0;                       ///< Of the scene.
+  std::size_t link = 0;                       ///< Of the robot.
+  double from_time = 0.0;                     ///< [s]
+  std::optional<double> to_time = {};         ///< [s]  The end of the scene where there is none.
+  std::vector<std::size_t> touch_links = {};  ///< Of the robot.
+};
+
+/// A robot, read and resolved. What is not said of a link or joint is 0.
+struct SceneRobot {
+  std::string name;  ///< Unique in the scene, bodies and groups included; not empty.
+  RobotFile file;
+  std::filesystem::path srdf = {};  ///< As MeshFile::path; may be empty.
+  RobotModel model;                 ///< Of the file, without shapes.
+  RobotSemantics semantics = {};    ///< Of the SRDF.
+  BodyMotion base = {};             ///< Of the root link; any but VertexMotion.
+  Trajectory trajectory = {};       ///< Without joint names where the robot only rests.
+  JointPositions state = {};  ///< Where the coordinates rest that the trajectory does not name.
+  std::vector<SceneAttachment> attached = {};
+  std::map<std::size_t, double> padding = {};                ///< [m]  By link; >= 0.
+  std::map<std::size_t, TrackingError> tracking_error = {};  ///< By joint.
+  std::string files_digest = {};  ///< SHA-256 of the SRDF and the trajectory file; may be empty.
+};
+
+/// The collision model of a file without shapes: enough for names and limits.
+///
+/// @throws ParseError as read_urdf
+[[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file);
+
+/// The coordinates of a named state of the SRDF.
+///
+/// @param name  of a state, or GROUP/STATE
+/// @throws std::invalid_argument if there is none, or more than one of this name
+[[nodiscard]] FIRSTCONTACT_API JointPositions group_state(const RobotModel& model,
+                                                          const RobotSemantics& semantics,
+                                                          std::string_view name);
+
+/// The error of a joint in the unit of its coordinate; of several coordinates in both units.
+///
+/// @param error  [rad or m]
+[[nodiscard]] FIRSTCONTACT_API TrackingError joint_error(const Joint& joint, double error);
+
+/// The same of every joint that moves by itself.
+[[nodiscard]] FIRSTCONTACT_API std::map<std::size_t, TrackingError> joint_errors(
+    const RobotModel& model, double error);
+
+}  // namespace firstcontact
