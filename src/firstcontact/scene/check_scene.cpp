@@ -148,17 +148,13 @@ SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& opt
   const bool all_pairs = options.all_pairs || options.closest || options.all_contacts_in_time;
   RobotCheckResult found =
       check_robots(*loaded.robots, {.tolerance = asked.tolerance,
+                                    .contacts = asked.contacts,
                                     .budget = budget_of(loaded.scene, options),
                                     .threads = options.threads,
                                     .all_pairs = all_pairs,
                                     .all_contact_intervals = options.all_contacts_in_time,
                                     .least_clearance = options.closest,
                                     .progress = options.progress});
-  if (asked.contacts == ContactState::none) {
-    for (RobotPairAnswer& pair : found.pairs) {
-      pair.contacts.clear();
-    }
-  }
   SceneResult result;
   result.verdict = found.verdict;
   result.reason = found.reason;

@@ -68,6 +68,7 @@ struct Scene {
   SceneOptions options;
   double duration = 1.0;    ///< [s]  Of the step; t = 1 there.
   std::string text_digest;  ///< SHA-256 of the text that was read, in hexadecimal; may be empty.
+  std::vector<std::string> warnings = {};  ///< What a user should know of what was read.
 };
 
 /// The number of the member that is a robot's first link.

@@ -128,21 +128,9 @@ class ResultWriter {
     return two(to_json(scene_.bodies[bodies[0]].name), to_json(scene_.bodies[bodies[1]].name));
   }
 
-  [[nodiscard]] JsonValue contact(const BodyPair& bodies, const Contact& contact) const {
-    return {.value = JsonObject{
-                {"bodies", names(bodies)},
-                {"features", two(to_json(contact.feature_A), to_json(contact.feature_B))},
-                {"triangles", two(to_json(std::size_t{contact.feature_A.triangle}),
-                                  to_json(std::size_t{contact.feature_B.triangle}))},
-                {"points", two(to_json(contact.p_WA), to_json(contact.p_WB))},
-                {"normal", to_json(contact.n_AB_W)},
-                {"distance", to_json(contact.distance)},
-                {"normal_velocity", to_json(contact.normal_velocity / scene_.duration)}}};
-  }
-
   void append_contacts(const PairAnswer& pair, JsonArray& array) const {
     for (const Contact& found : pair.first_contact.contacts) {
-      array.push_back(contact(pair.bodies, found));
+      array.push_back({.value = to_json(found, names(pair.bodies), scene_.duration)});
     }
   }
 

@@ -62,6 +62,7 @@ class RobotLoader {
 
   LoadedScene load() {
     robots_.rules() = rules_of(scene_);
+    loaded_.warnings = scene_.warnings;
     for (const Body& body : scene_.bodies) {
       add(body);
     }

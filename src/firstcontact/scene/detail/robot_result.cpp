@@ -125,21 +125,11 @@ class RobotResultWriter {
   }
 
   void append_contacts(const RobotPairAnswer& pair, JsonArray& array) const {
-    for (const RobotContact& contact : pair.contacts) {
-      const auto face = [&](std::size_t side) {
-        const Feature feature{FeatureType::face, contact.triangles[side], contact.triangles[side]};
-        return to_json(feature);
-      };
-      const auto index = [](std::size_t value) { return to_json(value); };
-      array.push_back(
-          {.value = JsonObject{
-               {"bodies", names(contact.members)},
-               {"geometries", two(index(contact.geometries[0]), index(contact.geometries[1]))},
-               {"features", two(face(0), face(1))},
-               {"triangles", two(index(contact.triangles[0]), index(contact.triangles[1]))},
-               {"points", two(to_json(contact.points_W[0]), to_json(contact.points_W[1]))},
-               {"normal", to_json(contact.n_AB_W)},
-               {"distance", to_json(contact.distance)}}});
+    for (const RobotContact& found : pair.contacts) {
+      JsonObject object = to_json(found.contact, names(found.members), scene_.duration);
+      object.push_back(
+          {"geometries", two(to_json(found.geometries[0]), to_json(found.geometries[1]))});
+      array.push_back({.value = std::move(object)});
     }
   }
 

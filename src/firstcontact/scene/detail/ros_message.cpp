@@ -1,0 +1,136 @@
+#include <firstcontact/scene/detail/ros_message.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/scene/detail/joint_trajectory.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Numbers in a list, or by the names x, y, z, w.
+template <std::size_t N>
+std::array<double, N> read_components(const JsonValue& value, const JsonReader& read) {
+  constexpr std::array<std::string_view, 4> kNames = {"x", "y", "z", "w"};
+  const std::string expected =
+      N == 3 ? "three numbers, or x, y and z" : "a quaternion: four numbers x, y, z, w";
+  std::array<double, N> numbers{};
+  if (std::holds_alternative<JsonObject>(value.value)) {
+    (void)read.object(value, {{kNames.begin(), kNames.begin() + N}});
+    for (std::size_t k = 0; k < N; ++k) {
+      numbers[k] = read.number(read.member(value, kNames[k]));
+    }
+    return numbers;
+  }
+  const JsonArray& elements = read.array(value, expected);
+  if (elements.size() != N) {
+    read.fail_expected(expected, value);
+  }
+  for (std::size_t k = 0; k < N; ++k) {
+    numbers[k] = read.number(elements[k]);
+  }
+  return numbers;
+}
+
+Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& read) {
+  const std::array<double, 4> q = read_components<4>(value, read);
+  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  // Further off is a mistake, such as w in the first place of a list.
+  constexpr double kSlack = 1e-2;
+  if (!(std::abs(rotation.norm() - 1.0) <= kSlack)) {
+    read.fail(value, "expected a quaternion x, y, z, w of length 1, got one of length " +
+                         write_json(rotation.norm()));
+  }
+  return rotation;
+}
+
+bool is_identity(const Pose& pose) {
+  return pose.position.isZero(0.0) && pose.rotation.w() > 0.0 && pose.rotation.vec().isZero(0.0);
+}
+
+}  // namespace
+
+const JsonValue* find_filled(const JsonValue& object, std::string_view key) {
+  const auto* members = std::get_if<JsonObject>(&object.value);
+  const JsonValue* value = members == nullptr ? nullptr : find(*members, key);
+  if (value == nullptr || std::holds_alternative<JsonNull>(value->value)) {
+    return nullptr;
+  }
+  const auto* array = std::get_if<JsonArray>(&value->value);
+  return array != nullptr && array->empty() ? nullptr : value;
+}
+
+Eigen::Vector3d read_point(const JsonValue& value, const JsonReader& read) {
+  constexpr double kLargest = 1e60;
+  const std::array<double, 3> p = read_components<3>(value, read);
+  const Eigen::Vector3d point(p[0], p[1], p[2]);
+  if (!(point.cwiseAbs().maxCoeff() <= kLargest)) {
+    read.fail(value, "expected numbers of at most 1e60 in size");
+  }
+  return point;
+}
+
+Pose read_message_pose(const JsonValue& value, const JsonReader& read) {
+  (void)read.object(value, {{"position", "orientation", "translation", "rotation"}});
+  Pose pose;
+  for (const std::string_view key : {"position", "translation"}) {
+    if (const JsonValue* position = find_filled(value, key)) {
+      pose.position = read_point(*position, read);
+    }
+  }
+  for (const std::string_view key : {"orientation", "rotation"}) {
+    if (const JsonValue* rotation = find_filled(value, key)) {
+      pose.rotation = read_quaternion(*rotation, read);
+    }
+  }
+  return pose;
+}
+
+Pose compose(const Pose& X_AB, const Pose& X_BC) {
+  if (is_identity(X_AB)) {
+    return X_BC;
+  }
+  if (is_identity(X_BC)) {
+    return X_AB;
+  }
+  const Eigen::Quaterniond R_AB = X_AB.rotation.normalized();
+  return {X_AB.position + R_AB * X_BC.position, R_AB * X_BC.rotation.normalized()};
+}
+
+JointPositions read_joint_state(const JsonValue& value, const RobotModel& robot,
+                                const JsonReader& read) {
+  JointPositions state;
+  (void)read.object(value, {{"header", "name", "position", "velocity", "effort"}});
+  const JsonValue* names = find_filled(value, "name");
+  if (names == nullptr) {
+    return state;
+  }
+  const JsonArray& joints = read.array(*names, "an array of joint names");
+  const JsonArray& positions = read.array(read.member(value, "position"), "an array of numbers");
+  if (joints.size() != positions.size()) {
+    read.fail(read.member(value, "position"), "expected a number for each of the " +
+                                                  std::to_string(joints.size()) + " names, got " +
+                                                  std::to_string(positions.size()));
+  }
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    const std::string name = name_of(joints[k], "the name of a joint", read);
+    try {
+      (void)find_coordinate(robot, name);
+    } catch (const std::invalid_argument& error) {
+      read.fail(joints[k], error.what());
+    }
+    if (!state.insert({name, joint_position(positions[k], read)}).second) {
+      read.fail(joints[k], "expected each joint once, got " + in_quotes(name) + " again");
+    }
+  }
+  return state;
+}
+
+}  // namespace firstcontact::detail

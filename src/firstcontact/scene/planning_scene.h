@@ -1,0 +1,78 @@
+/// @file
+/// Reads the surroundings and the question of a motion planner: MoveIt's planning scenes and
+/// requests, as YAML or JSON.
+
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+
+/// Which pairs of names may touch: moveit_msgs/AllowedCollisionMatrix.
+struct AllowedCollisions {
+  /// Names of links and objects, first < second, with what the matrix says of them.
+  std::map<std::array<std::string, 2>, bool> entries;
+  std::map<std::string, bool> defaults;  ///< Of names against all that no entry speaks of.
+
+  [[nodiscard]] FIRSTCONTACT_API bool allows(const std::string& name,
+                                             const std::string& other) const;
+};
+
+/// The objects of moveit_msgs/PlanningScene around a robot, in its planning frame.
+struct PlanningScene {
+  /// At rest. Of an object of several parts "id/0", "id/1"; of one part "id".
+  std::vector<Body> bodies;
+  std::vector<std::string> object_ids;  ///< Of each body, the object that it is a part of.
+  AllowedCollisions allowed;
+};
+
+/// moveit_msgs/MotionPlanRequest, as far as it says from where to where.
+struct PlanningRequest {
+  JointPositions start;
+  JointPositions goal;  ///< Joints that it does not name keep their start.
+  Pose base;            ///< Of the robot, where the start says it.
+};
+
+/// Reads a planning scene.
+///
+/// Boxes, spheres, cylinders, cones and meshes become bodies, with the pose of an object times
+/// that of its part, multiplied in double precision. Frames are the planning frame ("", "world",
+/// `frame`) or those of fixed_frame_transforms. Lists [x, y, z] and maps {x: , y: , z: } mean the
+/// same; a quaternion is x, y, z, w. What would be left out without notice is an error: planes,
+/// octomaps, attached objects, objects in other frames.
+///
+/// @param frame  the name of the robot's root link: it is in the planning frame
+/// @throws ParseError
+[[nodiscard]] FIRSTCONTACT_API PlanningScene read_planning_scene(const std::filesystem::path& path,
+                                                                 std::string_view frame);
+
+/// @param source  names the text in errors; meshes are relative to its folder
+[[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
+    std::string_view text, const std::filesystem::path& source, std::string_view frame);
+
+/// Reads a request, whose goal must be one of joint positions.
+///
+/// @throws ParseError
+[[nodiscard]] FIRSTCONTACT_API PlanningRequest
+read_planning_request(const std::filesystem::path& path, const RobotModel& robot);
+
+/// @param source  names the text in errors
+[[nodiscard]] FIRSTCONTACT_API PlanningRequest parse_planning_request(
+    std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
+
+/// From the start to the goal at constant rates in one second.
+[[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,
+                                                          const JointPositions& start,
+                                                          const JointPositions& goal);
+
+}  // namespace firstcontact

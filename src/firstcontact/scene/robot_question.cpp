@@ -1,0 +1,299 @@
+#include <firstcontact/scene/robot_question.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/read_file.h>
+#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/scene/detail/text_tree.h>
+#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/read_trajectory.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::in_quotes;
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+/// A state of the SRDF, or NAME=POSITION.
+JointPositions positions_of(const std::string& text, const SceneRobot& robot) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos) {
+    return group_state(robot.model, robot.semantics, text);
+  }
+  const std::string name = text.substr(0, sign);
+  (void)find_coordinate(robot.model, name);
+  double position = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, position);
+  if (error != std::errc() || stop != end) {
+    refuse("expected NAME=POSITION, such as " + name + "=0.1, got " + in_quotes(text));
+  }
+  return {{name, position}};
+}
+
+JointPositions positions_of(const std::vector<std::string>& texts, const SceneRobot& robot) {
+  JointPositions positions;
+  for (const std::string& text : texts) {
+    for (const auto& [name, position] : positions_of(text, robot)) {
+      positions[name] = position;
+    }
+  }
+  return positions;
+}
+
+void put(const JointPositions& later, JointPositions& positions) {
+  for (const auto& [name, position] : later) {
+    positions[name] = position;
+  }
+}
+
+/// Puts the files of a question together.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const RobotQuestion& question) : question_(question) {}
+
+  Scene build() {
+    SceneRobot robot = read_robot();
+    take_motion(robot);
+    for (const std::filesystem::path& file : question_.environment) {
+      add_environment(file, robot);
+    }
+    if (question_.padding > 0.0) {
+      for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+        robot.padding[link] = question_.padding;
+      }
+    }
+    if (question_.tracking_error > 0.0) {
+      robot.tracking_error = joint_errors(robot.model, question_.tracking_error);
+    }
+    scene_.robots.push_back(std::move(robot));
+    allow_pairs();
+    set_duration();
+    scene_.text_digest = detail::sha256(texts_);
+    return std::move(scene_);
+  }
+
+ private:
+  SceneRobot read_robot() {
+    RobotModel model = read_robot_model(question_.robot);
+    std::string name = model.name().empty() ? "robot" : model.name();
+    SceneRobot robot{.name = std::move(name), .file = question_.robot, .model = std::move(model)};
+    if (!question_.srdf.empty()) {
+      robot.srdf = question_.srdf;
+      robot.semantics =
+          parse_srdf(text_of(robot.srdf, "an SRDF file"), robot.srdf.string(), robot.model);
+    }
+    return robot;
+  }
+
+  /// The text goes into the digest, too.
+  std::string text_of(const std::filesystem::path& path, const std::string& what) {
+    std::string text = detail::read_file(path, what);
+    texts_ += detail::sha256(text) + '\n';
+    return text;
+  }
+
+  void take_motion(SceneRobot& robot) {
+    const int ways = (question_.trajectory.empty() ? 0 : 1) + (question_.request.empty() ? 0 : 1) +
+                     (question_.goal.empty() ? 0 : 1);
+    if (ways > 1) {
+      refuse("expected one of a trajectory, a request and a goal, got " + std::to_string(ways));
+    }
+    robot.state = positions_of(question_.state, robot);
+    put(positions_of(question_.start, robot), robot.state);
+    scene_.id = robot.name;
+    if (!question_.trajectory.empty()) {
+      robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
+                                          question_.trajectory, robot.model);
+      scene_.id = question_.trajectory.filename().string();
+    } else if (!question_.request.empty()) {
+      take_request(robot);
+    } else if (!question_.goal.empty()) {
+      if (question_.start.empty()) {
+        refuse("expected a start beside the goal, got none");
+      }
+      robot.trajectory =
+          straight_motion(robot.model, robot.state, positions_of(question_.goal, robot));
+    } else {
+      robot.trajectory.points = {TrajectoryPoint{}};
+    }
+  }
+
+  void take_request(SceneRobot& robot) {
+    const PlanningRequest request = parse_planning_request(text_of(question_.request, "a request"),
+                                                           question_.request, robot.model);
+    put(request.start, robot.state);
+    robot.base = FixedMotion{request.base};
+    robot.trajectory = straight_motion(robot.model, robot.state, request.goal);
+    scene_.id = question_.request.filename().string();
+  }
+
+  void add_environment(const std::filesystem::path& file, const SceneRobot& robot) {
+    const std::string extension = detail::lower_extension(file);
+    if (!detail::is_tree_extension(extension)) {
+      add_mesh(file);
+      return;
+    }
+    const std::string text = text_of(file, "surroundings");
+    if (extension == ".json" && is_scene(text, file)) {
+      add_scene(parse_scene(text, file), file);
+    } else {
+      require_base_at_origin(robot, file);
+      const std::string& root = robot.model.links()[robot.model.root()].name;
+      add_planning_scene(parse_planning_scene(text, file, root), robot);
+    }
+  }
+
+  /// Objects may be placed by the frame of the root link.
+  static void require_base_at_origin(const SceneRobot& robot, const std::filesystem::path& file) {
+    const Pose& base = std::get<FixedMotion>(robot.base).pose;
+    if (!base.position.isZero(0.0) || !base.rotation.vec().isZero(0.0)) {
+      throw ParseError(
+          file.string(),
+          "expected a robot whose base is the planning frame, but the request moves it");
+    }
+  }
+
+  static bool is_scene(const std::string& text, const std::filesystem::path& file) {
+    const detail::JsonValue root = detail::parse_json(text, file.string());
+    const auto* object = std::get_if<detail::JsonObject>(&root.value);
+    return object != nullptr && detail::find(*object, "firstcontact") != nullptr;
+  }
+
+  void add_mesh(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) {
+      throw ParseError(file.string(),
+                       "expected surroundings (a mesh, a planning scene in .yaml, or "
+                       "a scene in .json), found no such file");
+    }
+    add({.name = file.stem().string(), .shape = {.source = MeshFile{file}}, .motion = {}});
+  }
+
+  void add(Body body) {
+    const auto is_taken = [&](const std::string& name) {
+      return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                         [&](const Body& other) { return other.name == name; });
+    };
+    const std::string name = body.name;
+    for (int k = 2; is_taken(body.name); ++k) {
+      body.name = name + " (" + std::to_string(k) + ")";
+    }
+    scene_.bodies.push_back(std::move(body));
+  }
+
+  /// Its bodies, with their rules and options.
+  void add_scene(Scene around, const std::filesystem::path& file) {
+    if (!around.robots.empty()) {
+      throw ParseError(file.string(), "expected surroundings without robots, got " +
+                                          std::to_string(around.robots.size()) +
+                                          "; check this scene itself");
+    }
+    if (!scene_.bodies.empty()) {
+      throw ParseError(file.string(),
+                       "expected a scene as the first of the surroundings: its rules go by bodies");
+    }
+    around_ = file;
+    around_duration_ = around.duration;
+    scene_.bodies = std::move(around.bodies);
+    scene_.groups = std::move(around.groups);
+    scene_.ignored_pairs = std::move(around.ignored_pairs);
+    scene_.pair_margins = std::move(around.pair_margins);
+    scene_.ignored_groups = std::move(around.ignored_groups);
+    scene_.group_margins = std::move(around.group_margins);
+    scene_.options = around.options;
+  }
+
+  void add_planning_scene(PlanningScene around, const SceneRobot& robot) {
+    for (std::size_t k = 0; k < around.bodies.size(); ++k) {
+      add(std::move(around.bodies[k]));
+      ids_[scene_.bodies.size() - 1] = around.object_ids[k];
+    }
+    for (const DisabledPair& pair : robot.semantics.disabled) {
+      const std::string& link = robot.model.links()[pair.link].name;
+      const std::string& other = robot.model.links()[pair.other].name;
+      const auto entry =
+          around.allowed.entries.find({std::min(link, other), std::max(link, other)});
+      if (entry != around.allowed.entries.end() && !entry->second) {
+        scene_.warnings.push_back(robot.name + ": the planning scene wants " + link + " and " +
+                                  other + " tested; the SRDF disables them, and that holds");
+      }
+    }
+    allowed_.push_back(std::move(around.allowed));
+  }
+
+  /// What the planning scenes allow to touch, of links and of links with objects.
+  void allow_pairs() {
+    if (allowed_.empty()) {
+      return;
+    }
+    const std::size_t first = first_member(scene_, 0);
+    const std::span<const Link> links = scene_.robots.front().model.links();
+    const auto name = [&](std::size_t member) -> const std::string& {
+      return member < first ? ids_.at(member) : links[member - first].name;
+    };
+    for (std::size_t link = first; link < first + links.size(); ++link) {
+      for (std::size_t other = 0; other < link; ++other) {
+        if (other < first && !ids_.contains(other)) {
+          continue;
+        }
+        const auto allows = [&](const AllowedCollisions& allowed) {
+          return allowed.allows(name(other), name(link));
+        };
+        if (std::any_of(allowed_.begin(), allowed_.end(), allows)) {
+          scene_.ignored_pairs.push_back({other, link});
+        }
+      }
+    }
+  }
+
+  static bool spans_the_scene(const BodyMotion& motion) {
+    return !std::holds_alternative<FixedMotion>(motion) &&
+           !std::holds_alternative<WaypointMotion>(motion);
+  }
+
+  void set_duration() {
+    double last = scene_.robots.front().trajectory.points.back().time;
+    for (const Body& body : scene_.bodies) {
+      if (const auto* waypoints = std::get_if<WaypointMotion>(&body.motion)) {
+        last = std::max(last, waypoints->times.back());
+      }
+    }
+    scene_.duration = last > 0.0 ? last : around_duration_.value_or(1.0);
+    const auto spans = [](const Body& body) { return spans_the_scene(body.motion); };
+    if (around_duration_ && *around_duration_ != scene_.duration &&
+        std::any_of(scene_.bodies.begin(), scene_.bodies.end(), spans)) {
+      throw ParseError(around_.string(),
+                       "expected options.duration " + detail::write_json(scene_.duration) +
+                           ", as the trajectory takes, since bodies move over all of it; got " +
+                           detail::write_json(*around_duration_));
+    }
+  }
+
+  const RobotQuestion& question_;
+  Scene scene_;
+  std::string texts_;
+  std::vector<AllowedCollisions> allowed_;
+  std::map<std::size_t, std::string> ids_;  // Of bodies that are parts of planning scenes.
+  std::filesystem::path around_;
+  std::optional<double> around_duration_;
+};
+
+}  // namespace
+
+Scene read_robot_question(const RobotQuestion& question) { return SceneBuilder(question).build(); }
+
+}  // namespace firstcontact

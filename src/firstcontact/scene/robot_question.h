@@ -1,0 +1,39 @@
+/// @file
+/// "Is this trajectory of my robot free?" as a scene.
+
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// The files that one robot, its motion and its surroundings lie in. Exactly one of `trajectory`,
+/// `request` and `goal` says how it moves; without any it rests.
+struct RobotQuestion {
+  RobotFile robot;
+  std::filesystem::path srdf = {};
+  std::filesystem::path trajectory = {};  ///< As read_trajectory.
+  std::filesystem::path request = {};     ///< Straight from its start to its goal, in 1 s.
+  std::vector<std::string> start = {};    ///< States, the later ones prevail: see `state`.
+  std::vector<std::string> goal = {};     ///< Straight from the start to there, in 1 s.
+  /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION.
+  std::vector<std::string> state = {};
+  /// Meshes; planning scenes (.yaml); scenes (.json), of which only the bodies are taken.
+  std::vector<std::filesystem::path> environment = {};
+  double padding = 0.0;         ///< [m]  Of every link.
+  double tracking_error = 0.0;  ///< [rad or m]  Of every joint.
+};
+
+/// Reads all files but meshes. The scene's id is the name of the trajectory's file; the robot's
+/// name is that of its model.
+///
+/// @throws ParseError, std::invalid_argument
+[[nodiscard]] FIRSTCONTACT_API Scene read_robot_question(const RobotQuestion& question);
+
+}  // namespace firstcontact
