@@ -22,6 +22,7 @@
 #include "print_result.h"
 #include "progress.h"
 #include "question_options.h"
+#include "robot_options.h"
 #include "scene_answer.h"
 #include "scene_source.h"
 #include "viewer_page.h"
@@ -36,6 +37,7 @@ struct Arguments {
   std::string gap;
   std::string page;
   bool json = false;
+  RobotArguments robot;
   Question question;
 };
 
@@ -70,6 +72,11 @@ class Check {
     for (const std::string& file : arguments_.files) {
       check_file(file);
     }
+    if (arguments_.files.empty()) {
+      check_source({.file = arguments_.robot.robot, .line = std::nullopt, .read = [this] {
+                      return read_robot_scene(arguments_.robot);
+                    }});
+    }
     if (output_ && (batch_ || answered_ > 0)) {
       output_->commit();
     }
@@ -82,17 +89,22 @@ class Check {
  private:
   /// Whether there may be many scenes: then one bad scene does not keep the rest from an answer.
   static bool is_batch(const Arguments& arguments) {
-    return arguments.files.size() > 1 || is_json_lines(arguments.files.front());
+    return arguments.files.size() > 1 ||
+           (arguments.files.size() == 1 && is_json_lines(arguments.files.front()));
   }
 
   /// Nobody wants an answer in the place of the question.
   void keep_scenes() const {
-    for (const std::string& file : arguments_.files) {
+    std::vector<std::string> inputs = files_of(arguments_.robot);
+    inputs.insert(inputs.end(), arguments_.files.begin(), arguments_.files.end());
+    for (const std::string& file : inputs) {
       for (const std::string& written :
            {arguments_.output, arguments_.plot, arguments_.gap, arguments_.page}) {
         std::error_code missing;
         if (std::filesystem::equivalent(file, written, missing)) {
-          throw std::invalid_argument(written + ": this would overwrite the scene");
+          throw std::invalid_argument(written + (arguments_.files.empty()
+                                                     ? ": this would overwrite an input"
+                                                     : ": this would overwrite the scene"));
         }
       }
     }
@@ -201,7 +213,23 @@ class Check {
   std::size_t answered_ = 0;
 };
 
+/// A scene, or a robot.
+void require_one_question(const Arguments& arguments) {
+  if (arguments.robot.robot.empty() && !files_of(arguments.robot).empty()) {
+    throw std::invalid_argument("expected --robot ROBOT.urdf beside " +
+                                files_of(arguments.robot).front());
+  }
+  if (arguments.files.empty() == arguments.robot.robot.empty()) {
+    throw std::invalid_argument(arguments.files.empty()
+                                    ? "expected a SCENE, or --robot (see firstcontact check --help)"
+                                    : "expected a SCENE or --robot, got both");
+  }
+}
+
 constexpr const char* kFooter = R"(
+Is a trajectory free?  firstcontact check --robot R.urdf --srdf R.srdf --trajectory T.csv \
+                           --environment ROOM.stl
+
 Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided; of several
 scenes the worst of these in the order 2, 3, 1, 0.
 Ctrl-C ends with what is proven so far; again, at once.)";
@@ -213,11 +241,9 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
       "check", "First contact of the bodies in a scene: when, where, or proven never");
   auto arguments = std::make_shared<Arguments>();
   Question& question = arguments->question;
-  command
-      ->add_option("SCENE", arguments->files,
-                   ".json: one scene. .jsonl: one scene in each line; the answers are one line "
-                   "each, in order, and a bad line gets an error as its answer")
-      ->required();
+  command->add_option("SCENE", arguments->files,
+                      ".json: one scene. .jsonl: one scene in each line; the answers are one line "
+                      "each, in order, and a bad line gets an error as its answer");
   command->add_option("-o,--output", arguments->output, "Writes the result as JSON to a file")
       ->type_name("FILE");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
@@ -236,8 +262,15 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--threads", question.threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")
       ->check(CLI::Range(0, 1024));
+  command->add_flag("--all-contacts-in-time", question.all_contacts_in_time,
+                    "Also from when to when each pair is in contact (scenes with robots)");
+  command->add_flag("--strict", question.strict, "A robot beyond its joint limits is an error");
+  add_robot_options(*command, arguments->robot);
   command->footer(kFooter);
-  command->callback([arguments, &status] { status = Check(*arguments).run(); });
+  command->callback([arguments, &status] {
+    require_one_question(*arguments);
+    status = Check(*arguments).run();
+  });
 }
 
 }  // namespace firstcontact::app

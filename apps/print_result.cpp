@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "print_robot_answer.h"
 #include "quantity_text.h"
 
 namespace firstcontact::app {
@@ -21,6 +22,9 @@ class Description {
 
   std::string write(std::string_view title, bool all_pairs) {
     print("{}: {}\n", title, describe_verdict(answer_));
+    if (result_.robots) {
+      return text_ + describe_robots(answer_, all_pairs);
+    }
     if (result_.first) {
       line("bodies", names(result_.pairs[*result_.first].bodies));
     }

@@ -1,5 +1,6 @@
 #include "scene_answer.h"
 
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
@@ -12,9 +13,14 @@ namespace {
 
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
   const std::vector<Body>& bodies = loaded.scene.bodies;
-  const bool each_pair = question.all_pairs || question.closest;
-  const auto tell = [&bodies, &question, each_pair](double done) {
-    if (bodies.size() == 2) {
+  const bool each_pair = question.all_pairs || question.closest || question.all_contacts_in_time;
+  const auto tell = [&loaded, &bodies, &question, each_pair](double done) {
+    if (loaded.robots) {
+      question.doing(each_pair
+                         ? fmt::format("{}: {:.0f} % of the pairs", loaded.scene.id, 100.0 * done)
+                         : fmt::format("{}: free until {:.4f} s of {:.4f} s", loaded.scene.id,
+                                       done * loaded.scene.duration, loaded.scene.duration));
+    } else if (bodies.size() == 2) {
       question.doing(bodies[0].name + " and " + bodies[1].name);
     } else if (each_pair) {
       question.doing(fmt::format("{} bodies: {:.0f} % of the pairs", bodies.size(), 100.0 * done));
@@ -24,9 +30,34 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
   };
   return {.all_pairs = question.all_pairs,
           .closest = question.closest,
+          .all_contacts_in_time = question.all_contacts_in_time,
           .threads = question.threads,
           .stop = question.stop,
           .progress = tell};
+}
+
+/// What samples the gap knows bodies only.
+void require_no_sampling(const Question& question) {
+  if (question.sample_rate || question.gap_curve) {
+    throw std::invalid_argument(
+        "--sample-rate, --svg, --gap and --html are not for scenes with robots yet");
+  }
+}
+
+void require_within_limits(const LoadedScene& loaded) {
+  if (loaded.limits.empty()) {
+    return;
+  }
+  const SceneLimits& first = loaded.limits.front();
+  const SceneRobot& robot = loaded.scene.robots[first.robot];
+  std::size_t count = 0;
+  for (const SceneLimits& limits : loaded.limits) {
+    count += limits.violations.size();
+  }
+  throw std::invalid_argument(
+      fmt::format("expected a motion within the joint limits, but {}{}",
+                  describe(robot, first.violations.front(), loaded.scene.duration),
+                  count > 1 ? fmt::format(", and {} more", count - 1) : ""));
 }
 
 }  // namespace
@@ -43,6 +74,12 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
   question.doing("loading " + scene.id);
   SceneAnswer answer;
   answer.loaded = load_scene(std::move(scene), cache);
+  if (answer.loaded.robots) {
+    require_no_sampling(question);
+  }
+  if (question.strict) {
+    require_within_limits(answer.loaded);
+  }
   answer.result = check_scene(answer.loaded, workspace, check_options(answer.loaded, question));
   if (question.sample_rate) {
     question.doing("sampling " + answer.loaded.scene.id);

@@ -24,7 +24,9 @@ struct Question {
   std::optional<double> sample_rate;  ///< [1/s]  Also what sampling would have seen.
   bool all_pairs = false;
   bool closest = false;
-  int threads = 0;  ///< 0 for one on each core.
+  bool all_contacts_in_time = false;
+  bool strict = false;  ///< Motions beyond joint limits are errors.
+  int threads = 0;      ///< 0 for one on each core.
   bool gap_curve = false;
   std::stop_token stop;
   std::function<void(std::string)> doing;  ///< Called with what is being done.
@@ -41,7 +43,9 @@ struct SceneAnswer {
   std::optional<SamplingReport> sampling;
 };
 
-/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate
+/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate; of a question that
+/// scenes
+///         with robots have no answer to
 [[nodiscard]] SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
                                        ManyBodiesWorkspace& workspace);
 

@@ -23,6 +23,13 @@ struct SceneLimits {
   std::vector<LimitViolation> violations;
 };
 
+/// "arm: joint "elbow" leaves its upper limit of 2 rad by 0.1 rad at 1.5 s".
+///
+/// @param duration  [s]  of the scene
+[[nodiscard]] FIRSTCONTACT_API std::string describe(const SceneRobot& robot,
+                                                    const LimitViolation& violation,
+                                                    double duration);
+
 /// A scene and all that its queries need.
 struct LoadedScene {
   Scene scene;

@@ -17,11 +17,10 @@ namespace firstcontact {
 
 /// Where the joints are at one time. Numbers are in the order of the trajectory's joint names.
 struct TrajectoryPoint {
-  double time = 0.0;                    ///< [s]
-  std::vector<double> positions = {};   ///< [rad or m]
-  std::vector<double> velocities = {};  ///< [rad/s or m/s]      As many, or none.
-  std::vector<double>
-      accelerations;  ///< [rad/s^2 or m/s^2]  As many, or none; not without velocities.
+  double time = 0.0;                       ///< [s]
+  std::vector<double> positions = {};      ///< [rad or m]
+  std::vector<double> velocities = {};     ///< [rad/s or m/s]  As many, or none.
+  std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  So too; not without velocities.
 };
 
 /// Positions at times; between them linear, cubic where there are velocities, quintic where there

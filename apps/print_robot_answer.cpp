@@ -1,0 +1,179 @@
+#include "print_robot_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "quantity_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::size_t kMostContacts = 6;
+constexpr std::size_t kMostWarnings = 12;
+
+class RobotAnswerText {
+ public:
+  explicit RobotAnswerText(const SceneAnswer& answer)
+      : loaded_(answer.loaded), result_(*answer.result.robots) {}
+
+  std::string write(bool all_pairs) {
+    if (result_.first) {
+      line("links", names(result_.pairs[*result_.first].members));
+    }
+    contacts();
+    if (std::isfinite(result_.clearance) && result_.clearance > 0.0) {
+      line("clearance", fmt::format("more than {}{}", length_text(result_.clearance),
+                                    result_.verdict == Verdict::free ? "" : " before"));
+    }
+    if (std::isinf(result_.clearance)) {
+      line("clearance", "no pair is tested");
+    }
+    closest();
+    if (result_.tolerance_used > loaded_.scene.options.tolerance) {
+      line("tolerance", length_text(result_.tolerance_used) + ": f64 resolves no less here");
+    }
+    if (result_.enclosure_error > 0.0) {
+      line("enclosure",
+           "curved surfaces stand out by up to " + length_text(result_.enclosure_error));
+    }
+    intervals();
+    if (all_pairs) {
+      pairs();
+    }
+    warnings();
+    return text_;
+  }
+
+ private:
+  template <typename... T>
+  void print(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
+  }
+
+  void line(const char* label, const std::string& value) { print("  {:<10} {}\n", label, value); }
+
+  [[nodiscard]] std::string seconds(double t) const {
+    return time_text(t * loaded_.scene.duration);
+  }
+
+  [[nodiscard]] std::string names(const BodyPair& members) const {
+    return loaded_.robots->name(members[0]) + " and " + loaded_.robots->name(members[1]);
+  }
+
+  /// "triangle 7", and of which geometry where a link has several.
+  [[nodiscard]] std::string place(const RobotContact& found, std::size_t side) const {
+    const Feature& feature = side == 0 ? found.contact.feature_A : found.contact.feature_B;
+    const std::size_t member = found.members[side];
+    std::string text = loaded_.robots->name(member) + ": ";
+    text += feature.type == FeatureType::face
+                ? fmt::format("triangle {}", feature.index)
+                : fmt::format("{} {} of triangle {}", word(feature.type), feature.index,
+                              feature.triangle);
+    return loaded_.robots->geometries(member).size() > 1
+               ? text + fmt::format(" of geometry {}", found.geometries[side])
+               : text;
+  }
+
+  void contact(const RobotContact& found) {
+    const Contact& contact = found.contact;
+    print("    {}; {}\n", place(found, 0), place(found, 1));
+    print("      at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", contact.p_WA.x(), contact.p_WA.y(),
+          contact.p_WA.z(), length_text(contact.distance));
+    if (contact.n_AB_W) {
+      print(", normal {}, {} {}", direction_text(*contact.n_AB_W),
+            contact.normal_velocity < 0.0 ? "closing at" : "leaving at",
+            speed_text(std::abs(contact.normal_velocity) / loaded_.scene.duration));
+    }
+    print("\n");
+  }
+
+  /// Those of every pair that touches at the scene's time.
+  void contacts() {
+    std::vector<const RobotContact*> found;
+    for (const RobotPairAnswer& pair : result_.pairs) {
+      for (const RobotContact& contact : pair.contacts) {
+        if (result_.first && pair.t == result_.t) {
+          found.push_back(&contact);
+        }
+      }
+    }
+    if (found.empty()) {
+      return;
+    }
+    line("contacts", fmt::format("{} feature pair{}", found.size(), found.size() == 1 ? "" : "s"));
+    for (std::size_t k = 0; k < std::min(found.size(), kMostContacts); ++k) {
+      contact(*found[k]);
+    }
+    if (found.size() > kMostContacts) {
+      print("    and {} more\n", found.size() - kMostContacts);
+    }
+  }
+
+  void closest() {
+    if (!result_.closest) {
+      return;
+    }
+    const RobotPairAnswer& pair = result_.pairs[*result_.closest];
+    const LeastClearance& found = *pair.least_clearance;
+    std::string text = fmt::format("{} at {}: {}", length_text(found.distance), seconds(found.t),
+                                   names(pair.members));
+    if (found.reason != UndecidedReason::none) {
+      text += fmt::format("; at least {} ({})", length_text(found.lower_bound), word(found.reason));
+    }
+    line("closest", text);
+  }
+
+  void intervals() {
+    for (const RobotPairAnswer& pair : result_.pairs) {
+      for (const ContactInterval& interval : pair.intervals) {
+        line("contact", fmt::format("from {} to {}: {}{}", seconds(interval.enter),
+                                    seconds(interval.leave), names(pair.members),
+                                    interval.reason == UndecidedReason::none
+                                        ? ""
+                                        : fmt::format(" (not searched to its end: {})",
+                                                      word(interval.reason))));
+      }
+    }
+  }
+
+  void pairs() {
+    line("pairs", std::to_string(result_.pairs.size()));
+    for (const RobotPairAnswer& pair : result_.pairs) {
+      print("    {:<40} {:<16}", names(pair.members), word(pair.verdict));
+      if (pair.verdict != Verdict::free) {
+        print(" {}", seconds(pair.t));
+      }
+      if (pair.least_clearance) {
+        print(" closest {} at {}", length_text(pair.least_clearance->distance),
+              seconds(pair.least_clearance->t));
+      }
+      print("\n");
+    }
+  }
+
+  void warnings() {
+    const std::vector<std::string>& all = loaded_.warnings;
+    for (std::size_t k = 0; k < std::min(all.size(), kMostWarnings); ++k) {
+      line("warning", all[k]);
+    }
+    if (all.size() > kMostWarnings) {
+      line("warning", fmt::format("and {} more", all.size() - kMostWarnings));
+    }
+  }
+
+  const LoadedScene& loaded_;
+  const RobotCheckResult& result_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string describe_robots(const SceneAnswer& answer, bool all_pairs) {
+  return RobotAnswerText(answer).write(all_pairs);
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,76 @@
+#include "robot_options.h"
+
+#include <firstcontact/scene/robot_question.h>
+
+#include "command_line_number.h"
+
+namespace firstcontact::app {
+
+void add_robot_options(CLI::App& command, RobotArguments& arguments) {
+  const auto file = [&](const char* name, std::string& value, const char* text) {
+    command.add_option(name, value, text)->type_name("FILE")->group("Robot");
+  };
+  const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
+                        const char* text) {
+    command.add_option(name, values, text)
+        ->type_name(type)
+        ->group("Robot")
+        ->allow_extra_args(false);
+  };
+  file("--robot", arguments.robot, "URDF: asks about this robot in place of a SCENE");
+  file("--srdf", arguments.srdf, "SRDF: pairs of links not to test, named states");
+  file("--trajectory", arguments.trajectory,
+       ".csv (header: time and joint names), .json, or .yaml as ROS prints a JointTrajectory");
+  file("--request", arguments.request,
+       "MoveIt request (.yaml): straight from its start to its goal");
+  list("--start", arguments.start, "STATE",
+       "With --goal, straight from there in 1 s: state of the SRDF or JOINT=POSITION; repeatable");
+  list("--goal", arguments.goal, "STATE", "As --start");
+  list("--state", arguments.state, "STATE",
+       "Where joints rest that the motion does not name: as --start; 0 by default");
+  list("--environment", arguments.environment, "FILE",
+       "Mesh, MoveIt planning scene (.yaml), or scene (.json) without robots; repeatable");
+  list("--package-root", arguments.package_roots, "FOLDER",
+       "Holds packages that the robot names as package://; repeatable");
+  add_number(command, "--padding", arguments.padding, Range::not_negative,
+             "[m] Thickens every link")
+      ->group("Robot");
+  add_number(command, "--tracking-error", arguments.tracking_error, Range::not_negative,
+             "[rad or m] Every joint may be so far off at any time")
+      ->group("Robot");
+  command
+      .add_flag("--visual", arguments.visual,
+                "Takes links as they look, not their collision geometry")
+      ->group("Robot");
+}
+
+std::vector<std::string> files_of(const RobotArguments& arguments) {
+  std::vector<std::string> files = arguments.environment;
+  for (const std::string& file :
+       {arguments.robot, arguments.srdf, arguments.trajectory, arguments.request}) {
+    if (!file.empty()) {
+      files.push_back(file);
+    }
+  }
+  return files;
+}
+
+Scene read_robot_scene(const RobotArguments& arguments) {
+  RobotQuestion question;
+  question.robot.urdf = arguments.robot;
+  question.robot.package_roots.assign(arguments.package_roots.begin(),
+                                      arguments.package_roots.end());
+  question.robot.surface = arguments.visual ? RobotSurface::visual : RobotSurface::collision;
+  question.srdf = arguments.srdf;
+  question.trajectory = arguments.trajectory;
+  question.request = arguments.request;
+  question.start = arguments.start;
+  question.goal = arguments.goal;
+  question.state = arguments.state;
+  question.environment.assign(arguments.environment.begin(), arguments.environment.end());
+  question.padding = arguments.padding.value_or(0.0);
+  question.tracking_error = arguments.tracking_error.value_or(0.0);
+  return read_robot_question(question);
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,40 @@
+/// @file
+/// The options that ask about one robot without a scene file.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::app {
+
+/// What the command line says of a robot; paths as they were written.
+struct RobotArguments {
+  std::string robot;  ///< Empty where none is asked about.
+  std::string srdf;
+  std::string trajectory;
+  std::string request;
+  std::vector<std::string> start;
+  std::vector<std::string> goal;
+  std::vector<std::string> state;
+  std::vector<std::string> environment;
+  std::vector<std::string> package_roots;
+  std::optional<double> padding;         ///< [m]
+  std::optional<double> tracking_error;  ///< [rad or m]
+  bool visual = false;
+};
+
+void add_robot_options(CLI::App& command, RobotArguments& arguments);
+
+/// All files that the arguments name.
+[[nodiscard]] std::vector<std::string> files_of(const RobotArguments& arguments);
+
+/// @throws ParseError, std::invalid_argument
+[[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments);
+
+}  // namespace firstcontact::app
