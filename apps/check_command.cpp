@@ -73,9 +73,9 @@ class Check {
       check_file(file);
     }
     if (arguments_.files.empty()) {
-      check_source({.file = arguments_.robot.robot, .line = std::nullopt, .read = [this] {
-                      return read_robot_scene(arguments_.robot);
-                    }});
+      check_source({.file = named_in_errors(arguments_.robot),
+                    .line = std::nullopt,
+                    .read = [this] { return read_robot_scene(arguments_.robot); }});
     }
     if (output_ && (batch_ || answered_ > 0)) {
       output_->commit();

@@ -24,7 +24,8 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
   file("--request", arguments.request,
        "MoveIt request (.yaml): straight from its start to its goal");
   list("--start", arguments.start, "STATE",
-       "With --goal, straight from there in 1 s: state of the SRDF or JOINT=POSITION; repeatable");
+       "With --goal, straight from there as fast as the joints may: state of the SRDF or "
+       "JOINT=POSITION; repeatable");
   list("--goal", arguments.goal, "STATE", "As --start");
   list("--state", arguments.state, "STATE",
        "Where joints rest that the motion does not name: as --start; 0 by default");
@@ -53,6 +54,13 @@ std::vector<std::string> files_of(const RobotArguments& arguments) {
     }
   }
   return files;
+}
+
+const std::string& named_in_errors(const RobotArguments& arguments) {
+  if (!arguments.trajectory.empty()) {
+    return arguments.trajectory;
+  }
+  return arguments.request.empty() ? arguments.robot : arguments.request;
 }
 
 Scene read_robot_scene(const RobotArguments& arguments) {

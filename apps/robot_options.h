@@ -34,6 +34,9 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments);
 /// All files that the arguments name.
 [[nodiscard]] std::vector<std::string> files_of(const RobotArguments& arguments);
 
+/// The file that errors without a file of their own are about: the motion's, or the robot's.
+[[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);
+
 /// @throws ParseError, std::invalid_argument
 [[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments);
 

@@ -193,7 +193,8 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithPoints) {
       points(R"({"time_from_start": {"secs": 0.5}, "positions": [0]})",
              "points[0].time_from_start.secs: expected an integer from 0 to 2147483647, got 0.5"),
       points(R"({"time_from_start": {"sec": 0, "nanosec": 1000000000}, "positions": [0]})",
-             "points[0].time_from_start.nanosec: expected an integer from 0 to 999999999, got 1000000000"),
+             "points[0].time_from_start.nanosec: expected an integer from 0 to 999999999, got "
+             "1000000000"),
       points(R"({"time_from_start": {}, "positions": [0]})",
              "points[0].time_from_start: expected \"secs\" and \"nsecs\", or \"sec\" and "
              "\"nanosec\", got neither"),

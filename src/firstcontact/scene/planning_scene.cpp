@@ -1,6 +1,7 @@
 #include <firstcontact/scene/planning_scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <stdexcept>
@@ -504,18 +505,24 @@ PlanningRequest read_planning_request(const std::filesystem::path& path, const R
 
 Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
                            const JointPositions& goal) {
-  Trajectory trajectory{.joint_names = {}, .points = {{.time = 0.0}, {.time = 1.0}}};
+  Trajectory trajectory{.joint_names = {}, .points = {{.time = 0.0}, {.time = 0.0}}};
+  double duration = 0.0;
   for (const auto& [name, position] : goal) {
     const Joint& joint = robot.joints()[find_coordinate(robot, name).joint];
     if (joint.mimic) {
       continue;  // It follows.
     }
-    const auto from = start.find(name);
+    const auto found = start.find(name);
+    const double from = found != start.end() ? found->second : default_position(joint);
     trajectory.joint_names.push_back(name);
-    trajectory.points[0].positions.push_back(from != start.end() ? from->second
-                                                                 : default_position(joint));
+    trajectory.points[0].positions.push_back(from);
     trajectory.points[1].positions.push_back(position);
+    if (joint.limits.velocity.value_or(0.0) > 0.0) {
+      duration = std::max(duration, std::abs(position - from) / *joint.limits.velocity);
+    }
   }
+  // A little longer, so that rounding leaves no limit.
+  trajectory.points[1].time = duration > 0.0 ? duration * (1.0 + 0x1p-40) : 1.0;
   return trajectory;
 }
 

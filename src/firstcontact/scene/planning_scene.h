@@ -70,7 +70,8 @@ read_planning_request(const std::filesystem::path& path, const RobotModel& robot
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest parse_planning_request(
     std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
 
-/// From the start to the goal at constant rates in one second.
+/// From the start to the goal at constant rates, as fast as the velocity limits allow; in 1 s where
+/// there are none.
 [[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,
                                                           const JointPositions& start,
                                                           const JointPositions& goal);

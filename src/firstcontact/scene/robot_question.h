@@ -19,9 +19,9 @@ struct RobotQuestion {
   RobotFile robot;
   std::filesystem::path srdf = {};
   std::filesystem::path trajectory = {};  ///< As read_trajectory.
-  std::filesystem::path request = {};     ///< Straight from its start to its goal, in 1 s.
+  std::filesystem::path request = {};     ///< Straight from its start to its goal.
   std::vector<std::string> start = {};    ///< States, the later ones prevail: see `state`.
-  std::vector<std::string> goal = {};     ///< Straight from the start to there, in 1 s.
+  std::vector<std::string> goal = {};     ///< Straight from the start to there.
   /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION.
   std::vector<std::string> state = {};
   /// Meshes; planning scenes (.yaml); scenes (.json), of which only the bodies are taken.

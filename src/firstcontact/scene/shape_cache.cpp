@@ -88,8 +88,8 @@ RobotModel read_touching(const RobotFile& file) {
   if (std::all_of(model.links().begin(), model.links().end(), is_empty)) {
     throw ParseError(file.urdf.string(),
                      visual ? "expected links with <visual> geometry, none has any"
-                            : "expected links with <collision> geometry, none has any; the surface "
-                              "\"visual\" takes what they look like");
+                            : "expected links with <collision> geometry, none has any; surface "
+                              "\"visual\" (--visual) takes what they look like");
   }
   return model;
 }
