@@ -4,6 +4,7 @@
 """
 
 import json
+import math
 import os
 import pathlib
 import pty
@@ -70,7 +71,6 @@ class CommandLine(ToolTest):
         for arguments, message in [
                 ([], "A subcommand is required"),
                 (["chekc"], 'unknown command "chekc"'),
-                (["check"], "SCENE is required"),
                 (["check", scene, "--fast"], "The following argument was not expected: --fast"),
                 (["check", scene, "--tolerance", "-1"], '--tolerance: expected a number > 0, got "-1"'),
                 (["check", scene, "--tolerance", "nan"], '--tolerance: expected a number > 0, got "nan"'),
@@ -95,6 +95,82 @@ class CommandLine(ToolTest):
         for words in ("contact: contact at t = 0.2", "floor and stone", "triangle 0", "normal", "closing at",
                       "closest", "sampling misses this contact"):
             self.assertIn(words, result.stdout)
+
+
+class Robot(ToolTest):
+    """A bar of 1 m that turns about z by `elbow`, its fixed tip a ball of 0.1 m at 1.05 m."""
+
+    URDF = """<robot name="arm"><link name="base"/>
+      <link name="bar"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+      <link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+      <joint name="elbow" type="revolute"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1.5" velocity="1" effort="1"/></joint>
+      <joint name="weld" type="fixed"><parent link="bar"/><child link="tip"/><origin xyz="1.05 0 0"/></joint></robot>"""
+    BALL = """world: {collision_objects: [{id: ball, primitives: [{type: sphere, dimensions: [0.1]}],
+      primitive_poses: [{position: [0, 1.05, 0]}]}]}"""
+    TOUCH = (math.pi / 2 - 2 * math.asin(0.1 / 1.05)) / 0.5  # [s] At half a radian in a second.
+
+    def setUp(self):
+        super().setUp()
+        self.robot = self.file("arm.urdf", self.URDF)
+        self.ball = self.file("ball.yaml", self.BALL)
+        self.move = self.file("move.csv", "time,elbow\n0,0\n4,2\n")
+
+    def check(self, *more: str) -> subprocess.CompletedProcess:
+        return self.run_tool("check", "--robot", self.robot, *more)
+
+    def test_says_when_and_which_links(self):
+        result = self.check("--trajectory", self.move, "--environment", self.ball)
+        self.assertEqual(result.returncode, 1, result)
+        for words in ("move.csv: contact at t = 0.69", "(2.76", "ball and arm/tip", "warning",
+                      'arm: joint "elbow" leaves its upper limit of 1.5 rad by 0.5 rad at 4 s'):
+            self.assertIn(words, result.stdout)
+
+    def test_writes_what_the_viewer_reads(self):
+        result = self.check("--trajectory", self.move, "--environment", self.ball, "--json", "--closest",
+                            "--all-contacts-in-time", "--all-pairs")
+        answer = json.loads(result.stdout)
+        self.assertAlmostEqual(answer["time"], self.TOUCH, places=5)
+        self.assertEqual(answer["pair"], ["ball", "arm/tip"])
+        self.assertEqual(answer["limits"][0]["joint"], "elbow")
+        tip = [pair for pair in answer["pairs"] if pair["pair"] == answer["pair"]][0]
+        self.assertAlmostEqual(tip["intervals"][0]["enter_time"], self.TOUCH, places=5)
+        again = self.run_tool("check", "--json", self.file("again.json", json.dumps(answer["scene"])))
+        self.assertEqual(json.loads(again.stdout)["t"], answer["t"])
+
+    def test_keeps_margins_of_all_kinds(self):
+        ask = ["--trajectory", self.move, "--environment", self.ball, "--json"]
+        free = json.loads(self.check(*ask).stdout)["t"]
+        for more in (["--padding", "0.01"], ["--tracking-error", "0.01"], ["--margin", "0.01"]):
+            self.assertLess(json.loads(self.check(*ask, *more).stdout)["t"], free, more)
+
+    def test_goes_straight_from_a_start_to_a_goal(self):
+        result = self.check("--start", "elbow=0", "--goal", "elbow=0.5", "--environment", self.ball)
+        self.assertEqual((result.returncode, result.stdout),
+                         (0, "arm: free for the whole step of 500 ms\n"), result)
+
+    def test_says_what_is_wrong(self):
+        bad = self.file("bad.csv", "time,elbow\n0,0\n0,1\n")
+        misspelt = self.file("misspelt.csv", "time,elbov\n0,0\n")
+        for arguments, message in [
+                (["--trajectory", bad], f'{bad}:3: column "time": expected a time later than the one before, '
+                                        "0 s, got 0 s"),
+                (["--trajectory", misspelt], f'{misspelt}:1: column "elbov": expected a joint of robot "arm", '
+                                             'got "elbov"; did you mean "elbow"?'),
+                (["--trajectory", self.move, "--strict"],
+                 f"{self.move}: expected a motion within the joint limits, but arm: joint \"elbow\" leaves its "
+                 "upper limit of 1.5 rad by 0.5 rad at 4 s"),
+                (["--trajectory", self.move, "--goal", "elbow=1"],
+                 f"{self.move}: expected one of a trajectory, a request and a goal, got 2"),
+                (["--environment", "none.stl"],
+                 "none.stl: expected surroundings (a mesh, a planning scene in .yaml, or a scene in .json), "
+                 "found no such file"),
+                (["--trajectory", self.move, "--svg", "x.svg"],
+                 f"{self.move}: --sample-rate, --svg, --gap and --html are not for scenes with robots yet")]:
+            self.assert_refused(self.check(*arguments), message)
+        self.assert_refused(self.run_tool("check"), "expected a SCENE, or --robot (see firstcontact check --help)")
+        self.assert_refused(self.run_tool("check", "--trajectory", "x.csv"),
+                            "expected --robot ROBOT.urdf beside x.csv")
 
 
 class ExitStatus(ToolTest):

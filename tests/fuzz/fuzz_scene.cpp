@@ -36,7 +36,7 @@ void fuzz_scene(std::string_view text) {
     require(std::strchr(error.what(), '\n') == nullptr);
     return;
   }
-  require(!scene.bodies.empty());
+  require(!scene.bodies.empty() || !scene.robots.empty());
   require_round_trip(scene);
 }
 

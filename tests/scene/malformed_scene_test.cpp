@@ -97,9 +97,10 @@ TEST(MalformedScene, IsNamedByLineAndField) {
       {scene(body("a", R"("pose": {}, "motion": {"type": "fixed"})")),
        "s:1: bodies[0].pose: expected either \"pose\" (at rest) or \"motion\", got both; "
        "a motion begins at its own \"from\""},
-      {scene(body("a"), R"("robots": [])"),
-       "s:1: robots: this version does not have \"robots\" yet; it has \"firstcontact\", \"id\", "
-       "\"package_roots\", \"bodies\", \"pairs\", \"options\""},
+      {scene(body("a"), R"("robots": [{"name": "arm"}])"),
+       "s:1: robots[0]: expected a key \"urdf\", got none"},
+      {scene(body("a"), R"("robots": {})"),
+       "s:1: robots: expected an array of robots, got an object"},
   });
 }
 
