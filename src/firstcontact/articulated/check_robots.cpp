@@ -89,7 +89,7 @@ class RobotCheck {
 
   void report(double done) const {
     if (options_.progress) {
-      options_.progress(std::min(done, first_));
+      options_.progress(asks_each_pair() ? done : std::min(done, first_));
     }
   }
 
