@@ -21,6 +21,7 @@
 #include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/query/distance.h>
 
 #include "articulated/chain_case.h"
 #include "articulated/planar_arm.h"
@@ -103,6 +104,15 @@ struct PlanarCase {
     return least - *rules.margin({0, 1});
   }
 };
+
+/// A bar that passes a ball once in each turn: the angle between them is asin(0.15 / 0.5) then.
+RobotScene turning_past_a_ball(double turns) {
+  RobotScene scene;
+  scene.add_robot("arm", planar_motion({ramp(0.0, 2.0 * std::numbers::pi * turns)}));
+  const double angle = 2.0;
+  scene.add_body("ball", make_sphere(kBall), at({0.5 * std::cos(angle), 0.5 * std::sin(angle), 0}));
+  return scene;
+}
 
 bool is_contact(Verdict verdict) {
   return verdict == Verdict::contact || verdict == Verdict::contact_at_start;
@@ -339,6 +349,54 @@ TEST(CheckRobots, RobotsOnMovingBasesMeet) {
   EXPECT_NEAR(result.t, (3.0 - 2 * kBarRadius) / 4.0, 1e-6);
 }
 
+/// Two balls on one link, each in a frame of its own; the outer one comes first.
+TEST(CheckRobots, NamesTheGeometryThatTouches) {
+  RobotDescription robot{.name = "r", .links = {{"base", {}, {}}, {"arm", {}, {}}}, .joints = {}};
+  for (const double x : {1.0, 2.0}) {
+    robot.links[1].collision.push_back({.name = "",
+                                        .X_LG = {{x, 0.0, 0.0}, Eigen::Quaterniond(1, 2, 3, 4)},
+                                        .source = {},
+                                        .shape = make_sphere(0.1)});
+  }
+  Joint joint{.name = "j", .type = JointType::continuous, .parent = "base", .child = "arm"};
+  joint.axis = Vector3d::UnitZ();
+  robot.joints.push_back(joint);
+  RobotScene scene;
+  scene.add_robot("r", {RobotModel(robot), {{"j", ramp(0.0, 2.0)}}});
+  scene.add_body("near", make_sphere(0.1), at({std::cos(1.5), std::sin(1.5), 0.0}));
+  scene.add_body("far", make_sphere(0.1), at({2.0 * std::cos(1.4), 2.0 * std::sin(1.4), 0.0}));
+  RobotCheckOptions options;
+  options.all_pairs = true;
+  const RobotCheckResult result = check_robots(scene, options);
+  ASSERT_EQ(result.pairs.size(), 2u);
+  const double near_t = (1.5 - 2.0 * std::asin(0.1)) / 2.0;
+  const double far_t = (1.4 - 2.0 * std::asin(0.05)) / 2.0;
+  EXPECT_NEAR(result.pairs[0].t, near_t, 1e-6);
+  EXPECT_NEAR(result.pairs[1].t, far_t, 1e-6);
+  EXPECT_EQ(result.pairs[0].contacts.at(0).geometries, (std::array<std::size_t, 2>{0, 0}));
+  EXPECT_EQ(result.pairs[1].contacts.at(0).geometries, (std::array<std::size_t, 2>{1, 0}));
+  EXPECT_EQ(result.t, std::min(near_t, far_t) == near_t ? result.pairs[0].t : result.pairs[1].t);
+}
+
+/// The whole robot against one body by their groups, one link by its own margin.
+TEST(CheckRobots, MarginsOfGroupsAndOfPairsHold) {
+  RobotScene scene = turning_past_a_ball(0.25);  // Ends 0.43 rad before the ball.
+  const double gap = 0.5 * std::sin(2.0 - 0.5 * std::numbers::pi) - kBall - kBarRadius;
+  const std::size_t robot = scene.rules().add_group({0, 1});
+  const std::size_t others = scene.rules().add_group({2});
+  EXPECT_EQ(check_robots(scene).verdict, Verdict::free);
+  scene.rules().set_group_margin(robot, others, gap + 1e-3);
+  const RobotCheckResult result = check_robots(scene);
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  EXPECT_EQ(result.pairs.at(0).threshold, gap + 1e-3);
+  scene.rules().set_margin({1, 2}, gap - 1e-3);
+  EXPECT_EQ(check_robots(scene).verdict, Verdict::free);
+  scene.rules().set_margin({1, 2}, 1.0);
+  EXPECT_EQ(check_robots(scene).verdict, Verdict::contact_at_start);
+  scene.rules().ignore_groups(robot, others);
+  EXPECT_EQ(check_robots(scene).clearance, std::numeric_limits<double>::infinity());
+}
+
 // Laws.
 
 TEST(CheckRobots, PaddingOfBothIsAMarginOfTheirSum) {
@@ -432,15 +490,6 @@ TEST(CheckRobots, ASplitTrajectoryIsTheSame) {
 }
 
 // Pairs.
-
-/// A bar that passes a ball once in each turn: the angle between them is asin(0.15 / 0.5) then.
-RobotScene turning_past_a_ball(double turns) {
-  RobotScene scene;
-  scene.add_robot("arm", planar_motion({ramp(0.0, 2.0 * std::numbers::pi * turns)}));
-  const double angle = 2.0;
-  scene.add_body("ball", make_sphere(kBall), at({0.5 * std::cos(angle), 0.5 * std::sin(angle), 0}));
-  return scene;
-}
 
 TEST(CheckRobots, FindsEveryIntervalOfContact) {
   constexpr int kTurns = 3;
@@ -643,6 +692,71 @@ TEST(CheckRobots, NothingToTestIsFree) {
   EXPECT_EQ(empty.t, 1.0);
   EXPECT_EQ(empty.clearance, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(empty.pairs.empty());
+}
+
+/// Real meshes of a robot on a turning base, among boxes: each pair is apart at samples before its
+/// time, by the places that the scene gives, and touches then.
+TEST(CheckRobots, ThePumaAgreesWithDistancesAtSingleTimes) {
+  const RobotModel puma = read_urdf(std::filesystem::path(FIRSTCONTACT_SOURCE_DIR) /
+                                    "data/robots/puma560_description/urdf/puma560_robot.urdf");
+  Workspace workspace;
+  RobotCheckOptions options;
+  options.all_pairs = true;
+  int contacts = 0;
+  int free = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    std::map<std::string, JointMotion> joints;
+    for (const Joint& joint : puma.joints()) {
+      if (joint.type != JointType::fixed) {
+        const double q = random.uniform(-1.5, 1.5);
+        joints.emplace(joint.name, ramp(q, q + random.uniform(-1.0, 1.0)));
+      }
+    }
+    RobotScene scene;
+    scene.add_robot(
+        "puma", {puma, joints, Motion::constant_velocity({}, {0.1, 0.2, 0.0}, {0.0, 0.0, 0.3})});
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d place = Vector3d(0, 0, 0.5) + 0.7 * random.direction();
+      scene.add_body("box" + std::to_string(k), make_box({0.1, 0.15, 0.2}),
+                     Motion::constant_velocity({place, random.rotation()}, 0.2 * random.direction(),
+                                               random.direction()));
+    }
+    const auto distance_at = [&](const BodyPair& members, double t) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const MemberGeometry& a : scene.geometries(members[0])) {
+        for (const MemberGeometry& b : scene.geometries(members[1])) {
+          const auto placed = [&](std::size_t member, const MemberGeometry& geometry) {
+            const Pose X_WM = scene.pose(member, t);
+            return Motion::fixed({X_WM.position + X_WM.rotation * geometry.X_MG.position,
+                                  X_WM.rotation * geometry.X_MG.rotation});
+          };
+          const Motion X_WA = placed(members[0], a);
+          const Motion X_WB = placed(members[1], b);
+          least =
+              std::min(least, distance({a.shape, X_WA}, {b.shape, X_WB}, 0.0, workspace).distance);
+        }
+      }
+      return least;
+    };
+    const RobotCheckResult result = check_robots(scene, options);
+    for (const RobotPairAnswer& pair : result.pairs) {
+      ASSERT_NE(pair.verdict, Verdict::undecided) << seed;
+      const bool is_free = pair.verdict == Verdict::free;
+      (is_free ? free : contacts) += 1;
+      for (int i = 0; i <= 12; ++i) {
+        const double t = i / 12.0;
+        if (is_free || t < pair.t) {
+          ASSERT_GT(distance_at(pair.members, t), 0.0) << seed << " at " << t;
+        }
+      }
+      if (!is_free) {
+        ASSERT_LE(distance_at(pair.members, pair.t), pair.tolerance_used + 1e-12) << seed;
+      }
+    }
+  }
+  EXPECT_GE(contacts, 5);
+  EXPECT_GE(free, 50);
 }
 
 /// All coordinates 0 are outside of the Panda's limits: the arm is folded into itself.
