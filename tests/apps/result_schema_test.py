@@ -21,9 +21,9 @@ except ImportError:
     sys.exit(77)
 
 
-def results(tool: str, files: list) -> list:
+def results(tool: str, files: list, *more: str) -> list:
     """Of all scenes of the files, with all that can be asked."""
-    run = subprocess.run([tool, "check", "--all-pairs", "--closest", "--sample-rate", "20", *files],
+    run = subprocess.run([tool, "check", "--json", "--all-pairs", "--closest", *more, *files],
                          capture_output=True, text=True, timeout=200, check=False)
     return [json.loads(line) for line in run.stdout.splitlines()]
 
@@ -32,7 +32,8 @@ def spoiled(result: dict) -> list:
     """Results that the schema must refuse: each lacks a key, or has a wrong one."""
     wrong = [{**result, "extra": 1}]
     for key in result:
-        if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line"):
+        if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line", "limits",
+                       "warnings"):
             less = copy.deepcopy(result)
             del less[key]
             wrong.append(less)
@@ -52,11 +53,16 @@ def main(tool: str, source: pathlib.Path) -> int:
         lines.write_text("\n".join([scenes.CONTACT, scenes.AT_START, scenes.FREE, scenes.UNDECIDED, scenes.BAD]),
                          encoding="utf-8")
         good = sorted(map(str, (source / "tests/fuzz/corpus/fuzz_scene/good").glob("*.json")))
-        found = results(tool, [str(lines), *good])
+        with_robots = [scene for scene in good if '"robots"' in pathlib.Path(scene).read_text(encoding="utf-8")]
+        good = [scene for scene in good if scene not in with_robots]
+        found = results(tool, [str(lines), *good], "--sample-rate", "20")
+        of_robots = results(tool, with_robots, "--all-contacts-in-time")
     complaints = []
     if len(found) != 5 + len(good):
         complaints.append(f"{len(found)} results of {5 + len(good)} scenes")
-    for result in found:
+    if not of_robots or any("error" in result or not result["warnings"] for result in of_robots):
+        complaints.append("no results with robots and warnings")
+    for result in found + of_robots:
         name = result.get("id") or result.get("error")
         complaints += [f"{name}: {error.message}" for error in of_results.iter_errors(result)]
         if "scene" in result:
