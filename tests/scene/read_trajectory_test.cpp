@@ -229,6 +229,10 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithYaml) {
        "t.yaml:1: expected an alias of something before it, got one of what is around it"},
       {"t.yaml", "a: [1\n", "t.yaml:2: expected YAML: end of sequence flow not found"},
       {"t.yaml", "\xff", "t.yaml:1: expected UTF-8, got other bytes"},
+      {"t.yaml", "a: 1\n---\n---\n", "t.yaml:3: expected one YAML document, got a second one"},
+      // The parser would never come back from this.
+      {"t.yaml", std::string(",os\x01\0\0\x02:\f\n+", 11),
+       "t.yaml:1: expected text, got a control character"},
       {"t.yaml", "? [a]\n: 1\n", "t.yaml:1: expected a word as key, got a list or map"},
       {"t.yaml", std::string(100, '[') + std::string(100, ']'),
        "t.yaml:1: expected at most 64 lists and maps inside each other, got more"},

@@ -229,10 +229,12 @@ JsonValue first_document(std::string_view text, const std::string& source) {
   if (parser.HandleNextDocument(builder)) {
     document = builder.take();
   }
-  while (parser.HandleNextDocument(builder)) {
+  // Not until there is none: on some texts yaml-cpp finds one empty document after the other.
+  if (parser.HandleNextDocument(builder)) {
     const std::optional<JsonValue> next = builder.take();
-    if (!holds_nothing(next)) {
-      throw ParseError(source, next->line, "expected one YAML document, got a second one");
+    if (!holds_nothing(next) || parser.HandleNextDocument(builder)) {
+      throw ParseError(source, next ? next->line : 1,
+                       "expected one YAML document, got a second one");
     }
   }
   if (holds_nothing(document)) {
@@ -241,15 +243,28 @@ JsonValue first_document(std::string_view text, const std::string& source) {
   return std::move(*document);
 }
 
+bool is_control(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return (code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7f;
+}
+
+/// UTF-8, without the control characters that YAML excludes and yaml-cpp gives meanings of its own.
+void require_characters(std::string_view text, const std::string& source) {
+  const std::size_t not_utf8 = find_not_utf8(text);
+  const auto control = std::find_if(text.begin(), text.end(), is_control);
+  const std::size_t bad = std::min(not_utf8, static_cast<std::size_t>(control - text.begin()));
+  if (bad != text.size()) {
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(bad);
+    throw ParseError(source, 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n')),
+                     bad == not_utf8 ? "expected UTF-8, got other bytes"
+                                     : "expected text, got a control character");
+  }
+}
+
 }  // namespace
 
 JsonValue parse_yaml(std::string_view text, const std::string& source) {
-  const std::size_t bad = find_not_utf8(text);
-  if (bad != text.size()) {
-    const auto line =
-        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n');
-    throw ParseError(source, static_cast<std::size_t>(line) + 1, "expected UTF-8, got other bytes");
-  }
+  require_characters(text, source);
   try {
     return first_document(text, source);
   } catch (const YAML::Exception& error) {
