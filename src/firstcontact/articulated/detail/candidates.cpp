@@ -115,7 +115,7 @@ class Search {
     const auto& [window, piece, pair, parts, unused] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
     const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
-    const auto error_over = [&](const TimeWindow& part) {
+    const auto error_over = [&, &parts = candidate.parts](const TimeWindow& part) {
       return (paths.A.tracking_bound(timeline_.parts()[parts[0]].ball, part) +
               paths.B.tracking_bound(timeline_.parts()[parts[1]].ball, part)) *
              kUp;
