@@ -192,9 +192,11 @@ class RobotCheck {
   void find_least_clearances() {
     detail::BallsOfPieces balls(timeline_.piece_count());
     for_each(balls.size(), [&](std::size_t piece) {
+      const TimeWindow window = timeline_.piece(piece);
       for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
-        balls[piece].push_back(
-            swept_ball(timeline_, part, timeline_.piece(piece), workspaces_.local().places));
+        balls[piece].push_back(detail::swept_ball(
+            timeline_.parts()[part].ball, timeline_.path(part, 0.5 * (window.begin + window.end)),
+            window, workspaces_.local().places));
       }
     });
     for_each(pairs_.size(), [&](std::size_t k) {

@@ -60,7 +60,7 @@ bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& wi
   const bool swapped = !in_order(A, B, window);
   const MovingLink& first = swapped ? B : A;
   const MovingLink& second = swapped ? A : B;
-  LinkPairMotion motion(ball_of(first), ball_of(second), scratch);
+  LinkPairMotion motion(ball_of(first), ball_of(second), scratch, window.end);
   ask(ShapePair{first.shape, second.shape, motion});
   return swapped;
 }

@@ -70,8 +70,9 @@ struct LinkPairMotion::BodyState {
   double rotation_error = 0.0;
 };
 
-LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch)
-    : bodies_{Body{A}, Body{B}}, scratch_(scratch) {}
+LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch,
+                               double t_end)
+    : bodies_{Body{A}, Body{B}}, t_end_(t_end), scratch_(scratch) {}
 
 double LinkPairMotion::enter(double t) {
   TimeSpan piece{0.0, 1.0};
@@ -81,15 +82,16 @@ double LinkPairMotion::enter(double t) {
   }
   const bool A_is_free = bodies_[0].path->constant_rates() != nullptr;
   p_FO_ = bodies_[A_is_free ? 1 : 0].path->anchor();
-  double length = piece.end - t;
+  const double asked = t < t_end_ ? std::min(piece.end, t_end_) : piece.end;
+  double length = asked - t;
   bool bends = false;
   for (Body& body : bodies_) {
-    bound(body, t, piece.end);
+    bound(body, t, asked);
     length = std::min(length, window_length(body.speed, body.jerk));
     bends = bends || body.jerk > 0.0;
   }
-  end_ = bends ? end_of_window(piece, t, length) : piece.end;
-  if (end_ < piece.end) {
+  end_ = bends ? std::min(end_of_window(piece, t, length), asked) : asked;
+  if (end_ < asked) {
     for (Body& body : bodies_) {
       bound(body, t, end_);
     }

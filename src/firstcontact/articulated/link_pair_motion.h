@@ -36,7 +36,8 @@ struct LinkBall {
 /// memory.
 class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
  public:
-  LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch);
+  /// @param t_end  of the time that is asked about
+  LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch& scratch, double t_end = 1.0);
 
   double enter(double t) override;
   [[nodiscard]] RelativeState state(double t) const override;
@@ -57,6 +58,7 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
                                      double t) const;
 
   std::array<Body, 2> bodies_;
+  double t_end_;
   double end_ = 0.0;
   DoubleDoubleVector3 p_FO_;  ///< Positions are taken from here on.
   LinkScratch& scratch_;

@@ -106,7 +106,7 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   double j = 0.0;
   for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    const JointBounds& bounds = memory.bounds(walked.nodes[at].joint, t_from, t_to);
+    const JointBounds& bounds = memory.bounds(walked.nodes[at], t_from, t_to);
     const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
     const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
@@ -124,6 +124,33 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   return window;
 }
 
+LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const LinkPart& part,
+                                LinkScratch& scratch) const {
+  const auto walked = scratch.memory().walk(joints_, t, {});
+  const detail::ChainWalk& end = walked.end();
+  const double T = std::max(t_to - t, t - t_from) * kUp;
+  Swept swept;
+  swept.pose = end.pose();
+  const Vector3d offset = swept.pose.R_FL * part.centre;
+  const Vector3d centre = swept.pose.p_OL + offset;
+  const double far = detail::rough_size(offset);
+  const double reach = part.reach();
+  for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
+    const detail::PassedJoint& place = walked.nodes[at].passed;
+    const JointBounds& bounds = detail::ChainMemory::bounds(walked.nodes[at], t_from, t_to);
+    if (bounds.angle.rate > 0.0) {
+      const Vector3d arm = centre - place.p_OQ;
+      const double error =
+          2.0 * swept.pose.position_error +
+          (swept.pose.rotation_error + 8.0 * kRounding) * (detail::rough_size(arm) + far);
+      swept.speed += bounds.angle.rate *
+                     (arm.cross(place.axis).norm() + error + reach + swept.speed * T) * kUp;
+    }
+    swept.speed = (swept.speed + bounds.pivot.rate) * kUp;
+  }
+  return swept;
+}
+
 double LinkPath::tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
                                 std::span<const TrackingError> errors, LinkScratch& scratch) const {
   assert(errors.size() == joints_.size());
@@ -138,7 +165,7 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    const JointBounds& bounds = memory.bounds(joints_[k], t_from, t_to);
+    const JointBounds& bounds = memory.bounds(walked.nodes[at], t_from, t_to);
     const Vector3d arm = centre - place.p_OQ;
     const double error =
         2.0 * pose.position_error +

@@ -155,6 +155,14 @@ class FIRSTCONTACT_API LinkPath {
   /// The path, where it is that of a free body; else null.
   [[nodiscard]] const ConstantRatePath* constant_rates() const;
 
+  struct Swept {
+    LinkPose pose;       ///< At t.
+    double speed = 0.0;  ///< [m per step]  No point of the part is faster in the window.
+  };
+  /// The first of the bounds of window(), without the others.
+  [[nodiscard]] Swept swept(double t, double t_from, double t_to, const LinkPart& part,
+                            LinkScratch& scratch) const;
+
   /// Bounds over [t_from, t_to], which contains t and lies in the piece.
   ///
   /// Derivation: let rho be the greatest distance of the part from a joint's axis, w, e, f bounds

@@ -100,9 +100,14 @@ std::size_t RobotScene::add_body(std::string name, Shape shape, Motion X_WB) {
   if (shape.hierarchy().deforms()) {
     refuse("body '" + name + "' deforms; only rigid bodies are checked");
   }
+  const FloatEnvironmentGuard guard;
   Member body{.name = std::move(name), .geometries = {}, .link = {}};
   body.geometries.push_back({std::move(shape), {}});
   body.rests = is_at_rest(X_WB);
+  for (std::size_t k = 0; k + 1 < X_WB.breaks().size(); ++k) {
+    body.paths.push_back(std::make_shared<const JointPath>(
+        JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero()))));
+  }
   body.motion = std::move(X_WB);
   body.stretches = {{}};
   members_.push_back(std::move(body));
@@ -112,15 +117,21 @@ std::size_t RobotScene::add_body(std::string name, Shape shape, Motion X_WB) {
 std::size_t RobotScene::add_robot(std::string name, RobotMotion motion,
                                   std::span<const DisabledPair> disabled) {
   require_new(name);
+  const FloatEnvironmentGuard guard;
   const RobotModel& model = motion.model();
   const std::size_t first = members_.size();
   std::vector<Member> links;
   for (std::size_t k = 0; k < model.links().size(); ++k) {
     const std::string link_name = name + "/" + model.links()[k].name;
     require_new(link_name);
-    links.push_back({.name = link_name,
-                     .geometries = geometries_of(link_name, model.links()[k]),
-                     .link = RobotLink{robots_.size(), k}});
+    Member link{.name = link_name,
+                .geometries = geometries_of(link_name, model.links()[k]),
+                .link = RobotLink{robots_.size(), k}};
+    for (const MemberGeometry& geometry : link.geometries) {
+      link.paths.push_back(std::make_shared<const JointPath>(
+          JointPath::rigid(model.from_rigid_root(k) * precise(geometry.X_MG))));
+    }
+    links.push_back(std::move(link));
   }
   for (const DisabledPair& pair : disabled) {
     if (std::max(pair.link, pair.other) >= links.size()) {

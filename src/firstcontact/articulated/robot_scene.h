@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -144,6 +145,12 @@ class FIRSTCONTACT_API RobotScene {
   /// tested. A pair with an attached body has one, though it may not be tested all the time.
   [[nodiscard]] std::optional<double> margin(const BodyPair& members) const;
 
+  /// What all checks of the scene share. Of a body: the pieces of its own motion. Of a link: where
+  /// each of its geometries is on the link that moves it, its rigid_root().
+  [[nodiscard]] std::span<const std::shared_ptr<const JointPath>> paths(std::size_t member) const {
+    return members_[member].paths;
+  }
+
   /// X_WM(t), rounded to doubles; t is clamped to [0, 1].
   [[nodiscard]] Pose pose(std::size_t member, double t) const;
 
@@ -156,6 +163,7 @@ class FIRSTCONTACT_API RobotScene {
     std::optional<Motion> motion = {};        // Of a body.
     std::vector<BodyStretch> stretches = {};  // Of a body.
     bool rests = false;                       // A body that never moves.
+    std::vector<std::shared_ptr<const JointPath>> paths = {};
   };
   struct Robot {
     std::string name;

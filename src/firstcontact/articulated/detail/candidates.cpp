@@ -11,7 +11,7 @@ namespace {
 constexpr double kUp = 1.0 + 0x1p-40;
 
 /// Halvings of a piece. More cost more places of links than they spare searches.
-constexpr int kDepth = 4;
+constexpr int kDepth = 3;
 
 /// [-]  Of the sweeps of both balls: halved, they have to be enough for the other pairs.
 constexpr double kSweepThatHelps = 1.0;
@@ -30,7 +30,11 @@ class Search {
  public:
   Search(const RobotTimeline& timeline, std::size_t piece,
          const std::vector<std::optional<SweptBall>>& resting, LinkScratch& scratch)
-      : timeline_(timeline), piece_(piece), scratch_(scratch), balls_(resting) {}
+      : timeline_(timeline),
+        piece_(piece),
+        scratch_(scratch),
+        balls_(resting),
+        paths_(resting.size()) {}
 
   std::vector<Candidate> run(const std::vector<Question>& questions) {
     narrow(timeline_.piece(piece_), questions, 0);
@@ -53,7 +57,11 @@ class Search {
   const SweptBall& ball(std::size_t part, const TimeWindow& window) {
     std::optional<SweptBall>& ball = balls_[part];
     if (!ball) {
-      ball = swept_ball(timeline_, part, window, scratch_);
+      std::optional<PartPath>& path = paths_[part];
+      if (!path) {
+        path = timeline_.path(part, 0.5 * (window.begin + window.end));
+      }
+      ball = swept_ball(timeline_.parts()[part].ball, *path, window, scratch_);
       placed_.push_back(part);
     }
     return *ball;
@@ -133,22 +141,21 @@ class Search {
   std::size_t piece_;
   LinkScratch& scratch_;
   std::vector<std::optional<SweptBall>> balls_;
+  std::vector<std::optional<PartPath>> paths_;  // Of the piece.
   std::vector<std::size_t> placed_;
   std::vector<Candidate> found_;
 };
 
 }  // namespace
 
-SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part, const TimeWindow& window,
+SweptBall swept_ball(const LinkPart& ball, const PartPath& path, const TimeWindow& window,
                      LinkScratch& scratch) {
-  const LinkPart& ball = timeline.parts()[part].ball;
   const double middle = 0.5 * (window.begin + window.end);
-  const PartPath path = timeline.path(part, middle);
-  const LinkWindow at = path.X_FS.window(middle, window.begin, window.end, ball, scratch);
+  const auto [pose, speed] = path.X_FS.swept(middle, window.begin, window.end, ball, scratch);
   SweptBall swept;
-  swept.centre = at.pose().p_OL + at.pose().R_FL * ball.centre;
-  swept.sweep = at.bounds().rate * std::max(window.end - middle, middle - window.begin) * kUp;
-  const double error = at.pose().position_error + at.pose().rotation_error * ball.centre.norm() +
+  swept.centre = pose.p_OL + pose.R_FL * ball.centre;
+  swept.sweep = speed * std::max(window.end - middle, middle - window.begin) * kUp;
+  const double error = pose.position_error + pose.rotation_error * ball.centre.norm() +
                        0x1p-48 * swept.centre.norm();
   swept.radius = (ball.radius + swept.sweep + error) * kUp;
   swept.tracking_error = path.tracking_bound(ball, window);
@@ -164,7 +171,8 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   LinkScratch scratch;
   for (std::size_t part = 0; part < resting_.size(); ++part) {
     if (timeline.parts()[part].rests) {
-      resting_[part] = swept_ball(timeline, part, {0.0, 1.0}, scratch);
+      resting_[part] =
+          swept_ball(timeline.parts()[part].ball, timeline.path(part, 0.5), {0.0, 1.0}, scratch);
     }
   }
 }

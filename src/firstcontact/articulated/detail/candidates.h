@@ -40,7 +40,7 @@ struct SweptBall {
   double tracking_error = 0.0;  ///< [m]  Bounds that of the part; not in the radius.
 };
 
-[[nodiscard]] SweptBall swept_ball(const RobotTimeline& timeline, std::size_t part,
+[[nodiscard]] SweptBall swept_ball(const LinkPart& ball, const PartPath& path,
                                    const TimeWindow& window, LinkScratch& scratch);
 
 /// [m]  A proven lower bound of the distance of two parts throughout the window; may be negative.

@@ -80,7 +80,11 @@ ChainMemory::Walked ChainMemory::walk(Joints joints, double t, const DoubleDoubl
     }
     if (child == 0) {
       child = nodes.size();
-      Node node{joint, at, 0, nodes[at].first_child, nodes[at].walk, {}};
+      Node node;
+      node.joint = joint;
+      node.parent = at;
+      node.next_sibling = nodes[at].first_child;
+      node.walk = nodes[at].walk;
       node.passed = pass(joint->state(t), at == 0, p_FO, node.walk);
       nodes[at].first_child = child;
       nodes.push_back(std::move(node));
@@ -90,27 +94,13 @@ ChainMemory::Walked ChainMemory::walk(Joints joints, double t, const DoubleDoubl
   return {nodes, at};
 }
 
-ChainMemory::Window& ChainMemory::window(double t_from, double t_to) {
-  for (Window& known : windows_) {
-    if (known.t_from == t_from && known.t_to == t_to) {
-      return known;
-    }
+const JointBounds& ChainMemory::bounds(const Node& node, double t_from, double t_to) {
+  if (!(node.t_from == t_from && node.t_to == t_to)) {
+    node.bounds = node.joint->bounds(t_from, t_to);
+    node.t_from = t_from;
+    node.t_to = t_to;
   }
-  Window& fresh = windows_[next_window_];
-  next_window_ = (next_window_ + 1) % kWindows;
-  fresh.t_from = t_from;
-  fresh.t_to = t_to;
-  fresh.bounds.clear();
-  return fresh;
-}
-
-const JointBounds& ChainMemory::bounds(const std::shared_ptr<const JointPath>& joint, double t_from,
-                                       double t_to) {
-  auto& known = window(t_from, t_to).bounds;
-  const auto found = std::find_if(known.begin(), known.end(),
-                                  [&](const auto& entry) { return entry.first == joint; });
-  return found != known.end() ? found->second
-                              : known.emplace_back(joint, joint->bounds(t_from, t_to)).second;
+  return node.bounds;
 }
 
 }  // namespace firstcontact::detail

@@ -10,7 +10,6 @@
 #include <limits>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -41,6 +40,9 @@ inline double rough_size(const Eigen::Vector3d& v) { return v.lpNorm<1>(); }
 /// al two rates and an axis; of a two rates or their derivative, two axes and a vector. Roundings
 /// are some dozen of each term, and two for each sum that a joint adds to.
 struct ChainWalk {
+  /// Products of two errors.
+  static constexpr double kSecondOrder = 1.0 + 0x1p-30;
+
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
@@ -104,12 +106,16 @@ struct ChainWalk {
     rotation_error += kRotationStep + joint.angle_error;
   }
 
+  [[nodiscard]] LinkPose pose() const {
+    const double rounding = static_cast<double>(joints + 2) * kChainRounding;
+    return {R, p, rotation_error, (position_error + rounding * length) * kSecondOrder};
+  }
+
   [[nodiscard]] LinkState state() const {
-    constexpr double kSecondOrder = 1.0 + 0x1p-30;
     const double rounding = static_cast<double>(joints + 2) * kChainRounding;
     const double e = rotation_error + 0x1p-51;
     LinkState state;
-    state.pose = {R, p, rotation_error, (position_error + rounding * length) * kSecondOrder};
+    state.pose = pose();
     state.velocity = v;
     state.acceleration = a;
     state.spin = w;
@@ -152,6 +158,10 @@ class ChainMemory {
     std::size_t next_sibling = 0;
     ChainWalk walk;
     PassedJoint passed;
+    // The bounds asked for last.
+    mutable double t_from = std::numeric_limits<double>::quiet_NaN();
+    mutable double t_to = std::numeric_limits<double>::quiet_NaN();
+    mutable JointBounds bounds = {};
   };
 
   /// A walk that ends at a node; those before it by their parents, the root being 0.
@@ -165,31 +175,21 @@ class ChainMemory {
   /// Valid until the next call.
   [[nodiscard]] Walked walk(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
-  [[nodiscard]] const JointBounds& bounds(const std::shared_ptr<const JointPath>& joint,
-                                          double t_from, double t_to);
+  /// Of the joint that leads to a node of the walk.
+  [[nodiscard]] static const JointBounds& bounds(const Node& node, double t_from, double t_to);
 
  private:
   static constexpr std::size_t kInstants = 32;
-  static constexpr std::size_t kWindows = 16;
 
   struct Instant {
     double t = std::numeric_limits<double>::quiet_NaN();
     DoubleDoubleVector3 p_FO;
     std::vector<Node> nodes;
   };
-  struct Window {
-    double t_from = std::numeric_limits<double>::quiet_NaN();
-    double t_to = std::numeric_limits<double>::quiet_NaN();
-    std::vector<std::pair<std::shared_ptr<const JointPath>, JointBounds>> bounds;
-  };
-
   Instant& instant(double t, const DoubleDoubleVector3& p_FO);
-  Window& window(double t_from, double t_to);
 
   std::array<Instant, kInstants> instants_;
-  std::array<Window, kWindows> windows_;
   std::size_t next_instant_ = 0;
-  std::size_t next_window_ = 0;
 };
 
 }  // namespace firstcontact::detail

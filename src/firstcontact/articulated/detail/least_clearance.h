@@ -8,8 +8,8 @@
 
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/articulated/detail/candidates.h>
-#include <firstcontact/articulated/detail/robot_timeline.h>
 #include <firstcontact/articulated/detail/link_query.h>
+#include <firstcontact/articulated/detail/robot_timeline.h>
 
 namespace firstcontact::detail {
 

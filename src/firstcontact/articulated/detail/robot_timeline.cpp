@@ -67,7 +67,7 @@ void RobotTimeline::add_parts(std::size_t member) {
   for (std::size_t g = 0; g < geometries.size(); ++g) {
     Part part{member, g, &geometries[g].shape, ball_around(geometries[g].shape)};
     if (link) {
-      seats_.push_back({seat_on_link(*link, geometries[g].X_MG, 1.0)});
+      seats_.push_back({seat_on_link(*link, scene_.paths(member)[g], 1.0)});
     } else {
       seats_.push_back(seats_of_body(member));
       const std::vector<Seat>& seats = seats_.back();
@@ -77,38 +77,46 @@ void RobotTimeline::add_parts(std::size_t member) {
   }
 }
 
-RobotTimeline::Seat RobotTimeline::seat_on_link(const RobotLink& link, const Pose& X_LG,
+RobotTimeline::Seat RobotTimeline::seat_on_link(const RobotLink& link,
+                                                std::shared_ptr<const JointPath> X_RS,
                                                 double t_end) const {
   const RobotModel& model = scene_.robot_motion(link.robot).model();
   Seat seat;
   seat.t_end = t_end;
   seat.link = RobotLink{link.robot, model.rigid_root(link.link)};
-  seat.X_LS = std::make_shared<const JointPath>(
-      JointPath::rigid(model.from_rigid_root(link.link) * precise(X_LG)));
+  seat.X_LS = std::move(X_RS);
   return seat;
+}
+
+RobotTimeline::Seat RobotTimeline::carried_seat(const BodyStretch::Carried& carried,
+                                                double t_end) const {
+  const RobotModel& model = scene_.robot_motion(carried.link.robot).model();
+  const PreciseTransform X_RB = model.from_rigid_root(carried.link.link) * precise(carried.X_LB);
+  return seat_on_link(carried.link, std::make_shared<const JointPath>(JointPath::rigid(X_RB)),
+                      t_end);
 }
 
 std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member) const {
   const LinkPart ball = ball_around(scene_.geometries(member)[0].shape);
   std::vector<Seat> seats;
   for (const BodyStretch& stretch : scene_.stretches(member)) {
-    if (const auto* carried = std::get_if<BodyStretch::Carried>(&stretch.how)) {
-      seats.push_back(seat_on_link(carried->link, carried->X_LB, stretch.t_end));
-      continue;
-    }
-    const auto* resting = std::get_if<BodyStretch::Resting>(&stretch.how);
-    const Motion motion =
-        resting != nullptr ? Motion::fixed(resting->X_WB) : scene_.body_motion(member);
     Seat seat;
     seat.t_end = stretch.t_end;
-    seat.ends.assign(motion.breaks().begin() + 1, motion.breaks().end());
-    for (std::size_t k = 0; k < seat.ends.size(); ++k) {
-      seat.pieces.push_back(std::make_shared<const JointPath>(
-          JointPath::of_motion({}, motion.path(k, Eigen::Vector3d::Zero()))));
-    }
-    if (resting != nullptr) {  // It was put down as far off as it was carried.
+    if (const auto* carried = std::get_if<BodyStretch::Carried>(&stretch.how)) {
+      seat = carried_seat(*carried, stretch.t_end);
+    } else if (const auto* resting = std::get_if<BodyStretch::Resting>(&stretch.how)) {
+      const Motion rest = Motion::fixed(resting->X_WB);
+      seat.ends = {1.0};
+      seat.pieces = {std::make_shared<const JointPath>(
+          JointPath::of_motion({}, rest.path(0, Eigen::Vector3d::Zero())))};
+      // It was put down as far off as it was carried.
       const double t = stretch.t_begin;
       seat.rest_error = path(seats.back(), t, std::nullopt).tracking_bound(ball, {t, t});
+    } else {
+      const std::span<const double> breaks = scene_.body_motion(member).breaks();
+      seat.ends.assign(breaks.begin() + 1, breaks.end());
+      const auto paths = scene_.paths(member);
+      seat.pieces.assign(paths.begin(), paths.end());
     }
     seats.push_back(std::move(seat));
   }
@@ -116,7 +124,6 @@ std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member
 }
 
 void RobotTimeline::add_pairs() {
-  std::vector<TestedPair> all;
   for (std::size_t first = 0; first < scene_.size(); ++first) {
     for (std::size_t second = first + 1; second < scene_.size(); ++second) {
       const auto is_empty = [&](std::size_t m) { return first_part_[m] == first_part_[m + 1]; };

@@ -94,7 +94,9 @@ class RobotTimeline {
   void add_pairs();
   void find_breaks();
   [[nodiscard]] std::vector<Seat> seats_of_body(std::size_t member) const;
-  [[nodiscard]] Seat seat_on_link(const RobotLink& link, const Pose& X_LG, double t_end) const;
+  [[nodiscard]] Seat seat_on_link(const RobotLink& link, std::shared_ptr<const JointPath> X_RS,
+                                  double t_end) const;
+  [[nodiscard]] Seat carried_seat(const BodyStretch::Carried& carried, double t_end) const;
   [[nodiscard]] const Seat& seat(std::size_t part, double t) const;
   [[nodiscard]] PartPath path(const Seat& seat, double t, std::optional<std::size_t> frame) const;
   [[nodiscard]] std::vector<TrackingError> errors_along(const RobotLink& link,

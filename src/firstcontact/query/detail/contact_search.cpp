@@ -21,7 +21,7 @@ double after(double t, double tau) {
 
 /// Boxes are not moved for less than this fraction of the shapes' size: a bound from a little
 /// earlier loses only what is of second order in time.
-constexpr double kBoxesWindow = 0x1p-11;
+constexpr double kBoxesWindow = 0x1p-9;
 
 /// Below this ratio of squared lengths the direction between two closest points is worse than the
 /// one that the features define.
