@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include <fmt/core.h>
@@ -81,7 +80,7 @@ class Plot {
  private:
   template <typename... T>
   void print(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
+    text_ += fmt::format(format, std::forward<T>(values)...);
     text_ += '\n';
   }
 
@@ -119,11 +118,11 @@ class Plot {
       return;
     }
     text_ += R"(<polygon fill="#cfe6d4" points=")";
-    fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(bound.front().t), y(0.0));
+    text_ += fmt::format("{:.2f},{:.2f} ", x(bound.front().t), y(0.0));
     for (const GapPoint& point : bound) {
-      fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(point.t), y(point.distance));
+      text_ += fmt::format("{:.2f},{:.2f} ", x(point.t), y(point.distance));
     }
-    fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f}", x(bound.back().t), y(0.0));
+    text_ += fmt::format("{:.2f},{:.2f}", x(bound.back().t), y(0.0));
     text_ += "\"/>\n";
   }
 
@@ -153,8 +152,7 @@ class Plot {
         R"(<polyline fill="none" stroke="#1f5fa8" stroke-width="2" stroke-linejoin="round" points=")";
     for (const GapSample& sample : answer_.curve) {
       if (std::isfinite(sample.distance)) {
-        fmt::format_to(std::back_inserter(text_), "{:.2f},{:.2f} ", x(sample.t),
-                       y(sample.distance));
+        text_ += fmt::format("{:.2f},{:.2f} ", x(sample.t), y(sample.distance));
       }
     }
     text_ += "\"/>\n";

@@ -1,7 +1,5 @@
 #include "gap_table.h"
 
-#include <iterator>
-
 #include <fmt/core.h>
 
 #include <firstcontact/scene/gap_bound.h>
@@ -14,8 +12,8 @@ std::string gap_table(const SceneAnswer& answer) {
   auto sample = answer.curve.begin();
   for (const GapPoint& point : gap_lower_bound(answer.loaded, answer.result, answer.curve)) {
     const bool is_sample = sample != answer.curve.end() && sample->t == point.t;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", point.t, point.t * duration,
-                   is_sample ? fmt::format("{}", sample->distance) : "", point.distance);
+    text += fmt::format("{},{},{},{}\n", point.t, point.t * duration,
+                        is_sample ? fmt::format("{}", sample->distance) : "", point.distance);
     sample += is_sample ? 1 : 0;
   }
   return text;

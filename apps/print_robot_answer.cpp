@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include <fmt/core.h>
@@ -51,7 +50,7 @@ class RobotAnswerText {
  private:
   template <typename... T>
   void print(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<T>(values)...);
+    text_ += fmt::format(format, std::forward<T>(values)...);
   }
 
   void line(const char* label, const std::string& value) { print("  {:<10} {}\n", label, value); }
