@@ -6,66 +6,14 @@
 #include <cstring>
 #include <utility>
 
+#include "support/portable_random.h"
+
 namespace firstcontact::oracle {
 namespace {
 
 using Vec = Vector3<double>;
 
 // No expression below draws twice, but for those in braces: only they have an order.
-
-/// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t bits() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
-  }
-  int integer(int low, int high) {
-    return low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  bool chance(double p) { return uniform(0.0, 1.0) < p; }
-  /// A power of ten with a whole exponent, times 1 to 10 where it is `smooth`.
-  double power_of_ten(int low, int high, bool smooth = true) {
-    double value = smooth ? uniform(1.0, 10.0) : 1.0;
-    for (int e = integer(low, high); e != 0; e += e < 0 ? 1 : -1) {
-      value = e < 0 ? value / 10.0 : value * 10.0;
-    }
-    return value;
-  }
-  Vec in_box(double half) {
-    const double x = uniform(-half, half);
-    const double y = uniform(-half, half);
-    return {x, y, uniform(-half, half)};
-  }
-  Vec unit() {
-    for (;;) {
-      const Vec v = in_box(1.0);
-      const double l2 = dot(v, v);
-      if (l2 > 0.01 && l2 <= 1.0) {
-        return (1.0 / std::sqrt(l2)) * v;
-      }
-    }
-  }
-  /// Of a length between low and high.
-  Vec vector(double low, double high) {
-    const double length = uniform(low, high);
-    return length * unit();
-  }
-  Quaternion rotation() {
-    const Vec v = in_box(1.0);
-    return {uniform(-1.0, 1.0) + 0x1p-20, v.x, v.y, v.z};
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 // ---- Soups ----
 
@@ -105,7 +53,7 @@ MovingSoup plate(double half_x, double half_y, double height) {
 }
 
 /// A tetrahedron that stands on its tip, which is at the origin.
-MovingSoup top(Random& random) {
+MovingSoup top(PortableRandom& random) {
   MovingSoup soup;
   soup.vertices = {
       {0.0, 0.0, 0.0},
@@ -116,7 +64,7 @@ MovingSoup top(Random& random) {
   return soup;
 }
 
-MovingSoup random_soup(Random& random, int most, double spread) {
+MovingSoup random_soup(PortableRandom& random, int most, double spread) {
   MovingSoup soup;
   const int count = random.integer(1, most);
   const double half = spread / std::sqrt(static_cast<double>(count));
@@ -161,7 +109,7 @@ MotionInput through_middle(const Vec& middle, const Vec& travel, const Vec& half
   return between({middle - travel, conjugate}, {middle + travel, q}, screw);
 }
 
-MotionInput random_motion(Random& random, const Vec& from, const Vec& to, double angle) {
+MotionInput random_motion(PortableRandom& random, const Vec& from, const Vec& to, double angle) {
   const int kind = random.integer(0, 3);
   const PoseInput start{from, random.rotation()};
   if (kind <= 1) {
@@ -170,7 +118,7 @@ MotionInput random_motion(Random& random, const Vec& from, const Vec& to, double
   return constant_velocity(start, to - from, angle * random.unit());
 }
 
-MotionInput random_screw(Random& random, const Vec& from, double angle) {
+MotionInput random_screw(PortableRandom& random, const Vec& from, double angle) {
   MotionInput m;
   m.kind = MotionKind::screw;
   m.poses = {{from, random.rotation()}};
@@ -182,7 +130,7 @@ MotionInput random_screw(Random& random, const Vec& from, double angle) {
   return m;
 }
 
-MotionInput random_waypoints(Random& random) {
+MotionInput random_waypoints(PortableRandom& random) {
   MotionInput m;
   m.kind = random.chance(0.5) ? MotionKind::waypoints : MotionKind::screw_waypoints;
   m.poses.clear();
@@ -197,15 +145,15 @@ MotionInput random_waypoints(Random& random) {
 }
 
 /// [rad]  0.01 to ten turns.
-double random_angle(Random& random) { return std::min(63.0, random.power_of_ten(-2, 1)); }
+double random_angle(PortableRandom& random) { return std::min(63.0, random.power_of_ten(-2, 1)); }
 
-Vec random_spin(Random& random) {
+Vec random_spin(PortableRandom& random) {
   const double angle = random_angle(random);
   return angle * random.unit();
 }
 
 /// A gap between 1e-10 and 1e-2, above or below zero.
-double random_gap(Random& random) {
+double random_gap(PortableRandom& random) {
   const double gap = random.power_of_ten(-10, -3);
   return random.chance(0.5) ? gap : -gap;
 }
@@ -218,7 +166,7 @@ struct Draft {
   double gap = 0.0;
 };
 
-Draft plane_drop(Random& random) {
+Draft plane_drop(PortableRandom& random) {
   Draft d{plate(4.0, 4.0, 0.0), top(random)};
   const double height = random.uniform(0.1, 2.0);
   const Vec travel{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), -random.uniform(0.5, 3.0)};
@@ -227,7 +175,7 @@ Draft plane_drop(Random& random) {
   return d;
 }
 
-Draft needle_swing(Random& random) {
+Draft needle_swing(PortableRandom& random) {
   const double reach = random.uniform(0.5, 2.0);
   const double thickness = random.chance(0.5) ? 0.0 : random.power_of_ten(-8, -2);
   Draft d{plate(4.0, 4.0, 0.0),
@@ -237,7 +185,7 @@ Draft needle_swing(Random& random) {
   return d;
 }
 
-Draft random_pair(Random& random, double angle_A, double angle_B) {
+Draft random_pair(PortableRandom& random, double angle_A, double angle_B) {
   Draft d{random_soup(random, 12, 1.0), random_soup(random, 12, 1.0)};
   const Vec away = random.vector(0.5, 2.5);
   const Vec aim = random.in_box(0.7);
@@ -247,17 +195,17 @@ Draft random_pair(Random& random, double angle_A, double angle_B) {
   return d;
 }
 
-Draft random_slow(Random& random) {
+Draft random_slow(PortableRandom& random) {
   const double angle_A = random.power_of_ten(-2, -1);
   return random_pair(random, angle_A, random.power_of_ten(-2, -1));
 }
 
-Draft random_turning(Random& random) {
+Draft random_turning(PortableRandom& random) {
   const double angle_A = random_angle(random);
   return random_pair(random, angle_A, random_angle(random));
 }
 
-Draft random_screws(Random& random) {
+Draft random_screws(PortableRandom& random) {
   Draft d = random_pair(random, 1.0, 1.0);
   const double angle = random_angle(random);
   d.B.motion = random_screw(random, 2.0 * random.unit(), angle);
@@ -268,7 +216,7 @@ Draft random_screws(Random& random) {
   return d;
 }
 
-Draft random_waypoint_pair(Random& random) {
+Draft random_waypoint_pair(PortableRandom& random) {
   Draft d = random_pair(random, 1.0, 1.0);
   d.B.motion = random_waypoints(random);
   if (random.chance(0.5)) {
@@ -277,7 +225,7 @@ Draft random_waypoint_pair(Random& random) {
   return d;
 }
 
-Draft tumbling_boxes(Random& random) {
+Draft tumbling_boxes(PortableRandom& random) {
   const auto half = [&] { return random.uniform(0.1, 0.6); };
   const Vec half_A{half(), half(), half()};
   const Vec half_B{half(), half(), half()};
@@ -291,7 +239,7 @@ Draft tumbling_boxes(Random& random) {
   return d;
 }
 
-Draft tip_swing(Random& random) {
+Draft tip_swing(PortableRandom& random) {
   const double reach = random.uniform(0.5, 1.5);
   const double gap = random_gap(random);
   Draft d{plate(3.0, 3.0, 0.0), one_triangle({0.0, -0.1, 0.0}, {0.0, 0.1, 0.0}, {reach, 0.0, 0.0}),
@@ -302,7 +250,7 @@ Draft tip_swing(Random& random) {
   return d;
 }
 
-Draft rocking(Random& random) {
+Draft rocking(PortableRandom& random) {
   Draft d{plate(3.0, 3.0, 0.0), top(random), random_gap(random)};
   const Vec travel{random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0};
   const Vec half_turn{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15),
@@ -316,7 +264,7 @@ Draft rocking(Random& random) {
   return d;
 }
 
-Draft passing_edges(Random& random) {
+Draft passing_edges(PortableRandom& random) {
   const double gap = random_gap(random);
   Draft d{one_triangle({-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.1, 0.2, -0.8}),
           one_triangle({0.0, -1.0, 0.0}, {0.0, 1.0, 0.0}, {0.2, 0.1, 0.9}), gap};
@@ -326,7 +274,7 @@ Draft passing_edges(Random& random) {
   return d;
 }
 
-Draft bounce(Random& random) {
+Draft bounce(PortableRandom& random) {
   Draft d{plate(3.0, 3.0, 0.0), top(random), random_gap(random)};
   MotionInput& m = d.B.motion;
   m.kind = random.chance(0.5) ? MotionKind::waypoints : MotionKind::screw_waypoints;
@@ -340,7 +288,7 @@ Draft bounce(Random& random) {
   return d;
 }
 
-Draft peg_in_hole(Random& random) {
+Draft peg_in_hole(PortableRandom& random) {
   const double gap = random_gap(random);
   MovingSoup tube = box({}, {0.5, 0.5, 1.0});
   tube.triangles.erase(tube.triangles.begin(), tube.triangles.begin() + 4);  // Its two ends.
@@ -352,7 +300,7 @@ Draft peg_in_hole(Random& random) {
   return d;
 }
 
-Draft sliding_faces(Random& random) {
+Draft sliding_faces(PortableRandom& random) {
   Draft d{plate(0.6, 0.7, 0.0), plate(0.5, 0.3, 0.0)};
   if (random.chance(0.5)) {
     d.gap = random_gap(random);
@@ -363,7 +311,7 @@ Draft sliding_faces(Random& random) {
   return d;
 }
 
-Draft planar(Random& random) {
+Draft planar(PortableRandom& random) {
   const auto soup = [&] {
     MovingSoup s = random_soup(random, 6, 1.0);
     for (Vec& v : s.vertices) {
@@ -381,7 +329,7 @@ Draft planar(Random& random) {
   return d;
 }
 
-Draft parallel_edges(Random& random) {
+Draft parallel_edges(PortableRandom& random) {
   Draft d{box({}, {0.5, 0.5, 0.5}), box({}, {random.uniform(0.1, 0.6), 0.5, 0.3})};
   const double shift_y = static_cast<double>(random.integer(-2, 2)) * 0.5;
   const double shift_z = random.chance(0.5) ? 0.0 : 0.8;
@@ -391,7 +339,7 @@ Draft parallel_edges(Random& random) {
   return d;
 }
 
-Draft needles(Random& random) {
+Draft needles(PortableRandom& random) {
   const auto soup = [&] {
     MovingSoup s;
     const int count = random.integer(1, 5);
@@ -417,7 +365,7 @@ Draft needles(Random& random) {
   return d;
 }
 
-Draft points(Random& random) {
+Draft points(PortableRandom& random) {
   Draft d{box({}, {0.5, 0.4, 0.3}), {}};
   const int count = random.integer(1, 6);
   for (int i = 0; i < count; ++i) {
@@ -432,7 +380,7 @@ Draft points(Random& random) {
   return d;
 }
 
-Draft start_contact(Random& random) {
+Draft start_contact(PortableRandom& random) {
   Draft d{plate(3.0, 3.0, 0.0), top(random)};
   switch (random.integer(0, 2)) {
     case 0:
@@ -450,7 +398,7 @@ Draft start_contact(Random& random) {
   return d;
 }
 
-Draft end_contact(Random& random) {
+Draft end_contact(PortableRandom& random) {
   Draft d{plate(3.0, 3.0, 0.0), top(random)};
   if (random.chance(0.5)) {
     d.gap = random_gap(random);
@@ -462,7 +410,7 @@ Draft end_contact(Random& random) {
   return d;
 }
 
-Draft bullets(Random& random) {
+Draft bullets(PortableRandom& random) {
   Draft d{box({}, {0.5, 0.5, random.power_of_ten(-6, -2)}), {}};
   d.B = random.chance(0.5) ? top(random) : random_soup(random, 4, 0.2);
   const Vec at{random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), 0.0};
@@ -481,7 +429,7 @@ Draft bullets(Random& random) {
 
 struct FamilyEntry {
   const char* name;
-  Draft (*draft)(Random&);
+  Draft (*draft)(PortableRandom&);
 };
 
 constexpr std::array<FamilyEntry, kFamilyCount> kFamilies{{
@@ -569,7 +517,7 @@ void make_room(Draft& d, double room) {
   }
 }
 
-void vary_thickness(Random& random, Draft& d, GeneratedCase& c) {
+void vary_thickness(PortableRandom& random, Draft& d, GeneratedCase& c) {
   if (random.chance(0.25)) {
     c.margin = random.power_of_ten(-4, -2);
   }
@@ -582,7 +530,7 @@ void vary_thickness(Random& random, Draft& d, GeneratedCase& c) {
   make_room(d, c.margin + d.A.radius + d.B.radius);
 }
 
-void vary_place(Random& random, Draft& d) {
+void vary_place(PortableRandom& random, Draft& d) {
   if (random.chance(0.4)) {
     const Quaternion q = random.rotation();
     turn_world(d.A.motion, q);
@@ -603,7 +551,7 @@ void vary_place(Random& random, Draft& d) {
 std::string name(Family family) { return kFamilies[static_cast<std::size_t>(family)].name; }
 
 GeneratedCase generate(Family family, std::uint64_t index) {
-  Random random(0x2545f4914f6cdd1du * (index + 1) + static_cast<std::uint64_t>(family));
+  PortableRandom random(0x2545f4914f6cdd1du * (index + 1) + static_cast<std::uint64_t>(family));
   random.bits();
   Draft d = kFamilies[static_cast<std::size_t>(family)].draft(random);
   GeneratedCase c;

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "support/robot_contact_oracle.h"
+
 namespace firstcontact::oracle {
 namespace {
 
@@ -16,6 +18,10 @@ using Record = std::array<char, kRecord>;
 
 std::filesystem::path truth_path(const std::filesystem::path& data, Family family) {
   return data / "truth" / (name(family) + ".truth");
+}
+
+std::filesystem::path truth_path(const std::filesystem::path& data, RobotFamily family) {
+  return data / "truth" / "robots" / (name(family) + ".truth");
 }
 
 std::vector<StoredTruth> read_truth(const std::filesystem::path& path) {
@@ -51,6 +57,11 @@ void append_truth(const std::filesystem::path& path, const std::vector<StoredTru
 
 StoredTruth find_truth(const GeneratedCase& c) {
   const Truth truth = FirstContactOracle(c.A, c.B, c.margin).first_contact();
+  return {digest(c), truth.kind, truth.lo, truth.hi};
+}
+
+StoredTruth find_truth(const RobotCase& c) {
+  const Truth truth = RobotContactOracle(c).first_contact();
   return {digest(c), truth.kind, truth.lo, truth.hi};
 }
 

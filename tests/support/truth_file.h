@@ -9,6 +9,7 @@
 
 #include "support/first_contact_oracle.h"
 #include "support/generated_case.h"
+#include "support/generated_robot_case.h"
 
 namespace firstcontact::oracle {
 
@@ -22,6 +23,7 @@ struct StoredTruth {
 
 /// Where the answers of a family lie, below the folder of test data.
 std::filesystem::path truth_path(const std::filesystem::path& data, Family family);
+std::filesystem::path truth_path(const std::filesystem::path& data, RobotFamily family);
 
 /// The answers to cases 0, 1, 2, ... of the file; none where there is no file.
 std::vector<StoredTruth> read_truth(const std::filesystem::path& path);
@@ -31,5 +33,6 @@ void append_truth(const std::filesystem::path& path, const std::vector<StoredTru
 
 /// Asks the oracle.
 StoredTruth find_truth(const GeneratedCase& c);
+StoredTruth find_truth(const RobotCase& c);
 
 }  // namespace firstcontact::oracle

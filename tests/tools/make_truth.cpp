@@ -1,10 +1,11 @@
 // Computes the answers of the oracle that the tests compare the library with.
 //
-// usage: make_truth FOLDER COUNT [THREADS]
+// usage: make_truth FOLDER COUNT ROBOT_COUNT [THREADS]
 //
-// tests/data holds the output of `make_truth tests/data 1100 2` (about 10 minutes on two cores).
-// Answers the first COUNT cases of every family into FOLDER/truth/FAMILY.truth. What a file holds
-// already is kept, so that the command can be stopped and started again.
+// tests/data holds the output of `make_truth tests/data 1100 460 2` (about 20 minutes on two
+// cores). Answers the first COUNT cases of every family of bodies into FOLDER/truth/FAMILY.truth,
+// the first ROBOT_COUNT of every family of robots into FOLDER/truth/robots/FAMILY.truth. What a
+// file holds already is kept, so that the command can be stopped and started again.
 
 #include <algorithm>
 #include <atomic>
@@ -21,7 +22,8 @@ namespace {
 
 using namespace firstcontact::oracle;
 
-void answer_family(const std::filesystem::path& folder, Family family, std::size_t count) {
+template <class AnyFamily>
+void answer_family(const std::filesystem::path& folder, AnyFamily family, std::size_t count) {
   const std::filesystem::path path = truth_path(folder, family);
   std::size_t gave_up = 0;
   std::vector<StoredTruth> fresh;
@@ -42,19 +44,24 @@ void answer_family(const std::filesystem::path& folder, Family family, std::size
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) {
-    std::fputs("usage: make_truth FOLDER COUNT [THREADS]\n", stderr);
+  if (argc < 4) {
+    std::fputs("usage: make_truth FOLDER COUNT ROBOT_COUNT [THREADS]\n", stderr);
     return 2;
   }
   const std::filesystem::path folder = argv[1];
   const auto count = static_cast<std::size_t>(std::strtoul(argv[2], nullptr, 10));
-  const int threads = argc > 3 ? std::atoi(argv[3]) : 1;
+  const auto robot_count = static_cast<std::size_t>(std::strtoul(argv[3], nullptr, 10));
+  const int threads = argc > 4 ? std::atoi(argv[4]) : 1;
   std::atomic<int> next = 0;
   std::atomic<bool> failed = false;
   const auto work = [&] {
     try {
-      for (int f = next++; f < kFamilyCount; f = next++) {
-        answer_family(folder, static_cast<Family>(f), count);
+      for (int f = next++; f < kFamilyCount + kRobotFamilyCount; f = next++) {
+        if (f < kFamilyCount) {
+          answer_family(folder, static_cast<Family>(f), count);
+        } else {
+          answer_family(folder, static_cast<RobotFamily>(f - kFamilyCount), robot_count);
+        }
       }
     } catch (const std::exception& error) {
       std::fprintf(stderr, "make_truth: %s\n", error.what());
