@@ -21,9 +21,9 @@
 namespace firstcontact {
 namespace {
 
-using detail::Candidate;
 using detail::is_contact;
 using detail::PartAnswer;
+using detail::PartCandidate;
 using detail::PartSearch;
 
 /// Pieces of time looked at together, and searches done side by side with the same horizon. Fixed,
@@ -97,26 +97,26 @@ class RobotCheck {
     parallel_for(options_.threads, count, use);
   }
 
-  std::vector<Candidate> find_candidates(std::size_t first, std::size_t last) {
+  std::vector<PartCandidate> find_candidates(std::size_t first, std::size_t last) {
     const auto wanted = [&](std::size_t pair) {
       return options_.all_contact_intervals || pairs_[pair].verdict == Verdict::free ||
              !asks_each_pair();
     };
-    std::vector<std::vector<Candidate>> found(last - first);
+    std::vector<std::vector<PartCandidate>> found(last - first);
     for_each(found.size(), [&](std::size_t k) {
       found[k] = candidates_.find(first + k, wanted, workspaces_.local().places);
     });
-    std::vector<Candidate> all;
-    for (const std::vector<Candidate>& of_piece : found) {
+    std::vector<PartCandidate> all;
+    for (const std::vector<PartCandidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
     }
     return all;
   }
 
-  void search(std::span<const Candidate> left) {
+  void search(std::span<const PartCandidate> left) {
     while (!left.empty()) {
       const double end = horizon();
-      const auto may_matter = [end](const Candidate& c) { return c.window.begin <= end; };
+      const auto may_matter = [end](const PartCandidate& c) { return c.window.begin <= end; };
       const auto round = left.first(std::min(kRound, left.size()));
       const auto due = round.first(static_cast<std::size_t>(
           std::partition_point(round.begin(), round.end(), may_matter) - round.begin()));
@@ -133,7 +133,7 @@ class RobotCheck {
     }
   }
 
-  PartAnswer ask(const Candidate& candidate, double end) {
+  PartAnswer ask(const PartCandidate& candidate, double end) {
     PartSearch search(timeline_, candidate, options_, workspaces_.local());
     if (options_.all_contact_intervals) {
       return contact_intervals_of(search, candidate, options_.time_resolution);
@@ -142,14 +142,14 @@ class RobotCheck {
   }
 
   /// Bodies that come to be tested may be inside of each other by then.
-  [[nodiscard]] bool is_tested_anew(const Candidate& candidate) const {
+  [[nodiscard]] bool is_tested_anew(const PartCandidate& candidate) const {
     return candidate.piece > 0 &&
            candidate.window.begin == timeline_.piece(candidate.piece).begin &&
            !timeline_.is_tested(timeline_.pairs()[candidate.pair], candidate.piece - 1);
   }
 
   /// A contact holds for the pair even beside an undecided search: nothing touches before it.
-  void take(const Candidate& candidate, PartAnswer&& answer) {
+  void take(const PartCandidate& candidate, PartAnswer&& answer) {
     RobotPairAnswer& pair = pairs_[candidate.pair];
     FirstContactResult& found = answer.first;
     pair.steps += answer.steps;

@@ -36,12 +36,12 @@ class Search {
         balls_(resting),
         paths_(resting.size()) {}
 
-  std::vector<Candidate> run(const std::vector<Question>& questions) {
+  std::vector<PartCandidate> run(const std::vector<Question>& questions) {
     narrow(timeline_.piece(piece_), questions, 0);
     join_windows();
-    std::vector<Candidate> whole;
+    std::vector<PartCandidate> whole;
     whole.swap(found_);
-    for (Candidate& candidate : whole) {
+    for (PartCandidate& candidate : whole) {
       if (timeline_.has_tracking_errors()) {
         add_thresholds(candidate, 0);
       } else {
@@ -101,11 +101,13 @@ class Search {
   }
 
   void join_windows() {
-    const auto key = [](const Candidate& c) { return std::tuple(c.pair, c.parts, c.window.begin); };
+    const auto key = [](const PartCandidate& c) {
+      return std::tuple(c.pair, c.parts, c.window.begin);
+    };
     std::sort(found_.begin(), found_.end(),
-              [&](const Candidate& x, const Candidate& y) { return key(x) < key(y); });
-    std::vector<Candidate> joined;
-    for (const Candidate& c : found_) {
+              [&](const PartCandidate& x, const PartCandidate& y) { return key(x) < key(y); });
+    std::vector<PartCandidate> joined;
+    for (const PartCandidate& c : found_) {
       const bool follows = !joined.empty() && joined.back().pair == c.pair &&
                            joined.back().parts == c.parts &&
                            joined.back().window.end == c.window.begin;
@@ -119,7 +121,7 @@ class Search {
   }
 
   /// Windows so short that the bound of tracking errors is tight.
-  void add_thresholds(const Candidate& candidate, int depth) {
+  void add_thresholds(const PartCandidate& candidate, int depth) {
     const auto& [window, piece, pair, parts, unused] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
     const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
@@ -143,7 +145,7 @@ class Search {
   std::vector<std::optional<SweptBall>> balls_;
   std::vector<std::optional<PartPath>> paths_;  // Of the piece.
   std::vector<std::size_t> placed_;
-  std::vector<Candidate> found_;
+  std::vector<PartCandidate> found_;
 };
 
 }  // namespace
@@ -177,9 +179,9 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   }
 }
 
-std::vector<Candidate> CandidateSearch::find(std::size_t piece,
-                                             const std::function<bool(std::size_t)>& wanted,
-                                             LinkScratch& scratch) const {
+std::vector<PartCandidate> CandidateSearch::find(std::size_t piece,
+                                                 const std::function<bool(std::size_t)>& wanted,
+                                                 LinkScratch& scratch) const {
   std::vector<Question> questions;
   for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
     const TestedPair& pair = timeline_.pairs()[k];

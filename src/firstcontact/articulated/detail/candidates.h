@@ -17,7 +17,7 @@
 namespace firstcontact::detail {
 
 /// Two parts that may touch in a window of time.
-struct Candidate {
+struct PartCandidate {
   TimeWindow window;
   std::size_t piece = 0;
   std::size_t pair = 0;                   ///< Index among the tested pairs.
@@ -25,7 +25,7 @@ struct Candidate {
   double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
 
   /// Least time first.
-  friend bool operator<(const Candidate& x, const Candidate& y) {
+  friend bool operator<(const PartCandidate& x, const PartCandidate& y) {
     return x.window.begin != y.window.begin ? x.window.begin < y.window.begin
            : x.pair != y.pair               ? x.pair < y.pair
                                             : x.parts < y.parts;
@@ -55,9 +55,9 @@ class CandidateSearch {
   /// than their thresholds. Of one pair of parts the windows do not overlap.
   ///
   /// @param wanted  whether a tested pair is of interest, by index
-  [[nodiscard]] std::vector<Candidate> find(std::size_t piece,
-                                            const std::function<bool(std::size_t)>& wanted,
-                                            LinkScratch& scratch) const;
+  [[nodiscard]] std::vector<PartCandidate> find(std::size_t piece,
+                                                const std::function<bool(std::size_t)>& wanted,
+                                                LinkScratch& scratch) const;
 
  private:
   const RobotTimeline& timeline_;

@@ -53,7 +53,7 @@ void finish(PartSearch& search, PartAnswer& answer) {
 
 }  // namespace
 
-PartAnswer first_contact_of(PartSearch& search, const Candidate& candidate, double horizon,
+PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate, double horizon,
                             bool may_start_inside) {
   PartAnswer answer;
   const auto [begin, end] = candidate.window;
@@ -65,7 +65,8 @@ PartAnswer first_contact_of(PartSearch& search, const Candidate& candidate, doub
   return answer;
 }
 
-PartAnswer contact_intervals_of(PartSearch& search, const Candidate& candidate, double resolution) {
+PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candidate,
+                                double resolution) {
   PartAnswer answer;
   const auto [begin, end] = candidate.window;
   FirstContactResult found =

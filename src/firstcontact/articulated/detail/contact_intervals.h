@@ -21,14 +21,14 @@ struct PartAnswer {
 /// First contact in the window up to `horizon`.
 ///
 /// @param may_start_inside  whether the two were not tested just before the window
-[[nodiscard]] PartAnswer first_contact_of(PartSearch& search, const Candidate& candidate,
+[[nodiscard]] PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate,
                                           double horizon, bool may_start_inside);
 
 /// All intervals of contact in the window, in order, with what the first of them is.
 ///
 /// After a contact the distance is looked at in steps of the resolution; where the two have come
 /// apart the end of the contact is bisected, and first contact asked for again.
-[[nodiscard]] PartAnswer contact_intervals_of(PartSearch& search, const Candidate& candidate,
+[[nodiscard]] PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candidate,
                                               double resolution);
 
 /// The union of intervals of a pair of members, in order. Gaps up to the resolution are closed.

@@ -15,7 +15,7 @@ constexpr double kPart = 0.999;
 
 /// Two parts in one piece of time, and how far apart balls say that they are.
 struct Place {
-  Candidate candidate;
+  PartCandidate candidate;
   double bound = 0.0;  ///< [m]
 };
 

@@ -20,7 +20,7 @@ UndecidedReason spent(const WorkBudget& budget) {
   return late ? UndecidedReason::deadline : UndecidedReason::none;
 }
 
-PartSearch::PartSearch(const RobotTimeline& timeline, const Candidate& candidate,
+PartSearch::PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
                        const RobotCheckOptions& options, LinkWorkspace& workspace)
     : timeline_(timeline),
       candidate_(candidate),

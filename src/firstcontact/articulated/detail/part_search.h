@@ -23,7 +23,7 @@ namespace firstcontact::detail {
 /// Two parts in one window of time. Refers to all that it is made of.
 class PartSearch {
  public:
-  PartSearch(const RobotTimeline& timeline, const Candidate& candidate,
+  PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
              const RobotCheckOptions& options, LinkWorkspace& workspace);
 
   /// First contact in [t_begin, t_end], before which the two are proven free and not inside of each
@@ -52,7 +52,7 @@ class PartSearch {
 
  private:
   const RobotTimeline& timeline_;
-  const Candidate& candidate_;
+  const PartCandidate& candidate_;
   const RobotCheckOptions& options_;
   LinkWorkspace& workspace_;
   PairPaths paths_;
