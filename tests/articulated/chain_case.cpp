@@ -62,7 +62,7 @@ std::pair<Motion, oracle::MotionInput> random_motion(Random& random, bool at_ori
   const Eigen::Vector3d direction = random.direction();
   const double angle = random.uniform(0.1, 2.0);
   const auto vector = [&] {
-    return Eigen::Vector3d((at_origin ? 0.0 : random.uniform(0.1, 1.0)) * random.direction());
+    return at_origin ? Eigen::Vector3d(0.0 * random.direction()) : random.vector(0.1, 1.0);
   };
   const Eigen::Vector3d start = vector();
   const Eigen::Vector3d way = vector();
@@ -90,8 +90,8 @@ void add_joint(ChainCase& result, Draft& draft, Random& random, int index, Joint
               .parent = draft.robot.links.back().name,
               .child = "l" + std::to_string(index)};
   const Eigen::Quaterniond R = random.rotation();
-  joint.X_PJ = {random.uniform(0.05, 0.4) * random.direction(), R};
-  joint.axis = random.uniform(0.5, 2.0) * random.direction();
+  joint.X_PJ = {random.vector(0.05, 0.4), R};
+  joint.axis = random.vector(0.5, 2.0);
   joint.pitch = type == JointType::screw ? random.uniform(-0.1, 0.1) : 0.0;
   ExactJoint exact{.position = plain(joint.X_PJ.position),
                    .w = R.w(),

@@ -184,7 +184,7 @@ Mesh small_mesh(Random& random) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 4; ++i) {
     for (int k = 0; k < 3; ++k) {
-      mesh.vertices.push_back(0.15 * random.uniform(0.2, 1.0) * random.direction());
+      mesh.vertices.push_back(0.15 * random.vector(0.2, 1.0));
     }
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
@@ -217,8 +217,7 @@ TEST(CheckRobots, CarriedBodiesFollowTheExactChain) {
     const Mesh A = small_mesh(random);
     Mesh B = small_mesh(random);
     const double t_near = random.uniform(0.3, 1.0);
-    const Vector3d p_WB = c.motion.path(tip, t_near).pose(t_near).p_OL +
-                          random.uniform(0.0, 0.4) * random.direction();
+    const Vector3d p_WB = c.motion.path(tip, t_near).pose(t_near).p_OL + random.vector(0.0, 0.4);
     RobotScene scene;
     scene.add_robot("r", c.motion);
     const LinkPose start = c.motion.path(tip, 0.0).pose(0.0);

@@ -88,7 +88,7 @@ Mesh random_mesh(Random& random, double size, int triangles = 4) {
     const Vector3d centre = (size - edge) * random.direction();
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int k = 0; k < 3; ++k) {
-      mesh.vertices.push_back(centre + edge * random.uniform(0.3, 1.0) * random.direction());
+      mesh.vertices.push_back(centre + edge * random.vector(0.3, 1.0));
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
@@ -108,9 +108,8 @@ TEST(LinkContact, AgreesWithTheQueryOfRigidMotions) {
     const Shape B(random_mesh(random, 0.3, triangles));
     const auto motion = [&] {
       const Vector3d start = random.direction();
-      return Motion::constant_velocity({start, random.rotation()},
-                                       -start + random.uniform(0.0, 0.8) * random.direction(),
-                                       random.uniform(0.0, 6.0) * random.direction());
+      return Motion::constant_velocity({start, random.rotation()}, -start + random.vector(0.0, 0.8),
+                                       random.vector(0.0, 6.0));
     };
     const Motion X_WA = motion();
     const Motion X_WB = motion();
@@ -182,8 +181,7 @@ TEST(LinkContact, ChainsAreNeverLateAndNeverFalse) {
     const Shape A(random_mesh(random, 0.15));
     const Shape B(random_mesh(random, 0.15));
     const double near_t = random.uniform(0.3, 1.0);
-    const Vector3d p_WB =
-        tip.at(near_t).pose(near_t).p_OL + random.uniform(0.0, 0.5) * random.direction();
+    const Vector3d p_WB = tip.at(near_t).pose(near_t).p_OL + random.vector(0.0, 0.5);
     const LinkMotion body(Motion::fixed({p_WB, Eigen::Quaterniond::Identity()}));
     const LinkContactResult result = first_contact({A, tip}, {B, body}, {.margin = kMargin});
     ASSERT_NE(result.verdict, Verdict::undecided) << seed;

@@ -98,7 +98,7 @@ WindowCase random_window(std::uint64_t seed, const ChainOptions& options, double
   LinkMotion motion = chain.motion.link(tip(chain));
   WindowCase w{std::move(chain), std::move(motion), {}, 0.0, 0.0};
   const Eigen::Matrix3d axes = random.rotation().toRotationMatrix();
-  w.part = {.centre = random.uniform(0.0, 0.2) * random.direction(),
+  w.part = {.centre = random.vector(0.0, 0.2),
             .axes = axes,
             .half_extents = {random.uniform(0.0, 0.1), random.uniform(0.0, 0.1),
                              random.uniform(0.0, 0.1)},
@@ -218,8 +218,8 @@ Excess excess_of_speed(const ChainOptions& options, double travel) {
   return excess;
 }
 
-/// Tight: where the joints together turn by 0.1 rad, and still by 0.3, the excess is at most half of
-/// the greatest speed over all directions; by 0.01 rad, a few percent of it. By 0.7 rad, 0.1 for
+/// Tight: where the joints together turn by 0.1 rad, and still by 0.3, the excess is at most half
+/// of the greatest speed over all directions; by 0.01 rad, a few percent of it. By 0.7 rad, 0.1 for
 /// each joint, it is so on average only: such a window wants to be seen in three parts.
 TEST(LinkWindow, IsTightOnShortWindows) {
   for (const bool turning_only : {true, false}) {

@@ -32,6 +32,13 @@ class Random {
     return {r * std::cos(angle), r * std::sin(angle), z};
   }
 
+  /// Of a length between low and high. The direction is drawn first: a product of two draws would
+  /// have an order of the compiler's choice.
+  Eigen::Vector3d vector(double low, double high) {
+    const Eigen::Vector3d along = direction();
+    return uniform(low, high) * along;
+  }
+
   Eigen::Quaterniond rotation() {
     const Eigen::Vector3d axis = direction();
     return Eigen::Quaterniond(Eigen::AngleAxisd(uniform(0.0, std::numbers::pi), axis));
