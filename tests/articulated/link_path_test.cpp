@@ -47,6 +47,82 @@ TEST(LinkPath, PosesStayWithinTheirErrorsOfTheExactChain) {
   }
 }
 
+/// Velocity and acceleration of a point, by differences of the oracle's places over 2^-60: within
+/// 2^-60 of the next derivatives.
+TEST(LinkPath, DerivativesStayWithinTheirErrorsOfTheExactChain) {
+  LinkScratch scratch;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const ChainCase c = random_chain(seed, {.joints = 1 + static_cast<int>(seed % 12)});
+    const LinkMotion motion = c.motion.link(tip(c));
+    const Vector3d p_LP(0.2, -0.1, 0.3);
+    for (const double t : {0.123, 0.61, 0.97}) {
+      const LinkState state = motion.at(t).state(t, scratch);
+      const auto chain = c.exact(t);
+      const Wide h = Wide(1.0).scaled(-60);
+      const auto place = [&](const Wide& at) {
+        return oracle::exact_place(chain, at, exact_point(p_LP));
+      };
+      const auto before = place(Wide(t) - h);
+      const auto here = place(Wide(t));
+      const auto after = place(Wide(t) + h);
+      const Wide per_h = Wide(1.0).scaled(60);
+      const auto v_exact = rounded((per_h * Wide(0.5)) * (after - before));
+      const auto a_exact = rounded((per_h * per_h) * (after - here - (here - before)));
+
+      const Vector3d e = state.pose.R_FL * p_LP;
+      const Vector3d inward = state.spin.cross(e);
+      const Vector3d v = state.velocity + inward;
+      const Vector3d a = state.acceleration + state.spin_rate.cross(e) + state.spin.cross(inward);
+      const double far = p_LP.norm();
+      const double turning = state.pose.rotation_error * far;
+      const double w = state.spin.norm() + state.spin_error;
+      const double turn = state.spin_rate.norm() + state.spin_rate_error + w * w;
+      // With what this test rounds.
+      const double v_error = state.velocity_error + state.spin_error * far + w * turning +
+                             1e-15 * (state.velocity.norm() + w * far);
+      const double a_error =
+          state.acceleration_error + (state.spin_rate_error + 2.0 * w * state.spin_error) * far +
+          turn * turning + 1e-15 * (state.acceleration.norm() + turn * far + a_exact.norm());
+      ASSERT_LE((v - v_exact).norm(), v_error) << seed << " at " << t;
+      ASSERT_LE((a - a_exact).norm(), a_error) << seed << " at " << t;
+      // Else errors of infinity would pass: of sums in which little cancels.
+      ASSERT_LE(state.velocity_error, 1e-10 * (1.0 + w)) << seed;
+      ASSERT_LE(state.acceleration_error, 1e-10 * (1.0 + w) * (1.0 + w)) << seed;
+    }
+  }
+}
+
+/// A law: what the scratch memory remembers of other links and times changes no bit of an answer.
+TEST(LinkScratch, ChangesNothing) {
+  const ChainCase c = random_chain(7, {.joints = 9});
+  const std::size_t links = c.motion.model().links().size();
+  LinkScratch used;
+  Random random(1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    // More times than it remembers, some of them again and again; links that share joints.
+    const double t = 0.02 * std::floor(random.uniform(0.0, 50.0));
+    const auto link = static_cast<std::size_t>(random.uniform(1.0, static_cast<double>(links)));
+    const auto frame = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(link)));
+    const LinkPath path =
+        random.chance(0.5) ? c.motion.path(link, t) : c.motion.path(frame, link, t);
+    const DoubleDoubleVector3 origin = random.chance(0.5) ? path.anchor() : DoubleDoubleVector3();
+    LinkScratch fresh;
+    const LinkPose pose = path.pose(t, origin);
+    const LinkState state = path.state(t, used, origin);
+    ASSERT_EQ(state.pose.p_OL, pose.p_OL) << trial;
+    ASSERT_EQ(state.pose.R_FL, pose.R_FL) << trial;
+    ASSERT_EQ(state.pose.position_error, pose.position_error) << trial;
+    const double to = std::min(t + 0.01 * random.uniform(0.0, 1.0), path.t_end());
+    const auto bounds = path.window(t, t, to, {.radius = 0.1}, used, origin).bounds();
+    const auto same = path.window(t, t, to, {.radius = 0.1}, fresh, origin).bounds();
+    ASSERT_EQ(bounds.rate, same.rate) << trial;
+    ASSERT_EQ(bounds.jerk, same.jerk) << trial;
+    ASSERT_EQ(path.swept(t, t, to, {.radius = 0.1}, used).speed,
+              path.swept(t, t, to, {.radius = 0.1}, fresh).speed)
+        << trial;
+  }
+}
+
 /// What two links share cancels: their bounds do not see the base, nor the joints before them.
 TEST(LinkPath, RelativeMotionStartsAtTheLastCommonAncestor) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -152,6 +228,10 @@ TEST(LinkWindow, NoPointOutrunsTheBound) {
     const Vector3d n = (1.0 - 1e-15) * random.direction();
     const DirectedBound bound = window.displacement(w.part, n);
     const double speed = window.speed_bound(w.part, n);
+    const LinkPath::Swept swept = path.swept(w.from, w.from, w.to, w.part, scratch);
+    if (travel <= 0.01) {  // Tight: the length of the chain, which it leaves out, says no more.
+      ASSERT_LE(swept.speed, 1.05 * window.bounds().rate) << seed;
+    }
     const auto chain = w.chain.exact(w.from);
     for (Vector3d point : extreme_points(w.part)) {
       point += (1.0 - 1e-15) * w.part.radius * random.direction();
@@ -167,6 +247,7 @@ TEST(LinkWindow, NoPointOutrunsTheBound) {
         const auto velocity = oracle::nearly_exact_velocity(chain, t, exact_point(point));
         ASSERT_LE(dot(exact_point(n), velocity).lower(), speed + 1e-18) << seed << " " << share;
         ASSERT_LE(norm(velocity).lower(), window.bounds().rate + 1e-18) << seed;
+        ASSERT_LE(norm(velocity).lower(), swept.speed + 1e-18) << seed;
       }
     }
   }

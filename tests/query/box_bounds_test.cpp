@@ -120,6 +120,80 @@ TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistanceOfBoxesThatDeform) {
   }
 }
 
+/// How far the motion of boxes may depart from its model.
+struct Departing {
+  MovingBoxes boxes;
+  double drift = 0.0;  // [m per step]
+  double bend = 0.0;   // [m per step^2]
+
+  /// The least distance that is left of that of the model, tau after the case's time.
+  [[nodiscard]] Real distance(int i, int j, Real tau) const {
+    return boxes.distance(i, j, boxes.t + tau) - drift * tau - 0.5L * bend * tau * tau;
+  }
+};
+
+/// Departures that close the gap of the first boxes in about the time left, some sooner.
+Departing departing(Random& random, const MovingBoxes& boxes) {
+  const auto gap = static_cast<double>(boxes.distance(0, 0, boxes.t)) - boxes.threshold;
+  const double left = std::max(1.0 - boxes.t, 1e-3);
+  const double scale = std::max(gap, 0.0) / left;
+  return {boxes, scale * random.logarithmic(0.01, 10.0),
+          scale / left * random.logarithmic(0.01, 10.0)};
+}
+
+Bounds bounds_departing(const Departing& c) {
+  Bounds bounds;
+  bounds.unit = std::max(c.boxes.A.hierarchy.unit, c.boxes.B.hierarchy.unit);
+  BoxFrame frame = frame_of(c.boxes);
+  frame.drift = round_up(c.drift / bounds.unit);
+  frame.bend = round_up(c.bend / bounds.unit);
+  bound_boxes(frame, c.boxes.A.node(), c.boxes.B.node(), bounds);
+  return bounds;
+}
+
+// Sound: nothing that the motion may depart by from its model brings the boxes together.
+TEST_P(BoxBoundsOn, TimeIsNeverLateForMotionsThatDepartFromTheirModels) {
+  Random random(21);
+  for (int trial = 0; trial < 1500; ++trial) {
+    const Departing c = departing(random, random_moving_boxes(random));
+    const Bounds bounds = bounds_departing(c);
+    for (int lane = 0; lane < 16; ++lane) {
+      const Real proven = std::min<Real>(bounds.time[lane], 1.0L - c.boxes.t);
+      if (!(proven > 0.0L)) {
+        continue;
+      }
+      for (const double part : {1.0, random.uniform(0.0, 1.0), random.uniform(0.9, 1.0)}) {
+        ASSERT_GT(c.distance(lane / 4, lane % 4, part * proven), c.boxes.threshold)
+            << "trial " << trial << ", lane " << lane << ", part " << part;
+      }
+    }
+  }
+}
+
+// Tight: without turning, most pairs are let go for nearly as long as departures leave them.
+TEST_P(BoxBoundsOn, TimeIsMostOfWhatDeparturesLeave) {
+  Random random(22);
+  std::vector<double> ratios;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Departing c = departing(random, random_moving_boxes(random, Approach::straight));
+    const Real gap = c.distance(0, 0, 0.0L) - c.boxes.threshold;
+    const Real most = (c.boxes.B.translation - c.boxes.A.translation).cast<Real>().norm() +
+                      c.drift + c.bend * (1.0L - c.boxes.t);
+    Real tau = 0.0L;
+    for (int i = 0; i < 2000 && gap > 0.0L && c.boxes.t + tau < 1.0L; ++i) {
+      const Real left = c.distance(0, 0, tau) - c.boxes.threshold;
+      if (left <= 1e-3L * gap) {
+        ratios.push_back(static_cast<double>(bounds_departing(c).time[0] / tau));
+        break;
+      }
+      tau += left / most;
+    }
+  }
+  ASSERT_GT(ratios.size(), 500u);
+  RecordProperty("median_ratio", std::to_string(median(ratios)));
+  EXPECT_GT(median(ratios), 0.6);
+}
+
 // A law: boxes that stay as they are do not deform.
 TEST_P(BoxBoundsOn, BoxesThatDeformByNothingAreRigid) {
   Random random(13);
@@ -248,12 +322,12 @@ TEST_P(BoxBoundsOn, FlagsSayWhatTheNumbersSay) {
 TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Random random(7);
-  for (int field = 0; field < 7; ++field) {
+  for (int field = 0; field < 9; ++field) {
     const MovingBoxes c = random_moving_boxes(random, Approach::any);
     BoxFrame frame = frame_of(c);
     double* const doubles[] = {&frame.rotation[1][4], &frame.origin[1][0], &frame.ratio[0]};
     float* const floats[] = {&frame.axis[1][1], &frame.rate[0], &frame.velocity[1][2],
-                             &frame.threshold};
+                             &frame.threshold,  &frame.drift,   &frame.bend};
     if (field < 3) {
       *doubles[field] = kNaN;
     } else {

@@ -138,7 +138,7 @@ LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const Link
   for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
     const JointBounds& bounds = detail::ChainMemory::bounds(walked.nodes[at], t_from, t_to);
-    if (bounds.angle.rate > 0.0) {
+    if (bounds.angle.rate != 0.0) {
       const Vector3d arm = centre - place.p_OQ;
       const double error =
           2.0 * swept.pose.position_error +

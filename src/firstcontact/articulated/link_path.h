@@ -159,7 +159,7 @@ class FIRSTCONTACT_API LinkPath {
     LinkPose pose;       ///< At t.
     double speed = 0.0;  ///< [m per step]  No point of the part is faster in the window.
   };
-  /// The first of the bounds of window(), without the others.
+  /// A bound like the first of window(), whose derivation holds, at a fraction of the cost.
   [[nodiscard]] Swept swept(double t, double t_from, double t_to, const LinkPart& part,
                             LinkScratch& scratch) const;
 

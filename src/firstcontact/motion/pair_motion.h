@@ -11,12 +11,12 @@
 namespace firstcontact {
 
 /// Two motions over the step, t in [0, 1], piece after piece. Pieces are entered in any order; what
-/// is asked after that belongs to the piece entered last.
+/// is asked after that belongs to the piece entered last, from the time of entering to its end.
 class FIRSTCONTACT_API PairMotion {
  public:
   virtual ~PairMotion() = default;
 
-  /// Enters the piece that contains t, the later one at a break. Returns its end.
+  /// Enters a piece that contains t; where one ends at t, the one after it. Returns its end.
   virtual double enter(double t) = 0;
 
   /// Both bodies at a time of the piece.

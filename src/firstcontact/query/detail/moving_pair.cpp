@@ -249,8 +249,8 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
   // What deforms brings rounding of its own: box_bounds.cpp.
   frame.speed = round_up(
       (state.pivot_velocity.norm() + 4.0 * (A_.deformation_speed + B_.deformation_speed)) * scale);
-  frame.drift = state.drift > 0.0 ? round_up(state.drift * scale) : 0.0f;
-  frame.bend = state.bend > 0.0 ? round_up(state.bend * scale) : 0.0f;
+  frame.drift = state.drift == 0.0 ? 0.0f : round_up(state.drift * scale);
+  frame.bend = state.bend == 0.0 ? 0.0f : round_up(state.bend * scale);
   frame.threshold = round_up(threshold * scale);
   frame.t = state.t;
 }
