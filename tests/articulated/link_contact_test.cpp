@@ -46,6 +46,12 @@ RobotMotion hinge(const CoordinatePath& angle) {
       {{"j", angle}});
 }
 
+FirstContactResult contact_of(const MovingLink& A, const MovingLink& B,
+                              const FirstContactOptions& options = {}) {
+  Workspace workspace;
+  return first_contact(A, B, workspace, options);
+}
+
 /// A needle along x from 0 to 1, and a ball on the circle of its tip.
 TEST(LinkContact, FindsANeedleInClosedForm) {
   const Shape needle(Mesh{.vertices = {{0, 0, 0}, {1, 0, 0}}, .triangles = {{0, 1, 1}}});
@@ -59,15 +65,16 @@ TEST(LinkContact, FindsANeedleInClosedForm) {
     const double way = 2.0 + 2.0 * std::numbers::pi * turns;
     const RobotMotion robot = hinge(ramp(0.0, way));
     const LinkMotion arm = robot.link(1);
-    const LinkContactResult result = first_contact({needle, arm}, {ball, obstacle});
+    const FirstContactResult result = contact_of({needle, arm}, {ball, obstacle});
     ASSERT_EQ(result.verdict, Verdict::contact);
     EXPECT_LE(result.t, touch / way);
     EXPECT_GE(result.t, (touch - 4e-6) / way);
-    EXPECT_LE(result.distance, 1e-6);
+    ASSERT_FALSE(result.contacts.empty());
+    EXPECT_LE(result.contacts.front().distance, 1e-6);
     // From the other end it touches after the rest of the turn.
     const RobotMotion back = hinge(ramp(0.0, -way));
     const LinkMotion back_arm = back.link(1);
-    const LinkContactResult reverse = first_contact({ball, obstacle}, {needle, back_arm});
+    const FirstContactResult reverse = contact_of({ball, obstacle}, {needle, back_arm});
     const double other = (2.0 * std::numbers::pi - at) - std::asin(0.01 / 0.5);
     if (other < way) {
       ASSERT_EQ(reverse.verdict, Verdict::contact);
@@ -115,7 +122,7 @@ TEST(LinkContact, AgreesWithTheQueryOfRigidMotions) {
     const Motion X_WB = motion();
     const LinkMotion link_A(X_WA);
     const LinkMotion link_B(X_WB);
-    const LinkContactResult ours = first_contact({A, link_A}, {B, link_B}, {.margin = kMargin});
+    const FirstContactResult ours = contact_of({A, link_A}, {B, link_B}, {.margin = kMargin});
     FirstContactOptions options;
     options.margin = kMargin - 1e-8;
     options.tolerance = 1e-9;
@@ -131,8 +138,14 @@ TEST(LinkContact, AgreesWithTheQueryOfRigidMotions) {
                 kMargin + ours.tolerance_used + 1e-13)
           << seed;
     }
-    const LinkContactResult swapped = first_contact({B, link_B}, {A, link_A}, {.margin = kMargin});
-    EXPECT_EQ(swapped.verdict == Verdict::free, ours.verdict == Verdict::free) << seed;
+    const FirstContactResult swapped = contact_of({B, link_B}, {A, link_A}, {.margin = kMargin});
+    EXPECT_EQ(swapped.verdict, ours.verdict) << seed;
+    EXPECT_EQ(swapped.t, ours.t) << seed;
+    ASSERT_EQ(swapped.contacts.size(), ours.contacts.size()) << seed;
+    for (std::size_t k = 0; k < ours.contacts.size(); ++k) {
+      EXPECT_EQ(swapped.contacts[k].feature_B, ours.contacts[k].feature_A) << seed;
+      EXPECT_EQ(swapped.contacts[k].p_WB, ours.contacts[k].p_WA) << seed;
+    }
   }
   EXPECT_GE(contacts, 50);
   EXPECT_LE(contacts, 250);
@@ -183,7 +196,7 @@ TEST(LinkContact, ChainsAreNeverLateAndNeverFalse) {
     const double near_t = random.uniform(0.3, 1.0);
     const Vector3d p_WB = tip.at(near_t).pose(near_t).p_OL + random.vector(0.0, 0.5);
     const LinkMotion body(Motion::fixed({p_WB, Eigen::Quaterniond::Identity()}));
-    const LinkContactResult result = first_contact({A, tip}, {B, body}, {.margin = kMargin});
+    const FirstContactResult result = contact_of({A, tip}, {B, body}, {.margin = kMargin});
     ASSERT_NE(result.verdict, Verdict::undecided) << seed;
     const bool free = result.verdict == Verdict::free;
     LinkPose at_B;
@@ -225,7 +238,7 @@ TEST(LinkContact, TheWayOfThePumaRunsThroughAThinPost) {
   const Shape post = make_box({0.002, 0.002, 1.0});
   const Motion at_centre = Motion::fixed({centre, Eigen::Quaterniond::Identity()});
   const LinkMotion post_motion(at_centre);
-  const LinkContactResult result = first_contact({shape, link}, {post, post_motion});
+  const FirstContactResult result = contact_of({shape, link}, {post, post_motion});
   ASSERT_EQ(result.verdict, Verdict::contact);
   EXPECT_GT(result.t, 0.1);
   EXPECT_LT(result.t, 0.5);
@@ -255,7 +268,7 @@ TEST(LinkContact, LinksOfOneRobotAreSeenFromTheirCommonAncestor) {
                                                      {1e3, 0, 0}, {100, 200, 300}));
   const RelativeLinkMotion relative = motion.relative(1, 2);
   const Shape box = make_box({0.5, 0.5, 0.5});
-  const LinkContactResult result = first_contact({box, relative.A}, {box, relative.B});
+  const FirstContactResult result = contact_of({box, relative.A}, {box, relative.B});
   ASSERT_EQ(result.verdict, Verdict::contact);
   EXPECT_EQ(result.tolerance_used, 1e-6);
   EXPECT_LE(result.t, 0.75);
@@ -268,11 +281,11 @@ TEST(LinkContact, StartsInContactOrInside) {
   const RobotMotion robot = hinge(ramp(0.0, 1.0));
   const LinkMotion arm = robot.link(1);
   const LinkMotion inside(Motion::fixed({{0.2, 0, 0}, Eigen::Quaterniond::Identity()}));
-  const LinkContactResult result = first_contact({box, arm}, {small, inside});
+  const FirstContactResult result = contact_of({box, arm}, {small, inside});
   EXPECT_EQ(result.verdict, Verdict::contact_at_start);
   EXPECT_EQ(result.t, 0.0);
   const LinkMotion touching(Motion::fixed({{1.0, 0, 0}, Eigen::Quaterniond::Identity()}));
-  EXPECT_EQ(first_contact({box, arm}, {box, touching}).verdict, Verdict::contact_at_start);
+  EXPECT_EQ(contact_of({box, arm}, {box, touching}).verdict, Verdict::contact_at_start);
 }
 
 TEST(LinkContact, SpendsNoMoreThanItsBudget) {
@@ -282,13 +295,15 @@ TEST(LinkContact, SpendsNoMoreThanItsBudget) {
   const Shape A(random_mesh(random, 0.15));
   const LinkPose end = tip.at(1.0).pose(1.0);
   const LinkMotion body(Motion::fixed({end.p_OL, Eigen::Quaterniond::Identity()}));
-  const LinkContactResult all = first_contact({A, tip}, {A, body});
-  const LinkContactResult some = first_contact({A, tip}, {A, body}, {.steps = 20});
+  const FirstContactResult all = contact_of({A, tip}, {A, body});
+  FirstContactOptions few;
+  few.budget.steps = 20;
+  const FirstContactResult some = contact_of({A, tip}, {A, body}, few);
   EXPECT_EQ(some.verdict, Verdict::undecided);
   EXPECT_EQ(some.reason, UndecidedReason::work);
   EXPECT_LE(some.t, all.t);
-  EXPECT_THROW((void)first_contact({A, tip}, {A, body}, {.margin = -1.0}), std::invalid_argument);
-  EXPECT_THROW((void)first_contact({A, tip}, {A, body}, {.tolerance = 0.0}), std::invalid_argument);
+  EXPECT_THROW((void)contact_of({A, tip}, {A, body}, {.margin = -1.0}), std::invalid_argument);
+  EXPECT_THROW((void)contact_of({A, tip}, {A, body}, {.tolerance = 0.0}), std::invalid_argument);
 }
 
 }  // namespace

@@ -41,14 +41,6 @@ bool in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window
   return true;
 }
 
-void swap_bodies(Contact& contact) {
-  std::swap(contact.feature_A, contact.feature_B);
-  std::swap(contact.p_WA, contact.p_WB);
-  if (contact.n_AB_W) {
-    contact.n_AB_W = -*contact.n_AB_W;
-  }
-}
-
 /// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
 template <class Ask>
 bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
@@ -64,10 +56,6 @@ bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& wi
   ask(ShapePair{first.shape, second.shape, motion});
   return swapped;
 }
-
-}  // namespace
-
-namespace {
 
 void ask_first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                        Workspace& workspace, LinkScratch& scratch,
@@ -138,32 +126,6 @@ ClosestApproachResult closest_approach(const MovingLink& A, const MovingLink& B,
   });
   if (swapped && result.closest) {
     swap_bodies(*result.closest);
-  }
-  return result;
-}
-
-LinkContactResult first_contact(const MovingLink& A, const MovingLink& B,
-                                const LinkContactOptions& options) {
-  Workspace workspace;
-  FirstContactOptions query;
-  query.margin = options.margin;
-  query.tolerance = options.tolerance;
-  query.budget.steps = options.steps;
-  query.contacts = ContactState::first;
-  const FirstContactResult found = first_contact(A, B, workspace, query);
-  LinkContactResult result;
-  result.verdict = found.verdict;
-  result.reason = found.reason;
-  result.t = found.t;
-  result.tolerance_used = found.tolerance_used;
-  result.enclosure_error = found.enclosure_error;
-  result.steps = found.work.node_groups + found.work.steps;
-  if (!found.contacts.empty()) {
-    const Contact& contact = found.contacts.front();
-    result.distance = contact.distance;
-    result.triangles = {contact.feature_A.triangle, contact.feature_B.triangle};
-    result.p_FA = contact.p_WA;
-    result.p_FB = contact.p_WB;
   }
   return result;
 }

@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
-
-#include <Eigen/Core>
-
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
@@ -24,27 +18,6 @@ namespace firstcontact {
 struct MovingLink {
   const Shape& shape;
   const LinkMotion& X_FS;
-};
-
-struct LinkContactOptions {
-  double margin = 0.0;      ///< [m]  Closer than this counts as contact; >= 0.
-  double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance; > 0.
-  /// Node pairs and steps of triangle pairs; spending them gives `undecided`.
-  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
-};
-
-struct LinkContactResult {
-  Verdict verdict = Verdict::undecided;
-  UndecidedReason reason = UndecidedReason::none;  ///< `work` or `precision`.
-  double t = 0.0;                ///< [-]  [0, t) is proven free of contact; 1 when free.
-  double tolerance_used = 0.0;   ///< [m]  In place of the asked one; larger only if f64 needs it.
-  double enclosure_error = 0.0;  ///< [m]  Of both shapes: adds to the tolerance of a contact.
-  double distance = 0.0;         ///< [m]  Of the triangles in contact; 0 for one inside a solid.
-  std::array<std::uint32_t, 2> triangles = {};  ///< In contact, by their indices in the shapes.
-  Eigen::Vector3d p_FA =
-      Eigen::Vector3d::Zero();  ///< [m]  Their closest points, before thickening.
-  Eigen::Vector3d p_FB = Eigen::Vector3d::Zero();
-  std::uint64_t steps = 0;
 };
 
 /// Finds the first contact of A and B during the step, with the promises of `first_contact` of two
@@ -74,9 +47,5 @@ FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B,
 [[nodiscard]] FIRSTCONTACT_API ClosestApproachResult
 closest_approach(const MovingLink& A, const MovingLink& B, Workspace& workspace,
                  const ClosestApproachOptions& options = {});
-
-/// The same with a result of its own.
-[[nodiscard]] FIRSTCONTACT_API LinkContactResult
-first_contact(const MovingLink& A, const MovingLink& B, const LinkContactOptions& options = {});
 
 }  // namespace firstcontact

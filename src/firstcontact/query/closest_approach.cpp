@@ -7,7 +7,6 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/shape_pair.h>
 
@@ -148,7 +147,7 @@ ClosestApproachResult closest_approach(const MovingShape& A, const MovingShape& 
   }
   ClosestApproachResult result = ask(B, A);
   if (result.closest) {
-    detail::swap_bodies(*result.closest);
+    swap_bodies(*result.closest);
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -36,5 +37,14 @@ struct Contact {
   /// 0 without a normal.
   double normal_velocity = 0.0;
 };
+
+/// The same contact with the roles of A and B exchanged.
+inline void swap_bodies(Contact& contact) {
+  std::swap(contact.feature_A, contact.feature_B);
+  std::swap(contact.p_WA, contact.p_WB);
+  if (contact.n_AB_W) {
+    contact.n_AB_W = -*contact.n_AB_W;
+  }
+}
 
 }  // namespace firstcontact

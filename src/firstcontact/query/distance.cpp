@@ -108,7 +108,7 @@ DistanceResult distance(const MovingShape& A, const MovingShape& B, double t,
     return ask(A, B);
   }
   DistanceResult result = ask(B, A);
-  detail::swap_bodies(*result.closest);
+  swap_bodies(*result.closest);
   return result;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -185,14 +184,6 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
     });
   }
   sort_once(contacts);
-}
-
-void swap_bodies(Contact& contact) {
-  std::swap(contact.feature_A, contact.feature_B);
-  std::swap(contact.p_WA, contact.p_WB);
-  if (contact.n_AB_W) {
-    contact.n_AB_W = -*contact.n_AB_W;
-  }
 }
 
 }  // namespace firstcontact::detail

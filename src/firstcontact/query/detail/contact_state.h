@@ -35,7 +35,4 @@ void collect_contacts_of(const std::vector<OpenedPair>& opened, const ContactFra
 void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
                       std::vector<Contact>& contacts);
 
-/// Swaps the roles of A and B.
-void swap_bodies(Contact& contact);
-
 }  // namespace firstcontact::detail
