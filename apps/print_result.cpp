@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "contact_text.h"
 #include "print_robot_answer.h"
 #include "quantity_text.h"
 
@@ -56,24 +57,10 @@ class Description {
     return scene_.bodies[bodies[0]].name + " and " + scene_.bodies[bodies[1]].name;
   }
 
-  static std::string feature(const Feature& feature) {
-    return feature.type == FeatureType::face
-               ? fmt::format("triangle {}", feature.index)
-               : fmt::format("{} {} of triangle {}", word(feature.type), feature.index,
-                             feature.triangle);
-  }
-
   void contact(const BodyPair& bodies, const Contact& found) {
-    print("    {}: {}; {}: {}\n", scene_.bodies[bodies[0]].name, feature(found.feature_A),
-          scene_.bodies[bodies[1]].name, feature(found.feature_B));
-    print("      at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", found.p_WA.x(), found.p_WA.y(),
-          found.p_WA.z(), length_text(found.distance));
-    if (found.n_AB_W) {
-      print(", normal {}, {} {}", direction_text(*found.n_AB_W),
-            found.normal_velocity < 0.0 ? "closing at" : "leaving at",
-            speed_text(std::abs(found.normal_velocity) / scene_.duration));
-    }
-    print("\n");
+    print("    {}: {}; {}: {}\n", scene_.bodies[bodies[0]].name, feature_text(found.feature_A),
+          scene_.bodies[bodies[1]].name, feature_text(found.feature_B));
+    print("      {}\n", contact_text(found, scene_.duration));
   }
 
   /// Those of every pair that touches at the scene's time.

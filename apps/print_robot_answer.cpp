@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "contact_text.h"
 #include "quantity_text.h"
 
 namespace firstcontact::app {
@@ -67,27 +68,15 @@ class RobotAnswerText {
   [[nodiscard]] std::string place(const RobotContact& found, std::size_t side) const {
     const Feature& feature = side == 0 ? found.contact.feature_A : found.contact.feature_B;
     const std::size_t member = found.members[side];
-    std::string text = loaded_.robots->name(member) + ": ";
-    text += feature.type == FeatureType::face
-                ? fmt::format("triangle {}", feature.index)
-                : fmt::format("{} {} of triangle {}", word(feature.type), feature.index,
-                              feature.triangle);
+    const std::string text = loaded_.robots->name(member) + ": " + feature_text(feature);
     return loaded_.robots->geometries(member).size() > 1
                ? text + fmt::format(" of geometry {}", found.geometries[side])
                : text;
   }
 
   void contact(const RobotContact& found) {
-    const Contact& contact = found.contact;
     print("    {}; {}\n", place(found, 0), place(found, 1));
-    print("      at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", contact.p_WA.x(), contact.p_WA.y(),
-          contact.p_WA.z(), length_text(contact.distance));
-    if (contact.n_AB_W) {
-      print(", normal {}, {} {}", direction_text(*contact.n_AB_W),
-            contact.normal_velocity < 0.0 ? "closing at" : "leaving at",
-            speed_text(std::abs(contact.normal_velocity) / loaded_.scene.duration));
-    }
-    print("\n");
+    print("      {}\n", contact_text(found.contact, loaded_.scene.duration));
   }
 
   /// Those of every pair that touches at the scene's time.

@@ -1,7 +1,6 @@
 #include "articulated/robot_library_case.h"
 
 #include <cstddef>
-#include <cstdio>
 #include <map>
 #include <utility>
 #include <vector>
@@ -103,17 +102,6 @@ RelativeLinkMotion link_motions(const RobotCase& c) {
   return {A.link(c.A.link), to_robot_motion(c.robots[c.B.robot]).link(c.B.link)};
 }
 
-std::string describe(const char* what, const FirstContactResult& answer, const Truth& truth) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s: t = %.17g, tolerance used %g; truth %s [%.17g, %.17g]",
-                what, answer.t, answer.tolerance_used,
-                truth.kind == TruthKind::free      ? "free"
-                : truth.kind == TruthKind::contact ? "contact in"
-                                                   : "unknown",
-                truth.lo, truth.hi);
-  return text;
-}
-
 }  // namespace
 
 FirstContactResult ask_library(const RobotCase& c, bool swapped, Workspace& workspace) {
@@ -131,18 +119,8 @@ FirstContactResult ask_library(const RobotCase& c, bool swapped, Workspace& work
 }
 
 std::string complaint(const RobotCase& c, const FirstContactResult& answer, const Truth& truth) {
-  const bool touches = truth.kind == TruthKind::contact;
-  if (touches && answer.verdict == Verdict::free) {
-    return describe("missed contact", answer, truth);
-  }
-  if (touches && !(answer.t <= truth.hi)) {
-    return describe("late", answer, truth);
-  }
-  if (answer.verdict == Verdict::undecided) {
-    return describe("undecided", answer, truth);
-  }
-  if (answer.verdict == Verdict::contact_at_start && answer.t != 0.0) {
-    return describe("start after t = 0", answer, truth);
+  if (std::string wrong = verdict_complaint(answer, truth); !wrong.empty()) {
+    return wrong;
   }
   if (!(answer.tolerance_used <= c.tolerance)) {
     return describe("larger tolerance", answer, truth);

@@ -16,14 +16,6 @@ Pose pose(const PoseInput& p) {
           Eigen::Quaterniond(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z)};
 }
 
-std::string describe(const char* what, const FirstContactResult& answer, const Truth& truth) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s: t = %.17g, tolerance used %g; truth %s [%.17g, %.17g]",
-                what, answer.t, answer.tolerance_used,
-                truth.kind == TruthKind::free ? "free" : "contact in", truth.lo, truth.hi);
-  return text;
-}
-
 }  // namespace
 
 Shape to_shape(const MovingSoup& soup) {
@@ -86,8 +78,18 @@ FirstContactResult ask_library(const GeneratedCase& c, Workspace& workspace) {
   return first_contact({A.shape, A.X_WS}, {B.shape, B.X_WS}, workspace, options);
 }
 
-std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,
-                      const Truth& truth) {
+std::string describe(const char* what, const FirstContactResult& answer, const Truth& truth) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s: t = %.17g, tolerance used %g; truth %s [%.17g, %.17g]",
+                what, answer.t, answer.tolerance_used,
+                truth.kind == TruthKind::free      ? "free"
+                : truth.kind == TruthKind::contact ? "contact in"
+                                                   : "unknown",
+                truth.lo, truth.hi);
+  return text;
+}
+
+std::string verdict_complaint(const FirstContactResult& answer, const Truth& truth) {
   const bool touches = truth.kind == TruthKind::contact;
   if (touches && answer.verdict == Verdict::free) {
     return describe("missed contact", answer, truth);
@@ -101,6 +103,15 @@ std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,
   if (answer.verdict == Verdict::contact_at_start && answer.t != 0.0) {
     return describe("start after t = 0", answer, truth);
   }
+  return {};
+}
+
+std::string complaint(const GeneratedCase& c, const FirstContactResult& answer,
+                      const Truth& truth) {
+  if (std::string wrong = verdict_complaint(answer, truth); !wrong.empty()) {
+    return wrong;
+  }
+  const bool touches = truth.kind == TruthKind::contact;
   if (answer.verdict != Verdict::free &&
       !FirstContactOracle(c.A, c.B, c.margin).within(answer.t, answer.tolerance_used)) {
     return describe("false contact", answer, truth);

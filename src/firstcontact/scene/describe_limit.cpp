@@ -1,21 +1,11 @@
-#include <array>
-#include <charconv>
 #include <string>
 
+#include <firstcontact/scene/detail/quantity.h>
 #include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
 namespace {
-
-/// As many digits as a person reads.
-std::string quantity(double value, const char* unit) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6)
-          .ptr;
-  return std::string(text.data(), end) + " " + unit;
-}
 
 const char* unit_of(const Joint& joint, JointLimit limit) {
   const bool slides = joint.type == JointType::prismatic;
@@ -34,8 +24,9 @@ std::string describe(const SceneRobot& robot, const LimitViolation& violation, d
                      : violation.what == JointLimit::lower_position ? "lower limit"
                                                                     : "upper limit";
   return robot.name + ": joint " + detail::in_quotes(joint.name) + " leaves its " + what + " of " +
-         quantity(violation.limit, unit) + " by " + quantity(violation.excess, unit) + " at " +
-         quantity(violation.t_excess * duration, "s");
+         detail::quantity(violation.limit, unit) + " by " +
+         detail::quantity(violation.excess, unit) + " at " +
+         detail::quantity(violation.t_excess * duration, "s");
 }
 
 }  // namespace firstcontact

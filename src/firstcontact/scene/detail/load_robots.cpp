@@ -1,7 +1,5 @@
 #include <firstcontact/scene/detail/load_robots.h>
 
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -10,20 +8,12 @@
 #include <variant>
 
 #include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/scene/detail/quantity.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// "1.5 s"
-std::string quantity(double value, const char* unit) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6)
-          .ptr;
-  return std::string(text.data(), end) + " " + unit;
-}
 
 /// "a, b and 7 more".
 std::string some_of(const std::vector<std::string>& names) {
