@@ -24,7 +24,7 @@ struct RobotQuestion {
   std::vector<std::string> goal = {};     ///< Straight from the start to there.
   /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION.
   std::vector<std::string> state = {};
-  /// Meshes; planning scenes (.yaml); scenes (.json), of which only the bodies are taken.
+  /// Meshes; planning scenes (.yaml); scenes (.json), with the rules for their bodies and options.
   std::vector<std::filesystem::path> environment = {};
   double padding = 0.0;         ///< [m]  Of every link.
   double tracking_error = 0.0;  ///< [rad or m]  Of every joint.
