@@ -149,7 +149,7 @@ TEST(LimitReport, AgreesWithDenseSamples) {
       for (int i = 0; i <= kSamples; ++i) {
         const double t = static_cast<double>(i) / kSamples;
         greatest = std::max(greatest, value(what, t));
-        const auto holds = [t](const StepInterval& x) { return x.begin <= t && t <= x.end; };
+        const auto holds = [t](const TimeWindow& x) { return x.begin <= t && t <= x.end; };
         const bool reported = found != report.end() &&
                               std::any_of(found->intervals.begin(), found->intervals.end(), holds);
         ASSERT_TRUE(reported || value(what, t) <= 1e-9 + 1e-12) << seed << " at " << t;
@@ -161,7 +161,7 @@ TEST(LimitReport, AgreesWithDenseSamples) {
       ASSERT_GE(found->excess, greatest - 1e-9) << seed;
       ASSERT_LE(found->excess, greatest + 0.05) << seed;
       ASSERT_NEAR(found->excess, value(what, found->t_excess), 1e-8) << seed;
-      for (const StepInterval& interval : found->intervals) {
+      for (const TimeWindow& interval : found->intervals) {
         ASSERT_GT(std::max({value(what, interval.begin), value(what, interval.end),
                             value(what, 0.5 * (interval.begin + interval.end))}),
                   0.0)

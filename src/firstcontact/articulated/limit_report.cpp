@@ -97,7 +97,7 @@ class PieceReport {
   void run(const Bernstein& excess) { look(excess, 0.0, 1.0, 0); }
 
   /// In s, in order.
-  [[nodiscard]] const std::vector<StepInterval>& beyond() const { return beyond_; }
+  [[nodiscard]] const std::vector<TimeWindow>& beyond() const { return beyond_; }
 
   /// The greatest value of `excess`, to the tolerance, and where.
   [[nodiscard]] std::pair<double, double> greatest(const Bernstein& excess) const {
@@ -141,13 +141,13 @@ class PieceReport {
   }
 
   double tolerance_;
-  std::vector<StepInterval> beyond_;
+  std::vector<TimeWindow> beyond_;
 };
 
 /// Outward: a rounded time is within one unit of the exact one.
-StepInterval in_step(const CoordinateSegment& segment, const StepInterval& s) {
+TimeWindow in_step(const CoordinateSegment& segment, const TimeWindow& s) {
   const double length = segment.t_end - segment.t_begin;
-  StepInterval t{segment.t_begin, segment.t_end};
+  TimeWindow t{segment.t_begin, segment.t_end};
   if (s.begin > 0.0) {
     t.begin = std::max(t.begin, std::nextafter(segment.t_begin + s.begin * length, 0.0));
   }
@@ -172,7 +172,7 @@ class LimitCheck {
     if (report.beyond().empty()) {
       return;
     }
-    for (const StepInterval& s : report.beyond()) {
+    for (const TimeWindow& s : report.beyond()) {
       violation_.intervals.push_back(in_step(segment, s));
     }
     const auto [greatest, s] = report.greatest(excess);
@@ -192,12 +192,12 @@ class LimitCheck {
  private:
   /// Those of one piece that are beyond in both directions come one direction after the other.
   void join_intervals() {
-    std::vector<StepInterval> all;
+    std::vector<TimeWindow> all;
     all.swap(violation_.intervals);
-    std::sort(all.begin(), all.end(), [](const StepInterval& x, const StepInterval& y) {
+    std::sort(all.begin(), all.end(), [](const TimeWindow& x, const TimeWindow& y) {
       return std::pair(x.begin, x.end) < std::pair(y.begin, y.end);
     });
-    for (const StepInterval& interval : all) {
+    for (const TimeWindow& interval : all) {
       auto& joined = violation_.intervals;
       if (!joined.empty() && interval.begin <= joined.back().end) {
         joined.back().end = std::max(joined.back().end, interval.end);

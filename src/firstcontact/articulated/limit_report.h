@@ -8,16 +8,11 @@
 
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/time_window.h>
 
 namespace firstcontact {
 
 enum class JointLimit { lower_position, upper_position, velocity };
-
-/// A stretch of the step, both ends included.
-struct StepInterval {
-  double begin = 0.0;  ///< [-]
-  double end = 1.0;    ///< [-]
-};
 
 /// One joint beyond one of its limits. Units: rad or m; per second for velocities.
 struct LimitViolation {
@@ -28,7 +23,7 @@ struct LimitViolation {
   double t_excess = 0.0;  ///< [-]  Where it is attained.
   /// In order, at least one: outside of them the coordinate is proven to exceed the limit by no
   /// more than the tolerance; in each there is a time at which it exceeds the limit.
-  std::vector<StepInterval> intervals;
+  std::vector<TimeWindow> intervals;
 };
 
 /// All limits that a motion leaves by more than a tolerance, in order of the joints.

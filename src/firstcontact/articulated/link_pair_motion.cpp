@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/motion/time_window.h>
+
 namespace firstcontact {
 namespace {
 
@@ -34,14 +36,9 @@ double window_length(double speed, double jerk) {
   return jerk > 0.0 ? std::sqrt(0.5 * speed / jerk) : std::numeric_limits<double>::infinity();
 }
 
-struct TimeSpan {
-  double begin = 0.0;
-  double end = 1.0;
-};
-
 /// The end of the smallest part of the piece, of those that halving makes, that begins before t and
 /// ends about a length after it. Windows end: they are a thousandth of the piece at least.
-double end_of_window(const TimeSpan& piece, double t, double length) {
+double end_of_window(const TimeWindow& piece, double t, double length) {
   constexpr double kLeast = 0x1p-10;
   constexpr double kEnough = 0.75;
   double part = 1.0;
@@ -75,7 +72,7 @@ LinkPairMotion::LinkPairMotion(const LinkBall& A, const LinkBall& B, LinkScratch
     : bodies_{Body{A}, Body{B}}, t_end_(t_end), scratch_(scratch) {}
 
 double LinkPairMotion::enter(double t) {
-  TimeSpan piece{0.0, 1.0};
+  TimeWindow piece{0.0, 1.0};
   for (Body& body : bodies_) {
     body.path = &piece_at(body.ball.X_FL, t);
     piece = {std::max(piece.begin, body.path->t_begin()), std::min(piece.end, body.path->t_end())};

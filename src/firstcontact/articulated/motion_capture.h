@@ -52,9 +52,8 @@ struct FigureOptions {
 /// A robot whose links are the bones, by name, with capsules and spheres as collision geometry, and
 /// whose joints are balls, named as the bone that they carry.
 ///
-/// @throws std::invalid_argument if there is no bone, a name is doubled, a bone hangs on none
-/// before
-///         it, or an option is out of its range
+/// @throws std::invalid_argument  no bone, a doubled name, a bone that hangs on none before it, an
+///                                option out of its range
 [[nodiscard]] FIRSTCONTACT_API RobotModel make_figure(const MotionCapture& capture,
                                                       const FigureOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pair_motion.h>
+#include <firstcontact/motion/time_window.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
@@ -18,12 +19,6 @@ struct ShapePair {
   const Shape& A;
   const Shape& B;
   PairMotion& motion;
-};
-
-/// A part of the step, both ends included.
-struct TimeWindow {
-  double begin = 0.0;
-  double end = 1.0;
 };
 
 /// As first_contact() of two moving shapes, in the frame of the motion. Answers for A and B swapped

@@ -93,7 +93,7 @@ class RobotResultWriter {
 
   [[nodiscard]] JsonValue limit(const SceneRobot& robot, const LimitViolation& violation) const {
     JsonArray intervals;
-    for (const StepInterval& interval : violation.intervals) {
+    for (const TimeWindow& interval : violation.intervals) {
       intervals.push_back(two(seconds(interval.begin), seconds(interval.end)));
     }
     return {.value = JsonObject{{"robot", to_json(robot.name)},
