@@ -50,6 +50,14 @@ double greatest_distance(const std::vector<GapSample>& curve) {
   return greatest;
 }
 
+/// [m]  Over the whole step; 0 where the closest approach was not asked for.
+double least_proven(const SceneResult& result) {
+  if (result.robots && result.robots->closest) {
+    return result.robots->pairs[*result.robots->closest].least_clearance->lower_bound;
+  }
+  return result.closest ? result.pairs[*result.closest].closest_approach->lower_bound : 0.0;
+}
+
 class Plot {
  public:
   explicit Plot(const SceneAnswer& answer)
@@ -184,11 +192,8 @@ class Plot {
     const double margin = answer_.loaded.scene.options.margin;
     if (margin > 0.0) {
       horizontal(margin, "margin " + length_text(margin));
-    } else if (result.closest) {
-      const double bound = result.pairs[*result.closest].closest_approach->lower_bound;
-      if (bound > 0.0) {
-        horizontal(bound, "proven: never below " + length_text(bound));
-      }
+    } else if (const double bound = least_proven(result); bound > 0.0) {
+      horizontal(bound, "proven: never below " + length_text(bound));
     }
     if (result.verdict != Verdict::free) {
       const bool left = result.t > 0.6;

@@ -113,20 +113,9 @@ class Description {
   }
 
   void sampling() {
-    if (!answer_.sampling || !answer_.sampling->least) {
-      return;
+    if (const std::string text = describe_sampling(answer_); !text.empty()) {
+      line("sampling", text);
     }
-    const SamplingReport& seen = *answer_.sampling;
-    const bool missed = status_is_contact() && seen.in_contact == 0;
-    line("sampling",
-         fmt::format("{:g} times a second: {} of {} samples in contact, least gap {} at {}{}",
-                     seen.rate, seen.in_contact, seen.samples, length_text(seen.least->distance),
-                     time_text(seen.least->t * scene_.duration),
-                     missed ? ": sampling misses this contact" : ""));
-  }
-
-  [[nodiscard]] bool status_is_contact() const {
-    return result_.verdict == Verdict::contact || result_.verdict == Verdict::contact_at_start;
   }
 
   void pairs() {
@@ -169,6 +158,19 @@ std::string describe_verdict(const SceneAnswer& answer) {
       break;
   }
   return fmt::format("undecided after {} ({}), free before", when, word(result.reason));
+}
+
+std::string describe_sampling(const SceneAnswer& answer) {
+  if (!answer.sampling || !answer.sampling->least) {
+    return "";
+  }
+  const SamplingReport& seen = *answer.sampling;
+  const Verdict verdict = answer.result.verdict;
+  const bool touches = verdict == Verdict::contact || verdict == Verdict::contact_at_start;
+  return fmt::format("{:g} times a second: {} of {} samples in contact, least gap {} at {}{}",
+                     seen.rate, seen.in_contact, seen.samples, length_text(seen.least->distance),
+                     time_text(seen.least->t * answer.loaded.scene.duration),
+                     touches && seen.in_contact == 0 ? ": sampling misses this contact" : "");
 }
 
 }  // namespace firstcontact::app

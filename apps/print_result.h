@@ -20,4 +20,7 @@ namespace firstcontact::app {
 /// The verdict and its time: "contact at t = 0.25 (12.5 ms)".
 [[nodiscard]] std::string describe_verdict(const SceneAnswer& answer);
 
+/// What sampling saw; empty where nobody asked.
+[[nodiscard]] std::string describe_sampling(const SceneAnswer& answer);
+
 }  // namespace firstcontact::app

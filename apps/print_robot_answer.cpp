@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "contact_text.h"
+#include "print_result.h"
 #include "quantity_text.h"
 
 namespace firstcontact::app {
@@ -18,7 +19,7 @@ constexpr std::size_t kMostWarnings = 12;
 class RobotAnswerText {
  public:
   explicit RobotAnswerText(const SceneAnswer& answer)
-      : loaded_(answer.loaded), result_(*answer.result.robots) {}
+      : answer_(answer), loaded_(answer.loaded), result_(*answer.result.robots) {}
 
   std::string write(bool all_pairs) {
     if (result_.first) {
@@ -39,6 +40,9 @@ class RobotAnswerText {
     if (result_.enclosure_error > 0.0) {
       line("enclosure",
            "curved surfaces stand out by up to " + length_text(result_.enclosure_error));
+    }
+    if (const std::string text = describe_sampling(answer_); !text.empty()) {
+      line("sampling", text);
     }
     intervals();
     if (all_pairs) {
@@ -153,6 +157,7 @@ class RobotAnswerText {
     }
   }
 
+  const SceneAnswer& answer_;
   const LoadedScene& loaded_;
   const RobotCheckResult& result_;
   std::string text_;

@@ -36,14 +36,6 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
           .progress = tell};
 }
 
-/// What samples the gap knows bodies only.
-void require_no_sampling(const Question& question) {
-  if (question.sample_rate || question.gap_curve) {
-    throw std::invalid_argument(
-        "--sample-rate, --svg, --gap and --html are not for scenes with robots yet");
-  }
-}
-
 void require_within_limits(const LoadedScene& loaded) {
   if (loaded.limits.empty()) {
     return;
@@ -74,9 +66,6 @@ SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cach
   question.doing("loading " + scene.id);
   SceneAnswer answer;
   answer.loaded = load_scene(std::move(scene), cache);
-  if (answer.loaded.robots) {
-    require_no_sampling(question);
-  }
   if (question.strict) {
     require_within_limits(answer.loaded);
   }

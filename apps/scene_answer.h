@@ -43,9 +43,8 @@ struct SceneAnswer {
   std::optional<SamplingReport> sampling;
 };
 
-/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate; of a question that
-/// scenes
-///         with robots have no answer to
+/// @throws ParseError, std::invalid_argument as load_scene, times_at_rate; of a motion beyond joint
+///         limits where that is an error
 [[nodiscard]] SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,
                                        ManyBodiesWorkspace& workspace);
 

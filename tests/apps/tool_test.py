@@ -138,6 +138,28 @@ class Robot(ToolTest):
         again = self.run_tool("check", "--json", self.file("again.json", json.dumps(answer["scene"])))
         self.assertEqual(json.loads(again.stdout)["t"], answer["t"])
 
+    def test_draws_the_gap_and_says_what_sampling_sees(self):
+        result = self.check("--trajectory", self.move, "--environment", self.ball, "--svg", "gap.svg",
+                            "--gap", "gap.csv", "--sample-rate", "0.25")
+        self.assertIn("0 of 2 samples in contact", result.stdout)
+        self.assertIn("sampling misses this contact", result.stdout)
+        text = (self.folder / "gap.svg").read_text(encoding="utf-8")
+        self.assertIn("first contact at 2.76", text)
+        rows = [row.split(",") for row in (self.folder / "gap.csv").read_text().splitlines()[1:]]
+        self.assertEqual([row[0] for row in (rows[0], rows[-1])], ["0", "1"])
+        for row in rows:
+            if row[2]:
+                turned = math.pi / 2 - 0.5 * float(row[1])
+                along, across = 1.05 * math.cos(turned), 1.05 * abs(math.sin(turned))
+                bar = math.hypot(max(along - 1, 0), max(across - 0.05, 0)) - 0.1
+                tip = math.hypot(along - 1.05, across) - 0.2
+                self.assertAlmostEqual(float(row[2]), max(min(bar, tip), 0), places=6)
+                self.assertLessEqual(float(row[3]), float(row[2]))
+        free = self.check("--start", "elbow=0", "--goal", "elbow=0.5", "--environment", self.ball, "--margin",
+                          "0.01", "--svg", "free.svg")
+        self.assertEqual(free.returncode, 0, free)
+        self.assertIn("margin 10 mm", (self.folder / "free.svg").read_text(encoding="utf-8"))
+
     def test_keeps_margins_of_all_kinds(self):
         ask = ["--trajectory", self.move, "--environment", self.ball, "--json"]
         free = json.loads(self.check(*ask).stdout)["t"]
@@ -164,9 +186,7 @@ class Robot(ToolTest):
                  f"{self.move}: expected one of a trajectory, a request and a goal, got 2"),
                 (["--environment", "none.stl"],
                  "none.stl: expected surroundings (a mesh, a planning scene in .yaml, or a scene in .json), "
-                 "found no such file"),
-                (["--trajectory", self.move, "--svg", "x.svg"],
-                 f"{self.move}: --sample-rate, --svg, --gap and --html are not for scenes with robots yet")]:
+                 "found no such file")]:
             self.assert_refused(self.check(*arguments), message)
         self.assert_refused(self.run_tool("check"), "expected a SCENE, or --robot (see firstcontact check --help)")
         self.assert_refused(self.run_tool("check", "--trajectory", "x.csv"),

@@ -2,11 +2,14 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/robot_question.h>
 #include <firstcontact/scene/write_result.h>
@@ -200,6 +203,35 @@ TEST_F(RobotSceneFile, IsPutTogetherFromAQuestion) {
   EXPECT_EQ(scene.robots[0].trajectory.points[0].positions[0], 0.25);
   EXPECT_EQ(scene.robots[0].trajectory.points[1].positions[0], 0.5);
   EXPECT_NEAR(scene.duration, 0.25, 1e-9);
+}
+
+TEST_F(RobotSceneFile, HasAGapAndAProvenBoundOfIt) {
+  const LoadedScene loaded = load(parse(with_ball(kMove, R"(, "options": {"margin": 0.05})")));
+  const SceneResult result = check(loaded);
+  ASSERT_EQ(result.verdict, Verdict::contact);
+  const std::vector<GapSample> curve = gap_curve(loaded, time_of_interest(result));
+  ASSERT_GT(curve.size(), 129u);
+  const std::vector<GapPoint> bound = gap_lower_bound(loaded, result, curve);
+  EXPECT_EQ(bound.front().t, 0.0);
+  EXPECT_EQ(bound.back().t, 1.0);
+  for (const GapPoint& point : bound) {
+    EXPECT_EQ(point.distance, point.t <= result.t ? 0.05 : 0.0) << point.t;
+  }
+  for (const GapSample& sample : curve) {
+    EXPECT_EQ(sample.contact, sample.distance <= 0.05) << sample.t;
+    EXPECT_GE(sample.distance, sample.t <= result.t ? 0.05 : 0.0) << sample.t;
+  }
+}
+
+TEST_F(RobotSceneFile, IsLookedAtWhereItComesClosest) {
+  const LoadedScene loaded = load(read_robot_question(
+      {.robot = {.urdf = folder_.path() / "arm.urdf"}, .start = {"elbow=1"}, .goal = {"elbow=0"}}));
+  const SceneResult result = check(loaded, {.closest = true});
+  EXPECT_EQ(time_of_interest(result), result.t);  // No pair is tested.
+  const LoadedScene turning = load(parse(with_ball(
+      R"(, "trajectory": {"joint_names": ["elbow"], "points": [{"time": 0, "positions": [0.5]},
+         {"time": 1, "positions": [1]}, {"time": 4, "positions": [0]}]})")));
+  EXPECT_NEAR(time_of_interest(check(turning, {.closest = true})), 0.25, 1e-4);
 }
 
 }  // namespace

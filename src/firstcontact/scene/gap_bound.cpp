@@ -56,6 +56,27 @@ void append_between(const Cone& left, const Cone& right, double rate,
   }
 }
 
+/// Of robots only the clearance is known: it holds until the result's t.
+std::vector<GapPoint> clearance_until(const SceneResult& result,
+                                      std::span<const GapSample> samples) {
+  std::vector<GapPoint> points;
+  const auto add = [&points](double t, double distance) {
+    if (points.empty() || points.back().t < t) {
+      points.push_back({t, distance});
+    }
+  };
+  for (const GapSample& sample : samples) {
+    if (sample.t <= result.t) {
+      add(sample.t, result.clearance);
+    } else {
+      add(result.t, result.clearance);
+      add(std::nextafter(result.t, 1.0), 0.0);
+      add(sample.t, 0.0);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 double greatest_gap_rate(const BodySet& bodies) {
@@ -71,14 +92,17 @@ double greatest_gap_rate(const BodySet& bodies) {
 
 std::vector<GapPoint> gap_lower_bound(const LoadedScene& loaded, const SceneResult& result,
                                       std::span<const GapSample> samples) {
+  if (std::isinf(result.clearance)) {
+    return {};  // No pair is tested.
+  }
+  if (loaded.robots) {
+    return clearance_until(result, samples);
+  }
   const double rate = greatest_gap_rate(loaded.bodies);
   const auto cone = [&](const GapSample& sample, double until) {
     return Cone(sample, rate, until <= result.t ? result.clearance : 0.0);
   };
   std::vector<GapPoint> points;
-  if (std::isinf(result.clearance)) {
-    return points;  // No pair is tested.
-  }
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double next = k + 1 < samples.size() ? samples[k + 1].t : samples[k].t;
     points.push_back({samples[k].t, cone(samples[k], next).apex() * (1.0 - kRounding)});

@@ -26,7 +26,8 @@ struct GapPoint {
 ///
 /// Around each sample the gap is at least its lower bound less the greatest rate times the time
 /// between (a Lipschitz bound), and before the result's t at least its clearance. Samples that
-/// are close together make it tight.
+/// are close together make it tight. Of a scene with robots it is the clearance until the result's
+/// t, and 0 from then on.
 ///
 /// @param samples  of this scene, at increasing times
 /// @return nothing where no pair is tested

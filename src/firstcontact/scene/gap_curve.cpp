@@ -43,6 +43,9 @@ void merge(const std::vector<GapSample>& more, std::vector<GapSample>& curve) {
 }  // namespace
 
 double time_of_interest(const SceneResult& result) {
+  if (result.robots && result.robots->closest && !result.robots->first) {
+    return result.robots->pairs[*result.robots->closest].least_clearance->t;
+  }
   return result.closest && !result.first ? result.pairs[*result.closest].closest_approach->t
                                          : result.t;
 }

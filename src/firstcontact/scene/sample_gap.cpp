@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include <firstcontact/articulated/robot_gap.h>
 #include <firstcontact/query/distance.h>
 
 namespace firstcontact {
@@ -59,10 +60,25 @@ GapSample sample(const LoadedScene& loaded, double t, Workspace& workspace) {
   return sample;
 }
 
+std::vector<GapSample> sample_robots(const RobotScene& scene, std::span<const double> times,
+                                     const std::stop_token& stop) {
+  std::vector<GapSample> samples;
+  for (const RobotGap& gap : robot_gaps(scene, times, stop)) {
+    samples.push_back({.t = times[samples.size()],
+                       .distance = gap.distance,
+                       .lower_bound = gap.lower_bound,
+                       .contact = gap.contact});
+  }
+  return samples;
+}
+
 }  // namespace
 
 std::vector<GapSample> sample_gap(const LoadedScene& loaded, std::span<const double> times,
                                   Workspace& workspace, const std::stop_token& stop) {
+  if (loaded.robots) {
+    return sample_robots(*loaded.robots, times, stop);
+  }
   std::vector<GapSample> samples;
   samples.reserve(times.size());
   for (const double t : times) {

@@ -122,6 +122,9 @@ std::string write_page(std::string_view page_template, const LoadedScene& loaded
   if (place == std::string_view::npos) {
     throw std::invalid_argument("the viewer's page has no place for a result");
   }
+  if (loaded.robots) {
+    throw std::invalid_argument("pages are not for scenes with robots yet");
+  }
   JsonArray meshes;
   JsonObject view{geometry_of_bodies(loaded, meshes)};
   view.push_back({"meshes", {.value = std::move(meshes)}});
