@@ -1,6 +1,5 @@
 #include "scene_answer.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
@@ -34,22 +33,6 @@ CheckOptions check_options(const LoadedScene& loaded, const Question& question) 
           .threads = question.threads,
           .stop = question.stop,
           .progress = tell};
-}
-
-void require_within_limits(const LoadedScene& loaded) {
-  if (loaded.limits.empty()) {
-    return;
-  }
-  const SceneLimits& first = loaded.limits.front();
-  const SceneRobot& robot = loaded.scene.robots[first.robot];
-  std::size_t count = 0;
-  for (const SceneLimits& limits : loaded.limits) {
-    count += limits.violations.size();
-  }
-  throw std::invalid_argument(
-      fmt::format("expected a motion within the joint limits, but {}{}",
-                  describe(robot, first.violations.front(), loaded.scene.duration),
-                  count > 1 ? fmt::format(", and {} more", count - 1) : ""));
 }
 
 }  // namespace

@@ -41,6 +41,22 @@ def falling() -> fc.Motion:
     return fc.Motion.constant_velocity(fc.Pose((0.1, 0.1, 1.0)), translation=(0, 0, -2))
 
 
+@pytest.fixture
+def arm_folder(tmp_path) -> pathlib.Path:
+    """Holds arm.urdf: a bar of 1 m that turns about z by `elbow`, with a ball at its tip."""
+    (tmp_path / "arm.urdf").write_text("""<robot name="arm">
+      <link name="base"/>
+      <link name="bar"><collision><origin xyz="0.5 0 0"/>
+        <geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+      <link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+      <joint name="elbow" type="revolute"><parent link="base"/><child link="bar"/>
+        <axis xyz="0 0 1"/><limit lower="-1" upper="1.5" velocity="1" effort="1"/></joint>
+      <joint name="weld" type="fixed"><parent link="bar"/><child link="tip"/>
+        <origin xyz="1.05 0 0"/></joint>
+    </robot>""")
+    return tmp_path
+
+
 def without_work(result: dict) -> dict:
     """Counts of work are outside of what repeats."""
     return {key: value for key, value in result.items() if key != "work"}

@@ -28,22 +28,24 @@ from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, Ele
                     parse_ply_points, parse_scene, parse_stl, parse_xyz, read_heights, read_mesh,
                     read_points, sample_gap, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
-from ._tuples import GapPoints, GapSamples, HeightMap, Mesh, MovingShape
-from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
-                     UndecidedReason, Verdict)
+from ._tuples import (ContactInterval, GapPoints, GapSamples, HeightMap, LimitViolation, Mesh,
+                      MovingShape)
+from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
+                     StartContacts, UndecidedReason, Verdict)
 
 __all__ = [
-    "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactState",
-    "DistanceResult", "ElementaryContact", "ElementaryVerdict", "Feature", "FeatureType", "Filling",
-    "FirstContactResult", "GapPoints", "GapSamples", "HeightMap", "LinearContact",
-    "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Motion", "MovingShape",
-    "Pair", "PairAnswer", "PairRules", "ParseError", "Pose", "Result", "Scene", "SceneClosest",
-    "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "StartContacts", "StopSource",
-    "UndecidedReason", "Verdict", "WorkCount", "Workspace", "__version__", "answer_each_pair",
-    "check", "check_many", "closest_approach", "convex_hull", "distance", "edge_edge_contact",
-    "first_contact", "inspect", "linear_edge_edge_contact", "linear_vertex_face_contact",
-    "load_scene", "make_box", "make_capsule", "make_cone", "make_convex_hull", "make_cylinder",
-    "make_height_map", "make_point_cloud", "make_sphere", "move_vertices", "parse_obj", "parse_off", "parse_pcd",
+    "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactInterval",
+    "ContactState", "DistanceResult", "ElementaryContact", "ElementaryVerdict", "Feature",
+    "FeatureType", "Filling", "FirstContactResult", "GapPoints", "GapSamples", "HeightMap",
+    "JointLimit", "LimitViolation", "LinearContact", "ManyBodiesResult", "ManyBodiesWorkspace",
+    "Mesh", "MeshDefects", "Motion", "MovingShape", "Pair", "PairAnswer", "PairRules", "ParseError",
+    "Pose", "Result", "Scene", "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "Shape",
+    "ShapeCache", "StartContacts", "StopSource", "UndecidedReason", "Verdict", "WorkCount",
+    "Workspace", "__version__", "answer_each_pair", "check", "check_many", "closest_approach",
+    "convex_hull", "distance", "edge_edge_contact", "first_contact", "inspect",
+    "linear_edge_edge_contact", "linear_vertex_face_contact", "load_scene", "make_box",
+    "make_capsule", "make_cone", "make_convex_hull", "make_cylinder", "make_height_map",
+    "make_point_cloud", "make_sphere", "move_vertices", "parse_obj", "parse_off", "parse_pcd",
     "parse_ply", "parse_ply_points", "parse_scene", "parse_stl", "parse_xyz", "read_heights",
     "read_mesh", "read_points", "sample_gap", "vertex_face_contact", "weld", "why_not_solid",
 ]

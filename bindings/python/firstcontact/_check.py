@@ -58,22 +58,26 @@ def load_scene(scene: SceneLike, shapes: ShapeCache | None = None) -> Scene:
 
 
 def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
-          all_pairs: bool = False, closest: bool = False, margin: float | None = None,
-          tolerance: float | None = None, deadline: float | None = None,
-          sample_rate: float | None = None, threads: int = 0,
+          all_pairs: bool = False, closest: bool = False, all_contacts_in_time: bool = False,
+          margin: float | None = None, tolerance: float | None = None,
+          deadline: float | None = None, sample_rate: float | None = None, strict: bool = False,
+          threads: int = 0,
           progress: Callable[[float], object] | None = None,
           stop: StopSource | None = None) -> Result:
     """Finds the first contact in a scene: when, where, or proven never.
 
     The same answer as the tool's ``firstcontact check``. all_pairs: also the answer of every pair.
-    closest: also the closest approach. margin, tolerance [m], deadline [s]: in place of the
-    scene's. sample_rate: [1/s] also what sampling at this rate would have seen. threads: at most;
-    0 for one on each core; the answer does not depend on it. progress: called now and then with
-    the part that is done, in [0, 1]. Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.
+    closest: also the closest approach. all_contacts_in_time: also from when to when each pair is in
+    contact, in scenes with robots. margin, tolerance [m], deadline [s]: in place of the scene's.
+    sample_rate: [1/s] also what sampling at this rate would have seen. strict: ValueError where a
+    robot leaves its joint limits. threads: at most; 0 for one on each core; the answer does not
+    depend on it. progress: called now and then with the part that is done, in [0, 1]. Other threads
+    run meanwhile. Ctrl-C raises KeyboardInterrupt.
     """
     return _core.check(load_scene(scene), workspace, all_pairs=all_pairs, closest=closest,
-                       margin=margin, tolerance=tolerance, deadline=deadline,
-                       sample_rate=sample_rate, threads=threads, progress=progress, stop=stop)
+                       all_contacts_in_time=all_contacts_in_time, margin=margin,
+                       tolerance=tolerance, deadline=deadline, sample_rate=sample_rate,
+                       strict=strict, threads=threads, progress=progress, stop=stop)
 
 
 def _prepared(job: SceneLike | Pair) -> Scene | SceneSource | Pair:
@@ -116,8 +120,9 @@ def _answer_by(executor: Executor, jobs: Sequence[Scene | SceneSource | Pair],
 
 def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = None, *,
                threads: int = 0, all_pairs: bool = False, closest: bool = False,
-               margin: float | None = None, tolerance: float | None = None,
-               deadline: float | None = None,
+               all_contacts_in_time: bool = False, margin: float | None = None,
+               tolerance: float | None = None, deadline: float | None = None,
+               strict: bool = False,
                errors: Literal["raise", "return"] = "raise") -> list[Any]:
     """Answers many jobs, in order: scenes with a Result, pairs with a FirstContactResult.
 
@@ -133,8 +138,9 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
     if errors not in ("raise", "return"):
         raise ValueError(f'errors: expected "raise" or "return", got {errors!r}')
     prepared = [_prepared(job) for job in jobs]
-    question: dict[str, Any] = {"all_pairs": all_pairs, "closest": closest, "margin": margin,
-                "tolerance": tolerance, "deadline": deadline}
+    question: dict[str, Any] = {"all_pairs": all_pairs, "closest": closest,
+                "all_contacts_in_time": all_contacts_in_time, "margin": margin,
+                "tolerance": tolerance, "deadline": deadline, "strict": strict}
     if executor is None:
         answers = _core.answer_jobs(prepared, threads=threads, **question)
     else:

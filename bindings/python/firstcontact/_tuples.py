@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ._words import JointLimit, UndecidedReason
+
 if TYPE_CHECKING:
     from ._core import Motion, Shape
 
@@ -57,3 +59,37 @@ class GapPoints(NamedTuple):
     """[-]  n times, normalised to the scene's duration."""
     distance: npt.NDArray[np.float64]
     """[m]  n bounds."""
+
+
+class ContactInterval(NamedTuple):
+    """A stretch of time in which a pair is in contact; outside of its intervals it is proven free.
+
+    Gaps of less than 2 ms of a step of 1 s may be counted to the interval around them.
+    """
+
+    enter: float
+    """[-]  Within margin + tolerance here, proven free before."""
+    leave: float
+    """[-]  Proven free after it, until the next interval."""
+    enter_time: float
+    """[s]"""
+    leave_time: float
+    """[s]"""
+    reason: UndecidedReason
+    """Not ``none``: not searched to its end, nothing is known in it after ``enter``."""
+
+
+class LimitViolation(NamedTuple):
+    """A joint beyond one of its limits; rad or m, per second for velocities."""
+
+    robot: str
+    joint: str
+    limit: JointLimit
+    value: float
+    """The limit, as the robot's model has it."""
+    excess: float
+    """The greatest way beyond it."""
+    time: float
+    """[s]  Where that is attained."""
+    intervals: npt.NDArray[np.float64]
+    """[s]  n×2, begins and ends: outside of them the limit is proven to be kept."""

@@ -80,3 +80,11 @@ class ElementaryVerdict(enum.StrEnum):
     """They meet between ``t_lower`` and ``t_upper``."""
     degenerate = "degenerate"
     """Proven free before ``t_lower``, where they touch up to rounding."""
+
+
+class JointLimit(enum.StrEnum):
+    """Which limit of a joint."""
+
+    lower_position = "lower_position"
+    upper_position = "upper_position"
+    velocity = "velocity"

@@ -34,25 +34,29 @@ namespace {
 using SharedScene = std::shared_ptr<HeldScene>;
 using SharedCache = std::shared_ptr<ShapeCache>;
 
-/// Checks one scene, whose options are settled. Without the GIL.
+/// What is asked of one scene in place of, or beyond, what it says.
+struct SceneQuestion {
+  OtherOptions other = {};
+  std::optional<double> sample_rate = {};  ///< [1/s]
+  bool strict = false;                     ///< A robot beyond its joint limits is an error.
+};
+
+/// Checks one scene, whose other options are settled. Without the GIL.
 HeldResult answer_scene(SharedScene scene, ManyBodiesWorkspace& workspace,
-                        const CheckOptions& options, std::optional<double> sample_rate) {
+                        const CheckOptions& options, const SceneQuestion& question) {
   HeldResult result{.scene = std::move(scene), .answer = {}, .all_pairs = options.all_pairs};
   const LoadedScene& loaded = result.scene->loaded();
+  if (question.strict) {
+    require_within_limits(loaded);
+  }
   result.answer = check_scene(loaded, workspace, options);
-  if (sample_rate) {
-    const auto times = times_at_rate(*sample_rate, loaded.scene.duration);
+  if (question.sample_rate) {
+    const auto times = times_at_rate(*question.sample_rate, loaded.scene.duration);
     result.sampling =
-        report_sampling(*sample_rate, sample_in_parallel(loaded, times, options.stop));
+        report_sampling(*question.sample_rate, sample_in_parallel(loaded, times, options.stop));
   }
   return result;
 }
-
-/// What is asked of one scene in place of, or beyond, what it says.
-struct SceneQuestion {
-  OtherOptions other;
-  std::optional<double> sample_rate;  ///< [1/s]
-};
 
 std::shared_ptr<HeldResult> check(const SharedScene& scene,
                                   HeldWorkspace<ManyBodiesWorkspace>* workspace,
@@ -63,8 +67,7 @@ std::shared_ptr<HeldResult> check(const SharedScene& scene,
   return run_query(stop, [&](QueryStop& query) {
     options.stop = query.token();
     options.progress = progress_of(progress, query);
-    return std::make_shared<HeldResult>(
-        answer_scene(asked, lease.get(), options, question.sample_rate));
+    return std::make_shared<HeldResult>(answer_scene(asked, lease.get(), options, question));
   });
 }
 
@@ -86,7 +89,7 @@ using Answer = std::variant<std::exception_ptr, HeldResult, FirstContactResult>;
 /// What is asked of every job.
 struct JobOptions {
   CheckOptions check;
-  OtherOptions other;
+  SceneQuestion question;
   SharedCache shapes;
 };
 
@@ -105,8 +108,9 @@ class JobAnswerer {
 
  private:
   Answer answer(const SharedScene& scene) {
-    return answer_scene(options_.other.any() ? scene->with(options_.other) : scene, many_bodies_,
-                        options_.check, std::nullopt);
+    const OtherOptions& other = options_.question.other;
+    return answer_scene(other.any() ? scene->with(other) : scene, many_bodies_, options_.check,
+                        options_.question);
   }
 
   Answer answer(const SceneSource& source) {
@@ -120,9 +124,10 @@ class JobAnswerer {
 
   Answer answer(const TwoShapes& two) {
     FirstContactOptions options;
-    options.margin = options_.other.margin.value_or(options.margin);
-    options.tolerance = options_.other.tolerance.value_or(options.tolerance);
-    options.budget.deadline = deadline_in(options_.other.deadline);
+    const OtherOptions& other = options_.question.other;
+    options.margin = other.margin.value_or(options.margin);
+    options.tolerance = other.tolerance.value_or(options.tolerance);
+    options.budget.deadline = deadline_in(other.deadline);
     options.budget.stop = options_.check.stop;
     return first_contact(two.A, two.B, two_bodies_, options);
   }
@@ -175,8 +180,7 @@ struct ToPython {
   py::object operator()(FirstContactResult& result) const { return py::cast(std::move(result)); }
 };
 
-py::list answer_jobs(const py::iterable& given, std::size_t threads, bool all_pairs, bool closest,
-                     const OtherOptions& other, const SharedCache& shapes,
+py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions options,
                      const std::stop_source* stop) {
   const py::tuple kept(given);  // Keeps shapes and motions.
   std::vector<Job> jobs;
@@ -184,9 +188,6 @@ py::list answer_jobs(const py::iterable& given, std::size_t threads, bool all_pa
   for (const py::handle job : kept) {
     jobs.push_back(job_from(job));
   }
-  JobOptions options{.check = {.all_pairs = all_pairs, .closest = closest, .threads = 1},
-                     .other = other,
-                     .shapes = shapes ? shapes : std::make_shared<ShapeCache>()};
   std::vector<Answer> answers = run_query(stop, [&](const QueryStop& query) {
     options.check.stop = query.token();
     return answer_all(jobs, options, threads > 0 ? threads : std::thread::hardware_concurrency());
@@ -204,19 +205,26 @@ void bind_check_jobs(py::module_& m) {
   m.def(
       "check",
       [](const SharedScene& scene, OrNone<HeldWorkspace<ManyBodiesWorkspace>> workspace,
-         bool all_pairs, bool closest, std::optional<double> margin,
+         bool all_pairs, bool closest, bool all_contacts_in_time, std::optional<double> margin,
          std::optional<double> tolerance, std::optional<double> deadline,
-         std::optional<double> sample_rate, int threads, const py::object& progress,
+         std::optional<double> sample_rate, bool strict, int threads, const py::object& progress,
          OrNone<std::stop_source> stop) {
         return check(
-            scene, workspace, {.all_pairs = all_pairs, .closest = closest, .threads = threads},
-            {.other = {margin, tolerance, deadline}, .sample_rate = sample_rate}, progress, stop);
+            scene, workspace,
+            {.all_pairs = all_pairs,
+             .closest = closest,
+             .all_contacts_in_time = all_contacts_in_time,
+             .threads = threads},
+            {.other = {margin, tolerance, deadline}, .sample_rate = sample_rate, .strict = strict},
+            progress, stop);
       },
       py::arg("scene"), py::arg("workspace") = py::none(), py::kw_only(),
-      py::arg("all_pairs") = false, py::arg("closest") = false, py::arg("margin") = py::none(),
+      py::arg("all_pairs") = false, py::arg("closest") = false,
+      py::arg("all_contacts_in_time") = false, py::arg("margin") = py::none(),
       py::arg("tolerance") = py::none(), py::arg("deadline") = py::none(),
-      py::arg("sample_rate") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none(),
-      py::arg("stop") = py::none(), "As firstcontact.check, of a Scene.");
+      py::arg("sample_rate") = py::none(), py::arg("strict") = false, py::arg("threads") = 0,
+      py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+      "As firstcontact.check, of a Scene.");
   py::class_<SceneSource>(m, "SceneSource", "A scene that is not read yet.")
       .def(py::init([](std::optional<std::string> text, std::filesystem::path source) {
              return SceneSource{std::move(text), std::move(source)};
@@ -231,14 +239,22 @@ void bind_check_jobs(py::module_& m) {
   m.def(
       "answer_jobs",
       [](const py::iterable& jobs, std::size_t threads, bool all_pairs, bool closest,
-         std::optional<double> margin, std::optional<double> tolerance,
-         std::optional<double> deadline, const SharedCache& shapes, OrNone<std::stop_source> stop) {
-        return answer_jobs(jobs, threads, all_pairs, closest, {margin, tolerance, deadline}, shapes,
+         bool all_contacts_in_time, std::optional<double> margin, std::optional<double> tolerance,
+         std::optional<double> deadline, bool strict, const SharedCache& shapes,
+         OrNone<std::stop_source> stop) {
+        return answer_jobs(jobs, threads,
+                           {.check = {.all_pairs = all_pairs,
+                                      .closest = closest,
+                                      .all_contacts_in_time = all_contacts_in_time,
+                                      .threads = 1},
+                            .question = {.other = {margin, tolerance, deadline}, .strict = strict},
+                            .shapes = shapes ? shapes : std::make_shared<ShapeCache>()},
                            stop);
       },
       py::arg("jobs"), py::kw_only(), py::arg("threads") = 0, py::arg("all_pairs") = false,
-      py::arg("closest") = false, py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
-      py::arg("deadline") = py::none(), py::arg("shapes") = py::none(),
+      py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
+      py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
+      py::arg("deadline") = py::none(), py::arg("strict") = false, py::arg("shapes") = py::none(),
       py::arg("stop") = py::none(),
       "Of each job its answer, or the exception that it raised, in order.");
 }

@@ -46,27 +46,6 @@ Feature feature_from(const py::tuple& state) {
 
 py::tuple plain(const Eigen::Vector3d& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
 
-py::tuple state_of(const Contact& contact) {
-  return py::make_tuple(state_of(contact.feature_A), state_of(contact.feature_B),
-                        plain(contact.p_WA), plain(contact.p_WB),
-                        contact.n_AB_W ? py::object(plain(*contact.n_AB_W)) : py::none(),
-                        contact.distance, contact.normal_velocity);
-}
-
-Contact contact_from(const py::tuple& state) {
-  Contact contact;
-  contact.feature_A = feature_from(state[0]);
-  contact.feature_B = feature_from(state[1]);
-  contact.p_WA = vector_from(state[2], "p_WA");
-  contact.p_WB = vector_from(state[3], "p_WB");
-  if (!state[4].is_none()) {
-    contact.n_AB_W = vector_from(state[4], "n_AB_W");
-  }
-  contact.distance = state[5].cast<double>();
-  contact.normal_velocity = state[6].cast<double>();
-  return contact;
-}
-
 py::tuple state_of(const WorkCount& work) {
   return py::make_tuple(work.node_groups, work.triangle_pairs, work.steps);
 }
@@ -80,7 +59,7 @@ WorkCount work_from(const py::tuple& state) {
 py::tuple state_of(const ClosestApproachResult& result) {
   return py::make_tuple(result.distance, result.lower_bound, result.t, result.reason,
                         result.tolerance_used, result.enclosure_error,
-                        result.closest ? py::object(state_of(*result.closest)) : py::none(),
+                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
                         state_of(result.work));
 }
 
@@ -101,7 +80,7 @@ ClosestApproachResult closest_approach_result_from(const py::tuple& state) {
 
 py::tuple state_of(const DistanceResult& result) {
   return py::make_tuple(result.distance, result.lower_bound, result.enclosure_error,
-                        result.closest ? py::object(state_of(*result.closest)) : py::none(),
+                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
                         state_of(result.work));
 }
 
@@ -118,24 +97,15 @@ py::tuple state_of(const ManyBodiesResult& result) {
   for (const PairAnswer& answer : result.first) {
     first.append(python::state_of(answer));
   }
-  return py::make_tuple(result.verdict, result.reason, result.t, result.t_upper, result.clearance,
-                        result.tolerance_used, result.enclosure_error, py::tuple(first),
-                        state_of(result.work));
+  return py::make_tuple(outcome_of(result), py::tuple(first), state_of(result.work));
 }
 
 ManyBodiesResult many_bodies_result_from(const py::tuple& state) {
-  ManyBodiesResult result;
-  result.verdict = state[0].cast<Verdict>();
-  result.reason = state[1].cast<UndecidedReason>();
-  result.t = state[2].cast<double>();
-  result.t_upper = state[3].cast<std::optional<double>>();
-  result.clearance = state[4].cast<double>();
-  result.tolerance_used = state[5].cast<double>();
-  result.enclosure_error = state[6].cast<double>();
-  for (const py::handle answer : state[7]) {
+  auto result = with_outcome<ManyBodiesResult>(state[0]);
+  for (const py::handle answer : state[1]) {
     result.first.push_back(pair_answer_from(answer.cast<py::tuple>()));
   }
-  result.work = work_from(state[8]);
+  result.work = work_from(state[2]);
   return result;
 }
 
@@ -199,7 +169,7 @@ void bind_contact(py::module_& m) {
         return "<Contact: " + describe(c.feature_A) + " and " + describe(c.feature_B) +
                ", distance " + number_text(c.distance) + " m>";
       });
-  add_pickling<Contact>(contact, &state_of, &contact_from);
+  add_pickling<Contact>(contact, &python::state_of, &contact_from);
 
   py::class_<WorkCount> work(m, "WorkCount", "Work done: counts, outside of what is proven.");
   work.def_readonly("node_groups", &WorkCount::node_groups,
@@ -692,29 +662,41 @@ std::string verdict_text(Verdict verdict, UndecidedReason reason, double t) {
   return text + " t = " + number_text(t);
 }
 
+py::tuple state_of(const Contact& contact) {
+  return py::make_tuple(state_of(contact.feature_A), state_of(contact.feature_B),
+                        plain(contact.p_WA), plain(contact.p_WB),
+                        contact.n_AB_W ? py::object(plain(*contact.n_AB_W)) : py::none(),
+                        contact.distance, contact.normal_velocity);
+}
+
+Contact contact_from(const py::tuple& state) {
+  Contact contact;
+  contact.feature_A = feature_from(state[0]);
+  contact.feature_B = feature_from(state[1]);
+  contact.p_WA = vector_from(state[2], "p_WA");
+  contact.p_WB = vector_from(state[3], "p_WB");
+  if (!state[4].is_none()) {
+    contact.n_AB_W = vector_from(state[4], "n_AB_W");
+  }
+  contact.distance = state[5].cast<double>();
+  contact.normal_velocity = state[6].cast<double>();
+  return contact;
+}
+
 py::tuple state_of(const FirstContactResult& result) {
   py::tuple contacts(result.contacts.size());
   for (std::size_t k = 0; k < result.contacts.size(); ++k) {
     contacts[k] = state_of(result.contacts[k]);
   }
-  return py::make_tuple(result.verdict, result.reason, result.t, result.t_upper, result.clearance,
-                        result.tolerance_used, result.enclosure_error, contacts,
-                        state_of(result.work));
+  return py::make_tuple(outcome_of(result), contacts, state_of(result.work));
 }
 
 FirstContactResult first_contact_result_from(const py::tuple& state) {
-  FirstContactResult result;
-  result.verdict = state[0].cast<Verdict>();
-  result.reason = state[1].cast<UndecidedReason>();
-  result.t = state[2].cast<double>();
-  result.t_upper = state[3].cast<std::optional<double>>();
-  result.clearance = state[4].cast<double>();
-  result.tolerance_used = state[5].cast<double>();
-  result.enclosure_error = state[6].cast<double>();
-  for (const py::handle contact : state[7]) {
+  auto result = with_outcome<FirstContactResult>(state[0]);
+  for (const py::handle contact : state[1]) {
     result.contacts.push_back(contact_from(contact.cast<py::tuple>()));
   }
-  result.work = work_from(state[8]);
+  result.work = work_from(state[2]);
   return result;
 }
 

@@ -16,6 +16,8 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interrupts.h"
+#include "pair_view.h"
+#include "pickled_robots.h"
 #include "query.h"
 #include "scene.h"
 #include "words.h"
@@ -28,73 +30,94 @@ namespace {
 
 using SharedResult = std::shared_ptr<const HeldResult>;
 
-/// A contact as scenes tell it: bodies by name, velocities in seconds.
-struct SceneContact : Contact {
-  std::array<std::string, 2> bodies;
-};
-
 /// The answer of one pair.
 struct ScenePair {
   SharedResult result;
   std::size_t index = 0;
 
-  [[nodiscard]] const PairAnswer& answer() const { return result->answer.pairs[index]; }
+  [[nodiscard]] PairView view() const { return view_pair(*result, index); }
 };
 
 /// Its closest approach.
 struct SceneClosest {
   ScenePair pair;
 
-  [[nodiscard]] const ClosestApproachResult& found() const {
-    return *pair.answer().closest_approach;
-  }
+  [[nodiscard]] ClosestView found() const { return *pair.view().closest; }
 };
 
-std::array<std::string, 2> names_of(const HeldResult& result, const BodyPair& bodies) {
-  const std::vector<Body>& all = result.scene->scene().bodies;
-  return {all[bodies[0]].name, all[bodies[1]].name};
-}
-
 double duration(const HeldResult& result) { return result.scene->scene().duration; }
-
-void append_contacts(const HeldResult& result, const PairAnswer& pair, py::list& list) {
-  for (const Contact& found : pair.first_contact.contacts) {
-    SceneContact contact{found, names_of(result, pair.bodies)};
-    contact.normal_velocity = found.normal_velocity / duration(result);
-    list.append(std::move(contact));
-  }
-}
 
 /// Of every pair that touches at the scene's t.
 py::tuple contacts_of(const HeldResult& result) {
   py::list list;
-  for (const PairAnswer& pair : result.answer.pairs) {
-    if (result.answer.first && pair.first_contact.t == result.answer.t) {
-      append_contacts(result, pair, list);
+  const bool is_contact = first_pair(result.answer).has_value();
+  for (std::size_t k = 0; is_contact && k < pair_count(result); ++k) {
+    if (view_pair(result, k).t == result.answer.t) {
+      for (SceneContact& contact : contacts_of_pair(result, k)) {
+        list.append(std::move(contact));
+      }
     }
   }
   return py::tuple(list);
 }
 
-py::object first_pair(const HeldResult& result) {
-  const SceneResult& answer = result.answer;
-  return answer.first
-             ? py::cast(names_of(result, answer.pairs[*answer.first].bodies)).cast<py::tuple>()
-             : py::object(py::none());
+py::object names_of_first(const HeldResult& result) {
+  const auto first = first_pair(result.answer);
+  return first ? py::cast(view_pair(result, *first).names).cast<py::tuple>()
+               : py::object(py::none());
 }
 
-py::object closest_pair(const SharedResult& result) {
-  const SceneResult& answer = result->answer;
-  return answer.closest ? py::cast(SceneClosest{{result, *answer.closest}})
-                        : py::object(py::none());
+py::object closest_of(const SharedResult& result) {
+  const auto closest = closest_pair(result->answer);
+  return closest ? py::cast(SceneClosest{{result, *closest}}) : py::object(py::none());
 }
 
 py::tuple pairs_of(const SharedResult& result) {
-  py::tuple pairs(result->answer.pairs.size());
+  py::tuple pairs(pair_count(*result));
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     pairs[k] = ScenePair{result, k};
   }
   return pairs;
+}
+
+/// A class of firstcontact/_tuples.py.
+py::object tuple_type(const char* name) {
+  return py::module_::import("firstcontact._tuples").attr(name);
+}
+
+py::tuple intervals_of(const ScenePair& pair) {
+  const py::object interval = tuple_type("ContactInterval");
+  const double seconds = duration(*pair.result);
+  py::list list;
+  for (const ContactInterval& found : pair.view().intervals) {
+    list.append(interval(found.enter, found.leave, found.enter * seconds, found.leave * seconds,
+                         found.reason));
+  }
+  return py::tuple(list);
+}
+
+py::object to_tuple(const SceneRobot& robot, const LimitViolation& violation, double duration) {
+  std::vector<double> intervals;
+  for (const TimeWindow& interval : violation.intervals) {
+    intervals.push_back(interval.begin * duration);
+    intervals.push_back(interval.end * duration);
+  }
+  const auto rows = static_cast<py::ssize_t>(violation.intervals.size());
+  return tuple_type("LimitViolation")(
+      robot.name, robot.model.joints()[violation.joint].name, violation.what, violation.limit,
+      violation.excess, violation.t_excess * duration,
+      py::array_t<double>({rows, py::ssize_t{2}}, intervals.data()));
+}
+
+py::tuple limits_of(const HeldResult& result) {
+  const LoadedScene& loaded = loaded_without_gil(*result.scene);
+  py::list list;
+  for (const SceneLimits& limits : loaded.limits) {
+    for (const LimitViolation& violation : limits.violations) {
+      list.append(to_tuple(loaded.scene.robots[limits.robot], violation, loaded.scene.duration));
+    }
+  }
+  return py::tuple(list);
 }
 
 std::string to_json(const HeldResult& result) {
@@ -138,11 +161,10 @@ py::object gap_curve_of(const HeldResult& result) {
     corner_t.push_back(point.t);
     corner_distance.push_back(point.distance);
   }
-  const auto tuples = py::module_::import("firstcontact._tuples");
   return py::make_tuple(
-      tuples.attr("GapSamples")(owning(std::move(t)), owning(std::move(distance)),
-                                owning(std::move(lower_bound))),
-      tuples.attr("GapPoints")(owning(std::move(corner_t)), owning(std::move(corner_distance))));
+      tuple_type("GapSamples")(owning(std::move(t)), owning(std::move(distance)),
+                               owning(std::move(lower_bound))),
+      tuple_type("GapPoints")(owning(std::move(corner_t)), owning(std::move(corner_distance))));
 }
 
 /// As the tool's --html.
@@ -161,8 +183,8 @@ std::string describe(const HeldResult& result) {
   const SceneResult& answer = result.answer;
   std::string text = "<Result " + std::string(py::repr(py::str(result.scene->scene().id))) + ": " +
                      verdict_text(answer.verdict, answer.reason, answer.t);
-  if (answer.first) {
-    const auto names = names_of(result, answer.pairs[*answer.first].bodies);
+  if (const auto first = first_pair(answer)) {
+    const auto names = view_pair(result, *first).names;
     text += ", " + names[0] + " and " + names[1];
   }
   return text + ">";
@@ -185,7 +207,8 @@ py::tuple state_of(const HeldResult& result) {
   }
   return py::make_tuple(result.scene, answer.verdict, answer.reason, answer.t, answer.t_upper,
                         answer.clearance, answer.tolerance_used, answer.first, answer.closest,
-                        py::tuple(pairs), answer.work, result.all_pairs, sampling);
+                        py::tuple(pairs), answer.work, result.all_pairs, sampling,
+                        answer.robots ? py::object(python::state_of(*answer.robots)) : py::none());
 }
 
 SamplingReport report_from(const py::tuple& state) {
@@ -223,125 +246,128 @@ std::shared_ptr<HeldResult> result_from(const py::tuple& state) {
   if (!state[12].is_none()) {
     result->sampling = report_from(state[12]);
   }
+  if (!state[13].is_none()) {
+    answer.robots = robot_check_result_from(state[13]);
+  }
   return result;
 }
 
-void bind_parts(py::module_& m) {
+/// A getter of something of a pair.
+template <typename T>
+auto of_pair(T PairView::*what) {
+  return [what](const ScenePair& pair) { return pair.view().*what; };
+}
+
+/// A getter of something of a closest approach.
+template <typename T>
+auto of_closest(T ClosestView::*what) {
+  return [what](const SceneClosest& closest) { return closest.found().*what; };
+}
+
+/// Both are pickled as their result and their index in it.
+py::tuple state_of(const ScenePair& pair) {
+  return py::make_tuple(std::const_pointer_cast<HeldResult>(pair.result), pair.index);
+}
+
+ScenePair scene_pair_from(const py::tuple& state) {
+  return {state[0].cast<std::shared_ptr<HeldResult>>(), state[1].cast<std::size_t>()};
+}
+
+void bind_contact_of_scene(py::module_& m) {
   py::class_<SceneContact, Contact>(m, "SceneContact",
                                     "A contact in a scene: `normal_velocity` is in m/s.")
       .def_property_readonly(
           "bodies", [](const SceneContact& c) { return py::make_tuple(c.bodies[0], c.bodies[1]); },
-          "The names of the two bodies.")
+          "The names of the two bodies; of links \"robot/link\".")
+      .def_property_readonly(
+          "geometries",
+          [](const SceneContact& c) { return py::make_tuple(c.geometries[0], c.geometries[1]); },
+          "Of each body the geometry that the features belong to: links may have several.")
       .def(py::pickle(
           [](const SceneContact& c) {
-            return py::make_tuple(static_cast<const Contact&>(c), c.bodies);
+            return py::make_tuple(static_cast<const Contact&>(c), c.bodies, c.geometries);
           },
           [](const py::tuple& state) {
             return SceneContact{state[0].cast<Contact>(),
-                                state[1].cast<std::array<std::string, 2>>()};
+                                state[1].cast<std::array<std::string, 2>>(),
+                                state[2].cast<std::array<std::size_t, 2>>()};
           }));
+}
 
+void bind_closest(py::module_& m) {
   py::class_<SceneClosest>(m, "SceneClosest", "The closest approach of a pair in a scene.")
       .def_property_readonly(
-          "pair",
-          [](const SceneClosest& c) {
-            return py::tuple(py::cast(names_of(*c.pair.result, c.pair.answer().bodies)));
-          },
+          "pair", [](const SceneClosest& c) { return py::tuple(py::cast(c.pair.view().names)); },
           "The names of the two bodies.")
-      .def_property_readonly(
-          "distance", [](const SceneClosest& c) { return c.found().distance; },
-          "[m] Attained at t; an upper bound of the least distance over the step.")
-      .def_property_readonly(
-          "lower_bound", [](const SceneClosest& c) { return c.found().lower_bound; },
-          "[m] Proven for the whole step.")
-      .def_property_readonly(
-          "t", [](const SceneClosest& c) { return c.found().t; },
-          "[-] A time where `distance` is attained.")
+      .def_property_readonly("distance", of_closest(&ClosestView::distance),
+                             "[m] Attained at t; an upper bound of the least distance over the "
+                             "step.")
+      .def_property_readonly("lower_bound", of_closest(&ClosestView::lower_bound),
+                             "[m] Proven for the whole step.")
+      .def_property_readonly("t", of_closest(&ClosestView::t),
+                             "[-] A time where `distance` is attained.")
       .def_property_readonly(
           "time", [](const SceneClosest& c) { return c.found().t * duration(*c.pair.result); },
           "[s]")
-      .def_property_readonly(
-          "reason", [](const SceneClosest& c) { return c.found().reason; },
-          "Not `none`: the budget ended the search.")
+      .def_property_readonly("reason", of_closest(&ClosestView::reason),
+                             "Not `none`: the budget ended the search.")
       .def_property_readonly(
           "points",
           [](const SceneClosest& c) {
-            return c.found().closest ? py::cast(*c.found().closest).attr("points")
-                                     : py::object(py::none());
+            const ClosestView found = c.found();
+            return found.closest ? py::cast(*found.closest).attr("points") : py::object(py::none());
           },
-          "[m] 2×3, world frame: the closest points at t; None where no pair was reached.")
+          "[m] 2×3, world frame: the closest points at t; None where no pair was reached, and in "
+          "scenes with robots.")
       .def("__repr__",
            [](const SceneClosest& c) {
              return "<SceneClosest: " + std::string(py::repr(py::float_(c.found().distance))) +
                     " m at t = " + std::string(py::repr(py::float_(c.found().t))) + ">";
            })
-      .def(py::pickle(
-          [](const SceneClosest& c) {
-            return py::make_tuple(std::const_pointer_cast<HeldResult>(c.pair.result), c.pair.index);
-          },
-          [](const py::tuple& state) {
-            return SceneClosest{
-                {state[0].cast<std::shared_ptr<HeldResult>>(), state[1].cast<std::size_t>()}};
-          }));
+      .def(py::pickle([](const SceneClosest& c) { return state_of(c.pair); },
+                      [](const py::tuple& state) { return SceneClosest{scene_pair_from(state)}; }));
+}
 
+void bind_pair(py::module_& m) {
   py::class_<ScenePair>(m, "ScenePair", "The answer of one pair of bodies in a scene.")
       .def_property_readonly(
-          "pair",
-          [](const ScenePair& p) {
-            return py::tuple(py::cast(names_of(*p.result, p.answer().bodies)));
-          },
-          "The names of the two bodies.")
+          "pair", [](const ScenePair& p) { return py::tuple(py::cast(p.view().names)); },
+          "The names of the two bodies; of links \"robot/link\".")
+      .def_property_readonly("margin", of_pair(&PairView::margin),
+                             "[m] With paddings and the effect of tracking errors.")
+      .def_property_readonly("verdict", of_pair(&PairView::verdict))
+      .def_property_readonly("reason", of_pair(&PairView::reason))
+      .def_property_readonly("t", of_pair(&PairView::t),
+                             "[-] Before it the pair is farther apart than its margin: proven.")
+      .def_property_readonly("t_upper", of_pair(&PairView::t_upper),
+                             "[-] A time that is proven to be in contact, if one is known.")
       .def_property_readonly(
-          "margin", [](const ScenePair& p) { return p.answer().margin; }, "[m]")
-      .def_property_readonly("verdict",
-                             [](const ScenePair& p) { return p.answer().first_contact.verdict; })
-      .def_property_readonly("reason",
-                             [](const ScenePair& p) { return p.answer().first_contact.reason; })
-      .def_property_readonly(
-          "t", [](const ScenePair& p) { return p.answer().first_contact.t; },
-          "[-] Before it the pair is farther apart than its margin: proven.")
-      .def_property_readonly(
-          "t_upper", [](const ScenePair& p) { return p.answer().first_contact.t_upper; },
-          "[-] A time that is proven to be in contact, if one is known.")
-      .def_property_readonly(
-          "time",
-          [](const ScenePair& p) { return p.answer().first_contact.t * duration(*p.result); },
+          "time", [](const ScenePair& p) { return p.view().t * duration(*p.result); },
           "[s] t times the duration.")
       .def_property_readonly(
           "contacts",
           [](const ScenePair& p) {
-            py::list list;
-            append_contacts(*p.result, p.answer(), list);
-            return py::tuple(list);
+            return py::tuple(py::cast(contacts_of_pair(*p.result, p.index)));
           },
           "At t.")
-      .def_property_readonly(
-          "clearance", [](const ScenePair& p) { return p.answer().first_contact.clearance; },
-          "[m] Proven lower bound of the distance before t.")
-      .def_property_readonly(
-          "tolerance_used",
-          [](const ScenePair& p) { return p.answer().first_contact.tolerance_used; }, "[m]")
+      .def_property_readonly("clearance", of_pair(&PairView::clearance),
+                             "[m] Proven lower bound of the distance before t.")
+      .def_property_readonly("tolerance_used", of_pair(&PairView::tolerance_used), "[m]")
       .def_property_readonly(
           "closest",
           [](const ScenePair& p) {
-            return p.answer().closest_approach ? py::cast(SceneClosest{p}) : py::object(py::none());
+            return p.view().closest ? py::cast(SceneClosest{p}) : py::object(py::none());
           },
           "Its closest approach; None where that was not asked.")
+      .def_property_readonly("intervals", &intervals_of,
+                             "ContactIntervals, in order; where all_contacts_in_time was asked.")
       .def("__repr__",
            [](const ScenePair& p) {
-             const auto names = names_of(*p.result, p.answer().bodies);
-             const FirstContactResult& found = p.answer().first_contact;
-             return "<ScenePair " + names[0] + " and " + names[1] + ": " +
-                    verdict_text(found.verdict, found.reason, found.t) + ">";
+             const PairView view = p.view();
+             return "<ScenePair " + view.names[0] + " and " + view.names[1] + ": " +
+                    verdict_text(view.verdict, view.reason, view.t) + ">";
            })
-      .def(py::pickle(
-          [](const ScenePair& p) {
-            return py::make_tuple(std::const_pointer_cast<HeldResult>(p.result), p.index);
-          },
-          [](const py::tuple& state) {
-            return ScenePair{state[0].cast<std::shared_ptr<HeldResult>>(),
-                             state[1].cast<std::size_t>()};
-          }));
+      .def(py::pickle([](const ScenePair& p) { return state_of(p); }, &scene_pair_from));
 }
 
 /// A method that firstcontact/_page.py has.
@@ -374,7 +400,9 @@ polyline that the gap is proven not to be below, at any time.)");
 }  // namespace
 
 void bind_result(py::module_& m) {
-  bind_parts(m);
+  bind_contact_of_scene(m);
+  bind_closest(m);
+  bind_pair(m);
   py::class_<HeldResult, std::shared_ptr<HeldResult>> type(m, "Result",
                                                            R"(The answer of a scene; never changes.
 
@@ -392,7 +420,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly(
           "time", [](const HeldResult& r) { return r.answer.t * duration(r); },
           "[s] t times the duration.")
-      .def_property_readonly("pair", &first_pair,
+      .def_property_readonly("pair", &names_of_first,
                              "The names of the bodies that decide t; None when free.")
       .def_property_readonly("contacts", &contacts_of, "At t, of every pair that touches there.")
       .def_property_readonly(
@@ -400,11 +428,16 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "[m] Proven lower bound of every pair's distance up to t; infinite "
           "where no pair is tested.")
       .def_property_readonly(
-          "closest", [](const std::shared_ptr<HeldResult>& r) { return closest_pair(r); },
+          "closest", [](const std::shared_ptr<HeldResult>& r) { return closest_of(r); },
           "The pair that comes closest; None where that was not asked.")
       .def_property_readonly(
           "pairs", [](const std::shared_ptr<HeldResult>& r) { return pairs_of(r); },
           "Every tested pair where that was asked, else those that decide t.")
+      .def_property_readonly("limits", &limits_of,
+                             "LimitViolations: the joint limits that robots leave.")
+      .def_property_readonly(
+          "warnings", [](const HeldResult& r) { return loaded_without_gil(*r.scene).warnings; },
+          "What a user should know of robots: joints that rest where nobody said, limits.")
       .def_property_readonly(
           "tolerance_used", [](const HeldResult& r) { return r.answer.tolerance_used; },
           "[m] The greatest of the pairs that were searched.")

@@ -75,10 +75,12 @@ std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
   return hold(parse_scene(text, source), shapes);
 }
 
-py::tuple names_of(const HeldScene& scene) {
+/// Of bodies, or of robots.
+template <typename Named>
+py::tuple names_of(const std::vector<Named>& all) {
   py::list names;
-  for (const Body& body : scene.scene().bodies) {
-    names.append(body.name);
+  for (const Named& one : all) {
+    names.append(one.name);
   }
   return py::tuple(names);
 }
@@ -86,6 +88,9 @@ py::tuple names_of(const HeldScene& scene) {
 std::string describe(const HeldScene& scene) {
   return "<Scene " + std::string(py::repr(py::str(scene.scene().id))) + " of " +
          std::to_string(scene.scene().bodies.size()) + " bodies, " +
+         (scene.scene().robots.empty()
+              ? ""
+              : std::to_string(scene.scene().robots.size()) + " robots, ") +
          std::string(py::repr(py::float_(scene.scene().duration))) + " s>";
 }
 
@@ -105,7 +110,12 @@ the working directory where they were so, and reads them again when they are nee
       .def_property_readonly(
           "duration", [](const HeldScene& s) { return s.scene().duration; },
           "[s] Of the step; t = 1 there.")
-      .def_property_readonly("bodies", &names_of, "Their names, in order.")
+      .def_property_readonly(
+          "bodies", [](const HeldScene& s) { return names_of(s.scene().bodies); },
+          "Their names, in order.")
+      .def_property_readonly(
+          "robots", [](const HeldScene& s) { return names_of(s.scene().robots); },
+          "Their names, in order.")
       .def_property_readonly(
           "input_digest", [](const HeldScene& s) { return loaded_without_gil(s).input_digest; },
           "SHA-256 over everything that was read.")
@@ -121,11 +131,13 @@ the working directory where they were so, and reads them again when they are nee
       .def("__repr__", &describe)
       .def(py::pickle(
           [](const HeldScene& s) {
-            return py::make_tuple(write_scene(s.scene()), s.scene().text_digest);
+            return py::make_tuple(write_scene(s.scene()), s.scene().text_digest,
+                                  s.scene().warnings);
           },
           [](const py::tuple& state) {
             Scene scene = parse_scene(state[0].cast<std::string>(), "pickled scene");
             scene.text_digest = state[1].cast<std::string>();
+            scene.warnings = state[2].cast<std::vector<std::string>>();
             return std::make_shared<HeldScene>(std::move(scene));
           }));
   m.def("read_scene", &read, py::arg("path"), py::arg("shapes") = py::none(),

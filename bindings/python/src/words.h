@@ -10,6 +10,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <firstcontact/articulated/limit_report.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
@@ -77,6 +78,12 @@ template <>
 struct Words<ElementaryVerdict> {
   static constexpr const char* kName = "ElementaryVerdict";
   static constexpr std::array kWords{"free", "contact", "degenerate"};
+};
+
+template <>
+struct Words<JointLimit> {
+  static constexpr const char* kName = "JointLimit";
+  static constexpr std::array kWords{"lower_position", "upper_position", "velocity"};
 };
 
 /// A member of a class of firstcontact/_words.py, kept for good.
@@ -149,5 +156,9 @@ class type_caster<firstcontact::Filling>
 template <>
 class type_caster<firstcontact::ElementaryVerdict>
     : public firstcontact::python::WordCaster<firstcontact::ElementaryVerdict> {};
+
+template <>
+class type_caster<firstcontact::JointLimit>
+    : public firstcontact::python::WordCaster<firstcontact::JointLimit> {};
 
 }  // namespace pybind11::detail

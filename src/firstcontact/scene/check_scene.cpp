@@ -169,6 +169,11 @@ SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& opt
 
 }  // namespace
 
+double proven_clearance(const RobotPairAnswer& pair) {
+  return std::max(pair.t > 0.0 ? pair.threshold : 0.0,
+                  pair.least_clearance ? pair.least_clearance->lower_bound : 0.0);
+}
+
 SceneResult check_scene(const LoadedScene& loaded, ManyBodiesWorkspace& workspace,
                         const CheckOptions& options) {
   if (loaded.robots) {

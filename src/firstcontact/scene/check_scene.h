@@ -49,6 +49,9 @@ struct SceneResult {
   std::optional<RobotCheckResult> robots = {};
 };
 
+/// [m]  What is proven of a pair's distance before its `t`.
+[[nodiscard]] FIRSTCONTACT_API double proven_clearance(const RobotPairAnswer& pair);
+
 /// Answers a scene by the first contact of its bodies and robots, or by that of every pair over the
 /// whole step.
 ///

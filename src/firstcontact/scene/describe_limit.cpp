@@ -1,3 +1,4 @@
+#include <stdexcept>
 #include <string>
 
 #include <firstcontact/scene/detail/quantity.h>
@@ -27,6 +28,22 @@ std::string describe(const SceneRobot& robot, const LimitViolation& violation, d
          detail::quantity(violation.limit, unit) + " by " +
          detail::quantity(violation.excess, unit) + " at " +
          detail::quantity(violation.t_excess * duration, "s");
+}
+
+void require_within_limits(const LoadedScene& loaded) {
+  if (loaded.limits.empty()) {
+    return;
+  }
+  const SceneLimits& first = loaded.limits.front();
+  std::size_t others = 0;
+  for (const SceneLimits& limits : loaded.limits) {
+    others += limits.violations.size();
+  }
+  --others;
+  throw std::invalid_argument(
+      "expected a motion within the joint limits, but " +
+      describe(loaded.scene.robots[first.robot], first.violations.front(), loaded.scene.duration) +
+      (others > 0 ? ", and " + std::to_string(others) + " more" : ""));
 }
 
 }  // namespace firstcontact

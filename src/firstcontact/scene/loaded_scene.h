@@ -41,6 +41,11 @@ struct LoadedScene {
   std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
 };
 
+/// What `--strict` asks for.
+///
+/// @throws std::invalid_argument  names the first limit that a robot leaves, where one does
+FIRSTCONTACT_API void require_within_limits(const LoadedScene& loaded);
+
 /// Loads the meshes of a scene, as far as the cache does not hold them yet.
 ///
 /// @throws ParseError if a mesh file cannot be used; std::invalid_argument if the scene, made by

@@ -1,6 +1,5 @@
 #include <firstcontact/scene/detail/robot_result.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -58,10 +57,6 @@ class RobotResultWriter {
   [[nodiscard]] JsonValue pair(const RobotPairAnswer& pair) const {
     JsonArray contacts;
     append_contacts(pair, contacts);
-    // Proven either way: before t the pair is farther apart than its threshold.
-    const double clearance =
-        std::max(pair.t > 0.0 ? pair.threshold : 0.0,
-                 pair.least_clearance ? pair.least_clearance->lower_bound : 0.0);
     JsonObject object{{"pair", names(pair.members)},
                       {"margin", to_json(pair.threshold)},
                       {"verdict", to_json(firstcontact::word(pair.verdict))},
@@ -70,7 +65,7 @@ class RobotResultWriter {
                       {"t_upper", to_json(pair.t_upper)},
                       {"time", seconds(pair.t)},
                       {"contacts", {.value = std::move(contacts)}},
-                      {"clearance", to_json(clearance)}};
+                      {"clearance", to_json(proven_clearance(pair))}};
     append_tolerances(pair.tolerance_used, pair.enclosure_error, object);
     if (pair.least_clearance) {
       object.push_back({"closest", closest(pair)});
