@@ -160,6 +160,29 @@ class Robot(ToolTest):
         self.assertEqual(free.returncode, 0, free)
         self.assertIn("margin 10 mm", (self.folder / "free.svg").read_text(encoding="utf-8"))
 
+    def test_makes_a_page_with_links_and_joints(self):
+        if not (pathlib.Path(TOOL).resolve().parent.parent / "share/firstcontact/viewer.html").exists():
+            self.skipTest("the viewer's page is not built")
+        looks = self.URDF.replace("<collision><geometry><sphere", "<visual><geometry><mesh filename='gone.stl'/>"
+                                  "</geometry></visual><collision><geometry><sphere")
+        self.robot = self.file("looks.urdf", looks)
+        self.check("--trajectory", self.move, "--environment", self.ball, "--html", "page.html", "-o", "r.json")
+        view = self.view_of("page.html")
+        robot = view["robots"][0]
+        self.assertEqual([link["name"] for link in robot["links"]], ["base", "bar", "tip"])
+        self.assertEqual(robot["joints"][0]["coordinates"][0]["segments"], [{"until": 1, "a": [0, 2]}])
+        self.assertEqual(robot["joints"][0]["limits"], {"lower": -1, "upper": 1.5, "velocity": 1})
+        self.assertEqual(robot["links"][2]["collision"][0]["radius"], 0.1)
+        self.assertEqual(len(view["warnings"]), 1)
+        self.assertIn("gone.stl", view["warnings"][0])
+        again = self.run_tool("view", "r.json", "--no-open", "-o", "again.html")
+        self.assertEqual(again.returncode, 0, again)
+        self.assertEqual(self.view_of("again.html")["robots"], view["robots"])
+
+    def view_of(self, page: str) -> dict:
+        text = (self.folder / page).read_text(encoding="utf-8")
+        return json.loads(text.split('type="application/json">', 1)[1].split("</script>", 1)[0])["view"]
+
     def test_keeps_margins_of_all_kinds(self):
         ask = ["--trajectory", self.move, "--environment", self.ball, "--json"]
         free = json.loads(self.check(*ask).stdout)["t"]

@@ -48,7 +48,7 @@ TEST(WritePage, HoldsMeshAndGapAndResult) {
   EXPECT_EQ(page,
             R"(<script>{"result":{"id":"x"},"view":{"bodies":[0],"meshes":[{"origin":[9,2,0],)"
             R"("positions":"AACAvwAAAMAAAAAAAACAPwAAAMAAAAAAAACAvwAAAEAAAAAA",)"
-            R"("triangles":"AAAAAAEAAAACAAAA"}],)"
+            R"("triangles":"AAABAAIA"}],)"
             R"("gap":{"t":[0,0.5],"distance":[1,0.25]},)"
             R"("gap_bound":{"t":[0],"distance":[0.5]}}}</script>)");
 }

@@ -9,6 +9,8 @@ export class Display {
   readonly ghosts = new Signal(false);
   readonly onion = new Signal(false);
   readonly contacts = new Signal(true);
+  /// What links look like, in place of what was tested.
+  readonly looks = new Signal(false);
   /// Cuts away what stands before the point that the camera looks at.
   readonly cutaway = new Signal(false);
   readonly measure = new Signal(false);
@@ -16,12 +18,12 @@ export class Display {
   readonly hidden = new Signal<ReadonlySet<number>>(new Set());
 
   setVisible(body: number, visible: boolean): void {
+    this.setAllVisible([body], visible);
+  }
+
+  setAllVisible(bodies: readonly number[], visible: boolean): void {
     const hidden = new Set(this.hidden.value);
-    if (visible) {
-      hidden.delete(body);
-    } else {
-      hidden.add(body);
-    }
+    bodies.forEach((body) => (visible ? hidden.delete(body) : hidden.add(body)));
     this.hidden.value = hidden;
   }
 

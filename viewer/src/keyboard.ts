@@ -2,6 +2,7 @@
 
 import type { Commands } from "./commands";
 import type { Signal } from "./core/signal";
+import type { Model } from "./model";
 import { coarseStep, fineStep } from "./panels/transport";
 
 const flip = (signal: Signal<boolean>): void => {
@@ -14,7 +15,7 @@ function isTyping(target: EventTarget | null): boolean {
     : target instanceof HTMLSelectElement;
 }
 
-export function listenToKeys({ player, display, commands }: Commands): void {
+export function listenToKeys(model: Model, { player, display, commands }: Commands): void {
   const actions: Readonly<Record<string, () => void>> = {
     " ": () => player.toggle(),
     Home: () => player.seek(0),
@@ -28,6 +29,7 @@ export function listenToKeys({ player, display, commands }: Commands): void {
     g: () => flip(display.ghosts),
     o: () => flip(display.onion),
     c: () => flip(display.contacts),
+    v: () => model.hasLooks && flip(display.looks),
     m: () => flip(display.measure),
     l: () => flip(player.loop),
     s: commands.savePicture,

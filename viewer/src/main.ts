@@ -10,16 +10,20 @@ import { download, fileName } from "./export/download";
 import { animationOf } from "./export/glb";
 import { listenToKeys } from "./keyboard";
 import { linkMoments, momentOf } from "./link";
-import { Model } from "./model";
+import { isDrawn, Model, type Coordinate } from "./model";
 import { bodiesPanel } from "./panels/bodies";
 import { contactsPanel } from "./panels/contacts";
-import { GapChart } from "./panels/gap_chart";
+import { gapContent } from "./panels/gap_chart";
 import { helpDialog } from "./panels/help";
+import { jointContent } from "./panels/joint_chart";
+import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
 import { probePanel } from "./panels/probe";
 import { summaryPanel } from "./panels/summary";
+import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
 import { transport } from "./panels/transport";
+import { warningsPanel } from "./panels/warnings";
 import { Player } from "./player";
 import { Theme } from "./theme";
 import { SceneView } from "./view/scene_view";
@@ -73,8 +77,8 @@ function start(model: Model): void {
       },
       focusBody: (index) => {
         const body = model.bodies[index];
-        if (body) {
-          view.focusBody(body);
+        if (body && isDrawn(body)) {
+          view.focusBodies([body]);
         }
       },
       savePicture: () => {
@@ -93,15 +97,23 @@ function start(model: Model): void {
     },
   };
 
-  const chart = new GapChart(model, player, theme);
+  const joint = new Signal<Coordinate | null>(null);
+  const content = new Signal<ChartContent | null>(null);
+  joint.subscribe((one) => {
+    const close = (): void => void (joint.value = null);
+    content.value = one ? jointContent(one, model.duration, close) : gapContent(model);
+  });
+  const chart = new TimeChart(model, player, theme, content);
   const cards = [
     summaryPanel(model),
     probePanel(view, display, player),
     pairsPanel(model, view, player),
-    bodiesPanel(model, view, display),
     contactsPanel(model, view, player),
+    jointsPanel(model, player, joint),
+    bodiesPanel(model, view, display),
+    warningsPanel(model),
   ].filter((card) => card !== null);
-  stage.append(toolbar(commands, panelOpen), triad(view));
+  stage.append(toolbar(model, commands, panelOpen), triad(view));
   app.append(element("aside.panel", { "aria-label": "Details" }, ...cards));
   app.append(transport(model, commands, chart.element), help);
   panelOpen.subscribe((open) => app.classList.toggle("panel-open", open));
@@ -111,7 +123,7 @@ function start(model: Model): void {
   performance.mark("firstcontact:first-frame");
   chart.start();
   setTimeout(() => view.addEdges());
-  listenToKeys(commands);
+  listenToKeys(model, commands);
   listenToClicks(view);
   linkMoments(player);
   // For whoever embeds the page or asks it from the console.

@@ -1,43 +1,209 @@
 /// A result made ready to be shown.
 
-import type { BodyData, Contact, PairAnswer, Result } from "./data/result";
+import type { BodyData, Contact, Limit, PairAnswer, Result, Vector3 } from "./data/result";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
-import { isAtRest, motionOf, type Motion, type Pose } from "./motion/motion";
+import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
+import { combine, identity, isAtRest, motionOf, poseOf, totalAngle } from "./motion/motion";
+import type { Motion, Pose } from "./motion/motion";
+import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/robot";
 
+/// A rigid piece of a body, in a frame of its own; or the whole of a body that deforms.
+export interface Part {
+  readonly mesh: MeshData;
+  readonly pose: Pose; ///< In the body.
+  readonly radius: number; ///< [m] By which its triangles are thickened.
+  readonly to: readonly Vector3[] | null; ///< Where its vertices end, in the world, if it deforms.
+}
+
+/// All that can touch: a body, or a link of a robot.
 export interface Body {
   readonly index: number;
   readonly name: string;
-  readonly data: BodyData;
-  readonly mesh: MeshData;
+  readonly label: string; ///< Within its robot.
+  readonly robot: number | null;
+  readonly kind: string; ///< How it moves, in a word or two.
+  readonly parts: readonly Part[]; ///< What was tested.
+  readonly looks: readonly Part[] | null; ///< What it looks like, where that differs.
   readonly motion: Motion;
   readonly atRest: boolean;
+  readonly angle: number; ///< [rad] No more than this is it turned over the whole step.
+}
+
+/// Some links have nothing that could be drawn.
+export const isDrawn = ({ parts, looks }: Body): boolean => parts.length > 0 || looks !== null;
+
+/// One coordinate of a joint over the step.
+export interface Coordinate {
+  readonly robot: number;
+  readonly joint: string;
+  readonly name: string;
+  readonly unit: "rad" | "m";
+  readonly lower: number | null;
+  readonly upper: number | null;
+  readonly atRest: boolean;
+  readonly mimics: string | null;
+  readonly breaks: readonly number[]; ///< Where its segments end.
+  readonly at: (t: number) => number;
+  readonly violations: readonly Limit[];
+}
+
+const kinds: Readonly<Record<string, string>> = {
+  constant_velocity: "constant velocity",
+  screw: "screw",
+  waypoints: "waypoints",
+  vertices: "deforms",
+  fixed: "at rest",
+};
+
+function radiusOf({ shape }: BodyData): number {
+  const round = (shape.sphere ?? shape.capsule ?? shape) as { radius?: number };
+  return typeof round.radius === "number" ? round.radius : 0;
+}
+
+function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number): Body {
+  const { motion } = data;
+  const to = motion?.type === "vertices" ? motion.to : null;
+  return {
+    index,
+    name: data.name,
+    label: data.name,
+    robot: null,
+    kind: kinds[motion?.type ?? "fixed"] ?? "",
+    parts: [{ mesh, pose: identity, radius: radiusOf(data), to }],
+    looks: null,
+    motion: motionOf(data, duration),
+    atRest: isAtRest(data),
+    angle: motion ? totalAngle(motion) : 0,
+  };
+}
+
+const turns = (type: string): boolean => type !== "prismatic" && type !== "fixed";
+
+/// How far a coordinate goes to and fro, from samples.
+function variation(at: (t: number) => number): number {
+  const samples = Array.from({ length: 129 }, (_, k) => at(k / 128));
+  return samples.slice(1).reduce((sum, q, k) => sum + Math.abs(q - samples[k]!), 0);
+}
+
+/// How the link moves against its parent, and how far it turns in the world.
+function linkMotion(robot: RobotData, link: number) {
+  const chain = chainTo(robot, link);
+  const moves = chain.filter(({ coordinates = [], motion = [] }) => {
+    const still = coordinates.every(({ segments }) => restsAt(segments));
+    return !(still && (motion.length === 0 || restsOn(motion)));
+  });
+  const angle = moves
+    .filter(({ type }) => turns(type))
+    .flatMap(({ coordinates = [] }) => coordinates.slice(-1))
+    .reduce((sum, { segments }) => sum + variation((t) => coordinateAt(segments, t)), 0);
+  return {
+    kind: chain.at(-1)?.type ?? "base",
+    atRest: moves.length === 0 && restsOn(robot.base),
+    angle: angle + robot.base.length * (restsOn(robot.base) ? 0 : Math.PI),
+  };
+}
+
+function linksOf(robot: RobotData, index: number, first: number, meshes: readonly MeshData[]) {
+  const motions = linkMotions(robot);
+  const part = ({ mesh, pose, radius = 0 }: GeometryData): Part => ({
+    mesh: meshes[mesh]!,
+    pose: poseOf(pose),
+    radius,
+    to: null,
+  });
+  return robot.links.map(({ name, collision, visual = [] }, link): Body => ({
+    index: first + link,
+    name: `${robot.name}/${name}`,
+    label: name,
+    robot: index,
+    parts: collision.map(part),
+    looks: visual.length > 0 ? visual.map(part) : null,
+    motion: motions[link]!,
+    ...linkMotion(robot, link),
+  }));
+}
+
+/// A body that links carry for a while.
+function carried(body: Body, stretches: readonly StretchData[], bodies: readonly Body[]): Body {
+  const holders = stretches.flatMap(({ link }) => (link === undefined ? [] : [bodies[link]!]));
+  const motions = stretches.map(({ link, pose }): Motion => {
+    const at = pose ? poseOf(pose) : identity;
+    const holder = link === undefined ? null : bodies[link]!.motion;
+    return holder ? (t) => combine(holder(t), at) : pose ? () => at : body.motion;
+  });
+  return {
+    ...body,
+    kind: `carried by ${[...new Set(holders.map(({ label }) => label))].join(", ")}`,
+    motion: (t) => {
+      const found = stretches.findIndex(({ until }) => t <= until);
+      return motions.at(found)!(t);
+    },
+    atRest: body.atRest && holders.every(({ atRest }) => atRest),
+    angle: body.angle + Math.max(...holders.map(({ angle }) => angle)),
+  };
+}
+
+/// Limits belong to the coordinate of a joint that has one.
+function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]): Coordinate[] {
+  return robot.joints.flatMap(({ name: joint, type, limits: own, mimics, coordinates = [] }) =>
+    coordinates.map(({ name, segments }, k): Coordinate => {
+      const single = coordinates.length === 1;
+      const hasEnds = single && type !== "continuous";
+      return {
+        robot: index,
+        joint,
+        name,
+        unit: single ? (turns(type) ? "rad" : "m") : k === 2 ? "rad" : "m",
+        lower: hasEnds ? (own.lower ?? null) : null,
+        upper: hasEnds ? (own.upper ?? null) : null,
+        atRest: restsAt(segments),
+        mimics: mimics ?? null,
+        breaks: segments.map(({ until }) => until),
+        at: (t) => coordinateAt(segments, t),
+        violations: limits.filter((found) => found.robot === robot.name && found.joint === joint),
+      };
+    }),
+  );
 }
 
 export class Model {
   readonly result: Result;
+  /// Bodies, then the links of each robot.
   readonly bodies: readonly Body[];
+  readonly robots: readonly string[];
+  readonly coordinates: readonly Coordinate[];
   readonly gap: GapLine;
   readonly gapBound: GapLine;
   /// Those of every pair where the result has them, each at its own pair's time.
   readonly pairs: readonly PairAnswer[];
+  /// What a person who looks should know.
+  readonly warnings: readonly string[];
 
   private readonly indices: ReadonlyMap<string, number>;
 
   constructor(page: PageData) {
-    this.result = page.result;
+    const { result, robots } = page;
+    this.result = result;
     this.gap = page.gap;
     this.gapBound = page.gapBound;
-    const { bodies, options } = page.result.scene;
-    this.bodies = bodies.map((data, index) => ({
-      index,
-      name: data.name,
-      data,
-      mesh: page.meshes[page.bodies[index]!]!,
-      motion: motionOf(data, options.duration),
-      atRest: isAtRest(data),
-    }));
+    const { duration } = result.scene.options;
+    const bodies = result.scene.bodies.map((data, index) =>
+      bodyOf(data, index, page.meshes[page.bodies[index]!]!, duration),
+    );
+    robots.forEach((robot, index) =>
+      bodies.push(...linksOf(robot, index, bodies.length, page.meshes)),
+    );
+    page.carried.forEach(({ body, stretches }) => {
+      bodies[body] = carried(bodies[body]!, stretches, bodies);
+    });
+    this.bodies = bodies;
+    this.robots = robots.map(({ name }) => name);
+    this.coordinates = robots.flatMap((robot, index) =>
+      coordinatesOf(robot, index, result.limits ?? []),
+    );
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
-    this.pairs = page.result.pairs ?? [];
+    this.pairs = result.pairs ?? [];
+    this.warnings = [...(result.warnings ?? []), ...page.warnings];
   }
 
   get duration(): number {
@@ -55,14 +221,21 @@ export class Model {
   }
 
   get triangleCount(): number {
-    return this.bodies.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
+    const parts = this.bodies.flatMap((body) => body.parts);
+    return parts.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
+  }
+
+  /// Whether any link looks different from what was tested.
+  get hasLooks(): boolean {
+    return this.bodies.some(({ looks }) => looks !== null);
   }
 
   body(name: string): Body {
     return this.bodies[this.indices.get(name)!]!;
   }
 
-  pose(body: Body, t: number): Pose {
-    return body.motion(t);
+  /// The piece of a body that touches.
+  partOf(contact: Contact, side: 0 | 1): Part {
+    return this.body(contact.bodies[side]).parts[contact.geometries?.[side] ?? 0]!;
   }
 }

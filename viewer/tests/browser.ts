@@ -44,6 +44,10 @@ export interface MadePage {
 export class Folder {
   private readonly path = mkdtempSync(join(tmpdir(), "firstcontact-"));
 
+  write(name: string, text: string): void {
+    writeFileSync(join(this.path, name), text);
+  }
+
   /// A page of a scene of the repository, or of one given as an object.
   async make(name: string, scene: string | object, ...options: string[]): Promise<MadePage> {
     const file = join(this.path, `${name}.html`);

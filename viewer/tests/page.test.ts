@@ -3,7 +3,7 @@
 import { readFileSync, statSync } from "node:fs";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
-import type { Contact } from "../src/data/result";
+import type { Contact, Vector3 } from "../src/data/result";
 import { distance } from "../src/motion/vector";
 import { canLook, colorsOf, Folder, launch, type MadePage } from "./browser";
 
@@ -80,6 +80,41 @@ const sheet = {
   ],
 };
 
+/// A bar of 1 m that turns about z, its tip a ball of 0.1 m; both look otherwise. Beyond 1.5 rad.
+const armUrdf = `<robot name="arm"><link name="base"/>
+  <link name="bar">
+    <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
+    <visual><origin xyz="0.5 0 0"/><geometry><cylinder radius="0.03" length="0.1"/></geometry></visual>
+    <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+  </link>
+  <link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="elbow" type="revolute"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1.5" velocity="1" effort="1"/></joint>
+  <joint name="weld" type="fixed"><parent link="bar"/><child link="tip"/><origin xyz="1.05 0 0"/></joint>
+</robot>`;
+const armScene = {
+  firstcontact: 1,
+  id: "arm",
+  bodies: [
+    { name: "ball", shape: { sphere: { radius: 0.1 } }, pose: { position: [0, 1.05, 0] } },
+    { name: "cup", shape: { box: { size: [0.1, 0.1, 0.1] } }, pose: { position: [1.05, 0, 0.2] } },
+  ],
+  robots: [
+    {
+      name: "arm",
+      urdf: "arm.urdf",
+      trajectory: {
+        joint_names: ["elbow"],
+        points: [
+          { time: 0, positions: [0] },
+          { time: 4, positions: [2] },
+        ],
+      },
+      attached: [{ body: "cup", link: "tip", from_time: 1, to_time: 2 }],
+    },
+  ],
+};
+
 /// What the page leaves for whoever asks it.
 declare global {
   interface Window {
@@ -90,13 +125,18 @@ declare global {
       view: {
         bodies: {
           group: { matrix: { elements: number[] } };
-          body: { mesh: MeshOfPage };
-          surface: SurfaceOfPage;
+          parts: PieceOfPage[];
+          looks: PieceOfPage[];
         }[];
         camera: { position: { x: number; y: number; z: number } };
       };
     };
   }
+}
+interface PieceOfPage {
+  part: { mesh: MeshOfPage };
+  surface: SurfaceOfPage;
+  shown: boolean;
 }
 interface SurfaceOfPage {
   position: { toArray(): number[] };
@@ -106,7 +146,7 @@ interface SurfaceOfPage {
 interface MeshOfPage {
   origin: number[];
   positions: Float32Array;
-  triangles: Uint32Array;
+  triangles: Uint16Array | Uint32Array;
 }
 
 describe.skipIf(!canLook)("the page", () => {
@@ -114,6 +154,7 @@ describe.skipIf(!canLook)("the page", () => {
   let peg: MadePage;
   let many: MadePage;
   let bending: MadePage;
+  let arm: MadePage;
   let nut: Promise<MadePage>;
   const folder = new Folder();
   const complaints: string[] = [];
@@ -146,6 +187,8 @@ describe.skipIf(!canLook)("the page", () => {
     peg = await folder.make("peg", "demo/scenes/peg_tilted.json");
     many = await folder.make("stones", stones, "--all-pairs", "--closest");
     bending = await folder.make("sheet", sheet, "--closest");
+    folder.write("arm.urdf", armUrdf);
+    arm = await folder.make("arm", armScene);
     browser = await launch();
     nut = folder.make("nut", "demo/scenes/nut_wrong_pitch.json"); // While others run: it is large.
   });
@@ -211,14 +254,13 @@ describe.skipIf(!canLook)("the page", () => {
       page.evaluate(({ bodies, triangles }) => {
         const { model, view } = window.firstcontact;
         return [0, 1].map((side) => {
-          const { group, body } =
+          const { group, parts } =
             view.bodies[model.bodies.findIndex(({ name }) => name === bodies[side])]!;
+          const { mesh } = parts[0]!.part;
           const m = group.matrix.elements;
           return [0, 1, 2].map((k) => {
-            const vertex = body.mesh.triangles[3 * triangles[side]! + k]!;
-            const p = [0, 1, 2].map(
-              (i) => body.mesh.origin[i]! + body.mesh.positions[3 * vertex + i]!,
-            );
+            const vertex = mesh.triangles[3 * triangles[side]! + k]!;
+            const p = [0, 1, 2].map((i) => mesh.origin[i]! + mesh.positions[3 * vertex + i]!);
             return [0, 1, 2].map(
               (i) => m[i]! * p[0]! + m[4 + i]! * p[1]! + m[8 + i]! * p[2]! + m[12 + i]!,
             );
@@ -245,7 +287,7 @@ describe.skipIf(!canLook)("the page", () => {
     const page = await show(bending);
     const vertices = () =>
       page.evaluate(() => {
-        const { surface } = window.firstcontact.view.bodies[1]!;
+        const { surface } = window.firstcontact.view.bodies[1]!.parts[0]!;
         const origin = surface.position.toArray();
         return [0, 1, 2, 3].map((k) => {
           const target = Object.assign(Object.create(Object.getPrototypeOf(surface.position)), {
@@ -426,6 +468,103 @@ describe.skipIf(!canLook)("the page", () => {
     expect(json.animations[0]!.channels.map(({ target }) => target.path)).toEqual(["weights"]);
     const targets = json.meshes.map(({ primitives }) => primitives[0]!.targets?.length ?? 0);
     expect(targets).toEqual([0, 1]);
+  });
+
+  const placeOf = (page: Page, name: string) =>
+    page.evaluate((wanted) => {
+      const { model, view } = window.firstcontact;
+      const index = model.bodies.findIndex((body) => body.name === wanted);
+      return view.bodies[index]!.group.matrix.elements.slice(12, 15);
+    }, name);
+
+  test("moves the links of a robot, and what they carry", async () => {
+    const page = await show(arm);
+    const turned = async (t: number, name: string, height: number) => {
+      await page.evaluate((to) => window.firstcontact.player.seek(to), t);
+      const place = await placeOf(page, name);
+      const angle = Math.atan2(place[1]!, place[0]!);
+      expect(Math.hypot(place[0]!, place[1]!)).toBeCloseTo(1.05, 12);
+      expect(place[2]).toBeCloseTo(height, 12);
+      return angle;
+    };
+    expect(await turned(0.2, "arm/tip", 0)).toBeCloseTo(0.4, 12);
+    expect(await turned(0.2, "cup", 0.2)).toBeCloseTo(0, 12);
+    expect(await turned(0.4, "cup", 0.2)).toBeCloseTo(0.3, 12); // Half a radian behind the tip.
+    expect(await turned(0.9, "cup", 0.2)).toBeCloseTo(0.5, 12);
+    await page.getByRole("button", { name: "First contact" }).click();
+    const [contact] = arm.result.contacts;
+    expect(contact!.bodies).toEqual(["ball", "arm/tip"]);
+    const tip = await placeOf(page, "arm/tip");
+    expect(distance(tip as unknown as Vector3, contact!.points[1])).toBeCloseTo(0.1, 5);
+    const answer = page.getByRole("region", { name: "Answer" });
+    expect(await answer.textContent()).toContain("then ball and arm/tip touch");
+    const rows = await page.getByRole("region", { name: "Bodies" }).textContent();
+    expect(rows).toMatch(/arm2 links.*barrevolute.*tipfixed.*cupcarried by tip/);
+  });
+
+  test("switches between what was tested and what links look like", async () => {
+    const page = await show(arm);
+    const shown = () =>
+      page.evaluate(() =>
+        window.firstcontact.view.bodies.map(({ parts, looks }) =>
+          [parts, looks].map((pieces) => pieces.filter((piece) => piece.shown).length),
+        ),
+      );
+    const button = page.getByRole("button", { name: "Visual in place of collision geometry" });
+    // Ball, cup, base, bar, tip: the tip has no look of its own.
+    expect(await shown()).toEqual([[1, 0], [1, 0], [0, 0], [1, 0], [1, 0]]); // prettier-ignore
+    await button.click();
+    expect(await shown()).toEqual([[1, 0], [1, 0], [0, 0], [0, 2], [1, 0]]); // prettier-ignore
+    await page.keyboard.press("v");
+    expect(await button.getAttribute("aria-pressed")).toBe("false");
+    const plain = await show(peg);
+    expect(await plain.getByRole("button", { name: /collision geometry/ }).count()).toBe(0);
+  });
+
+  test("draws joints with their limits, one of them large", async () => {
+    const page = await show(arm, "#t=1");
+    const joints = page.getByRole("region", { name: "Joints" });
+    expect(await joints.textContent()).toMatch(
+      /elbow2\srad · 114\.6°.*−1 … 1\.5 rad.*0\.5 rad beyond the upper limit of 1\.5 rad/,
+    );
+    expect(Number(await joints.locator(".bad").getAttribute("x"))).toBeCloseTo(750, 5);
+    expect(await joints.locator("path.contact").getAttribute("d")).toMatch(/^M690\./);
+    const picture = (await joints.locator("svg").boundingBox())!;
+    await page.mouse.click(picture.x + 0.5 * picture.width, picture.y + 9);
+    expect(await timeOf(page)).toBeCloseTo(0.5, 2);
+    expect(await joints.textContent()).toContain("57.3°");
+    await joints.getByRole("button", { name: "elbow" }).click();
+    expect(await page.locator(".chart-title").textContent()).toBe("elbow [rad]");
+    await page.getByRole("button", { name: "Back to the gap" }).click();
+    expect(await page.locator(".chart-title").textContent()).toBe("gap [m]");
+    const warnings = page.getByRole("region", { name: "Warnings" });
+    expect(await warnings.textContent()).toContain('joint "elbow" leaves its upper limit');
+  });
+
+  test("hides a robot with all its links", async () => {
+    const page = await show(arm);
+    await page.getByRole("button", { name: "Show arm" }).click();
+    expect(await page.evaluate(() => [...window.firstcontact.display.hidden.value])).toEqual([
+      3, 4,
+    ]);
+    await page.getByRole("button", { name: "Show tip" }).click();
+    expect(await page.evaluate(() => [...window.firstcontact.display.hidden.value])).toEqual([3]);
+  });
+
+  test("saves a robot with all its pieces", async () => {
+    const page = await show(arm);
+    await page.getByRole("button", { name: "Visual in place of collision geometry" }).click();
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    const bytes = readFileSync(await glb.path());
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()) as {
+      nodes: { mesh?: number; name?: string }[];
+      animations: { channels: unknown[] }[];
+    };
+    expect(json.nodes.filter(({ mesh }) => mesh !== undefined).length).toBe(5);
+    expect(json.animations[0]!.channels.length).toBe(6); // Cup, bar and tip.
   });
 
   test("fits into the window of a phone", async () => {

@@ -102,9 +102,7 @@ describe("the data of a page", () => {
       result: { id: "x" },
       view: {
         bodies: [0],
-        meshes: [
-          { origin: [9, 2, 0], positions: "AACAvwAAAMAAAAAA", triangles: "AAAAAAEAAAACAAAA" },
-        ],
+        meshes: [{ origin: [9, 2, 0], positions: "AACAvwAAAMAAAAAA", triangles: "AAABAAIA" }],
         gap: { t: [], distance: [] },
         gap_bound: { t: [], distance: [] },
       },

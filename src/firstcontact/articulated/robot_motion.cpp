@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include <firstcontact/articulated/precise_transform.h>
@@ -353,6 +354,17 @@ std::vector<CoordinateSegment> RobotMotion::coordinate(std::size_t joint) const 
         firstcontact::coordinate(model_, data_->motions, joint, segment.t_begin, segment.t_end));
   }
   return segments;
+}
+
+std::optional<JointMotion> RobotMotion::given(std::size_t joint) const {
+  const auto as_given = [](const auto& motion) -> std::optional<JointMotion> {
+    if constexpr (std::is_same_v<std::decay_t<decltype(motion)>, std::monostate>) {
+      return std::nullopt;
+    } else {
+      return motion;
+    }
+  };
+  return std::visit(as_given, data_->motions[joint]);
 }
 
 LinkMotion RobotMotion::link(std::size_t link) const {

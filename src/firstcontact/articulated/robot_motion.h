@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -91,6 +92,9 @@ class FIRSTCONTACT_API RobotMotion {
   /// The pieces of a joint of one coordinate, those of a mimic joint by its own coordinate; empty
   /// for other joints.
   [[nodiscard]] std::vector<CoordinateSegment> coordinate(std::size_t joint) const;
+
+  /// What was given for a joint; nothing of joints that are fixed or mimic others.
+  [[nodiscard]] std::optional<JointMotion> given(std::size_t joint) const;
 
   [[nodiscard]] const Motion& base() const;
 

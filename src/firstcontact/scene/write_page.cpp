@@ -1,19 +1,15 @@
 #include <firstcontact/scene/write_page.h>
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include <firstcontact/geometry/mesh.h>
-#include <firstcontact/scene/detail/base64.h>
 #include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/scene/detail/page_meshes.h>
+#include <firstcontact/scene/detail/page_robots.h>
+#include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact {
@@ -22,66 +18,19 @@ namespace {
 using detail::JsonArray;
 using detail::JsonObject;
 using detail::JsonValue;
+using detail::to_json;
 
 constexpr std::string_view kPlaceholder = "\"FIRSTCONTACT_RESULT\"";
 
-/// Numbers of four bytes, in the order that every browser of today has.
-class Words {
- public:
-  void add(float number) { add(std::bit_cast<std::uint32_t>(number)); }
-
-  void add(std::uint32_t word) {
-    for (int shift = 0; shift < 32; shift += 8) {
-      bytes_.push_back(static_cast<std::uint8_t>(word >> shift));
-    }
-  }
-
-  [[nodiscard]] JsonValue json() const { return {.value = detail::base64(bytes_)}; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-/// Vertices are relative to the middle, so that single precision suffices far from the origin too.
-JsonValue mesh_to_json(const Mesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    box.extend(vertex);
-  }
-  const Eigen::Vector3d middle = box.center();
-  Words positions;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    for (const double coordinate : Eigen::Vector3d(vertex - middle)) {
-      positions.add(static_cast<float>(coordinate));
-    }
-  }
-  Words triangles;
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) {
-      triangles.add(corner);
-    }
-  }
-  JsonArray origin;
-  for (const double coordinate : middle) {
-    origin.push_back({.value = coordinate});
-  }
-  return {.value = JsonObject{{"origin", {.value = std::move(origin)}},
-                              {"positions", positions.json()},
-                              {"triangles", triangles.json()}}};
-}
-
-detail::JsonMember geometry_of_bodies(const LoadedScene& loaded, JsonArray& meshes) {
-  std::map<const Mesh*, std::size_t> known;
+/// Of each body the number of its mesh.
+JsonArray meshes_of_bodies(const LoadedScene& loaded, detail::PageMeshes& meshes) {
   JsonArray bodies;
-  for (std::size_t body = 0; body < loaded.bodies.size(); ++body) {
-    const Mesh& mesh = loaded.bodies.shape(body).mesh();
-    const auto [found, is_new] = known.emplace(&mesh, meshes.size());
-    if (is_new) {
-      meshes.push_back(mesh_to_json(mesh));
-    }
-    bodies.push_back({.value = static_cast<double>(found->second)});
+  for (std::size_t body = 0; body < loaded.scene.bodies.size(); ++body) {
+    const Shape& shape =
+        loaded.robots ? loaded.robots->geometries(body)[0].shape : loaded.bodies.shape(body);
+    bodies.push_back(to_json(meshes.add(shape.mesh())));
   }
-  return {"bodies", {.value = std::move(bodies)}};
+  return bodies;
 }
 
 /// Samples or corners of a bound: both have a time and a distance.
@@ -91,8 +40,8 @@ JsonValue line_to_json(std::span<const Point> points) {
   JsonArray distances;
   for (const Point& point : points) {
     if (std::isfinite(point.distance)) {
-      times.push_back({.value = point.t});
-      distances.push_back({.value = point.distance});
+      times.push_back(to_json(point.t));
+      distances.push_back(to_json(point.distance));
     }
   }
   return {.value = JsonObject{{"t", {.value = std::move(times)}},
@@ -122,12 +71,15 @@ std::string write_page(std::string_view page_template, const LoadedScene& loaded
   if (place == std::string_view::npos) {
     throw std::invalid_argument("the viewer's page has no place for a result");
   }
+  detail::PageMeshes meshes;
+  JsonObject view{{"bodies", {.value = meshes_of_bodies(loaded, meshes)}}};
   if (loaded.robots) {
-    throw std::invalid_argument("pages are not for scenes with robots yet");
+    std::vector<std::string> warnings;
+    view.push_back({"robots", {.value = detail::robots_of_page(*loaded.robots, meshes, warnings)}});
+    view.push_back({"carried", {.value = detail::carried_of_page(*loaded.robots)}});
+    view.push_back({"warnings", to_json(warnings)});
   }
-  JsonArray meshes;
-  JsonObject view{geometry_of_bodies(loaded, meshes)};
-  view.push_back({"meshes", {.value = std::move(meshes)}});
+  view.push_back({"meshes", {.value = meshes.take()}});
   view.push_back({"gap", line_to_json(gap.samples)});
   view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
   std::string page(page_template.substr(0, place));

@@ -23,7 +23,9 @@ struct GapChart {
 /// Fills the viewer's page (share/firstcontact/viewer.html) with a result.
 ///
 /// The page holds the result word for word, the mesh of every body (each once, however many bodies
-/// share it; vertices in single precision, relative to the middle of the mesh) and the gap.
+/// share it; vertices in single precision, relative to the middle of the mesh) and the gap. Of
+/// robots it holds joints with their paths, what links are made of, and what they look like: those
+/// meshes are read here, and what cannot be read is left out with a warning in the page.
 ///
 /// @param page_template  the viewer's page
 /// @param loaded         the scene of the result

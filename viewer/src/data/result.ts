@@ -58,6 +58,8 @@ export interface Feature {
 
 export interface Contact {
   readonly bodies: Names;
+  /// Which piece of each, where links may have several.
+  readonly geometries?: readonly [number, number];
   readonly features: readonly [Feature, Feature];
   readonly triangles: readonly [number, number];
   readonly points: readonly [Vector3, Vector3];
@@ -88,14 +90,34 @@ export interface Answer {
   readonly closest?: Closest;
 }
 
+/// From when to when a pair is in contact.
+export interface Interval {
+  readonly enter: number;
+  readonly leave: number;
+}
+
 export interface PairAnswer extends Answer {
   readonly pair: Names;
   readonly margin: number;
+  readonly intervals?: readonly Interval[];
+}
+
+/// A joint beyond one of its limits, outside of whose intervals [s] the limit is kept.
+export interface Limit {
+  readonly robot: string;
+  readonly joint: string;
+  readonly limit: "lower_position" | "upper_position" | "velocity";
+  readonly value: number;
+  readonly excess: number;
+  readonly time: number;
+  readonly intervals: readonly (readonly [number, number])[];
 }
 
 export interface Result extends Answer {
   readonly id: string;
   readonly pairs?: readonly PairAnswer[];
+  readonly limits?: readonly Limit[];
+  readonly warnings?: readonly string[];
   readonly scene: SceneData;
   readonly version: string;
 }

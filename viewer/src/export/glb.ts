@@ -14,9 +14,9 @@ import {
 } from "three";
 import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
 import type { Body, Model } from "../model";
-import { totalAngle } from "../motion/motion";
 import type { BodyView } from "../view/body_view";
 import type { DrawnShape } from "../view/drawn_shape";
+import type { PartView } from "../view/part_view";
 
 const leastKeys = 61;
 const mostKeys = 2401;
@@ -24,9 +24,7 @@ const keyAngle = Math.PI / 24; // Between two keys a player turns by the shortes
 
 /// Enough keys for the body that turns most, the first contact among them.
 export function keyTimes(model: Model): number[] {
-  const angle = Math.max(
-    ...model.bodies.map(({ data }) => (data.motion ? totalAngle(data.motion) : 0)),
-  );
+  const angle = Math.max(...model.bodies.map((body) => body.angle));
   const count = Math.min(Math.max(leastKeys, Math.ceil(angle / keyAngle) + 1), mostKeys);
   const times = new Set(Array.from({ length: count }, (_, k) => k / (count - 1)));
   if (model.contactTime !== null) {
@@ -42,7 +40,7 @@ function tracksOf(
   duration: number,
 ): KeyframeTrack[] {
   const seconds = keys.map((t) => t * duration);
-  if (body.data.motion?.type === "vertices") {
+  if (body.parts[0]?.to) {
     return [
       new NumberKeyframeTrack(`${name}-surface.morphTargetInfluences[0]`, seconds, [...keys]),
     ];
@@ -69,24 +67,32 @@ function surfaceOf({ geometry, kind }: DrawnShape, color: string): Object3D {
     : new Mesh(geometry, new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.1 }));
 }
 
+function pieceOf({ part, drawn, surface }: PartView, name: string, color: string): Object3D {
+  const look = surfaceOf(drawn, color);
+  look.name = name;
+  look.position.copy(surface.position);
+  const { position, rotation } = part.pose;
+  const node = new Object3D();
+  node.position.set(...position);
+  node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
+  return node.add(look);
+}
+
 export async function animationOf(model: Model, views: readonly BodyView[]): Promise<Blob> {
   const keys = keyTimes(model);
   const root = new Object3D();
   root.name = model.result.id || "scene";
   root.rotation.x = -0.5 * Math.PI; // Up is z in scenes, and y in glTF.
   const tracks: KeyframeTrack[] = [];
-  for (const { body, color, drawn, surface } of views) {
+  for (const { body, color, shownPieces } of views) {
     const name = `body${body.index}`;
-    const look = surfaceOf(drawn, color);
-    look.name = `${name}-surface`;
-    look.position.copy(surface.position);
     const node = new Object3D();
     node.name = name;
     node.userData = { body: body.name };
     const { position, rotation } = body.motion(0);
     node.position.set(...position);
     node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
-    node.add(look);
+    shownPieces.forEach((piece, k) => node.add(pieceOf(piece, `${name}-surface${k || ""}`, color)));
     root.add(node);
     if (!body.atRest) {
       tracks.push(...tracksOf(body, name, keys, model.duration));

@@ -32,7 +32,7 @@ export interface Pose {
 /// The pose at t in [0, 1] of the scene's duration.
 export type Motion = (t: number) => Pose;
 
-const identity: Pose = { position: [0, 0, 0], rotation: [1, 0, 0, 0] };
+export const identity: Pose = { position: [0, 0, 0], rotation: [1, 0, 0, 0] };
 
 /// A point of the body frame in the world.
 export const place = (pose: Pose, point: Vector3): Vector3 =>
@@ -42,7 +42,13 @@ export const place = (pose: Pose, point: Vector3): Vector3 =>
 export const unplace = (pose: Pose, point: Vector3): Vector3 =>
   rotate(conjugate(pose.rotation), subtract(point, pose.position));
 
-const poseOf = (data: PoseData): Pose => ({
+/// X_AC of X_AB and X_BC.
+export const combine = (a: Pose, b: Pose): Pose => ({
+  position: place(a, b.position),
+  rotation: compose(a.rotation, b.rotation),
+});
+
+export const poseOf = (data: PoseData): Pose => ({
   position: data.position,
   rotation: unitQuaternion(data.quaternion_wxyz),
 });

@@ -1,79 +1,110 @@
-/// The bodies: show, hide, look at one.
+/// The bodies, and the links of robots: show, hide, look at one.
 
 import { element, icon } from "../core/dom";
 import { icons } from "../core/icons";
 import type { Display } from "../display";
-import type { Model } from "../model";
+import { isDrawn, type Body, type Model } from "../model";
 import type { SceneView } from "../view/scene_view";
 
 const mostRows = 200;
 const filterFrom = 12; // Bodies; fewer are seen at a glance.
 
-const motionNames: Readonly<Record<string, string>> = {
-  constant_velocity: "constant velocity",
-  screw: "screw",
-  waypoints: "waypoints",
-  vertices: "deforms",
-  fixed: "at rest",
-};
+interface Row {
+  readonly bodies: readonly Body[];
+  readonly name: string;
+  readonly detail: string;
+  readonly kind: "body" | "robot" | "link";
+}
+
+const rowOf = (body: Body): Row => ({
+  bodies: [body],
+  name: body.robot === null ? body.name : body.label,
+  detail: body.kind,
+  kind: body.robot === null ? "body" : "link",
+});
+
+/// Robots with their links first: they are what the question is about.
+function rowsOf({ robots, bodies }: Model): Row[] {
+  const shown = bodies.filter(isDrawn);
+  const ofRobots = robots.flatMap((name, robot): Row[] => {
+    const links = shown.filter((body) => body.robot === robot);
+    const detail = `${links.length} links`;
+    return [{ bodies: links, name, detail, kind: "robot" }, ...links.map(rowOf)];
+  });
+  return [...ofRobots, ...shown.filter(({ robot }) => robot === null).map(rowOf)];
+}
 
 export function bodiesPanel(model: Model, view: SceneView, display: Display): HTMLElement {
   const list = element("ul.rows");
   const more = element("p.hint", { hidden: true });
-  const buttons = new Map<number, HTMLButtonElement>();
+  const all = rowsOf(model);
+  let eyes: { button: HTMLButtonElement; bodies: readonly Body[] }[] = [];
 
-  const row = (index: number): HTMLElement => {
-    const { body, color } = view.bodies[index]!;
-    const eye = element(
+  const isHidden = (bodies: readonly Body[]): boolean =>
+    bodies.every(({ index }) => display.hidden.value.has(index));
+
+  const eyeOf = ({ bodies, name }: Row): HTMLButtonElement => {
+    const button = element(
       "button.icon-button.small",
-      { type: "button", "aria-label": `Show ${body.name}`, title: `Show or hide ${body.name}` },
+      { type: "button", "aria-label": `Show ${name}`, title: `Show or hide ${name}` },
       icon(icons.eye),
     );
-    eye.addEventListener("click", () => display.setVisible(index, !display.isVisible(index)));
-    buttons.set(index, eye);
-    const key = index < 9 ? ` (${index + 1})` : "";
-    const name = element(
+    const indices = bodies.map(({ index }) => index);
+    button.addEventListener("click", () => display.setAllVisible(indices, isHidden(bodies)));
+    eyes.push({ button, bodies });
+    return button;
+  };
+
+  const rowElement = (row: Row): HTMLElement => {
+    const { bodies, name, detail, kind } = row;
+    const [first] = bodies;
+    const key = bodies.length === 1 && first!.index < 9 ? ` (${first!.index + 1})` : "";
+    const color = view.bodies[first?.index ?? 0]?.color ?? "";
+    const button = element(
       "button.row-name",
-      { type: "button", title: `Look at ${body.name}${key}` },
+      { type: "button", title: `Look at ${name}${key}` },
       element("span.swatch", { style: `background:${color}` }),
-      element("span.name", {}, body.name),
-      element("span.detail", {}, motionNames[body.data.motion?.type ?? "fixed"] ?? ""),
+      element("span.name", {}, name),
+      element("span.detail", {}, detail),
     );
-    name.addEventListener("click", () => view.focusBody(body));
-    return element("li", {}, name, eye);
+    button.addEventListener("click", () => view.focusBodies(bodies));
+    return element("li", { "data-kind": kind }, button, eyeOf(row));
   };
 
   const fill = (filter: string): void => {
-    buttons.clear();
-    const found = model.bodies.filter(({ name }) =>
-      name.toLowerCase().includes(filter.toLowerCase()),
+    const found = all.filter(({ bodies, name }) =>
+      [name, ...bodies.map((body) => body.name)].some((text) =>
+        text.toLowerCase().includes(filter.toLowerCase()),
+      ),
     );
-    list.replaceChildren(...found.slice(0, mostRows).map(({ index }) => row(index)));
+    eyes = [];
+    list.replaceChildren(...found.slice(0, mostRows).map(rowElement));
     more.hidden = found.length <= mostRows;
     more.textContent = `${found.length - mostRows} more; type to find one`;
-    showHidden(display.hidden.value);
+    showHidden();
   };
 
-  const showHidden = (hidden: ReadonlySet<number>): void => {
-    buttons.forEach((button, index) => {
-      button.setAttribute("aria-pressed", String(!hidden.has(index)));
-      button.replaceChildren(icon(hidden.has(index) ? icons.hidden : icons.eye));
+  const showHidden = (): void =>
+    eyes.forEach(({ button, bodies }) => {
+      button.setAttribute("aria-pressed", String(!isHidden(bodies)));
+      button.replaceChildren(icon(isHidden(bodies) ? icons.hidden : icons.eye));
     });
-  };
 
   const search = element("input.filter", {
     type: "search",
     placeholder: "Find a body",
     "aria-label": "Find a body",
-    hidden: model.bodies.length < filterFrom,
+    hidden: all.length < filterFrom,
   });
   search.addEventListener("input", () => fill(search.value));
   fill("");
   display.hidden.subscribe(showHidden);
+  const title = model.robots.length > 0 ? "Robots and bodies " : "Bodies ";
+  const count = String(model.bodies.filter(isDrawn).length);
   return element(
     "section.card",
     { "aria-label": "Bodies" },
-    element("h2", {}, "Bodies ", element("span.count", {}, String(model.bodies.length))),
+    element("h2", {}, title, element("span.count", {}, count)),
     search,
     list,
     more,

@@ -7,13 +7,15 @@ import type { Model } from "../model";
 import type { Player } from "../player";
 import type { SceneView } from "../view/scene_view";
 
-const firstRows = 4;
+const firstRowsOf = ({ robots }: Model): number => (robots.length > 0 ? 2 : 4); // Joints follow.
 const mostRows = 100;
 
-const featureText = (contact: Contact, side: 0 | 1): string => {
+function featureText(model: Model, contact: Contact, side: 0 | 1): string {
   const { type, index } = contact.features[side];
-  return `${contact.bodies[side]} ${type} ${index}`;
-};
+  const several = model.body(contact.bodies[side]).parts.length > 1;
+  const piece = several ? ` of piece ${contact.geometries?.[side] ?? 0}` : "";
+  return `${contact.bodies[side]} ${type} ${index}${piece}`;
+}
 
 function speedText(speed: number): string {
   return `${speed < 0 ? "closing" : "parting"} at ${lengthText(Math.abs(speed))}/s`;
@@ -35,8 +37,9 @@ export function contactsPanel(model: Model, view: SceneView, player: Player): HT
   if (contacts.length === 0) {
     return null;
   }
+  const firstRows = firstRowsOf(model);
   const row = (contact: Contact): HTMLElement => {
-    const title = `${featureText(contact, 0)} · ${featureText(contact, 1)}`;
+    const title = `${featureText(model, contact, 0)} · ${featureText(model, contact, 1)}`;
     const button = element(
       "button.row-name.tall",
       { type: "button", "data-points": JSON.stringify(contact.points) },

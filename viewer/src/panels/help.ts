@@ -14,6 +14,7 @@ const keys: readonly (readonly [string, string])[] = [
   ["1 … 9", "look at a body; with Shift show or hide it"],
   ["w x k e", "wireframe, x-ray, cut away what is in front, edges"],
   ["g o c", "ghosts, onion skin, contact points"],
+  ["v", "what robots look like, in place of their collision geometry"],
   ["m", "measure: click two points"],
   ["l", "repeat"],
   ["s t p", "save a picture, dark or light, side panel"],

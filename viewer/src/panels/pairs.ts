@@ -72,7 +72,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     if (contact) {
       view.focusContact(contact);
     } else {
-      view.focusBody(model.body(pair.pair[0]));
+      view.focusBodies(pair.pair.map((name) => model.body(name)));
     }
   };
 

@@ -4,6 +4,7 @@ import { element, iconButton } from "../core/dom";
 import { icons } from "../core/icons";
 import type { Signal } from "../core/signal";
 import type { Commands } from "../commands";
+import type { Model } from "../model";
 
 function toggle(path: string, label: string, key: string | null, signal: Signal<boolean>) {
   const button = iconButton(path, label, key, () => (signal.value = !signal.value));
@@ -11,7 +12,11 @@ function toggle(path: string, label: string, key: string | null, signal: Signal<
   return button;
 }
 
-export function toolbar({ display, commands }: Commands, panelOpen: Signal<boolean>): HTMLElement {
+export function toolbar(
+  model: Model,
+  { display, commands }: Commands,
+  panelOpen: Signal<boolean>,
+): HTMLElement {
   const panel = toggle(icons.panel, "Side panel", "p", panelOpen);
   const look = element(
     "div.tool-group",
@@ -23,6 +28,9 @@ export function toolbar({ display, commands }: Commands, panelOpen: Signal<boole
     toggle(icons.edges, "Edges", "e", display.edges),
     toggle(icons.ghosts, "Ghosts of start and end", "g", display.ghosts),
     toggle(icons.onion, "Onion skin of the sweep", "o", display.onion),
+    ...(model.hasLooks
+      ? [toggle(icons.visual, "Visual in place of collision geometry", "v", display.looks)]
+      : []),
     toggle(icons.marker, "Contact points", "c", display.contacts),
     toggle(icons.measure, "Measure a distance", "m", display.measure),
   );

@@ -2,33 +2,31 @@
 
 import { Box3, Sphere, Vector3 } from "three";
 import type { Vector3 as Point } from "../data/result";
-import type { Body } from "../model";
+import type { Body, Part } from "../model";
 import { place } from "../motion/motion";
 import { add, scale } from "../motion/vector";
-import { radiusOf } from "./drawn_shape";
 
 const moments = 33;
 
-/// The corners of a box around a body, in its frame, at both ends of the step: in between, what
-/// deforms is in the box between them.
+/// The corners of boxes around the parts of a body, in its frame, at both ends of the step: in
+/// between, what deforms is in the box between them.
 interface Corners {
   readonly from: readonly Point[];
   readonly to: readonly Point[];
 }
 
-function cornersOf(body: Body): Corners {
-  const { mesh, data } = body;
+function cornersOf({ mesh, pose, radius, to }: Part): Corners {
   const around = (box: Box3): Point[] => {
-    const { min, max } = box.expandByScalar(radiusOf(body));
-    return corners(min, max).map((corner) => corner.toArray());
+    const { min, max } = box.expandByScalar(radius);
+    return corners(min, max).map((corner) => place(pose, corner.toArray()));
   };
   const from = around(
     new Box3().setFromArray(mesh.positions).translate(new Vector3(...mesh.origin)),
   );
-  if (data.motion?.type !== "vertices") {
+  if (to === null) {
     return { from, to: from };
   }
-  const ends = data.motion.to.map((p) => new Vector3(...p));
+  const ends = to.map((p) => new Vector3(...p));
   return { from, to: around(new Box3().setFromPoints(ends)) };
 }
 
@@ -41,12 +39,15 @@ export class Bounds {
   private readonly corners: readonly Corners[];
 
   constructor(private readonly bodies: readonly Body[]) {
-    this.corners = bodies.map(cornersOf);
+    this.corners = bodies.map(({ parts, looks }) => {
+      const all = [...parts, ...(looks ?? [])].map(cornersOf);
+      return { from: all.flatMap(({ from }) => from), to: all.flatMap(({ to }) => to) };
+    });
   }
 
-  bodyAt(body: Body, t: number): Sphere {
+  bodiesAt(bodies: readonly Body[], t: number): Sphere {
     const box = new Box3();
-    this.include(body, t, box);
+    bodies.forEach((body) => this.include(body, t, box));
     return box.getBoundingSphere(new Sphere());
   }
 

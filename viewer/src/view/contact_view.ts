@@ -16,7 +16,7 @@ import {
   Vector3,
 } from "three";
 import type { Contact } from "../data/result";
-import type { Body, Model } from "../model";
+import type { Body, Model, Part } from "../model";
 import { contactColor } from "./colors";
 import { cornersAt } from "./triangle";
 
@@ -61,28 +61,28 @@ function arrow(material: MeshBasicMaterial): Group {
   return group;
 }
 
-/// All triangles of a body that touch something, to be drawn over it.
-function touchingTriangles(body: Body, contacts: readonly Contact[], t: number): Float32Array {
-  const touching = new Set(
-    contacts.flatMap(({ bodies, triangles }) =>
-      [0, 1].filter((side) => bodies[side] === body.name).map((side) => triangles[side]!),
-    ),
+/// All triangles of a body's part that touch something.
+function touchingTriangles(body: Body, part: Part, contacts: readonly Contact[]): number[] {
+  const touching = contacts.flatMap(({ bodies, triangles, geometries }) =>
+    [0, 1]
+      .filter((side) => bodies[side] === body.name && body.parts[geometries?.[side] ?? 0] === part)
+      .map((side) => triangles[side]!),
   );
-  const all = new Float32Array(9 * touching.size);
-  [...touching].forEach((triangle, i) => all.set(cornersAt(body, triangle, t), 9 * i));
-  return all;
+  return [...new Set(touching)];
 }
 
-/// In the frame of the mesh, so that the triangles move, and deform, with the body.
-export function touchingSurface(body: Body, contacts: readonly Contact[]): Group {
+/// In the frame of the mesh, so that the triangles move, and deform, with the part.
+export function touchingSurface(body: Body, part: Part, contacts: readonly Contact[]): Group {
   const group = new Group();
-  const positions = touchingTriangles(body, contacts, 0);
+  const touching = touchingTriangles(body, part, contacts);
+  const cornersOfAll = (t: number): Float32Array =>
+    new Float32Array(touching.flatMap((triangle) => [...cornersAt(part, triangle, t)]));
+  const positions = cornersOfAll(0);
   if (positions.length > 0) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
-    if (body.data.motion?.type === "vertices") {
-      const to = touchingTriangles(body, contacts, 1);
-      geometry.morphAttributes.position = [new BufferAttribute(to, 3)];
+    if (part.to) {
+      geometry.morphAttributes.position = [new BufferAttribute(cornersOfAll(1), 3)];
     }
     const fill = overlay(0.7);
     fill.depthTest = true; // A body before it hides it, the outline shows all the same.
@@ -95,7 +95,7 @@ export function touchingSurface(body: Body, contacts: readonly Contact[]): Group
       group.add(mesh);
     });
   }
-  group.position.set(...body.mesh.origin);
+  group.position.set(...part.mesh.origin);
   return group;
 }
 
@@ -174,9 +174,8 @@ export class ContactMarkers {
 
 /// How much of a contact's surroundings is worth seeing, from the sizes of its triangles.
 export function contactSize(model: Model, contact: Contact): number {
-  const sizes = [0, 1].map((side) => {
-    const body = model.body(contact.bodies[side]!);
-    const p = cornersAt(body, contact.triangles[side]!, model.result.t);
+  const sizes = ([0, 1] as const).map((side) => {
+    const p = cornersAt(model.partOf(contact, side), contact.triangles[side], model.result.t);
     const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
     return Math.max(
       corner(0).distanceTo(corner(1)),

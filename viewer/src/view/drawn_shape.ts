@@ -1,8 +1,15 @@
-/// What is drawn of a shape: its triangles, or what these only stand for.
+/// What is drawn of a part: its triangles, or what these only stand for.
 
-import { BufferAttribute, BufferGeometry, CapsuleGeometry, SphereGeometry } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CapsuleGeometry,
+  Quaternion,
+  SphereGeometry,
+  Vector3,
+} from "three";
 import type { MeshData } from "../data/page_data";
-import type { Body } from "../model";
+import type { Part } from "../model";
 
 export interface DrawnShape {
   readonly geometry: BufferGeometry;
@@ -10,23 +17,15 @@ export interface DrawnShape {
   readonly kind: "triangles" | "smooth" | "points";
 }
 
-interface Round {
-  readonly radius: number;
-  readonly length?: number;
-}
-
-const center = [0, 0, 0] as const;
-
-/// A sphere is a point with a radius, a capsule an edge with one: their own numbers tell.
-function roundOf({ data }: Body): Round | null {
-  const { sphere, capsule } = data.shape;
-  return (sphere ?? capsule ?? null) as Round | null;
-}
-
-/// [m] by which the triangles of a shape are thickened.
-export function radiusOf(body: Body): number {
-  const { radius } = body.data.shape;
-  return roundOf(body)?.radius ?? (typeof radius === "number" ? radius : 0);
+/// The corners of a mesh that is one point or one edge: with a radius, a sphere or a capsule.
+function roundOf({ mesh, radius }: Part): readonly [Vector3, Vector3] | null {
+  const { positions, triangles } = mesh;
+  const ends = [...new Set(triangles)];
+  if (radius === 0 || triangles.length !== 3 || ends.length === 3) {
+    return null;
+  }
+  const corner = (k: number): Vector3 => new Vector3().fromArray(positions, 3 * k);
+  return [corner(ends[0]!), corner(ends.at(-1)!)];
 }
 
 /// Whether each triangle is one point, as those of a cloud are.
@@ -63,35 +62,46 @@ function deforming(mesh: MeshData, to: readonly (readonly number[])[]): BufferGe
   return geometry;
 }
 
-function round({ radius, length }: Round): BufferGeometry {
-  return length === undefined
-    ? new SphereGeometry(radius, 40, 24)
-    : new CapsuleGeometry(radius, length, 10, 32).rotateX(0.5 * Math.PI);
+function round([a, b]: readonly [Vector3, Vector3], radius: number): BufferGeometry {
+  const way = b.clone().sub(a);
+  const geometry =
+    way.length() === 0
+      ? new SphereGeometry(radius, 40, 24)
+      : new CapsuleGeometry(radius, way.length(), 10, 32);
+  const along = way.length() === 0 ? new Vector3(0, 0, 1) : way.normalize();
+  const middle = a.clone().add(b).multiplyScalar(0.5);
+  return geometry
+    .applyQuaternion(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along))
+    .translate(...middle.toArray());
 }
 
 /// Draws each mesh, and each round shape of one size, from one buffer however many bodies have it.
 export class DrawnShapes {
   private readonly known = new Map<MeshData | string, DrawnShape>();
 
-  of(body: Body): DrawnShape {
-    const { mesh, data } = body;
-    const { motion } = data;
-    if (motion?.type === "vertices") {
-      return { geometry: deforming(mesh, motion.to), origin: mesh.origin, kind: "triangles" };
+  of(part: Part): DrawnShape {
+    const { mesh, radius, to } = part;
+    if (to) {
+      return { geometry: deforming(mesh, to), origin: mesh.origin, kind: "triangles" };
     }
-    const shape = roundOf(body);
-    const key = shape ? JSON.stringify(shape) : mesh;
-    const drawn = this.known.get(key) ?? this.make(mesh, shape);
+    const ends = roundOf(part);
+    const key = ends ? JSON.stringify([ends, radius, mesh.origin]) : mesh;
+    const drawn = this.known.get(key) ?? this.make(mesh, ends, radius);
     this.known.set(key, drawn);
     return drawn;
   }
 
-  private make(mesh: MeshData, shape: Round | null): DrawnShape {
-    if (shape) {
-      return { geometry: round(shape), origin: center, kind: "smooth" };
+  private make(
+    mesh: MeshData,
+    ends: readonly [Vector3, Vector3] | null,
+    radius: number,
+  ): DrawnShape {
+    const { origin } = mesh;
+    if (ends) {
+      return { geometry: round(ends, radius), origin, kind: "smooth" };
     }
     return isCloud(mesh)
-      ? { geometry: positionsOnly(mesh), origin: mesh.origin, kind: "points" }
-      : { geometry: surface(mesh), origin: mesh.origin, kind: "triangles" };
+      ? { geometry: positionsOnly(mesh), origin, kind: "points" }
+      : { geometry: surface(mesh), origin, kind: "triangles" };
   }
 }

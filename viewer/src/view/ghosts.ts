@@ -1,7 +1,8 @@
 /// Faint copies of the moving bodies: where they start and end, and between as an onion skin.
 
 import { Group } from "three";
-import { dispose, type BodyView } from "./body_view";
+import type { BodyView } from "./body_view";
+import { dispose } from "./part_view";
 
 const skins = 12;
 const mostTriangles = 3_000_000; // Of all skins together.
@@ -32,6 +33,8 @@ export class Ghosts {
 
 /// Fewer where the bodies are heavy.
 function skinCount(views: readonly BodyView[]): number {
-  const triangles = views.reduce((sum, { body }) => sum + body.mesh.triangles.length / 3, 0);
+  const triangles = views
+    .flatMap(({ shownPieces }) => shownPieces)
+    .reduce((sum, { part }) => sum + part.mesh.triangles.length / 3, 0);
   return Math.max(1, Math.min(skins, Math.floor(mostTriangles / Math.max(triangles, 1))));
 }

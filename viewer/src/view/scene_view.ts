@@ -19,10 +19,10 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { MeshData } from "../data/page_data";
 import type { Contact } from "../data/result";
 import type { Display } from "../display";
-import type { Body, Model } from "../model";
+import type { Body, Model, Part } from "../model";
 import { unplace } from "../motion/motion";
 import type { Player } from "../player";
-import { BodyView, fieldOfView } from "./body_view";
+import { BodyView } from "./body_view";
 import { Bounds, corners } from "./bounds";
 import { CameraFlight, type Viewpoint } from "./camera_flight";
 import { bodyColor } from "./colors";
@@ -31,6 +31,7 @@ import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
+import { fieldOfView, type PartView, type Surface } from "./part_view";
 import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
@@ -59,6 +60,7 @@ export class SceneView {
   private readonly grid: Grid;
   private readonly sweep: Box3;
   private readonly home: Sphere;
+  private readonly edges = new Map<MeshData, BufferGeometry | null>();
   private shownContacts: readonly Contact[] = [];
   private cutDepth = 0;
   private dirty = true;
@@ -128,16 +130,14 @@ export class SceneView {
 
   /// The edges take a while to find: first the picture, then its lines.
   addEdges(): void {
-    const known = new Map<MeshData, BufferGeometry | null>();
-    for (const view of this.bodies) {
-      const { mesh } = view.body;
-      if (view.drawn.kind !== "triangles") {
-        continue;
-      }
-      const edges = known.get(mesh) ?? edgeGeometry(mesh, view.surface.geometry);
-      known.set(mesh, edges);
+    const lacking = ({ drawn, hasEdges }: PartView): boolean =>
+      drawn.kind === "triangles" && !hasEdges;
+    for (const piece of this.bodies.flatMap(({ shownPieces }) => shownPieces).filter(lacking)) {
+      const { mesh } = piece.part;
+      const edges = this.edges.get(mesh) ?? edgeGeometry(mesh, piece.surface.geometry);
+      this.edges.set(mesh, edges);
       if (edges) {
-        view.setEdges(edges);
+        piece.setEdges(edges);
       }
     }
     this.restyle();
@@ -154,9 +154,9 @@ export class SceneView {
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
   }
 
-  focusBody(body: Body): void {
+  focusBodies(bodies: readonly Body[]): void {
     this.display.cutaway.value = false;
-    this.flyTo(this.bounds.bodyAt(body, this.player.t.value));
+    this.flyTo(this.bounds.bodiesAt(bodies, this.player.t.value));
   }
 
   /// From where the normal is seen from the side, near enough to see the triangles. What hides the
@@ -180,13 +180,15 @@ export class SceneView {
   showContacts(contacts: readonly Contact[]): void {
     this.shownContacts = contacts;
     this.markers.show(contacts);
-    this.bodies.forEach(({ group, body }) => {
-      group.remove(...group.children.filter(({ name }) => name === "touching"));
-      const surface = touchingSurface(body, contacts);
-      surface.name = "touching";
-      surface.visible = this.display.contacts.value;
-      group.add(surface);
-    });
+    this.bodies.forEach(({ body, parts }) =>
+      parts.forEach(({ group, part }) => {
+        group.remove(...group.children.filter(({ name }) => name === "touching"));
+        const surface = touchingSurface(body, part, contacts);
+        surface.name = "touching";
+        surface.visible = this.display.contacts.value;
+        group.add(surface);
+      }),
+    );
     this.showMoment(this.player.t.value);
   }
 
@@ -213,11 +215,12 @@ export class SceneView {
       this.probe.clear();
       return;
     }
-    const body = this.model.bodies[hit.object.userData.body as number]!;
+    const found = hit.object.userData as { body: number; part: Part };
+    const body = this.model.bodies[found.body]!;
     const t = this.player.t.value;
     const triangle = hit.faceIndex ?? hit.index ?? 0;
     const local = unplace(body.motion(t), hit.point.toArray());
-    this.probe.add(probePoint(body, triangle, local, t), this.display.measure.value);
+    this.probe.add(probePoint(body, found.part, triangle, local, t), this.display.measure.value);
   }
 
   /// Draws now, for a picture of it.
@@ -235,14 +238,16 @@ export class SceneView {
     return ray.intersectObjects(this.shownSurfaces(), false).length === 0;
   }
 
-  private shownSurfaces(): BodyView["surface"][] {
-    return this.bodies.filter(({ group }) => group.visible).map(({ surface }) => surface);
+  private shownSurfaces(): Surface[] {
+    return this.bodies
+      .filter(({ group }) => group.visible)
+      .flatMap(({ shownPieces }) => shownPieces.map(({ surface }) => surface));
   }
 
   private makeBodies(): BodyView[] {
     const { bodies } = this.model;
     const shapes = new DrawnShapes();
-    return bodies.map((body) => new BodyView(body, shapes.of(body), bodyColor(body, bodies)));
+    return bodies.map((body) => new BodyView(body, shapes, bodyColor(body, bodies)));
   }
 
   /// A lamp above, one at the camera's shoulder, and light from everywhere.
@@ -277,15 +282,19 @@ export class SceneView {
     [display.wireframe, display.xray, display.edges].forEach((signal) =>
       signal.subscribe(() => this.restyle()),
     );
+    display.looks.subscribe((looks) => {
+      this.bodies.forEach((view) => view.showLooks(looks));
+      setTimeout(() => this.addEdges());
+      this.requestFrame();
+    });
     display.cutaway.subscribe(() => this.requestFrame());
     [display.ghosts, display.onion].forEach((signal) => signal.subscribe(() => this.showGhosts()));
     display.contacts.subscribe((shown) => {
       this.markers.group.visible = shown;
-      this.bodies.forEach(({ group }) =>
-        group.children
-          .filter(({ name }) => name === "touching")
-          .forEach((surface) => (surface.visible = shown)),
-      );
+      this.bodies
+        .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
+        .filter(({ name }) => name === "touching")
+        .forEach((surface) => (surface.visible = shown));
       this.requestFrame();
     });
     display.hidden.subscribe((hidden) => {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,14 @@ inline JsonValue to_json(std::string_view text) { return {.value = std::string(t
 
 inline JsonValue to_json(const Eigen::Vector3d& v) {
   return {.value = JsonArray{to_json(v.x()), to_json(v.y()), to_json(v.z())}};
+}
+
+inline JsonValue to_json(std::span<const std::string> texts) {
+  JsonArray array;
+  for (const std::string& text : texts) {
+    array.push_back(to_json(text));
+  }
+  return {.value = std::move(array)};
 }
 
 template <typename T>

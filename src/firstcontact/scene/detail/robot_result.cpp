@@ -155,11 +155,7 @@ JsonObject robot_result(const LoadedScene& loaded, const RobotCheckResult& resul
     }
   }
   object.push_back({"limits", {.value = std::move(limits)}});
-  JsonArray warnings;
-  for (const std::string& warning : loaded.warnings) {
-    warnings.push_back(to_json(warning));
-  }
-  object.push_back({"warnings", {.value = std::move(warnings)}});
+  object.push_back({"warnings", to_json(loaded.warnings)});
   return object;
 }
 

@@ -1,0 +1,186 @@
+/// Something over time, above the slider. What is proven free is shaded; a click goes to its moment.
+
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { element, iconButton } from "../core/dom";
+import { number, timeUnit, type Unit } from "../core/format";
+import { icons } from "../core/icons";
+import type { Signal } from "../core/signal";
+import type { Model } from "../model";
+import type { Player } from "../player";
+import type { Theme } from "../theme";
+
+export const chartLeft = 52; // [px] The slider below begins there too.
+export const chartRight = 14;
+
+/// A polyline over t in [0, 1]. Colours are those of the style sheet, by name.
+export interface ChartLine {
+  readonly t: readonly number[];
+  readonly value: readonly number[];
+  readonly color: string;
+  readonly width: number;
+  readonly fill?: string;
+}
+
+/// What a chart shows, in its unit.
+export interface ChartContent {
+  readonly title: string;
+  readonly unit: string;
+  readonly range: readonly [number, number];
+  readonly lines: readonly ChartLine[];
+  /// Drawn across all of the time.
+  readonly levels: readonly number[];
+  /// Of t; where the value is not as it should be.
+  readonly bad: readonly (readonly [number, number])[];
+  /// Back to what was shown before.
+  readonly close?: () => void;
+}
+
+export class TimeChart {
+  readonly element = element("div.chart", { "aria-label": "Chart over time", role: "figure" });
+  private plot: uPlot | null = null;
+  private readonly unit: Unit;
+
+  constructor(
+    private readonly model: Model,
+    private readonly player: Player,
+    private readonly theme: Theme,
+    private readonly content: Signal<ChartContent | null>,
+  ) {
+    this.unit = timeUnit(model.duration);
+    content.subscribe((value) => (this.element.hidden = value === null));
+  }
+
+  /// Once the element has a size.
+  start(): void {
+    this.theme.name.subscribe(() => this.make());
+    this.content.subscribe(() => this.make());
+    this.player.t.subscribe(() => this.plot?.redraw(false));
+    new ResizeObserver(() => this.plot?.setSize(this.size())).observe(this.element);
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: this.element.clientWidth, height: this.element.clientHeight };
+  }
+
+  private make(): void {
+    this.plot?.destroy();
+    this.plot = null;
+    this.element.replaceChildren();
+    const { value: content } = this.content;
+    if (content === null) {
+      return;
+    }
+    const { theme } = this;
+    const axis = {
+      stroke: theme.color("text-soft"),
+      grid: { stroke: theme.color("chart-grid"), width: 1 },
+      ticks: { show: false },
+      font: "11px system-ui, sans-serif",
+    };
+    const values = (_: uPlot, splits: number[]): string[] => splits.map((x) => number(x));
+    const series = content.lines.map(({ color, width, fill }): uPlot.Series => ({
+      spanGaps: true,
+      points: { show: false },
+      stroke: theme.color(color),
+      width,
+      ...(fill ? { fill: theme.color(fill) } : {}),
+    }));
+    this.plot = new uPlot(
+      {
+        ...this.size(),
+        pxAlign: 0,
+        padding: [20, chartRight, 0, 0],
+        legend: { show: false },
+        cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
+        scales: {
+          x: { time: false, range: [0, this.model.duration / this.unit.size] },
+          y: { range: [...content.range] },
+        },
+        axes: [
+          { ...axis, size: 24, gap: 3, values },
+          { ...axis, size: chartLeft, gap: 6, values, space: 26 },
+        ],
+        series: [{}, ...series],
+        hooks: {
+          drawClear: [(plot) => this.shade(plot, content)],
+          draw: [(plot) => this.mark(plot, content)],
+        },
+      },
+      this.dataOf(content),
+      this.element,
+    );
+    this.element.append(element("span.chart-title", {}, `${content.title} [${content.unit}]`));
+    if (content.close) {
+      const close = iconButton(icons.close, "Back to the gap", null, content.close);
+      close.classList.add("small", "chart-close");
+      this.element.append(close);
+    }
+    this.element.append(element("span.chart-unit", {}, `time [${this.unit.name}]`));
+    this.followPointer(this.plot);
+  }
+
+  /// The lines, each at times of its own.
+  private dataOf({ lines }: ChartContent): uPlot.AlignedData {
+    const seconds = (t: number): number => (t * this.model.duration) / this.unit.size;
+    return uPlot.join(lines.map(({ t, value }): uPlot.AlignedData => [t.map(seconds), [...value]]));
+  }
+
+  private followPointer({ over }: uPlot): void {
+    const seek = (event: PointerEvent): void => {
+      const box = over.getBoundingClientRect();
+      this.player.seek((event.clientX - box.left) / box.width);
+    };
+    over.style.touchAction = "none";
+    over.addEventListener("pointerdown", (event) => {
+      over.setPointerCapture(event.pointerId);
+      seek(event);
+    });
+    over.addEventListener("pointermove", (event) => {
+      if (over.hasPointerCapture(event.pointerId)) {
+        seek(event);
+      }
+    });
+  }
+
+  /// Proven free, what lies after it, and what is bad.
+  private shade({ ctx, bbox }: uPlot, { bad }: ChartContent): void {
+    const band = (from: number, to: number, color: string): void => {
+      ctx.fillStyle = this.theme.color(color);
+      const width = Math.max(bbox.width * (to - from), to > from ? devicePixelRatio : 0);
+      ctx.fillRect(bbox.left + bbox.width * from, bbox.top, width, bbox.height);
+    };
+    const { t } = this.model.result;
+    ctx.save();
+    band(0, t, "chart-proven");
+    band(t, 1, "chart-after");
+    bad.forEach(([from, to]) => band(from, to, "chart-bad"));
+    ctx.restore();
+  }
+
+  private mark(plot: uPlot, { levels }: ChartContent): void {
+    const { ctx, bbox } = plot;
+    const line = (x1: number, y1: number, x2: number, y2: number, color: string, width: number) => {
+      ctx.strokeStyle = this.theme.color(color);
+      ctx.lineWidth = width * devicePixelRatio;
+      ctx.beginPath();
+      ctx.moveTo(x1, y1);
+      ctx.lineTo(x2, y2);
+      ctx.stroke();
+    };
+    const x = (t: number): number => bbox.left + bbox.width * t;
+    const bottom = bbox.top + bbox.height;
+    ctx.save();
+    ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
+    for (const level of levels) {
+      const y = plot.valToPos(level, "y", true);
+      line(bbox.left, y, bbox.left + bbox.width, y, "undecided", 1.2);
+    }
+    ctx.setLineDash([]);
+    if (this.model.contactTime !== null) {
+      line(x(this.model.contactTime), bbox.top, x(this.model.contactTime), bottom, "contact", 1.5);
+    }
+    line(x(this.player.t.value), bbox.top, x(this.player.t.value), bottom, "text", 1.5);
+    ctx.restore();
+  }
+}

@@ -1,0 +1,201 @@
+/// One piece of a body on the screen: its surface, and the edges that an eye looks for.
+
+import {
+  BufferGeometry,
+  Color,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Material,
+  Mesh,
+  MeshBasicMaterial,
+  MeshPhongMaterial,
+  Object3D,
+  Points,
+  PointsMaterial,
+  Quaternion,
+  Vector3,
+} from "three";
+import type { Part } from "../model";
+import type { Pose } from "../motion/motion";
+import type { DrawnShape } from "./drawn_shape";
+
+const pointSize = 2.5; // [px] Of points without a radius.
+
+/// [deg] Of every camera. Sizes of points on the screen depend on it.
+export const fieldOfView = 32;
+const pointScale = 1 / Math.tan((0.5 * fieldOfView * Math.PI) / 180);
+
+export interface Style {
+  readonly wireframe: boolean;
+  readonly xray: boolean;
+  readonly edges: boolean;
+}
+
+export type Surface =
+  Mesh<BufferGeometry, MeshPhongMaterial> | Points<BufferGeometry, PointsMaterial>;
+
+/// Puts an object where a pose says; in double precision, as all of its matrices are.
+export function setPose(object: Object3D, { position, rotation }: Pose): void {
+  const [w, x, y, z] = rotation;
+  object.matrix.compose(new Vector3(...position), new Quaternion(x, y, z, w), new Vector3(1, 1, 1));
+  object.matrixAutoUpdate = false;
+  object.matrixWorldNeedsUpdate = true;
+}
+
+/// Moves the vertices of what deforms.
+export function deform(part: Object3D, t: number): void {
+  if (
+    (part instanceof Mesh || part instanceof LineSegments) &&
+    part.morphTargetInfluences?.length
+  ) {
+    part.morphTargetInfluences[0] = t;
+  }
+}
+
+function surfaceMaterial(color: string, flatShading: boolean): MeshPhongMaterial {
+  const material = new MeshPhongMaterial({
+    color,
+    specular: 0x222222,
+    shininess: 40,
+    flatShading,
+    side: DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  // The back of a triangle is darker, so that what is cut open can be told from what is not.
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <color_fragment>",
+      "#include <color_fragment>\n  if (!gl_FrontFacing) diffuseColor.rgb *= 0.6;",
+    );
+  };
+  return material;
+}
+
+function pointMaterial(color: string, radius: number): PointsMaterial {
+  const thick = radius > 0;
+  const material = new PointsMaterial({
+    color,
+    size: thick ? 2 * radius * pointScale : pointSize,
+    sizeAttenuation: thick,
+  });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <color_fragment>",
+      "#include <color_fragment>\n  if (length(gl_PointCoord - 0.5) > 0.5) discard;",
+    );
+  };
+  return material;
+}
+
+export class PartView {
+  readonly group = new Group();
+  readonly surface: Surface;
+  private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
+  private style: Style = { wireframe: false, xray: false, edges: true };
+
+  /// @param body  index of the body, for whoever finds the surface
+  constructor(
+    readonly part: Part,
+    readonly drawn: DrawnShape,
+    private readonly color: string,
+    body: number,
+  ) {
+    const { geometry, kind, origin } = drawn;
+    this.surface =
+      kind === "points"
+        ? new Points(geometry, pointMaterial(color, part.radius))
+        : new Mesh(geometry, surfaceMaterial(color, kind === "triangles"));
+    this.surface.position.set(...origin);
+    this.surface.userData = { body, part };
+    setPose(this.group, part.pose);
+    this.group.add(this.surface);
+  }
+
+  get shown(): boolean {
+    return this.surface.visible;
+  }
+
+  /// Shows or hides the piece, but not what was put beside it.
+  set shown(shown: boolean) {
+    this.surface.visible = shown;
+    this.restyle();
+  }
+
+  get hasEdges(): boolean {
+    return this.edges !== null;
+  }
+
+  /// The edges take a while to find: they come after the first picture.
+  setEdges(geometry: BufferGeometry): void {
+    const color = new Color(this.color).multiplyScalar(0.32);
+    this.edges = new LineSegments(
+      geometry,
+      new LineBasicMaterial({ color, transparent: true, opacity: 0.75 }),
+    );
+    this.edges.position.copy(this.surface.position);
+    this.group.add(this.edges);
+    this.restyle();
+  }
+
+  setStyle(style: Style): void {
+    this.style = style;
+    this.restyle();
+  }
+
+  private restyle(): void {
+    const { wireframe, xray, edges } = this.style;
+    const { material } = this.surface;
+    if (material instanceof MeshPhongMaterial) {
+      material.wireframe = wireframe;
+    }
+    material.transparent = xray;
+    material.opacity = xray ? 0.28 : 1;
+    material.depthWrite = !xray;
+    material.needsUpdate = true;
+    if (this.edges) {
+      this.edges.visible = this.surface.visible && edges && !wireframe;
+    }
+  }
+
+  /// A faint copy of the piece. It cannot be clicked.
+  ghost(t: number, opacity: number): Group {
+    const look = { color: this.color, transparent: true, opacity, depthWrite: false } as const;
+    const { geometry } = this.surface;
+    const copies: Object3D[] =
+      this.surface instanceof Points
+        ? [
+            new Points(
+              geometry,
+              Object.assign(this.surface.material.clone(), look, { color: new Color(this.color) }),
+            ),
+          ]
+        : [new Mesh(geometry, new MeshBasicMaterial({ ...look, side: DoubleSide }))];
+    if (this.edges) {
+      const lines = new LineBasicMaterial({ ...look, opacity: 2 * opacity });
+      copies.push(new LineSegments(this.edges.geometry, lines));
+    }
+    const group = new Group();
+    for (const copy of copies) {
+      copy.position.copy(this.surface.position);
+      copy.raycast = () => {};
+      deform(copy, t);
+      group.add(copy);
+    }
+    setPose(group, this.part.pose);
+    return group;
+  }
+}
+
+/// Frees what ghosts made for themselves; their geometry is shared.
+export function dispose(group: Group): void {
+  group.traverse((part) => {
+    if ("material" in part) {
+      (part.material as Material).dispose();
+    }
+  });
+  group.clear();
+}

@@ -1,0 +1,140 @@
+/// The viewer's robots against poses that the library also reproduces (tests/scene), and their joints.
+
+import { readFileSync } from "node:fs";
+import { describe, expect, test } from "vitest";
+import { readPageData } from "../src/data/page_data";
+import type { QuaternionWxyz, Vector3 } from "../src/data/result";
+import { Model } from "../src/model";
+import { coordinateAt, restsAt } from "../src/motion/robot";
+import { distance, length, rotate } from "../src/motion/vector";
+import { badTimes, jointContent, rangeOf, valueText } from "../src/panels/joint_chart";
+
+interface StoredPose {
+  readonly body: string;
+  readonly t: number;
+  readonly position: Vector3;
+  readonly quaternion_wxyz: QuaternionWxyz;
+}
+
+const stored = JSON.parse(
+  readFileSync(new URL("data/robot_poses.json", import.meta.url), "utf8"),
+) as { page: object; poses: StoredPose[] };
+const model = new Model(readPageData(JSON.stringify(stored.page)));
+
+describe.each(model.bodies.map(({ name }) => name))("the motion of %s", (name) => {
+  const poses = stored.poses.filter(({ body }) => body === name);
+
+  test("is that of the library", () => {
+    expect(poses.length).toBe(8);
+    for (const pose of poses) {
+      const { position, rotation } = model.body(name).motion(pose.t);
+      expect(distance(position, pose.position)).toBeLessThan(1e-13 * (1 + length(position)));
+      for (const axis of [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+      ] as const) {
+        const off = distance(rotate(rotation, axis), rotate(pose.quaternion_wxyz, axis));
+        expect(off).toBeLessThan(1e-13);
+      }
+    }
+  });
+});
+
+describe("a robot", () => {
+  test("has its links after the bodies, each with its name", () => {
+    expect(model.bodies.map(({ name }) => name).slice(0, 3)).toEqual([
+      "load",
+      "zoo/ground",
+      "zoo/cart",
+    ]);
+    expect(model.body("zoo/hook").kind).toBe("prismatic");
+    expect(model.body("load").kind).toBe("carried by hook");
+    expect(model.bodies.every(({ atRest }) => !atRest)).toBe(true); // Its base moves.
+  });
+
+  test("knows how far its links turn", () => {
+    const turns = (name: string): number => model.body(name).angle;
+    expect(turns("zoo/mast")).toBeGreaterThan(turns("zoo/cart"));
+    expect(turns("zoo/bit")).toBeGreaterThan(40); // The screw alone goes 40 rad and back.
+  });
+});
+
+describe("a coordinate", () => {
+  const segments = [
+    { until: 0.25, a: [1] },
+    { until: 0.75, a: [1, 0, 4] },
+    { until: 1, a: [5, -5] },
+  ];
+
+  test("follows its polynomials", () => {
+    expect([0, 0.1, 0.25, 0.5, 0.75, 0.875, 1].map((t) => coordinateAt(segments, t))).toEqual([
+      1, 1, 1, 2, 5, 2.5, 0,
+    ]);
+  });
+
+  test("rests or does not", () => {
+    expect(restsAt(segments)).toBe(false);
+    expect(restsAt([{ until: 1, a: [2] }])).toBe(true);
+    expect(
+      restsAt([
+        { until: 0.5, a: [2] },
+        { until: 1, a: [2, 0] },
+      ]),
+    ).toBe(true);
+    expect(
+      restsAt([
+        { until: 0.5, a: [2] },
+        { until: 1, a: [3] },
+      ]),
+    ).toBe(false);
+  });
+
+  test("of every joint has a name, a unit and limits", () => {
+    const one = (name: string) => model.coordinates.find((found) => found.name === name)!;
+    expect(model.coordinates.length).toBe(8);
+    expect(one("rail/x").unit).toBe("m");
+    expect(one("rail/theta").unit).toBe("rad");
+    expect([one("lift").lower, one("lift").upper, one("rotor").upper]).toEqual([-1, 1, null]);
+    expect(one("follow").mimics).toBe("lift");
+    expect(one("follow").at(0.6)).toBeCloseTo(0.5 * one("lift").at(0.6) + 0.1, 14);
+  });
+});
+
+describe("the chart of a joint", () => {
+  const joint = {
+    ...model.coordinates.find(({ name }) => name === "lift")!,
+    violations: [
+      {
+        robot: "zoo",
+        joint: "lift",
+        limit: "upper_position",
+        value: 1,
+        excess: 0.1,
+        time: 1.8,
+        intervals: [[1.5, 2]],
+      } as const,
+    ],
+  };
+
+  test("reaches around limits and way", () => {
+    const [least, most] = rangeOf(joint, [-0.7, 1.1]);
+    expect(least).toBeLessThan(-1);
+    expect(most).toBeGreaterThan(1.1);
+    expect(rangeOf({ ...joint, lower: null, upper: null }, [3, 3])[1]).toBeGreaterThan(3);
+  });
+
+  test("marks limits, and where they are left", () => {
+    const { levels, bad, lines, unit } = jointContent(joint, 2);
+    expect([levels, bad, unit]).toEqual([[-1, 1], [[0.75, 1]], "m"]);
+    expect(badTimes(joint, 4)).toEqual([[0.375, 0.5]]);
+    const [line] = lines;
+    expect(line!.t).toContain(0.9); // The end of a segment.
+    expect(line!.value[line!.t.indexOf(0.5)]).toBeCloseTo(-0.7, 12);
+  });
+
+  test("tells values in units, angles in degrees too", () => {
+    expect(valueText(0.065, joint)).toBe("0.065\u00a0m");
+    expect(valueText(-Math.PI / 2, { ...joint, unit: "rad" })).toBe("−1.571\u00a0rad · −90°");
+  });
+});
