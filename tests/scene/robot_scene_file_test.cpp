@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
@@ -232,6 +233,24 @@ TEST_F(RobotSceneFile, IsLookedAtWhereItComesClosest) {
       R"(, "trajectory": {"joint_names": ["elbow"], "points": [{"time": 0, "positions": [0.5]},
          {"time": 1, "positions": [1]}, {"time": 4, "positions": [0]}]})")));
   EXPECT_NEAR(time_of_interest(check(turning, {.closest = true})), 0.25, 1e-4);
+}
+
+// Links have greater numbers after it, and every rule goes on to mean the same.
+TEST_F(RobotSceneFile, TakesABodyMoreWithoutChangingItsRules) {
+  Scene scene = parse(with_ball(
+      R"(, "attached": [{"body": "ball", "link": "tip"}])",
+      R"(, "pairs": {"groups": {"all": ["ball", "arm/tip"]}, "ignore": [["ball", "arm/bar"]],
+                     "margin": [["ball", "arm/tip", 0.5], ["all", "all", 0.25]]})"));
+  add_body(scene, {.name = "post", .shape = {.source = make_sphere(0.25)}, .motion = {}});
+  const auto name = [&](std::size_t member) { return member_name(scene, member); };
+  EXPECT_EQ(name(scene.ignored_pairs.at(0)[0]) + name(scene.ignored_pairs.at(0)[1]), "ballarm/bar");
+  EXPECT_EQ(name(scene.pair_margins.at(0).bodies[1]), "arm/tip");
+  EXPECT_EQ(name(scene.groups.at(0).bodies[1]), "arm/tip");
+  EXPECT_EQ(members_named(scene, "arm"), (std::vector<std::size_t>{2, 3, 4}));
+  EXPECT_EQ(members_named(scene, "all"), (std::vector<std::size_t>{0, 4}));
+  EXPECT_THROW((void)members_named(scene, "arm/tap"), std::invalid_argument);
+  const LoadedScene loaded = load(scene);
+  EXPECT_EQ(loaded.robots->geometries(1)[0].shape.radius(), 0.25);
 }
 
 }  // namespace

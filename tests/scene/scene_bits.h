@@ -24,6 +24,7 @@ class SceneBits {
       add(static_cast<double>(body.shape.source.index()));
       add(body.shape.radius);
       add(static_cast<double>(body.shape.filling));
+      add(body.shape.enclosure_error);
       add(static_cast<double>(body.motion.index()));
       std::visit([this](const auto& motion) { add(motion); }, body.motion);
     }
@@ -88,6 +89,7 @@ class SceneBits {
     }
   }
 
+  void add(const Shape& shape) { add(shape.mesh()); }
   void add(const SphereShape& sphere) { add(sphere.radius); }
   void add(const CapsuleShape& capsule) {
     add(capsule.radius);

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/shape_cache.h>
 
 #include "scene/scene_bits.h"
 
@@ -113,6 +115,22 @@ TEST(WriteScene, KeepsTheScenesOfTheCorpus) {
     const std::string text = write_scene(scene);
     EXPECT_EQ(text.find('\n'), std::string::npos);
     EXPECT_EQ(SceneBits(parse_scene(text, "s")), SceneBits(scene)) << text;
+  }
+}
+
+// A shape that is ready is written as its mesh, with all that its certificates need.
+TEST(WriteScene, KeepsShapesThatAreReady) {
+  for (const Shape& shape :
+       {make_cylinder(0.5, 1.0, 1e-3), make_sphere(0.25), make_box({1, 2, 3})}) {
+    Scene scene;
+    scene.bodies.push_back({.name = "a", .shape = {.source = shape}, .motion = {}});
+    ShapeCache cache;
+    const Scene again = parse_scene(write_scene(scene), "again");
+    const Shape read = cache.load(again.bodies.at(0).shape).shape;
+    EXPECT_EQ(read.compare(shape), 0);
+    EXPECT_EQ(read.enclosure_error(), shape.enclosure_error());
+    EXPECT_EQ(cache.load(scene.bodies.at(0).shape).shape.mesh().vertices.data(),
+              shape.mesh().vertices.data());
   }
 }
 

@@ -39,6 +39,11 @@ struct MotionMaker {
 
 }  // namespace
 
+bool spans_duration(const BodyMotion& motion) {
+  return !std::holds_alternative<FixedMotion>(motion) &&
+         !std::holds_alternative<WaypointMotion>(motion);
+}
+
 Motion normalised_motion(const BodyMotion& motion, double duration) {
   return std::visit(MotionMaker{duration}, motion);
 }

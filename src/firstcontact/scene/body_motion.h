@@ -57,6 +57,9 @@ struct VertexMotion {
 using BodyMotion = std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion, TwoPoseMotion,
                                 WaypointMotion, VertexMotion>;
 
+/// Whether it takes the whole duration of the scene, however long that is, to run.
+[[nodiscard]] FIRSTCONTACT_API bool spans_duration(const BodyMotion& motion);
+
 /// The certified motion of a body's frame over the scene, t = time / duration in [0, 1]. Where
 /// vertices move it stays: the frame is the world's.
 /// Waypoint times are divided by the duration in double precision; the certificate holds for the

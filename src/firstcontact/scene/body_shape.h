@@ -78,12 +78,14 @@ struct HeightFile {
 
 /// What a body is made of, in the body frame.
 struct BodyShape {
-  /// A Mesh holds what its scene writes inline, not welded.
+  /// A Mesh holds what its scene writes inline, not welded. A Shape is ready, with a radius and a
+  /// filling of its own; no file says so, it is written as its mesh.
   std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
-               ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap>
+               ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
       source;
   double radius = 0.0;  ///< [m]  Thickens all but sphere, capsule, box, cylinder, cone; >= 0.
   Filling filling = Filling::surface;  ///< Of a mesh.
+  double enclosure_error = 0.0;        ///< [m]  Of an inline mesh: Shape::enclosure_error(); >= 0.
 };
 
 }  // namespace firstcontact

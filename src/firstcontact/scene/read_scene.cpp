@@ -138,24 +138,6 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   return options;
 }
 
-/// [s]  The last time of waypoints; 0 where there is none.
-double last_time(const BodyMotion& motion) {
-  const auto* waypoints = std::get_if<WaypointMotion>(&motion);
-  return waypoints == nullptr ? 0.0 : waypoints->times.back();
-}
-
-/// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.
-double last_time(const Scene& scene) {
-  double last = 0.0;
-  for (const Body& body : scene.bodies) {
-    last = std::max(last, last_time(body.motion));
-  }
-  for (const SceneRobot& robot : scene.robots) {
-    last = std::max({last, last_time(robot.base), robot.trajectory.points.back().time});
-  }
-  return last;
-}
-
 /// `asked` may be null.
 double scene_duration(const Scene& scene, const JsonValue* asked, const JsonReader& read) {
   const double last = last_time(scene);

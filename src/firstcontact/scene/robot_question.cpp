@@ -90,7 +90,10 @@ class SceneBuilder {
   SceneRobot read_robot() {
     RobotModel model = read_robot_model(question_.robot);
     std::string name = model.name().empty() ? "robot" : model.name();
-    SceneRobot robot{.name = std::move(name), .file = question_.robot, .model = std::move(model)};
+    SceneRobot robot{.name = std::move(name),
+                     .file = question_.robot,
+                     .model = std::move(model),
+                     .base = FixedMotion{question_.base}};
     if (!question_.srdf.empty()) {
       robot.srdf = question_.srdf;
       robot.semantics =
@@ -161,9 +164,8 @@ class SceneBuilder {
   static void require_base_at_origin(const SceneRobot& robot, const std::filesystem::path& file) {
     const Pose& base = std::get<FixedMotion>(robot.base).pose;
     if (!base.position.isZero(0.0) || !base.rotation.vec().isZero(0.0)) {
-      throw ParseError(
-          file.string(),
-          "expected a robot whose base is the planning frame, but the request moves it");
+      throw ParseError(file.string(),
+                       "expected a robot whose base is the planning frame, but it is moved");
     }
   }
 
@@ -260,20 +262,10 @@ class SceneBuilder {
     }
   }
 
-  static bool spans_the_scene(const BodyMotion& motion) {
-    return !std::holds_alternative<FixedMotion>(motion) &&
-           !std::holds_alternative<WaypointMotion>(motion);
-  }
-
   void set_duration() {
-    double last = scene_.robots.front().trajectory.points.back().time;
-    for (const Body& body : scene_.bodies) {
-      if (const auto* waypoints = std::get_if<WaypointMotion>(&body.motion)) {
-        last = std::max(last, waypoints->times.back());
-      }
-    }
+    const double last = last_time(scene_);
     scene_.duration = last > 0.0 ? last : around_duration_.value_or(1.0);
-    const auto spans = [](const Body& body) { return spans_the_scene(body.motion); };
+    const auto spans = [](const Body& body) { return spans_duration(body.motion); };
     if (around_duration_ && *around_duration_ != scene_.duration &&
         std::any_of(scene_.bodies.begin(), scene_.bodies.end(), spans)) {
       throw ParseError(around_.string(),

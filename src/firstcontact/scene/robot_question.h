@@ -18,6 +18,7 @@ namespace firstcontact {
 struct RobotQuestion {
   RobotFile robot;
   std::filesystem::path srdf = {};
+  Pose base = {};                         ///< Of the root link; a request says its own.
   std::filesystem::path trajectory = {};  ///< As read_trajectory.
   std::filesystem::path request = {};     ///< Straight from its start to its goal.
   std::vector<std::string> start = {};    ///< States, the later ones prevail: see `state`.

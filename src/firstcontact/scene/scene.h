@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <firstcontact/math/export.h>
@@ -70,6 +71,18 @@ struct Scene {
   std::string text_digest;  ///< SHA-256 of the text that was read, in hexadecimal; may be empty.
   std::vector<std::string> warnings = {};  ///< What a user should know of what was read.
 };
+
+/// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.
+[[nodiscard]] FIRSTCONTACT_API double last_time(const Scene& scene);
+
+/// Appends a body. Links of robots have greater numbers from then on, in the rules too.
+FIRSTCONTACT_API void add_body(Scene& scene, Body body);
+
+/// The members that a name means: a body, a link as "robot/link", all links of a robot, a group.
+///
+/// @throws std::invalid_argument  with the nearest name, if there is none
+[[nodiscard]] FIRSTCONTACT_API std::vector<std::size_t> members_named(const Scene& scene,
+                                                                      std::string_view name);
 
 /// The number of the member that is a robot's first link.
 [[nodiscard]] FIRSTCONTACT_API std::size_t first_member(const Scene& scene, std::size_t robot);

@@ -61,6 +61,7 @@ bool is_inline(const BodyShape& shape) {
   return std::holds_alternative<Mesh>(shape.source) ||
          std::holds_alternative<PointCloud>(shape.source) ||
          std::holds_alternative<HeightMap>(shape.source) ||
+         std::holds_alternative<Shape>(shape.source) ||
          (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
 }
 

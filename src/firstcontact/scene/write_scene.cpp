@@ -76,14 +76,24 @@ JsonValue numbers(double radius, double length, const std::optional<double>& enc
 struct ShapeMembers {
   double radius;
   Filling filling;
+  double enclosure_error;
 
   JsonObject operator()(const MeshFile& file) const {
     return with_thickness({{"mesh", to_json(file.path.string())}, {"scale", to_json(file.scale)}});
   }
 
   JsonObject operator()(const Mesh& mesh) const {
-    return with_thickness(
+    JsonObject object = with_thickness(
         {{"vertices", to_json(mesh.vertices)}, {"triangles", to_json(mesh.triangles)}});
+    if (enclosure_error > 0.0) {
+      object.push_back({"enclosure_error", to_json(enclosure_error)});
+    }
+    return object;
+  }
+
+  JsonObject operator()(const Shape& ready) const {
+    const Filling filled = ready.is_solid() ? Filling::solid : Filling::surface;
+    return ShapeMembers{ready.radius(), filled, ready.enclosure_error()}(ready.mesh());
   }
 
   JsonObject operator()(const SphereShape& sphere) const {
@@ -155,7 +165,8 @@ struct ShapeMembers {
 };
 
 JsonValue to_json(const BodyShape& shape) {
-  return {.value = std::visit(ShapeMembers{shape.radius, shape.filling}, shape.source)};
+  return {.value = std::visit(ShapeMembers{shape.radius, shape.filling, shape.enclosure_error},
+                              shape.source)};
 }
 
 /// The key and value that say how a body moves; the overloads are picked by std::visit.

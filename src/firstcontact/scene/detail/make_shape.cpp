@@ -52,10 +52,11 @@ Mesh read_scaled(const MeshFile& file) {
 struct ShapeMaker {
   double radius;
   Filling filling;
+  double enclosure_error;
 
   Shape operator()(const MeshFile& file) const { return Shape(read_scaled(file), radius, filling); }
 
-  Shape operator()(const Mesh& mesh) const { return Shape(mesh, radius, filling); }
+  Shape operator()(const Mesh& mesh) const { return Shape(mesh, radius, filling, enclosure_error); }
 
   Shape operator()(const SphereShape& sphere) const { return make_sphere(sphere.radius); }
 
@@ -93,6 +94,8 @@ struct ShapeMaker {
   }
 
   Shape operator()(const HeightMap& map) const { return make_height_map(map, radius); }
+
+  Shape operator()(const Shape& ready) const { return ready; }
 };
 
 }  // namespace
@@ -114,7 +117,7 @@ const std::filesystem::path* file_of(const BodyShape& shape) {
 Shape make_shape(const BodyShape& shape) {
   const std::filesystem::path* file = file_of(shape);
   try {
-    return std::visit(ShapeMaker{shape.radius, shape.filling}, shape.source);
+    return std::visit(ShapeMaker{shape.radius, shape.filling, shape.enclosure_error}, shape.source);
   } catch (const std::invalid_argument& error) {
     if (file == nullptr) {
       throw;

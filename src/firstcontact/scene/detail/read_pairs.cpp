@@ -2,49 +2,34 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/detail/scene_names.h>
 #include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact::detail {
 namespace {
 
-/// A body, a link, a robot or a group.
-struct Named {
-  enum class Kind { member, robot, group };
-  Kind kind = Kind::member;
-  std::size_t index = 0;  ///< Of the member, robot or group.
-};
-
 class PairsReader {
  public:
-  PairsReader(Scene& scene, const JsonReader& read) : scene_(scene), read_(read) {
-    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-      names_[scene.bodies[k].name] = {Named::Kind::member, k};
-    }
-    for (std::size_t k = 0; k < scene.robots.size(); ++k) {
-      names_[scene.robots[k].name] = {Named::Kind::robot, k};
-      for (const std::size_t member : members_of({Named::Kind::robot, k})) {
-        names_.insert({member_name(scene, member), {Named::Kind::member, member}});
-      }
-    }
-  }
+  PairsReader(Scene& scene, const JsonReader& read)
+      : scene_(scene), read_(read), names_(names_in(scene)) {}
 
   void groups(const JsonValue& value) {
     const auto* groups = std::get_if<JsonObject>(&value.value);
     if (groups == nullptr) {
       read_.fail_expected("an object of groups, such as {\"fixtures\": [\"a\", \"b\"]}", value);
     }
-    std::map<std::string, Named> names = names_;
+    SceneNames names = names_;
     for (const auto& [name, members] : *groups) {
       BodyGroup group{name, {}};
       for (const JsonValue& member : read_.array(members, "an array of names of bodies")) {
-        const std::vector<std::size_t> meant = members_of(named(member, "the name of a body"));
+        const std::vector<std::size_t> meant =
+            members_of(scene_, named(member, "the name of a body"));
         group.bodies.insert(group.bodies.end(), meant.begin(), meant.end());
       }
       scene_.groups.push_back(std::move(group));
@@ -119,13 +104,7 @@ class PairsReader {
     if (found != names_.end()) {
       return found->second;
     }
-    std::vector<std::string_view> known;
-    for (const auto& entry : names_) {
-      known.push_back(entry.first);
-    }
-    const std::string_view nearest = nearest_word(name, known);
-    read_.fail(value, "expected " + what + ", got " + in_quotes(name) +
-                          (nearest.empty() ? "" : "; did you mean " + in_quotes(nearest) + "?"));
+    read_.fail(value, "expected " + what + ", got " + in_quotes(name) + hint(names_, name));
   }
 
   [[nodiscard]] std::string what_is_named() const {
@@ -160,8 +139,8 @@ class PairsReader {
   [[nodiscard]] std::vector<BodyPair> pairs_of(const Named& first, const Named& second) const {
     std::vector<BodyPair> pairs;
     std::set<BodyPair> seen;
-    for (const std::size_t a : members_of(first)) {
-      for (const std::size_t b : members_of(second)) {
+    for (const std::size_t a : members_of(scene_, first)) {
+      for (const std::size_t b : members_of(scene_, second)) {
         const BodyPair pair = {std::min(a, b), std::max(a, b)};
         if (a != b && seen.insert(pair).second) {
           pairs.push_back(pair);
@@ -171,24 +150,9 @@ class PairsReader {
     return pairs;
   }
 
-  [[nodiscard]] std::vector<std::size_t> members_of(const Named& named) const {
-    switch (named.kind) {
-      case Named::Kind::group:
-        return scene_.groups[named.index].bodies;
-      case Named::Kind::robot: {
-        std::vector<std::size_t> links(scene_.robots[named.index].model.links().size());
-        std::iota(links.begin(), links.end(), first_member(scene_, named.index));
-        return links;
-      }
-      case Named::Kind::member:
-        break;
-    }
-    return {named.index};
-  }
-
   Scene& scene_;
   const JsonReader& read_;
-  std::map<std::string, Named> names_;
+  SceneNames names_;
 };
 
 }  // namespace

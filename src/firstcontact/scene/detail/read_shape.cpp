@@ -72,7 +72,9 @@ class ShapeReader {
   static const std::vector<Kind>& kinds() {
     static const std::vector<Kind> kKinds = {
         {"mesh", {"scale", "radius", "solid"}, &ShapeReader::mesh_file},
-        {"vertices", {"triangles", "radius", "solid"}, &ShapeReader::inline_mesh},
+        {"vertices",
+         {"triangles", "radius", "solid", "enclosure_error"},
+         &ShapeReader::inline_mesh},
         {"sphere", {}, &ShapeReader::sphere},
         {"capsule", {}, &ShapeReader::capsule},
         {"box", {}, &ShapeReader::box},
@@ -158,6 +160,9 @@ class ShapeReader {
       if (!defect.empty()) {
         read_.fail(shape, "expected a closed mesh of a solid, got " + defect);
       }
+    }
+    if (const JsonValue* error = find(std::get<JsonObject>(shape.value), "enclosure_error")) {
+      result.enclosure_error = read_.not_negative(*error);
     }
     result.source = std::move(mesh);
   }

@@ -1,0 +1,32 @@
+/// @file
+/// What the names in a scene's rules for pairs mean.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// A body or link, a robot or a group.
+struct Named {
+  enum class Kind { member, robot, group };
+  Kind kind = Kind::member;
+  std::size_t index = 0;  ///< Of the member, robot or group.
+};
+
+using SceneNames = std::map<std::string, Named, std::less<>>;
+
+[[nodiscard]] SceneNames names_in(const Scene& scene);
+
+[[nodiscard]] std::vector<std::size_t> members_of(const Scene& scene, const Named& named);
+
+/// "; did you mean "x"?", or nothing.
+[[nodiscard]] std::string hint(const SceneNames& names, std::string_view unknown);
+
+}  // namespace firstcontact::detail
