@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import pytest
 from conftest import ROOT
 
 FOLDER = ROOT / "examples/python"
@@ -17,8 +18,8 @@ def run(name: str, *arguments) -> str:
     return done.stdout
 
 
-def test_there_are_five():
-    assert len(list(FOLDER.glob("*.py"))) == 5
+def test_there_are_six():
+    assert len(list(FOLDER.glob("*.py"))) == 6
 
 
 def test_tumbling_box():
@@ -62,3 +63,15 @@ def test_many_tries():
     told = run("many_tries")
     least, most, free = re.search(r"free from (\S+) mm to (\S+) mm: (\d+) of 21", told).groups()
     assert -1 < float(least) < 0 < float(most) < 1 and 1 < int(free) < 21
+
+
+def test_puma_and_post():
+    told = run("puma_and_post")
+    ends = float(re.search(r"ends ([0-9.]+) m", told).group(1))
+    first = float(re.search(r"contact: post and Puma560/link\d after ([0-9.]+) s", told).group(1))
+    spans = [tuple(map(float, s)) for s in re.findall(r"from ([0-9.]+) s to ([0-9.]+) s", told)]
+    lift = float(re.search(r"lifted by ([0-9.]+) rad", told).group(1))
+    # The post stands at a quarter of the swing's circle, which begins and ends at rest.
+    assert ends > 0 and 0.5 < first < 1.5 and 0 < lift < 1.5
+    assert min(enter for enter, _ in spans) == pytest.approx(first, abs=1e-3)
+    assert all(enter < leave < 2 for enter, leave in spans)

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._words import JointLimit, UndecidedReason
+from ._words import JointLimit, JointType, UndecidedReason
 
 if TYPE_CHECKING:
-    from ._core import Motion, Shape
+    from ._core import Motion, Pose, Shape
 
 
 class Mesh(NamedTuple):
@@ -93,3 +93,72 @@ class LimitViolation(NamedTuple):
     """[s]  Where that is attained."""
     intervals: npt.NDArray[np.float64]
     """[s]  n×2, begins and ends: outside of them the limit is proven to be kept."""
+
+
+class Mimic(NamedTuple):
+    """A joint's coordinate is that of another one, times ``multiplier``, plus ``offset``."""
+
+    joint: str
+    multiplier: float
+    """[-]"""
+    offset: float
+    """[rad or m]"""
+
+
+class Joint(NamedTuple):
+    """Connects a child link to its parent. Limits in rad, or in m for prismatic joints."""
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    pose: "Pose"
+    """Of the joint frame in the parent; the child's frame where the coordinates are 0."""
+    axis: npt.NDArray[np.float64]
+    """[-]  (3,), in the joint frame, any length but zero."""
+    lower: float | None
+    upper: float | None
+    velocity: float | None
+    """Per second."""
+    effort: float | None
+    """[N m or N]"""
+    mimic: Mimic | None
+
+
+class RobotGroup(NamedTuple):
+    """A named part of a robot."""
+
+    links: tuple[str, ...]
+    joints: tuple[str, ...]
+
+
+class EndEffector(NamedTuple):
+    """A group that serves as a tool, on a link of another."""
+
+    group: str
+    parent_link: str
+
+
+class RobotSemantics(NamedTuple):
+    """What an SRDF says of a robot."""
+
+    path: str
+    """Of its file."""
+    disabled: tuple[tuple[str, str], ...]
+    """Pairs of links that are not tested."""
+    groups: dict[str, RobotGroup]
+    states: dict[str, dict[str, float]]
+    """Named configurations, as GROUP/STATE: positions by coordinate."""
+    end_effectors: dict[str, EndEffector]
+    warnings: tuple[str, ...]
+    """Lines that name what the robot does not have; they have no effect."""
+
+
+class PlanningRequest(NamedTuple):
+    """From where to where, as a MoveIt request says it."""
+
+    start: dict[str, float]
+    """Positions by coordinate."""
+    goal: dict[str, float]
+    base: "Pose"
+    """Of the robot, where the start says it."""

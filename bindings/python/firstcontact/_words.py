@@ -88,3 +88,16 @@ class JointLimit(enum.StrEnum):
     lower_position = "lower_position"
     upper_position = "upper_position"
     velocity = "velocity"
+
+
+class JointType(enum.StrEnum):
+    """How a link may move against its parent."""
+
+    fixed = "fixed"
+    revolute = "revolute"
+    continuous = "continuous"
+    prismatic = "prismatic"
+    screw = "screw"
+    planar = "planar"
+    floating = "floating"
+    ball = "ball"

@@ -16,5 +16,8 @@ void bind_query(pybind11::module_& m);
 void bind_scene(pybind11::module_& m);
 void bind_result(pybind11::module_& m);
 void bind_check_jobs(pybind11::module_& m);
+void bind_robot_model(pybind11::module_& m);
+void bind_trajectory(pybind11::module_& m);
+void bind_robot_scene(pybind11::module_& m);
 
 }  // namespace firstcontact::python

@@ -23,6 +23,7 @@
 #include "errors.h"
 #include "interrupts.h"
 #include "query.h"
+#include "robots.h"
 #include "scene.h"
 
 namespace firstcontact::python {
@@ -199,18 +200,18 @@ py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions 
   return list;
 }
 
-}  // namespace
-
-void bind_check_jobs(py::module_& m) {
-  m.def(
-      "check",
-      [](const SharedScene& scene, OrNone<HeldWorkspace<ManyBodiesWorkspace>> workspace,
-         bool all_pairs, bool closest, bool all_contacts_in_time, std::optional<double> margin,
-         std::optional<double> tolerance, std::optional<double> deadline,
-         std::optional<double> sample_rate, bool strict, int threads, const py::object& progress,
-         OrNone<std::stop_source> stop) {
+/// Defines a question about the scene that `scene_of` makes of the first arguments, by which it is
+/// documented too.
+template <typename Define, typename... Given, typename... Extra>
+void def_check(const Define& define, SharedScene (*scene_of)(Given...), const Extra&... extra) {
+  define(
+      [scene_of](Given... given, OrNone<HeldWorkspace<ManyBodiesWorkspace>> workspace,
+                 bool all_pairs, bool closest, bool all_contacts_in_time,
+                 std::optional<double> margin, std::optional<double> tolerance,
+                 std::optional<double> deadline, std::optional<double> sample_rate, bool strict,
+                 int threads, const py::object& progress, OrNone<std::stop_source> stop) {
         return check(
-            scene, workspace,
+            scene_of(given...), workspace,
             {.all_pairs = all_pairs,
              .closest = closest,
              .all_contacts_in_time = all_contacts_in_time,
@@ -218,13 +219,21 @@ void bind_check_jobs(py::module_& m) {
             {.other = {margin, tolerance, deadline}, .sample_rate = sample_rate, .strict = strict},
             progress, stop);
       },
-      py::arg("scene"), py::arg("workspace") = py::none(), py::kw_only(),
-      py::arg("all_pairs") = false, py::arg("closest") = false,
-      py::arg("all_contacts_in_time") = false, py::arg("margin") = py::none(),
-      py::arg("tolerance") = py::none(), py::arg("deadline") = py::none(),
-      py::arg("sample_rate") = py::none(), py::arg("strict") = false, py::arg("threads") = 0,
-      py::arg("progress") = py::none(), py::arg("stop") = py::none(),
-      "As firstcontact.check, of a Scene.");
+      extra..., py::arg("workspace") = py::none(), py::kw_only(), py::arg("all_pairs") = false,
+      py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
+      py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
+      py::arg("deadline") = py::none(), py::arg("sample_rate") = py::none(),
+      py::arg("strict") = false, py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("stop") = py::none());
+}
+
+SharedScene itself(const SharedScene& scene) { return scene; }
+
+}  // namespace
+
+void bind_check_jobs(py::module_& m) {
+  def_check([&](const auto&... extra) { m.def("check", extra...); }, &itself,
+            "As firstcontact.check, of a Scene.", py::arg("scene"));
   py::class_<SceneSource>(m, "SceneSource", "A scene that is not read yet.")
       .def(py::init([](std::optional<std::string> text, std::filesystem::path source) {
              return SceneSource{std::move(text), std::move(source)};
@@ -257,6 +266,15 @@ void bind_check_jobs(py::module_& m) {
       py::arg("deadline") = py::none(), py::arg("strict") = false, py::arg("shapes") = py::none(),
       py::arg("stop") = py::none(),
       "Of each job its answer, or the exception that it raised, in order.");
+}
+
+void bind_check_along(RobotSceneClass& type) {
+  def_check([&](const auto&... extra) { type.def("check", extra...); }, &scene_along,
+            R"(Finds the first contact on a trajectory: when, where, or proven never.
+
+trajectory: a Trajectory, the path of one, or None where the robot rests. The rest as of
+firstcontact.check.)",
+            py::arg("trajectory"));
 }
 
 }  // namespace firstcontact::python

@@ -15,6 +15,9 @@ PYBIND11_MODULE(_core, m) {
   bind_scene(m);
   bind_result(m);
   bind_check_jobs(m);
+  bind_robot_model(m);
+  bind_trajectory(m);
+  bind_robot_scene(m);
 }
 
 }  // namespace firstcontact::python

@@ -11,6 +11,7 @@
 #include <pybind11/pybind11.h>
 
 #include <firstcontact/articulated/limit_report.h>
+#include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
@@ -78,6 +79,13 @@ template <>
 struct Words<ElementaryVerdict> {
   static constexpr const char* kName = "ElementaryVerdict";
   static constexpr std::array kWords{"free", "contact", "degenerate"};
+};
+
+template <>
+struct Words<JointType> {
+  static constexpr const char* kName = "JointType";
+  static constexpr std::array kWords{"fixed", "revolute", "continuous", "prismatic",
+                                     "screw", "planar",   "floating",   "ball"};
 };
 
 template <>
@@ -157,6 +165,9 @@ template <>
 class type_caster<firstcontact::ElementaryVerdict>
     : public firstcontact::python::WordCaster<firstcontact::ElementaryVerdict> {};
 
+template <>
+class type_caster<firstcontact::JointType>
+    : public firstcontact::python::WordCaster<firstcontact::JointType> {};
 template <>
 class type_caster<firstcontact::JointLimit>
     : public firstcontact::python::WordCaster<firstcontact::JointLimit> {};
