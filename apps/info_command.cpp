@@ -46,10 +46,14 @@ std::string point(Eigen::Vector3d p) {
 }
 
 void print_bounds(const Eigen::AlignedBox3d& bounds) {
+  constexpr double kImplausible = 1000.0;  // [m]
   line("bounds", fmt::format("{} ... {} m", point(bounds.min()), point(bounds.max())));
   const Eigen::Vector3d size = bounds.sizes();
   line("size", fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()),
                            length_text(size.z())));
+  if (size.maxCoeff() >= kImplausible) {
+    line("unit", "is it right? metres are expected");
+  }
 }
 
 void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) {

@@ -42,6 +42,9 @@ class Description {
     if (all_pairs) {
       pairs();
     }
+    for (const std::string& warning : told_warnings(answer_.loaded)) {
+      line("warning", warning);
+    }
     return text_;
   }
 
@@ -141,6 +144,16 @@ class Description {
 
 std::string describe(std::string_view title, const SceneAnswer& answer, bool all_pairs) {
   return Description(answer).write(title, all_pairs);
+}
+
+std::vector<std::string> told_warnings(const LoadedScene& loaded) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> told = loaded.warnings;
+  if (told.size() > kMost) {
+    told.resize(kMost);
+    told.push_back(fmt::format("and {} more", loaded.warnings.size() - kMost));
+  }
+  return told;
 }
 
 std::string describe_verdict(const SceneAnswer& answer) {

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene_answer.h"
 
@@ -22,5 +23,8 @@ namespace firstcontact::app {
 
 /// What sampling saw; empty where nobody asked.
 [[nodiscard]] std::string describe_sampling(const SceneAnswer& answer);
+
+/// The first warnings, and how many more there are.
+[[nodiscard]] std::vector<std::string> told_warnings(const LoadedScene& loaded);
 
 }  // namespace firstcontact::app

@@ -14,7 +14,6 @@ namespace firstcontact::app {
 namespace {
 
 constexpr std::size_t kMostContacts = 6;
-constexpr std::size_t kMostWarnings = 12;
 
 class RobotAnswerText {
  public:
@@ -148,12 +147,8 @@ class RobotAnswerText {
   }
 
   void warnings() {
-    const std::vector<std::string>& all = loaded_.warnings;
-    for (std::size_t k = 0; k < std::min(all.size(), kMostWarnings); ++k) {
-      line("warning", all[k]);
-    }
-    if (all.size() > kMostWarnings) {
-      line("warning", fmt::format("and {} more", all.size() - kMostWarnings));
+    for (const std::string& warning : told_warnings(loaded_)) {
+      line("warning", warning);
     }
   }
 

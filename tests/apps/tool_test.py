@@ -541,6 +541,19 @@ class Info(ToolTest):
                          "size                   1 m x 2 m x 3 m"):
                 self.assertIn(line, result.stdout)
 
+    def test_asks_whether_the_unit_is_right(self):
+        for size, asks in ((999, False), (1000, True)):
+            mesh = self.file("big.obj", f"v 0 0 0\nv {size} 0 0\nv 0 1 0\nf 1 2 3\n")
+            self.assertEqual("is it right?" in self.run_tool("info", mesh).stdout, asks)
+            scene = self.file("big.json", json.dumps({"firstcontact": 1, "bodies": [
+                {"name": "big", "shape": {"mesh": "big.obj"}},
+                {"name": "ball", "shape": {"sphere": {"radius": 1}}, "pose": {"position": [0, 0, 9]}}]}))
+            result = self.run_tool("check", scene)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual('warning    body "big" is 1000' in result.stdout, asks)
+            told = json.loads(self.run_tool("check", "--json", scene).stdout).get("warnings", [])
+            self.assertEqual(len(told), asks)
+
     ARM = """<robot name="arm">
 <link name="base"><collision><geometry><mesh filename="m.obj"/></geometry></collision></link>
 <link name="upper"><collision><geometry><sphere radius="0.5"/></geometry></collision></link>

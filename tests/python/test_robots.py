@@ -217,6 +217,17 @@ def test_bad_arguments_are_errors(arm, scene):
         scene.add_body("flag", flag.shape)
 
 
+def test_implausible_sizes_are_warned_of(arm, arm_folder):
+    scene = fc.RobotScene(arm)
+    scene.add_body("near", fc.make_box((900, 1, 1)), fc.Motion.fixed(fc.Pose((0, 0, 9))))
+    scene.add_body("far", fc.make_box((1500, 1, 1)), fc.Motion.fixed(fc.Pose((0, 0, -9))))
+    big = arm_folder / "big.urdf"
+    big.write_text((arm_folder / "arm.urdf").read_text().replace('size="1 0.1 0.1"', 'size="300 0.1 0.1"'))
+    asked = [w for w in scene.check(None).warnings + fc.RobotScene(big).check(None).warnings
+             if "is its unit right?" in w]
+    assert len(asked) == 2 and 'body "far" is 1500' in asked[0] and 'link "bar" is 300' in asked[1]
+
+
 def test_states_and_straight_motions(arm, srdf):
     scene = fc.RobotScene(arm, srdf, state="half")
     straight = scene.straight_motion("all/half", {"elbow": 1.5})

@@ -10,6 +10,7 @@
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/scene/detail/size_warning.h>
 
 namespace firstcontact {
 
@@ -44,6 +45,7 @@ LoadedScene load_scene(Scene scene, ShapeCache& cache) {
     if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
     }
+    detail::warn_of_size(body, cached.shape, loaded.warnings);
     DeformingBody moved = moving(body, std::move(cached.shape), scene.duration);
     loaded.bodies.add(std::move(moved.shape), std::move(moved.X_WS));
   }

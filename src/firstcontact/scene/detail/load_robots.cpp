@@ -10,6 +10,7 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/scene/detail/quantity.h>
 #include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/scene/detail/size_warning.h>
 #include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact::detail {
@@ -59,6 +60,7 @@ class RobotLoader {
     }
     CachedShape cached = cache_.load(body.shape);
     digests_ += cached.digest.empty() ? "" : cached.digest + '\n';
+    warn_of_size(body, cached.shape, loaded_.warnings);
     robots_.add_body(body.name, std::move(cached.shape),
                      normalised_motion(body.motion, scene_.duration));
   }
@@ -69,6 +71,7 @@ class RobotLoader {
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);
+    warn_of_sizes(robot, cached.model, loaded_.warnings);
     const std::size_t first = robots_.size();
     const std::size_t index =
         robots_.add_robot(robot.name,
