@@ -132,7 +132,7 @@ void add_joint_remarks(const Joint& joint, std::vector<std::string>& remarks) {
     return;
   }
   if (joint.limits.velocity == 0.0) {
-    remark("velocity limit 0: no motion keeps it");
+    remark("velocity limit 0: taken for none");
   }
   if (joint.limits.lower && joint.limits.lower == joint.limits.upper) {
     remark("lower and upper limit are the same: it cannot move");

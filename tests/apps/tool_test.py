@@ -573,7 +573,7 @@ class Info(ToolTest):
                      "    base; m.obj (1 triangles)\n"
                      "      upper by j: revolute, -1 ... 2 rad, up to 0 rad/s; sphere\n"
                      "        tip by k: fixed; no collision geometry\n",
-                     "joint j: velocity limit 0: no motion keeps it", "m.obj: open edges 3",
+                     "joint j: velocity limit 0: taken for none", "m.obj: open edges 3",
                      "link base: 300 m across; is its unit right?",
                      "link tip: is seen, but has no collision geometry"):
             self.assertIn(line, result.stdout)

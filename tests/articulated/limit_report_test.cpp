@@ -59,6 +59,11 @@ TEST(LimitReport, FindsWhereARampLeavesALimit) {
   EXPECT_EQ(fast[1].intervals[0].end, 1.0);
 }
 
+TEST(LimitReport, TakesAVelocityLimitOfZeroForNone) {
+  const JointLimits limits{.lower = -9.0, .upper = 9.0, .velocity = 0.0};
+  EXPECT_TRUE(limit_report(hinge(ramp(0.0, 2.0), limits), 1.0).empty());
+}
+
 TEST(LimitReport, ReachingALimitIsNotLeavingIt) {
   const JointLimits limits{.lower = -0.3, .upper = 0.7, .velocity = 1.0};
   EXPECT_TRUE(limit_report(hinge(ramp(-0.3, 0.7), limits), 1.0).empty());

@@ -263,7 +263,7 @@ std::vector<LimitViolation> limit_report(const RobotMotion& motion, double durat
     if (has_ends && limits.upper) {
       check_position(segments, j, true, *limits.upper, tolerance, all);
     }
-    if (limits.velocity) {
+    if (limits.velocity.value_or(0.0) > 0.0) {
       check_velocity(segments, j, *limits.velocity, duration, tolerance, all);
     }
   }

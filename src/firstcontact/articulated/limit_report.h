@@ -28,7 +28,8 @@ struct LimitViolation {
 
 /// All limits that a motion leaves by more than a tolerance, in order of the joints.
 ///
-/// Joints of one coordinate have limits, those that mimic others included. Proven for the exact
+/// Joints of one coordinate have limits, those that mimic others included. A velocity limit of 0,
+/// as many files have it who do not know one, counts as none. Proven for the exact
 /// polynomials that the input defines: nothing is sampled.
 ///
 /// @param duration   [s]  of the step; > 0
