@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -28,12 +29,17 @@ class GapSampler {
   [[nodiscard]] RobotGap at(double t) {
     RobotGap gap;
     for (const NearParts& near : by_distance(t)) {
-      const bool may_touch = !gap.contact && near.bound <= near.threshold;
-      if (near.bound > gap.distance && !may_touch) {
+      // What is farther than this says nothing.
+      const double reach = gap.contact ? gap.distance : std::max(gap.distance, near.threshold);
+      const PartPair pair(timeline_, near.parts, t);
+      if (near.bound > reach || is_farther(pair, t, reach)) {
         continue;
       }
-      const DistanceResult found = distance(near, t);
-      gap.distance = std::min(gap.distance, found.distance);
+      const DistanceResult found = detail::distance(pair.A(), pair.B(), t, workspace_);
+      if (found.distance < gap.distance) {
+        gap.distance = found.distance;
+        nearest_ = near.parts;
+      }
       gap.lower_bound = std::min(gap.lower_bound, found.lower_bound);
       gap.contact = gap.contact || found.distance <= near.threshold;
     }
@@ -41,6 +47,44 @@ class GapSampler {
   }
 
  private:
+  /// Two parts with their motions about a time.
+  class PartPair {
+   public:
+    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
+             double t)
+        : PartPair(timeline, parts, timeline.paths(parts[0], parts[1], t)) {}
+
+    [[nodiscard]] MovingLink A() const { return {A_, X_FA_}; }
+    [[nodiscard]] MovingLink B() const { return {B_, X_FB_}; }
+
+   private:
+    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
+             const detail::PairPaths& paths)
+        : A_(*timeline.parts()[parts[0]].shape),
+          B_(*timeline.parts()[parts[1]].shape),
+          X_FA_(std::vector<LinkPath>{paths.A.X_FS}),
+          X_FB_(std::vector<LinkPath>{paths.B.X_FS}) {}
+
+    const Shape& A_;
+    const Shape& B_;
+    LinkMotion X_FA_;
+    LinkMotion X_FB_;
+  };
+
+  /// Whether it can be proven so without the distance, which costs much more to know.
+  [[nodiscard]] bool is_farther(const PartPair& pair, double t, double distance) {
+    if (!std::isfinite(distance)) {
+      return false;
+    }
+    FirstContactOptions query;
+    query.margin = distance;
+    query.tolerance = 1e-9 + 1e-3 * distance;
+    query.contacts = ContactState::none;
+    FirstContactResult result;
+    detail::first_contact(pair.A(), pair.B(), {t, t}, workspace_, query, result);
+    return result.verdict == Verdict::free;
+  }
+
   /// The earlier one at a break.
   [[nodiscard]] std::size_t piece_at(double t) const {
     std::size_t first = 0;
@@ -65,7 +109,8 @@ class GapSampler {
     return balls;
   }
 
-  /// All parts of the pairs that are tested at t, the nearest balls first.
+  /// All parts of the pairs that are tested at t: those that were nearest before, then those with
+  /// the nearest balls.
   [[nodiscard]] std::vector<NearParts> by_distance(double t) {
     const std::vector<detail::SweptBall> balls = balls_at(t);
     const std::size_t piece = piece_at(t);
@@ -83,23 +128,19 @@ class GapSampler {
         }
       }
     }
-    std::sort(all.begin(), all.end(), [](const NearParts& x, const NearParts& y) {
+    std::sort(all.begin(), all.end(), [this](const NearParts& x, const NearParts& y) {
+      const bool was_nearest = x.parts == nearest_;
+      if (was_nearest != (y.parts == nearest_)) {
+        return was_nearest;
+      }
       return x.bound != y.bound ? x.bound < y.bound : x.parts < y.parts;
     });
     return all;
   }
 
-  [[nodiscard]] DistanceResult distance(const NearParts& near, double t) {
-    const auto [a, b] = near.parts;
-    const detail::PairPaths paths = timeline_.paths(a, b, t);
-    const LinkMotion X_FA(std::vector<LinkPath>{paths.A.X_FS});
-    const LinkMotion X_FB(std::vector<LinkPath>{paths.B.X_FS});
-    return detail::distance({*timeline_.parts()[a].shape, X_FA},
-                            {*timeline_.parts()[b].shape, X_FB}, t, workspace_);
-  }
-
   detail::RobotTimeline timeline_;
   detail::LinkWorkspace workspace_;
+  std::array<std::size_t, 2> nearest_ = {};  // Parts, at the time before.
 };
 
 }  // namespace
