@@ -536,7 +536,7 @@ describe.skipIf(!canLook)("the page", () => {
     await joints.getByRole("button", { name: "elbow" }).click();
     expect(await page.locator(".chart-title").textContent()).toBe("elbow [rad]");
     await page.getByRole("button", { name: "Back to the gap" }).click();
-    expect(await page.locator(".chart-title").textContent()).toBe("gap [m]");
+    expect(await page.locator(".chart-title").textContent()).toBe("gap [mm]");
     const warnings = page.getByRole("region", { name: "Warnings" });
     expect(await warnings.textContent()).toContain('joint "elbow" leaves its upper limit');
   });

@@ -7,10 +7,14 @@ import type { Model } from "../model";
 import type { Player } from "../player";
 import type { SceneView } from "../view/scene_view";
 
+/// Names of links without that of their robot, where there is only one.
+const pairText = ({ pair }: PairAnswer, model: Model): string =>
+  pair.map((name) => (model.robots.length === 1 ? model.body(name).label : name)).join(" · ");
+
 interface Column {
   readonly title: string;
   readonly key: (pair: PairAnswer) => number | string;
-  readonly text: (pair: PairAnswer) => string;
+  readonly text: (pair: PairAnswer, model: Model) => string;
 }
 
 const order = ["contact_at_start", "contact", "undecided", "free"] as const;
@@ -26,7 +30,7 @@ const clearanceOf = (pair: PairAnswer): number =>
   (pair.closest?.lower_bound ?? pair.clearance) || Infinity;
 
 const columns: readonly Column[] = [
-  { title: "Pair", key: ({ pair }) => pair.join(" "), text: ({ pair }) => pair.join(" · ") },
+  { title: "Pair", key: ({ pair }) => pair.join(" "), text: pairText },
   {
     title: "Verdict",
     key: ({ verdict }) => order.indexOf(verdict),
@@ -59,7 +63,8 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     button.addEventListener("click", () => sortBy(index));
     return element("th", { scope: "col" }, button);
   });
-  let sorted = { column: 2, down: false };
+  const isFree = model.result.verdict === "free" && model.pairs.some(({ closest }) => closest);
+  let sorted = { column: isFree ? 3 : 2, down: false }; // By time, or by how near they come.
 
   const focus = (pair: PairAnswer): void => {
     if (pair.verdict !== "free") {
@@ -77,7 +82,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
   };
 
   const row = (pair: PairAnswer): HTMLElement => {
-    const [first, ...others] = columns.map(({ text }) => text(pair));
+    const [first, ...others] = columns.map(({ text }) => text(pair, model));
     const button = element(
       "button.row-name",
       { type: "button", title: `Look at ${first}` },

@@ -15,19 +15,24 @@ interface Corners {
   readonly to: readonly Point[];
 }
 
-function cornersOf({ mesh, pose, radius, to }: Part): Corners {
-  const around = (box: Box3): Point[] => {
-    const { min, max } = box.expandByScalar(radius);
-    return corners(min, max).map((corner) => place(pose, corner.toArray()));
-  };
-  const from = around(
-    new Box3().setFromArray(mesh.positions).translate(new Vector3(...mesh.origin)),
-  );
+/// Around a part, in its frame.
+export function partBox({ mesh, radius }: Part): Box3 {
+  return new Box3()
+    .setFromArray(mesh.positions)
+    .translate(new Vector3(...mesh.origin))
+    .expandByScalar(radius);
+}
+
+function cornersOf(part: Part): Corners {
+  const { pose, radius, to } = part;
+  const around = ({ min, max }: Box3): Point[] =>
+    corners(min, max).map((corner) => place(pose, corner.toArray()));
+  const from = around(partBox(part));
   if (to === null) {
     return { from, to: from };
   }
   const ends = to.map((p) => new Vector3(...p));
-  return { from, to: around(new Box3().setFromPoints(ends)) };
+  return { from, to: around(new Box3().setFromPoints(ends).expandByScalar(radius)) };
 }
 
 export const corners = (min: Vector3, max: Vector3): Vector3[] =>

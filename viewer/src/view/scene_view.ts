@@ -31,16 +31,11 @@ import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
+import { homeDirection } from "./home_view";
 import { fieldOfView, type PartView, type Surface } from "./part_view";
 import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
-
-/// From the front on the right, then around by turns to both sides.
-const homeDirections = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => {
-  const angle = -0.3 * Math.PI + (eighth * Math.PI) / 4;
-  return new Vector3(Math.cos(angle), Math.sin(angle), 0.52).normalize();
-});
 
 export class SceneView {
   readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
@@ -149,7 +144,7 @@ export class SceneView {
     this.display.cutaway.value = false;
     const seen = corners(this.sweep.min, this.sweep.max);
     const target = this.home.center.clone();
-    const direction = this.homeDirection();
+    const direction = homeDirection(this.model);
     const range = this.rangeFor(seen, target, direction);
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
   }
@@ -262,18 +257,6 @@ export class SceneView {
     const sky = new HemisphereLight(0xffffff, 0x667788, 0.9);
     sky.position.set(0, 0, 1);
     this.scene.add(sky, new AmbientLight(0xffffff, 0.25));
-  }
-
-  /// From the side of the body that moves, where there is a contact to look at.
-  private homeDirection(): Vector3 {
-    const contact = this.model.contacts[0];
-    if (!contact?.normal) {
-      return homeDirections[0]!;
-    }
-    const sign = this.model.body(contact.bodies[0]).atRest ? 1 : -1;
-    const normal = new Vector3(...contact.normal).multiplyScalar(sign);
-    const misfit = (d: Vector3): number => Math.max(0, 0.25 - d.dot(normal));
-    return homeDirections.reduce((best, d) => (misfit(d) < misfit(best) - 1e-3 ? d : best));
   }
 
   private listen(): void {
