@@ -6,18 +6,37 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium } from "playwright-core";
 
-const tool = process.argv[2];
+const [tool, ...wanted] = process.argv.slice(2);
 if (tool === undefined) {
-  console.error("usage: node viewer/tools/gallery.mjs TOOL");
+  console.error("usage: node viewer/tools/gallery.mjs TOOL [PICTURE...]");
   process.exit(2);
 }
 
-const pictures = [
-  { name: "nut", scene: "nut_wrong_pitch", theme: "light", keys: ["Enter"] },
-  { name: "bunny", scene: "bunny_plate", theme: "dark", keys: ["Enter"] },
-  { name: "shapes", scene: "shapes", theme: "light", keys: ["o"], options: ["--all-pairs"] },
-  { name: "phone", scene: "shapes", theme: "dark", keys: ["Enter"], width: 390, height: 780 },
+const scene = (name, ...options) => [`demo/scenes/${name}.json`, ...options];
+const panda = "data/robots/moveit_resources_panda_description";
+const shelf = [
+  ["--robot", `${panda}/urdf/panda.urdf`],
+  ["--srdf", `${panda}/srdf/panda.srdf`],
+  ["--trajectory", "demo/trajectories/panda_into_a_shelf.csv"],
+  ["--environment", "data/planning_mbm/bookshelf_small_panda/scene0056.yaml"],
+].flat();
+
+const all = [
+  { name: "nut", question: scene("nut_wrong_pitch"), theme: "light", keys: ["Enter"] },
+  { name: "bunny", question: scene("bunny_plate"), theme: "dark", keys: ["Enter"] },
+  { name: "shapes", question: scene("shapes", "--all-pairs"), theme: "light", keys: ["o"] },
+  { name: "phone", question: scene("shapes"), theme: "dark", keys: ["Enter"], size: [390, 780] },
+  { name: "puma", question: scene("puma_post"), theme: "light", keys: ["g"], t: 0.43436418 },
+  {
+    name: "panda",
+    question: [...shelf, "--closest"],
+    theme: "dark",
+    keys: ["v"],
+    pair: "Can3 · panda_leftfinger",
+  },
+  { name: "joints", question: shelf, theme: "light", keys: ["v"], t: 0.9, joint: "panda_joint4" },
 ];
+const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
 const folder = mkdtempSync(join(tmpdir(), "firstcontact-"));
 const browser = await chromium.launch({
@@ -30,10 +49,10 @@ const browser = await chromium.launch({
   ],
 });
 
-function makePage({ name, scene, options = [] }) {
+function makePage({ name, question }) {
   const page = join(folder, `${name}.html`);
   try {
-    execFileSync(tool, ["check", `demo/scenes/${scene}.json`, "--html", page, ...options]);
+    execFileSync(tool, ["check", ...question, "--html", page]);
   } catch (error) {
     if (error.status !== 1) {
       throw error; // 1 is the answer "contact".
@@ -43,13 +62,17 @@ function makePage({ name, scene, options = [] }) {
 }
 
 for (const picture of pictures) {
-  const { name, theme, keys, width = 1280, height = 800 } = picture;
+  const { name, theme, keys, size: [width, height] = [1280, 800], t = 0 } = picture;
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: theme });
-  await page.goto(`file://${makePage(picture)}`);
+  await page.goto(`file://${makePage(picture)}#t=${t}`);
   await page.waitForTimeout(3000);
   for (const key of keys) {
     await page.keyboard.press(key);
     await page.waitForTimeout(4000); // The flight of the camera, drawn by software.
+  }
+  for (const button of [picture.pair, picture.joint].filter(Boolean)) {
+    await page.getByRole("button", { name: button }).first().click();
+    await page.waitForTimeout(4000);
   }
   await page.screenshot({ path: `docs/images/${name}.jpg`, type: "jpeg", quality: 82 });
   await page.close();

@@ -44,6 +44,7 @@ const columns: readonly Column[] = [
   { title: "Clear", key: clearanceOf, text: (pair) => lengthText(finite(clearanceOf(pair)), 3) },
 ];
 
+const firstRows = 12; // Of lists that are longer than this by a few.
 const mostRows = 300;
 
 const finite = (x: number): number | null => (Number.isFinite(x) ? x : null);
@@ -97,11 +98,20 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     );
   };
 
+  let shown = model.pairs.length > 1.5 * firstRows ? firstRows : mostRows;
+  const more = element("button.link", { type: "button", hidden: shown === mostRows });
+  more.textContent = `Show ${Math.min(model.pairs.length, mostRows)} of ${model.pairs.length}`;
+  more.addEventListener("click", () => {
+    shown = mostRows;
+    more.hidden = true;
+    show();
+  });
+
   const show = (): void => {
     const { key } = columns[sorted.column]!;
     const sign = sorted.down ? -1 : 1;
     const rows = [...model.pairs].sort((a, b) => sign * compare(key(a), key(b)));
-    body.replaceChildren(...rows.slice(0, mostRows).map(row));
+    body.replaceChildren(...rows.slice(0, shown).map(row));
     heads.forEach((head, index) => {
       const direction = sorted.down ? "descending" : "ascending";
       head.setAttribute("aria-sort", index === sorted.column ? direction : "none");
@@ -119,5 +129,6 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     { "aria-label": "Pairs" },
     element("h2", {}, "Pairs ", element("span.count", {}, String(model.pairs.length))),
     element("table.pairs", {}, element("thead", {}, element("tr", {}, ...heads)), body),
+    more,
   );
 }

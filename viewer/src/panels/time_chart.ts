@@ -110,12 +110,13 @@ export class TimeChart {
       this.dataOf(content),
       this.element,
     );
-    this.element.append(element("span.chart-title", {}, `${content.title} [${content.unit}]`));
+    const title = element("span.chart-title", {}, `${content.title} [${content.unit}]`);
     if (content.close) {
       const close = iconButton(icons.close, "Back to the gap", null, content.close);
-      close.classList.add("small", "chart-close");
-      this.element.append(close);
+      close.classList.add("chart-close");
+      title.append(close);
     }
+    this.element.append(title);
     this.element.append(element("span.chart-unit", {}, `time [${this.unit.name}]`));
     this.followPointer(this.plot);
   }
