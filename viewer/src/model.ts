@@ -234,6 +234,11 @@ export class Model {
     return this.bodies[this.indices.get(name)!]!;
   }
 
+  /// The name of a link without that of its robot, where there is only one.
+  shortName(name: string): string {
+    return this.robots.length === 1 ? this.body(name).label : name;
+  }
+
   /// The piece of a body that touches.
   partOf(contact: Contact, side: 0 | 1): Part {
     return this.body(contact.bodies[side]).parts[contact.geometries?.[side] ?? 0]!;

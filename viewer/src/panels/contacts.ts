@@ -14,7 +14,7 @@ function featureText(model: Model, contact: Contact, side: 0 | 1): string {
   const { type, index } = contact.features[side];
   const several = model.body(contact.bodies[side]).parts.length > 1;
   const piece = several ? ` of piece ${contact.geometries?.[side] ?? 0}` : "";
-  return `${contact.bodies[side]} ${type} ${index}${piece}`;
+  return `${model.shortName(contact.bodies[side])} ${type} ${index}${piece}`;
 }
 
 function speedText(speed: number): string {

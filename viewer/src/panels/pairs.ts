@@ -7,9 +7,8 @@ import type { Model } from "../model";
 import type { Player } from "../player";
 import type { SceneView } from "../view/scene_view";
 
-/// Names of links without that of their robot, where there is only one.
 const pairText = ({ pair }: PairAnswer, model: Model): string =>
-  pair.map((name) => (model.robots.length === 1 ? model.body(name).label : name)).join(" · ");
+  pair.map((name) => model.shortName(name)).join(" · ");
 
 interface Column {
   readonly title: string;
