@@ -7,6 +7,7 @@ import type { QuaternionWxyz, Vector3 } from "../src/data/result";
 import { Model } from "../src/model";
 import { coordinateAt, restsAt } from "../src/motion/robot";
 import { distance, length, rotate } from "../src/motion/vector";
+import { gapContent } from "../src/panels/gap_chart";
 import { badTimes, jointContent, rangeOf, valueText } from "../src/panels/joint_chart";
 
 interface StoredPose {
@@ -125,8 +126,9 @@ describe("the chart of a joint", () => {
   });
 
   test("marks limits, and where they are left", () => {
-    const { levels, bad, lines, unit } = jointContent(joint, 2);
-    expect([levels, bad, unit]).toEqual([[-1, 1], [[0.75, 1]], "m"]);
+    const { levels, bands, lines, unit } = jointContent(joint, 2);
+    expect([levels, unit]).toEqual([[-1, 1], "m"]);
+    expect(bands).toEqual([{ from: 0.75, to: 1, color: "chart-bad" }]);
     expect(badTimes(joint, 4)).toEqual([[0.375, 0.5]]);
     const [line] = lines;
     expect(line!.t).toContain(0.9); // The end of a segment.
@@ -136,5 +138,23 @@ describe("the chart of a joint", () => {
   test("tells values in units, angles in degrees too", () => {
     expect(valueText(0.065, joint)).toBe("0.065\u00a0m");
     expect(valueText(-Math.PI / 2, { ...joint, unit: "rad" })).toBe("−1.571\u00a0rad · −90°");
+  });
+});
+
+describe("the chart of the gap", () => {
+  test("shades every contact that the result tells of", () => {
+    const line = { t: [0, 1], distance: [0.5, 0] };
+    const pair = { intervals: [{ enter: 0.2, leave: 0.4 }] };
+    const content = gapContent({
+      gap: line,
+      gapBound: line,
+      pairs: [pair, {}],
+    } as unknown as Model);
+    expect(content!.bands).toEqual([{ from: 0.2, to: 0.4, color: "chart-contact" }]);
+    expect(content!.unit).toBe("mm");
+    const nothing = { t: [], distance: [] };
+    expect(
+      gapContent({ gap: nothing, gapBound: nothing, pairs: [] } as unknown as Model),
+    ).toBeNull();
   });
 });

@@ -6,7 +6,7 @@ import type { Model } from "../model";
 import type { ChartContent, ChartLine } from "./time_chart";
 
 /// Null where nothing is tested.
-export function gapContent({ gap, gapBound }: Model): ChartContent | null {
+export function gapContent({ gap, gapBound, pairs }: Model): ChartContent | null {
   if (gap.t.length < 2) {
     return null;
   }
@@ -26,6 +26,9 @@ export function gapContent({ gap, gapBound }: Model): ChartContent | null {
       line(gapBound, { color: "proven", width: 1, fill: "chart-bound" }),
     ],
     levels: [],
-    bad: [],
+    // Where a pair is in contact, if the result tells of all times and not of the first alone.
+    bands: pairs
+      .flatMap(({ intervals = [] }) => intervals)
+      .map(({ enter, leave }) => ({ from: enter, to: leave, color: "chart-contact" })),
   };
 }

@@ -62,7 +62,7 @@ export function jointContent(
     range: rangeOf(coordinate, value),
     lines: [{ t, value, color: "accent", width: 2 }],
     levels: [lower, upper].filter((end) => end !== null),
-    bad: badTimes(coordinate, duration),
+    bands: badTimes(coordinate, duration).map(([from, to]) => ({ from, to, color: "chart-bad" })),
     ...(close ? { close } : {}),
   };
 }

@@ -22,6 +22,13 @@ export interface ChartLine {
   readonly fill?: string;
 }
 
+/// A stretch of t in [0, 1] with a colour of its own.
+export interface ChartBand {
+  readonly from: number;
+  readonly to: number;
+  readonly color: string;
+}
+
 /// What a chart shows, in its unit.
 export interface ChartContent {
   readonly title: string;
@@ -30,8 +37,7 @@ export interface ChartContent {
   readonly lines: readonly ChartLine[];
   /// Drawn across all of the time.
   readonly levels: readonly number[];
-  /// Of t; where the value is not as it should be.
-  readonly bad: readonly (readonly [number, number])[];
+  readonly bands: readonly ChartBand[];
   /// Back to what was shown before.
   readonly close?: () => void;
 }
@@ -144,18 +150,20 @@ export class TimeChart {
     });
   }
 
-  /// Proven free, what lies after it, and what is bad.
-  private shade({ ctx, bbox }: uPlot, { bad }: ChartContent): void {
-    const band = (from: number, to: number, color: string): void => {
+  /// Proven free, what lies after it, and what the content says.
+  private shade({ ctx, bbox }: uPlot, { bands }: ChartContent): void {
+    const { t } = this.model.result;
+    const all = [
+      { from: 0, to: t, color: "chart-proven" },
+      { from: t, to: 1, color: "chart-after" },
+      ...bands,
+    ];
+    ctx.save();
+    for (const { from, to, color } of all) {
       ctx.fillStyle = this.theme.color(color);
       const width = Math.max(bbox.width * (to - from), to > from ? devicePixelRatio : 0);
       ctx.fillRect(bbox.left + bbox.width * from, bbox.top, width, bbox.height);
-    };
-    const { t } = this.model.result;
-    ctx.save();
-    band(0, t, "chart-proven");
-    band(t, 1, "chart-after");
-    bad.forEach(([from, to]) => band(from, to, "chart-bad"));
+    }
     ctx.restore();
   }
 
