@@ -178,6 +178,8 @@ TEST(RobotScene, NamesWhatIsWrong) {
            {0.5, 0.5}, {0.6, 0.5}, {-0.1, 0.5}, {0.5, 1.1}, {nan, 0.5}, {0.5, nan}}) {
     EXPECT_TRUE(is_named(attach({.body = 3, .link = 1, .t_from = from, .t_to = to}), "[0, 1]"));
   }
+  EXPECT_TRUE(
+      is_named(attach({.body = 3, .link = 1, .t_from = 0.2, .X_LB = Pose{}}), "t_from = 0"));
   EXPECT_EQ(attach({.body = 3, .link = 1, .t_from = 0.2, .t_to = 0.6}), "no error");
   EXPECT_TRUE(is_named(attach({.body = 3, .link = 1, .t_from = 0.5}), "twice at a time"));
   EXPECT_EQ(attach({.body = 3, .link = 1, .t_from = 0.6}), "no error");

@@ -194,6 +194,12 @@ def test_what_is_carried_touches_nothing_of_its_link(arm, swing):
     assert verdicts["part", "arm/tip"] == verdicts["part", "arm/bar"] == "free"
     assert verdicts["post", "part"] == "contact"
     assert pickle.loads(pickle.dumps(scene)).check(swing).t == carried.t
+    held = fc.RobotScene(arm)
+    held.add_body("part", fc.make_sphere(0.05))
+    held.attach("part", "tip", touch_links=["bar"], pose=fc.Pose((0.5, 0, 0)))
+    held.add_body("far", fc.make_sphere(0.1), fc.Motion.fixed(fc.Pose((0, 1.55, 0))))
+    for scene_held in (held, pickle.loads(pickle.dumps(held))):
+        assert scene_held.check(swing).pair == ("part", "far")
     with pytest.raises(ValueError, match="body: expected"):
         scene.attach("arm", "tip")
     with pytest.raises(ValueError, match='did you mean "arm/tip"'):

@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -135,14 +136,47 @@ TEST(MalformedPlanningScene, IsNamedByLineAndPlace) {
                  place +
                      ".header.frame_id: expected a frame that rests (\"\", \"ground\", "
                      "\"world\"), got \"hook\"");
-  expect_message("robot_state: {attached_collision_objects: [{}]}\nworld: {}",
-                 "s.yaml:1: robot_state.attached_collision_objects: expected no attached objects "
-                 "here; a scene's robots have \"attached\"");
+  const std::string held =
+      "robot_state: {attached_collision_objects: [{link_name: hook, object: {id: o, header: "
+      "{frame_id: cart}, primitives: []}}]}\nworld: {}";
+  expect_message(held,
+                 "s.yaml:1: robot_state.attached_collision_objects[0].object.header.frame_id: "
+                 "expected the frame of the link that holds it, \"hook\", got \"cart\"");
+  expect_message("link_scale: [{link_name: hook, scale: 1.5}]\nworld: {}",
+                 "s.yaml:1: link_scale[0]: expected no scale of links but 1; a padding makes them "
+                 "larger");
   expect_message(
       "allowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 1], [0, 0]]}\n"
       "world: {}",
       "s.yaml:1: allowed_collision_matrix.entry_values[1][0]: expected the same for "
       "\"b\" and \"a\" as for them swapped");
+}
+
+TEST(PlanningScene, HasWhatLinksHoldAndPadding) {
+  const PlanningScene scene = parse(R"(
+link_padding: [{link_name: hook, padding: 0.01}, {link_name: cart, padding: 0}]
+link_scale: [{link_name: hook, scale: 1}]
+robot_state:
+  attached_collision_objects:
+  - link_name: hook
+    object:
+      id: load
+      header: {frame_id: hook}
+      pose: {position: [0, 0, -1], orientation: [0, 0, 0, 1]}
+      primitives: [{type: sphere, dimensions: [0.5]}, {type: box, dimensions: [1, 1, 1]}]
+      primitive_poses: [{position: [0, 0, -2]}, {}]
+    touch_links: [mast]
+    weight: 3
+world: {}
+)");
+  EXPECT_EQ(scene.padding, (std::map<std::string, double>{{"hook", 0.01}}));
+  EXPECT_TRUE(scene.bodies.empty());
+  ASSERT_EQ(scene.attached.size(), 1u);
+  const AttachedObject& load = scene.attached[0];
+  EXPECT_EQ(load.id + load.link + load.touch_links.at(0), "loadhookmast");
+  ASSERT_EQ(load.parts.size(), 2u);
+  EXPECT_EQ(load.parts[0].name, "load/0");
+  EXPECT_EQ(pose_of(load.parts[0]).position, Eigen::Vector3d(0, 0, -3));
 }
 
 TEST(PlanningRequest, SaysFromWhereToWhere) {

@@ -253,5 +253,55 @@ TEST_F(RobotSceneFile, TakesABodyMoreWithoutChangingItsRules) {
   EXPECT_EQ(loaded.robots->geometries(1)[0].shape.radius(), 0.25);
 }
 
+// Where the link holds it counts, whatever the body's own pose says; so it does after writing.
+TEST_F(RobotSceneFile, HoldsBodiesWhereTheLinkHasThem) {
+  const Scene scene = parse(with_ball(std::string(kMove) + R"(, "state": {},
+      "attached": [{"body": "ball", "link": "tip", "pose": {"position": [0.5, 0, 0]}, "to_time": 2}])"));
+  for (const Scene& said : {scene, parse(write_scene(scene))}) {
+    const LoadedScene loaded = load(said);
+    EXPECT_NEAR((loaded.robots->pose(0, 0.0).position - Eigen::Vector3d(1.55, 0, 0)).norm(), 0.0,
+                1e-12);
+    const Eigen::Vector3d put_down = 1.55 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0.0);
+    EXPECT_NEAR((loaded.robots->pose(0, 1.0).position - put_down).norm(), 0.0, 1e-12);
+  }
+  EXPECT_EQ(error_of(with_ball(R"(, "attached": [{"body": "ball", "link": "tip", "pose": {},
+                                      "from_time": 1}])")),
+            "s.json:2: robots[0].attached[0].pose: expected no \"from_time\" beside \"pose\": the "
+            "link holds it from the start");
+}
+
+TEST_F(RobotSceneFile, TakesWhatThePlanningSceneSaysOfLinks) {
+  const std::string held = R"(
+link_padding: [{link_name: tip, padding: 0.02}]
+robot_state: {attached_collision_objects: [{link_name: tip, touch_links: [bar], object: {id: rod,
+  header: {frame_id: tip}, primitives: [{type: sphere, dimensions: [0.1]}, {type: sphere, dimensions: [0.1]}],
+  primitive_poses: [{position: [0.2, 0, 0]}, {position: [0.3, 0, 0]}]}}]}
+)";
+  const std::string wall = R"(
+world: {collision_objects: [{id: wall, primitives: [{type: sphere, dimensions: [0.1]}],
+  primitive_poses: [{position: [0, 1.35, 0]}]}]}
+)";
+  const std::string allowed =
+      "allowed_collision_matrix: {entry_names: [rod, wall], entry_values: [[0, 1], [1, 0]]}\n";
+  RobotQuestion question;
+  question.robot.urdf = folder_.path() / "arm.urdf";
+  question.trajectory = folder_.path() / "move.csv";
+  question.environment = {folder_.path() / "room.yaml"};
+  folder_.write("room.yaml", held + wall);
+  const Scene scene = read_robot_question(question);
+  EXPECT_EQ(scene.robots[0].padding, (std::map<std::size_t, double>{{2, 0.02}}));
+  const LoadedScene loaded = load(scene);
+  const SceneResult result = check(loaded);
+  EXPECT_EQ(result.verdict, Verdict::contact);
+  const RobotPairAnswer& first = result.robots->pairs[*result.robots->first];
+  EXPECT_EQ(loaded.robots->name(first.members[0]) + loaded.robots->name(first.members[1]),
+            "wallrod/1");
+  EXPECT_FALSE(loaded.robots->margin({1, 2}));  // The parts of the rod.
+  folder_.write("room.yaml", allowed + held + wall);
+  EXPECT_EQ(check(load(read_robot_question(question))).verdict, Verdict::free);
+  folder_.write("room.yaml", "link_padding: [{link_name: tap, padding: 0.1}]\n" + wall);
+  EXPECT_THROW((void)read_robot_question(question), ParseError);
+}
+
 }  // namespace
 }  // namespace firstcontact

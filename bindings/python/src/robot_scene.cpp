@@ -271,7 +271,7 @@ void HeldRobotScene::add(const std::string& name, const Shape& shape, const Reco
 
 void HeldRobotScene::attach(SceneAttachment attachment) {
   note(py::make_tuple("attach", attachment.body, attachment.link, attachment.from_time,
-                      attachment.to_time, attachment.touch_links));
+                      attachment.to_time, attachment.touch_links, attachment.pose));
   robot().attached.push_back(std::move(attachment));
 }
 
@@ -339,7 +339,7 @@ py::tuple HeldRobotScene::state() const {
   scene.duration = last > 0.0 ? last : scene.duration;
   py::list attached;
   for (const SceneAttachment& a : robot().attached) {
-    attached.append(py::make_tuple(a.body, a.link, a.from_time, a.to_time, a.touch_links));
+    attached.append(py::make_tuple(a.body, a.link, a.from_time, a.to_time, a.touch_links, a.pose));
   }
   return py::make_tuple(write_scene(scene), scene.text_digest, scene.warnings, attached,
                         in_step_time_, fixed_duration_);
@@ -352,12 +352,12 @@ HeldRobotScene HeldRobotScene::from_state(const py::tuple& state) {
   result.scene_.warnings = state[2].cast<std::vector<std::string>>();
   for (const py::handle element : state[3]) {
     const auto attached = element.cast<py::tuple>();
-    result.robot().attached.push_back(
-        {.body = attached[0].cast<std::size_t>(),
-         .link = attached[1].cast<std::size_t>(),
-         .from_time = attached[2].cast<double>(),
-         .to_time = attached[3].cast<std::optional<double>>(),
-         .touch_links = attached[4].cast<std::vector<std::size_t>>()});
+    result.robot().attached.push_back({.body = attached[0].cast<std::size_t>(),
+                                       .link = attached[1].cast<std::size_t>(),
+                                       .from_time = attached[2].cast<double>(),
+                                       .to_time = attached[3].cast<std::optional<double>>(),
+                                       .touch_links = attached[4].cast<std::vector<std::size_t>>(),
+                                       .pose = attached[5].cast<std::optional<Pose>>()});
   }
   result.in_step_time_ = state[4].cast<std::set<std::size_t>>();
   result.fixed_duration_ = state[5].cast<std::optional<double>>();
@@ -427,7 +427,8 @@ default. shapes: a ShapeCache to share meshes with other scenes.)")
       .def(
           "attach",
           [](HeldRobotScene& s, const std::string& body, const std::string& link, double from_time,
-             std::optional<double> to_time, const std::vector<std::string>& touch_links) {
+             std::optional<double> to_time, const std::vector<std::string>& touch_links,
+             const std::optional<Pose>& pose) {
             const std::vector<std::size_t> found = members_named(s.scene(), body);
             if (found.size() != 1 || found.front() >= s.scene().bodies.size()) {
               throw py::value_error("body: expected the name of a body, got " +
@@ -436,7 +437,8 @@ default. shapes: a ShapeCache to share meshes with other scenes.)")
             SceneAttachment attachment{.body = found.front(),
                                        .link = s.link(link),
                                        .from_time = from_time,
-                                       .to_time = to_time};
+                                       .to_time = to_time,
+                                       .pose = pose};
             for (const std::string& touched : touch_links) {
               attachment.touch_links.push_back(s.link(touched));
             }
@@ -444,10 +446,12 @@ default. shapes: a ShapeCache to share meshes with other scenes.)")
           },
           py::arg("body"), py::arg("link"), py::arg("from_time") = 0.0,
           py::arg("to_time") = py::none(), py::arg("touch_links") = py::tuple(),
+          py::arg("pose") = py::none(),
           R"(Lets a link carry a body from one time to another [s], to the end by default.
 
 Meanwhile the body is not tested against the link and the touch_links; before, it moves by itself;
-after, it rests.)")
+after, it rests. pose: of the body in the link's frame, from the start on; by default it is held as it
+is at from_time.)")
       .def("ignore", &HeldRobotScene::ignore, py::arg("name"), py::arg("other"),
            "Does not test two bodies or links; the robot's name means all of its links.")
       .def("set_margin", &HeldRobotScene::set_margin, py::arg("name"), py::arg("other"),

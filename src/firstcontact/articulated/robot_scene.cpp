@@ -162,6 +162,12 @@ void RobotScene::attach(Attachment attachment) {
         attachment.t_to <= 1.0)) {
     refuse("'" + body + "' must be attached from a time to a later one, both in [0, 1]");
   }
+  if (attachment.X_LB) {
+    if (attachment.t_from > 0.0) {
+      refuse("'" + body + "' has a pose in its link: it is held from the start on, t_from = 0");
+    }
+    (void)Motion::fixed(*attachment.X_LB);  // Refuses what is no pose.
+  }
   for (const Attachment& other : attachments_) {
     if (other.body == attachment.body && attachment.t_from < other.t_to &&
         other.t_from < attachment.t_to) {
@@ -189,9 +195,10 @@ void RobotScene::divide_into_stretches(std::size_t body) {
     }
     const RobotLink link = *members_[attachment.link].link;
     const RobotMotion& motion = robots_[link.robot].motion;
-    const Pose X_LB =
-        relative_pose(motion, link.link, attachment.t_from, pose(body, attachment.t_from));
-    const BodyStretch::Carried carried{link, X_LB};
+    const auto frozen = [&] {
+      return relative_pose(motion, link.link, attachment.t_from, pose(body, attachment.t_from));
+    };
+    const BodyStretch::Carried carried{link, attachment.X_LB ? *attachment.X_LB : frozen()};
     stretches.back().t_end = attachment.t_from;
     if (stretches.back().t_begin == stretches.back().t_end) {
       stretches.pop_back();

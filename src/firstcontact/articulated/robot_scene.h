@@ -28,13 +28,15 @@ namespace firstcontact {
 ///
 /// The body keeps its own motion before t_from. Then it is rigidly fixed to the link, with the pose
 /// relative to it frozen at t_from and rounded to doubles, which define the motion from then on.
-/// After t_to it rests where it is, rounded alike.
+/// Or X_LB says where the link holds it from the start; then its own motion has no meaning. After
+/// t_to it rests where it is, rounded alike.
 struct Attachment {
   std::size_t body = 0;
   std::size_t link = 0;                       ///< Holds it: the two are not tested while it does.
   double t_from = 0.0;                        ///< [-]  In [0, 1].
   double t_to = 1.0;                          ///< [-]  In (t_from, 1].
   std::vector<std::size_t> touch_links = {};  ///< Not tested against the body either meanwhile.
+  std::optional<Pose> X_LB = {};              ///< Only with t_from = 0.
 };
 
 /// One piece of a member, in a frame G that is fixed in the member's frame M.

@@ -63,30 +63,35 @@ class ObjectReader {
   }
 
   void add_object(const JsonValue& value, PlanningScene& scene) {
-    (void)read_.object(value, {{"id", "header", "pose", "type", "primitives", "primitive_poses",
-                                "meshes", "mesh_poses", "planes", "plane_poses", "operation",
-                                "subframe_names", "subframe_poses"}});
-    const std::string id =
-        detail::name_of(read_.member(value, "id"), "the name of an object", read_);
-    refuse_others(value);
-    Pose pose = frame_of(value);
-    if (const JsonValue* own = find_filled(value, "pose")) {
-      pose = detail::compose(pose, detail::read_message_pose(*own, read_));
-    }
-    std::vector<Body> parts;
-    add_parts(value, "primitives", "primitive_poses", pose, parts);
-    add_parts(value, "meshes", "mesh_poses", pose, parts);
-    if (parts.empty()) {
-      read_.fail(value, "expected \"primitives\" or \"meshes\" of the object, got none");
-    }
-    if (!ids_.insert(id).second) {
-      read_.fail(value, "expected an id that no other object has, got " + in_quotes(id) + " again");
-    }
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      parts[k].name = parts.size() == 1 ? id : id + "/" + std::to_string(k);
-      scene.bodies.push_back(std::move(parts[k]));
+    const std::string id = new_id(value);
+    for (Body& part : parts_of(value, id, frame_of(value))) {
+      scene.bodies.push_back(std::move(part));
       scene.object_ids.push_back(id);
     }
+  }
+
+  void add_attached(const JsonValue& value, PlanningScene& scene) {
+    (void)read_.object(value, {{"link_name", "object", "touch_links", "detach_posture", "weight"}});
+    const JsonValue& object = read_.member(value, "object");
+    AttachedObject attached{
+        .id = new_id(object),
+        .link = detail::name_of(read_.member(value, "link_name"), "the name of a link", read_),
+        .touch_links = {},
+        .parts = {}};
+    const JsonValue* frame = frame_name(object);
+    const auto* name = frame == nullptr ? nullptr : std::get_if<std::string>(&frame->value);
+    if (name == nullptr || without_slash(*name) != attached.link) {
+      read_.fail(frame == nullptr ? object : *frame,
+                 "expected the frame of the link that holds it, " + in_quotes(attached.link) +
+                     (name == nullptr ? ", got none" : ", got " + in_quotes(*name)));
+    }
+    if (const JsonValue* links = find_filled(value, "touch_links")) {
+      for (const JsonValue& link : read_.array(*links, "an array of names of links")) {
+        attached.touch_links.push_back(detail::name_of(link, "the name of a link", read_));
+      }
+    }
+    attached.parts = parts_of(object, attached.id, Pose{});
+    scene.attached.push_back(std::move(attached));
   }
 
  private:
@@ -95,10 +100,45 @@ class ObjectReader {
     return name.starts_with('/') ? name.substr(1) : name;
   }
 
-  /// Of a message with a header.
-  [[nodiscard]] Pose frame_of(const JsonValue& message) const {
+  std::string new_id(const JsonValue& object) {
+    std::string id = detail::name_of(read_.member(object, "id"), "the name of an object", read_);
+    if (!ids_.insert(id).second) {
+      read_.fail(object,
+                 "expected an id that no other object has, got " + in_quotes(id) + " again");
+    }
+    return id;
+  }
+
+  /// @param frame  in which the object is
+  [[nodiscard]] std::vector<Body> parts_of(const JsonValue& object, const std::string& id,
+                                           const Pose& frame) const {
+    (void)read_.object(object, {{"id", "header", "pose", "type", "primitives", "primitive_poses",
+                                 "meshes", "mesh_poses", "planes", "plane_poses", "operation",
+                                 "subframe_names", "subframe_poses"}});
+    refuse_others(object);
+    const JsonValue* own = find_filled(object, "pose");
+    const Pose pose =
+        own == nullptr ? frame : detail::compose(frame, detail::read_message_pose(*own, read_));
+    std::vector<Body> parts;
+    add_parts(object, "primitives", "primitive_poses", pose, parts);
+    add_parts(object, "meshes", "mesh_poses", pose, parts);
+    if (parts.empty()) {
+      read_.fail(object, "expected \"primitives\" or \"meshes\" of the object, got none");
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      parts[k].name = parts.size() == 1 ? id : id + "/" + std::to_string(k);
+    }
+    return parts;
+  }
+
+  /// Of a message with a header; may be null.
+  [[nodiscard]] static const JsonValue* frame_name(const JsonValue& message) {
     const JsonValue* header = find_filled(message, "header");
-    const JsonValue* frame = header == nullptr ? nullptr : find_filled(*header, "frame_id");
+    return header == nullptr ? nullptr : find_filled(*header, "frame_id");
+  }
+
+  [[nodiscard]] Pose frame_of(const JsonValue& message) const {
+    const JsonValue* frame = frame_name(message);
     const auto* name = frame == nullptr ? nullptr : std::get_if<std::string>(&frame->value);
     if (name == nullptr) {
       return {};
@@ -324,18 +364,24 @@ void read_defaults(const JsonValue& matrix, AllowedCollisions& allowed, const Js
   }
 }
 
-void refuse_padding(const JsonValue& scene, const JsonReader& read) {
-  for (const auto& [key, number, neutral] :
-       {std::tuple{"link_padding", "padding", 0.0}, std::tuple{"link_scale", "scale", 1.0}}) {
-    const JsonValue* list = find_filled(scene, key);
-    const auto* array = list == nullptr ? nullptr : std::get_if<JsonArray>(&list->value);
-    for (std::size_t k = 0; array != nullptr && k < array->size(); ++k) {
-      const JsonValue* value = find_filled((*array)[k], number);
-      if (value == nullptr || read.number(*value) != neutral) {
-        read.fail((*array)[k],
-                  "expected no padding and no scale of links here; the robot's "
-                  "\"padding\" (--padding) says it");
-      }
+/// moveit_msgs/LinkPadding: {link_name: , padding: }
+void read_padding(const JsonValue& list, PlanningScene& scene, const JsonReader& read) {
+  for (const JsonValue& element : read.array(list, "an array of paddings")) {
+    (void)read.object(element, {{"link_name", "padding"}});
+    const double padding = read.not_negative(read.member(element, "padding"));
+    if (padding > 0.0) {
+      scene
+          .padding[detail::name_of(read.member(element, "link_name"), "the name of a link", read)] =
+          padding;
+    }
+  }
+}
+
+void refuse_scale(const JsonValue& list, const JsonReader& read) {
+  for (const JsonValue& element : read.array(list, "an array of scales")) {
+    const JsonValue* scale = find_filled(element, "scale");
+    if (scale == nullptr || read.number(*scale) != 1.0) {
+      read.fail(element, "expected no scale of links but 1; a padding makes them larger");
     }
   }
 }
@@ -351,9 +397,10 @@ void refuse_octomap(const JsonValue& world, const JsonReader& read) {
   }
 }
 
+/// Of a request.
 void refuse_attached(const JsonValue& state, const JsonReader& read) {
   if (const JsonValue* attached = find_filled(state, "attached_collision_objects")) {
-    read.fail(*attached, "expected no attached objects here; a scene's robots have \"attached\"");
+    read.fail(*attached, "expected no attached objects here; they belong to the planning scene");
   }
 }
 
@@ -371,10 +418,12 @@ PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::pa
   if (const JsonValue* transforms = find_filled(scene, "fixed_frame_transforms")) {
     objects.add_frames(*transforms);
   }
-  if (const JsonValue* state = find_filled(scene, "robot_state")) {
-    refuse_attached(*state, read);
+  if (const JsonValue* padding = find_filled(scene, "link_padding")) {
+    read_padding(*padding, result, read);
   }
-  refuse_padding(scene, read);
+  if (const JsonValue* scale = find_filled(scene, "link_scale")) {
+    refuse_scale(*scale, read);
+  }
   if (const JsonValue* matrix = find_filled(scene, "allowed_collision_matrix")) {
     (void)read.object(
         *matrix, {{"entry_names", "entry_values", "default_entry_names", "default_entry_values"}});
@@ -390,6 +439,14 @@ PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::pa
   if (const JsonValue* list = find_filled(*world, "collision_objects")) {
     for (const JsonValue& object : read.array(*list, "an array of objects")) {
       objects.add_object(object, result);
+    }
+  }
+  const JsonValue* state = find_filled(scene, "robot_state");
+  const JsonValue* attached =
+      state == nullptr ? nullptr : find_filled(*state, "attached_collision_objects");
+  if (attached != nullptr) {
+    for (const JsonValue& object : read.array(*attached, "an array of attached objects")) {
+      objects.add_attached(object, result);
     }
   }
   return result;

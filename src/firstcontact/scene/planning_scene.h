@@ -28,12 +28,22 @@ struct AllowedCollisions {
                                              const std::string& other) const;
 };
 
+/// An object that a link of the robot holds: moveit_msgs/AttachedCollisionObject.
+struct AttachedObject {
+  std::string id;
+  std::string link;
+  std::vector<std::string> touch_links;
+  std::vector<Body> parts;  ///< At rest in the link's frame; named as the bodies of a scene.
+};
+
 /// The objects of moveit_msgs/PlanningScene around a robot, in its planning frame.
 struct PlanningScene {
   /// At rest. Of an object of several parts "id/0", "id/1"; of one part "id".
   std::vector<Body> bodies;
   std::vector<std::string> object_ids;  ///< Of each body, the object that it is a part of.
   AllowedCollisions allowed;
+  std::vector<AttachedObject> attached;
+  std::map<std::string, double> padding;  ///< [m]  By link; > 0.
 };
 
 /// moveit_msgs/MotionPlanRequest, as far as it says from where to where.
@@ -48,8 +58,9 @@ struct PlanningRequest {
 /// Boxes, spheres, cylinders, cones and meshes become bodies, with the pose of an object times
 /// that of its part, multiplied in double precision. Frames are the planning frame ("", "world",
 /// `frame`) or those of fixed_frame_transforms. Lists [x, y, z] and maps {x: , y: , z: } mean the
-/// same; a quaternion is x, y, z, w. What would be left out without notice is an error: planes,
-/// octomaps, attached objects, objects in other frames.
+/// same; a quaternion is x, y, z, w. Attached objects are in the frame of their link. Padding
+/// thickens a link by a ball. What would be left out without notice is an error: planes, octomaps,
+/// scales of links, objects in other frames.
 ///
 /// @param frame  the name of the robot's root link: it is in the planning frame
 /// @throws ParseError

@@ -73,7 +73,7 @@ class SceneBuilder {
     }
     if (question_.padding > 0.0) {
       for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
-        robot.padding[link] = question_.padding;
+        robot.padding[link] = std::max(robot.padding[link], question_.padding);
       }
     }
     if (question_.tracking_error > 0.0) {
@@ -144,7 +144,7 @@ class SceneBuilder {
     scene_.id = question_.request.filename().string();
   }
 
-  void add_environment(const std::filesystem::path& file, const SceneRobot& robot) {
+  void add_environment(const std::filesystem::path& file, SceneRobot& robot) {
     const std::string extension = detail::lower_extension(file);
     if (!detail::is_tree_extension(extension)) {
       add_mesh(file);
@@ -156,7 +156,11 @@ class SceneBuilder {
     } else {
       require_base_at_origin(robot, file);
       const std::string& root = robot.model.links()[robot.model.root()].name;
-      add_planning_scene(parse_planning_scene(text, file, root), robot);
+      try {
+        add_planning_scene(parse_planning_scene(text, file, root), robot);
+      } catch (const std::invalid_argument& error) {
+        throw ParseError(file.string(), error.what());
+      }
     }
   }
 
@@ -219,10 +223,16 @@ class SceneBuilder {
     scene_.options = around.options;
   }
 
-  void add_planning_scene(PlanningScene around, const SceneRobot& robot) {
+  void add_planning_scene(PlanningScene around, SceneRobot& robot) {
     for (std::size_t k = 0; k < around.bodies.size(); ++k) {
       add(std::move(around.bodies[k]));
       ids_[scene_.bodies.size() - 1] = around.object_ids[k];
+    }
+    for (AttachedObject& object : around.attached) {
+      add_attached(std::move(object), robot);
+    }
+    for (const auto& [link, padding] : around.padding) {
+      robot.padding[link_of(robot, link, "link_padding")] = padding;
     }
     for (const DisabledPair& pair : robot.semantics.disabled) {
       const std::string& link = robot.model.links()[pair.link].name;
@@ -237,7 +247,42 @@ class SceneBuilder {
     allowed_.push_back(std::move(around.allowed));
   }
 
-  /// What the planning scenes allow to touch, of links and of links with objects.
+  static std::size_t link_of(const SceneRobot& robot, const std::string& name,
+                             const std::string& place) {
+    const auto found = robot.model.find_link(name);
+    if (!found) {
+      refuse(place + ": expected a link of robot " + in_quotes(robot.model.name()) + ", got " +
+             in_quotes(name));
+    }
+    return *found;
+  }
+
+  /// What one link holds is not tested against each other, as its parts may touch.
+  void add_attached(AttachedObject object, SceneRobot& robot) {
+    const std::string place = "attached object " + in_quotes(object.id);
+    const std::size_t link = link_of(robot, object.link, place);
+    std::vector<std::size_t> touch_links;
+    for (const std::string& name : object.touch_links) {
+      touch_links.push_back(link_of(robot, name, place));
+    }
+    for (Body& part : object.parts) {
+      SceneAttachment attachment{.body = scene_.bodies.size(),
+                                 .link = link,
+                                 .touch_links = touch_links,
+                                 .pose = std::get<FixedMotion>(part.motion).pose};
+      for (const SceneAttachment& other : robot.attached) {
+        if (other.link == link) {
+          scene_.ignored_pairs.push_back({other.body, attachment.body});
+        }
+      }
+      robot.attached.push_back(std::move(attachment));
+      part.motion = FixedMotion{};
+      add(std::move(part));
+      ids_[scene_.bodies.size() - 1] = object.id;
+    }
+  }
+
+  /// What the planning scenes allow to touch: of links, and of objects that links hold, with all.
   void allow_pairs() {
     if (allowed_.empty()) {
       return;
@@ -247,9 +292,12 @@ class SceneBuilder {
     const auto name = [&](std::size_t member) -> const std::string& {
       return member < first ? ids_.at(member) : links[member - first].name;
     };
-    for (std::size_t link = first; link < first + links.size(); ++link) {
+    const auto moves = [&](std::size_t member) { return member >= first || is_held(member); };
+    for (std::size_t link = 0; link < first + links.size(); ++link) {
       for (std::size_t other = 0; other < link; ++other) {
-        if (other < first && !ids_.contains(other)) {
+        const bool has_names =
+            (link >= first || ids_.contains(link)) && (other >= first || ids_.contains(other));
+        if (!has_names || !(moves(link) || moves(other))) {
           continue;
         }
         const auto allows = [&](const AllowedCollisions& allowed) {
@@ -260,6 +308,12 @@ class SceneBuilder {
         }
       }
     }
+  }
+
+  [[nodiscard]] bool is_held(std::size_t body) const {
+    const std::vector<SceneAttachment>& attached = scene_.robots.front().attached;
+    return std::any_of(attached.begin(), attached.end(),
+                       [&](const SceneAttachment& held) { return held.body == body; });
   }
 
   void set_duration() {

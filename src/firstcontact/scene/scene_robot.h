@@ -36,6 +36,8 @@ struct SceneAttachment {
   double from_time = 0.0;                     ///< [s]
   std::optional<double> to_time = {};         ///< [s]  The end of the scene where there is none.
   std::vector<std::size_t> touch_links = {};  ///< Of the robot.
+  /// In the link, from the start on: from_time is 0. As it is at from_time where there is none.
+  std::optional<Pose> pose = {};
 };
 
 /// A robot, read and resolved. What is not said of a link or joint is 0.

@@ -238,6 +238,9 @@ JsonValue to_json(const SceneAttachment& attached, const Scene& scene, const Rob
     object.push_back({"to_time", to_json(*attached.to_time)});
   }
   object.push_back({"touch_links", {.value = std::move(touch_links)}});
+  if (attached.pose) {
+    object.push_back({"pose", to_json(*attached.pose)});
+  }
   return {.value = std::move(object)};
 }
 

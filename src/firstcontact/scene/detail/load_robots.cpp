@@ -108,7 +108,8 @@ class RobotLoader {
       Attachment attachment{.body = attached.body,
                             .link = first + attached.link,
                             .t_from = attached.from_time / scene_.duration,
-                            .t_to = attached.to_time ? *attached.to_time / scene_.duration : 1.0};
+                            .t_to = attached.to_time ? *attached.to_time / scene_.duration : 1.0,
+                            .X_LB = attached.pose};
       for (const std::size_t link : attached.touch_links) {
         attachment.touch_links.push_back(first + link);
       }

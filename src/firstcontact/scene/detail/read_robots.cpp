@@ -180,7 +180,7 @@ class RobotReader {
 
   SceneAttachment attachment(const JsonValue& value, const SceneRobot& robot) const {
     const JsonObject& object =
-        read_.object(value, {{"body", "link", "from_time", "to_time", "touch_links"}});
+        read_.object(value, {{"body", "link", "from_time", "to_time", "touch_links", "pose"}});
     const auto link_of = [&](const JsonValue& name) {
       return link(name, read_.string(name, "the name of a link"), robot.model);
     };
@@ -188,6 +188,13 @@ class RobotReader {
                                .link = link_of(read_.member(value, "link"))};
     if (const JsonValue* from = find(object, "from_time")) {
       attachment.from_time = read_.not_negative(*from);
+    }
+    if (const JsonValue* pose = find(object, "pose")) {
+      attachment.pose = read_pose(*pose, read_);
+      if (attachment.from_time > 0.0) {
+        read_.fail(*pose,
+                   "expected no \"from_time\" beside \"pose\": the link holds it from the start");
+      }
     }
     if (const JsonValue* to = find(object, "to_time")) {
       attachment.to_time = read_.positive(*to);
