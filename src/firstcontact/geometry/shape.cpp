@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -147,6 +150,16 @@ std::vector<std::uint32_t> list_components(const Mesh& mesh, const Hierarchy& hi
 
 }  // namespace
 
+namespace {
+
+/// Not every shape is asked for its bounds.
+struct LazyBounds {
+  std::once_flag found;
+  ShapeBounds bounds;
+};
+
+}  // namespace
+
 struct Shape::Data {
   Mesh mesh;
   double radius = 0.0;
@@ -156,6 +169,7 @@ struct Shape::Data {
   Hierarchy hierarchy;
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
+  std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
 };
 
 Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) {
@@ -204,6 +218,7 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
   auto data = std::make_shared<Data>(*data_);
   data->hierarchy = deforming_hierarchy(rest, std::move(relative));
   data->hash = hash;
+  data->bounds = std::make_shared<LazyBounds>();
   Shape shape = *this;
   shape.data_ = std::move(data);
   return shape;
@@ -242,6 +257,13 @@ std::uint32_t Shape::edge_index(std::uint32_t vertex, std::uint32_t other) const
 }
 
 const Hierarchy& Shape::hierarchy() const { return data_->hierarchy; }
+
+const ShapeBounds& Shape::bounds() const {
+  assert(!data_->hierarchy.deforms());
+  std::call_once(data_->bounds->found,
+                 [&] { data_->bounds->bounds = shape_bounds(data_->hierarchy); });
+  return data_->bounds->bounds;
+}
 
 int Shape::compare(const Shape& other) const {
   if (data_ == other.data_ || data_->hash == other.data_->hash) {

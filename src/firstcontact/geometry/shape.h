@@ -11,6 +11,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
@@ -73,6 +74,10 @@ class FIRSTCONTACT_API Shape {
   [[nodiscard]] std::uint32_t edge_index(std::uint32_t vertex, std::uint32_t other) const;
 
   [[nodiscard]] const Hierarchy& hierarchy() const;
+
+  /// A box and a polytope around the triangles, found when they are first asked for. Of a shape
+  /// that does not deform.
+  [[nodiscard]] const ShapeBounds& bounds() const;
 
   /// A total order by content (up to hash collisions), so that queries can put two bodies in an
   /// order of their own and answer alike for A and B swapped. Negative, zero or positive.

@@ -1,0 +1,46 @@
+/// @file
+/// A direction along which two convex polytopes are far apart.
+
+#pragma once
+
+#include <limits>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// A convex polytope at its place.
+struct PlacedPolytope {
+  const PointRows& corners;  ///< [m]  From its centre.
+  Eigen::Matrix3d R;
+  Eigen::Vector3d centre;  ///< [m]
+};
+
+/// How far apart A and B are along n.
+struct Separation {
+  Eigen::Vector3d n = Eigen::Vector3d::UnitX();  ///< [-]  Unit, from A to B.
+  /// [m]  The least n . (p_B - p_A) over points of B and A; within 2^-48 of the polytopes' sizes
+  /// and distance.
+  double gap = 0.0;
+};
+
+/// Which gaps are of interest.
+struct GapRange {
+  double least = 0.0;  ///< [m]  Where there is no greater one, any direction will do.
+  double enough = std::numeric_limits<double>::infinity();  ///< [m]  None greater is asked for.
+};
+
+/// Looks for a direction whose gap is nearly the distance, as far as that exceeds the least (E. G.
+/// Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the distance between
+/// complex objects in three-dimensional space", IEEE J. Robot. Autom. 4, 1988). Whatever the
+/// direction, its gap is what the points say.
+///
+/// @param n  [-]  unit; where to begin
+[[nodiscard]] FIRSTCONTACT_API Separation separate(const PlacedPolytope& A, const PlacedPolytope& B,
+                                                   const Eigen::Vector3d& n,
+                                                   const GapRange& range = {});
+
+}  // namespace firstcontact
