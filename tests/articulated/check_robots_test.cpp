@@ -256,6 +256,47 @@ TEST(CheckRobots, CarriedBodiesFollowTheExactChain) {
   EXPECT_LE(contacts, 50);
 }
 
+/// One checker for many motions, one of which carries a body, answers as a new one for each.
+TEST(RobotChecker, AnswersAsIfNewForEveryMotion) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const PlanarCase c(seed);
+    RobotScene scene = c.scene();
+    const std::size_t carried = scene.add_body("carried", make_sphere(0.2), at({0.0, 0.0, 0.5}));
+    scene.attach({.body = carried, .link = *scene.find_member("arm/l0"), .t_from = 0.25});
+    RobotChecker checker(scene);
+    Random random(seed);
+    for (int k = 0; k < 6; ++k) {
+      std::vector<CoordinatePath> paths;
+      for (std::size_t joint = 0; joint < c.angles.size(); ++joint) {
+        paths.push_back(ramp(random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0)));
+      }
+      std::map<std::string, JointMotion> joints;
+      for (std::size_t joint = 0; joint < paths.size(); ++joint) {
+        joints.emplace("j" + std::to_string(joint), paths[joint]);
+      }
+      const RobotMotion motion(scene.robot_motion(0).model(), joints);
+      checker.set_motion(0, motion);
+      scene.set_motion(0, motion);
+      const RobotCheckOptions options{.all_pairs = k % 2 == 0};
+      const RobotCheckResult result = checker.check(options);
+      const RobotCheckResult fresh = check_robots(scene, options);
+      ASSERT_EQ(result.verdict, fresh.verdict) << seed;
+      ASSERT_EQ(result.t, fresh.t) << seed;
+      ASSERT_EQ(result.pairs.size(), fresh.pairs.size()) << seed;
+      for (std::size_t pair = 0; pair < result.pairs.size(); ++pair) {
+        ASSERT_EQ(result.pairs[pair].members, fresh.pairs[pair].members) << seed;
+        ASSERT_EQ(result.pairs[pair].t, fresh.pairs[pair].t) << seed;
+      }
+    }
+  }
+}
+
+TEST(RobotChecker, RefusesTheMotionOfAnotherRobot) {
+  RobotChecker checker(PlanarCase(0).scene());
+  EXPECT_THROW(checker.set_motion(0, planar_motion({ramp(0.0, 1.0)})), std::invalid_argument);
+  EXPECT_THROW(checker.set_motion(1, checker.scene().robot_motion(0)), std::invalid_argument);
+}
+
 /// The arm reaches over the ball at a height in which only what it carries touches it.
 TEST(CheckRobots, ABodyCountsAsCarriedOnlyWhileItIs) {
   const auto check = [](double t_from, double t_to) {

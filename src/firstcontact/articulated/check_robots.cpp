@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -26,10 +27,12 @@ using detail::PartAnswer;
 using detail::PartCandidate;
 using detail::PartSearch;
 
-/// Pieces of time looked at together, and searches done side by side with the same horizon. Fixed,
-/// so that answers do not depend on the number of threads.
+/// Pieces of time looked at together, and searches done side by side with the same horizon: few at
+/// first, as a contact spares the others. Fixed, so that answers do not depend on the number of
+/// threads.
 constexpr std::size_t kBlock = 32;
-constexpr std::size_t kRound = 32;
+constexpr std::size_t kFirstRound = 2;
+constexpr std::size_t kLargestRound = 32;
 
 void require(bool condition, const char* message) {
   if (!condition) {
@@ -44,10 +47,22 @@ void validate(const RobotCheckOptions& options) {
           "time_resolution must be in (0, 1]");
 }
 
+/// All that checks of a scene share.
+struct Prepared {
+  explicit Prepared(const RobotScene& scene) : timeline(scene), candidates(timeline) {}
+
+  detail::RobotTimeline timeline;
+  detail::CandidateSearch candidates;
+  tbb::enumerable_thread_specific<detail::LinkWorkspace> workspaces;
+};
+
 class RobotCheck {
  public:
-  RobotCheck(const RobotScene& scene, const RobotCheckOptions& options)
-      : timeline_(scene), candidates_(timeline_), options_(options) {
+  RobotCheck(Prepared& scene, const RobotCheckOptions& options)
+      : timeline_(scene.timeline),
+        candidates_(scene.candidates),
+        workspaces_(scene.workspaces),
+        options_(options) {
     for (const detail::TestedPair& pair : timeline_.pairs()) {
       RobotPairAnswer answer;
       answer.members = pair.members;
@@ -114,22 +129,24 @@ class RobotCheck {
   }
 
   void search(std::span<const PartCandidate> left) {
+    std::size_t size = kFirstRound;
     while (!left.empty()) {
+      const auto round = left.first(std::min(size, left.size()));
+      left = left.subspan(round.size());
+      size = std::min(2 * size, kLargestRound);
       const double end = horizon();
-      const auto may_matter = [end](const PartCandidate& c) { return c.window.begin <= end; };
-      const auto round = left.first(std::min(kRound, left.size()));
-      const auto due = round.first(static_cast<std::size_t>(
-          std::partition_point(round.begin(), round.end(), may_matter) - round.begin()));
-      if (due.empty()) {
-        return;
+      report(timeline_.piece(round.front().piece).begin);
+      std::vector<std::optional<PartAnswer>> answers(round.size());
+      for_each(round.size(), [&](std::size_t k) {
+        if (round[k].window.begin <= end) {
+          answers[k] = ask(round[k], end);
+        }
+      });
+      for (std::size_t k = 0; k < round.size(); ++k) {
+        if (answers[k]) {
+          take(round[k], std::move(*answers[k]));
+        }
       }
-      report(due.front().window.begin);
-      std::vector<PartAnswer> answers(due.size());
-      for_each(due.size(), [&](std::size_t k) { answers[k] = ask(due[k], end); });
-      for (std::size_t k = 0; k < due.size(); ++k) {
-        take(due[k], std::move(answers[k]));
-      }
-      left = left.subspan(due.size());
     }
   }
 
@@ -255,20 +272,54 @@ class RobotCheck {
     }
   }
 
-  detail::RobotTimeline timeline_;
-  detail::CandidateSearch candidates_;
+  const detail::RobotTimeline& timeline_;
+  const detail::CandidateSearch& candidates_;
+  tbb::enumerable_thread_specific<detail::LinkWorkspace>& workspaces_;
   const RobotCheckOptions& options_;
-  tbb::enumerable_thread_specific<detail::LinkWorkspace> workspaces_;
   std::vector<RobotPairAnswer> pairs_;
   double first_ = 1.0;  // Before it all pairs are proven free.
 };
 
+RobotCheckResult check(Prepared& scene, const RobotCheckOptions& options) {
+  validate(options);
+  return RobotCheck(scene, options).run();
+}
+
 }  // namespace
 
-RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
-  validate(options);
+struct RobotChecker::Data {
+  explicit Data(RobotScene given) : scene(std::move(given)), prepared(scene) {}
+
+  RobotScene scene;
+  Prepared prepared;
+};
+
+RobotChecker::RobotChecker(RobotScene scene) {
   const FloatEnvironmentGuard guard;
-  return RobotCheck(scene, options).run();
+  data_ = std::make_unique<Data>(std::move(scene));
+}
+
+RobotChecker::~RobotChecker() = default;
+RobotChecker::RobotChecker(RobotChecker&&) noexcept = default;
+RobotChecker& RobotChecker::operator=(RobotChecker&&) noexcept = default;
+
+const RobotScene& RobotChecker::scene() const { return data_->scene; }
+
+void RobotChecker::set_motion(std::size_t robot, RobotMotion motion) {
+  const FloatEnvironmentGuard guard;
+  data_->scene.set_motion(robot, std::move(motion));
+  data_->prepared.timeline.follow_motions();
+}
+
+RobotCheckResult RobotChecker::check(const RobotCheckOptions& options) {
+  const FloatEnvironmentGuard guard;
+  return firstcontact::check(data_->prepared, options);
+}
+
+RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
+  const FloatEnvironmentGuard guard;
+  Prepared prepared(scene);
+  return check(prepared, options);
 }
 
 }  // namespace firstcontact

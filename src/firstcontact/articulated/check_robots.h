@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -113,5 +114,27 @@ struct RobotCheckResult {
 /// @throws std::invalid_argument if an option is outside its documented range
 [[nodiscard]] FIRSTCONTACT_API RobotCheckResult check_robots(const RobotScene& scene,
                                                              const RobotCheckOptions& options = {});
+
+/// A scene made ready for many checks, one after the other, as a planner asks them: what all of
+/// them share is done once.
+class FIRSTCONTACT_API RobotChecker {
+ public:
+  explicit RobotChecker(RobotScene scene);
+  ~RobotChecker();
+  RobotChecker(RobotChecker&&) noexcept;
+  RobotChecker& operator=(RobotChecker&&) noexcept;
+
+  [[nodiscard]] const RobotScene& scene() const;
+
+  /// As RobotScene::set_motion.
+  void set_motion(std::size_t robot, RobotMotion motion);
+
+  /// As check_robots. Not for two threads at a time: it reuses its memory.
+  [[nodiscard]] RobotCheckResult check(const RobotCheckOptions& options = {});
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
 
 }  // namespace firstcontact

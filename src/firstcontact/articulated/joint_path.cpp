@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -44,7 +46,27 @@ Turned turned(const DoubleDoubleVector3& axis, const DoubleDoubleVector3& v) {
   return {along, v - along, cross(axis, v)};
 }
 
+std::uint64_t new_id() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
 }  // namespace
+
+JointPath::JointPath(const Vector3d& anchor, std::variant<Polynomial, Piece> kind)
+    : id_(new_id()), anchor_(anchor), kind_(std::move(kind)) {
+  if (rests(kind_)) {
+    rest_ = std::visit([](const auto& joint) { return state(joint, 0.0); }, kind_);
+  }
+}
+
+bool JointPath::rests(const std::variant<Polynomial, Piece>& kind) {
+  if (const auto* joint = std::get_if<Polynomial>(&kind)) {
+    return !joint->angle && joint->slides.empty();
+  }
+  const ConstantRatePath& path = std::get<Piece>(kind).path;
+  return path.rate() == 0.0 && path.pivot_velocity().value().isZero(0.0);
+}
 
 JointPath JointPath::polynomial(const PreciseTransform& X_PJ, const DoubleDoubleVector3& axis,
                                 const std::optional<CoordinateSegment>& angle,
@@ -74,6 +96,17 @@ JointPath JointPath::polynomial(const PreciseTransform& X_PJ, const DoubleDouble
   return {X_PJ.position.value(), std::move(joint)};
 }
 
+JointPath JointPath::moved(const std::optional<CoordinateSegment>& angle,
+                           std::span<const CoordinateSegment> slides) const {
+  Polynomial joint = std::get<Polynomial>(kind_);
+  assert(joint.angle.has_value() == angle.has_value() && joint.slides.size() == slides.size());
+  joint.angle = angle;
+  for (std::size_t k = 0; k < slides.size(); ++k) {
+    joint.slides[k].coordinate = slides[k];
+  }
+  return {anchor_, std::move(joint)};
+}
+
 JointPath JointPath::of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL) {
   const DoubleDoubleVector3 pivot = X_PJ.position + X_PJ.rotated(X_JL.pivot_begin());
   return {pivot.value(), Piece{X_PJ, rounded(X_PJ.columns), X_JL, is_identity(X_PJ)}};
@@ -89,6 +122,9 @@ JointPath JointPath::rigid(const PreciseTransform& X_PL) {
 }
 
 JointState JointPath::state(double t) const {
+  if (rest_) {
+    return *rest_;
+  }
   return std::visit([t](const auto& joint) { return state(joint, t); }, kind_);
 }
 

@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -60,6 +62,10 @@ class FIRSTCONTACT_API JointPath {
                               const std::optional<CoordinateSegment>& angle,
                               const std::vector<Slide>& slides, const PreciseTransform& X_EL);
 
+  /// The same joint at other coordinates: an angle if it has one, as many slides as it has.
+  [[nodiscard]] JointPath moved(const std::optional<CoordinateSegment>& angle,
+                                std::span<const CoordinateSegment> slides) const;
+
   /// As one piece of a motion of the child's origin says.
   static JointPath of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL);
 
@@ -72,8 +78,14 @@ class FIRSTCONTACT_API JointPath {
   /// [m]  A place in P near the joint's pivot, rounded.
   [[nodiscard]] const Eigen::Vector3d& anchor() const { return anchor_; }
 
+  /// Unlike that of any other path but its copies.
+  [[nodiscard]] std::uint64_t id() const { return id_; }
+
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
+
+  /// Its state where that never changes, else null.
+  [[nodiscard]] const JointState* rest() const { return rest_ ? &*rest_ : nullptr; }
 
   /// Whether it turns about one axis, else about any through the child's origin.
   [[nodiscard]] bool has_axis() const { return std::holds_alternative<Polynomial>(kind_); }
@@ -98,14 +110,16 @@ class FIRSTCONTACT_API JointPath {
     bool is_free_body;  // X_PJ is the identity.
   };
 
-  JointPath(const Eigen::Vector3d& anchor, std::variant<Polynomial, Piece> kind)
-      : anchor_(anchor), kind_(std::move(kind)) {}
+  JointPath(const Eigen::Vector3d& anchor, std::variant<Polynomial, Piece> kind);
 
+  static bool rests(const std::variant<Polynomial, Piece>& kind);
   static JointState state(const Polynomial& joint, double t);
   static JointState state(const Piece& joint, double t);
 
+  std::uint64_t id_;
   Eigen::Vector3d anchor_;
   std::variant<Polynomial, Piece> kind_;
+  std::optional<JointState> rest_;
 };
 
 }  // namespace firstcontact

@@ -23,6 +23,13 @@ constexpr double kUp = 1.0 + 0x1p-40;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
+/// Of (x, y), rounded up: std::hypot takes a multiple of the time.
+double length_of(double x, double y) {
+  constexpr double kUnderflow = 1e-290;
+  const double square = x * x + y * y;
+  return square > kUnderflow ? std::sqrt(square) * kUp : std::abs(x) + std::abs(y);
+}
+
 Matrix3d cross_matrix(const Vector3d& w) {
   Matrix3d m;
   m << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
@@ -104,18 +111,23 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   double v = 0.0;
   double a = 0.0;
   double j = 0.0;
-  for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
+  std::size_t at = walked.last;
+  for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    const JointBounds& bounds = memory.bounds(walked.nodes[at], t_from, t_to);
+    beyond += place.lever;
+    if (joints_[k]->rest() != nullptr) {
+      beyond += place.step;
+      continue;
+    }
+    const JointBounds& bounds = memory.bounds(walked.nodes[at], *joints_[k], t_from, t_to);
     const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
     const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
                                                          (arm.norm() + part.centre.norm());
-    beyond += place.lever;
     const double rho = std::min(arm.cross(place.axis).norm() + error + reach + v * T, beyond) * kUp;
-    const double turning = std::hypot(w2, w1 * w1) * kUp;
+    const double turning = length_of(w2, w1 * w1);
     j = bounds.pivot.jerk + j + 3.0 * w1 * a + 3.0 * turning * v +
-        std::hypot(w3 + w1 * w1 * w1, 3.0 * w1 * w2) * kUp * rho;
+        length_of(w3 + w1 * w1 * w1, 3.0 * w1 * w2) * rho;
     a = bounds.pivot.acceleration + a + 2.0 * w1 * v + turning * rho;
     v = bounds.pivot.rate + v + w1 * rho;
     beyond += place.step + bounds.pivot.rate * T;
@@ -135,9 +147,11 @@ LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const Link
   const Vector3d centre = swept.pose.p_OL + offset;
   const double far = detail::rough_size(offset);
   const double reach = part.reach();
-  for (std::size_t at = walked.last; at != 0; at = walked.nodes[at].parent) {
+  std::size_t at = walked.last;
+  for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    const JointBounds& bounds = detail::ChainMemory::bounds(walked.nodes[at], t_from, t_to);
+    const JointBounds& bounds =
+        detail::ChainMemory::bounds(walked.nodes[at], *joints_[k], t_from, t_to);
     if (bounds.angle.rate != 0.0) {
       const Vector3d arm = centre - place.p_OQ;
       const double error =
@@ -165,7 +179,7 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    const JointBounds& bounds = memory.bounds(walked.nodes[at], t_from, t_to);
+    const JointBounds& bounds = memory.bounds(walked.nodes[at], *joints_[k], t_from, t_to);
     const Vector3d arm = centre - place.p_OQ;
     const double error =
         2.0 * pose.position_error +
@@ -191,8 +205,16 @@ double LinkWindow::support(const LinkPart& part, const Vector3d& n, const Vector
 }
 
 DirectedBound LinkWindow::displacement(const LinkPart& part, const Vector3d& n) const {
-  const double T = std::max(t_to_ - t_, 0.0);
-  const double speed = support(part, n, velocity_, spin_) + speed_error_;
+  return displacement(part, n, 1.0, t_to_ - t_);
+}
+
+DirectedBound LinkWindow::displacement_back(const LinkPart& part, const Vector3d& n) const {
+  return displacement(part, n, -1.0, t_ - t_from_);
+}
+
+DirectedBound LinkWindow::displacement(const LinkPart& part, const Vector3d& n, double direction,
+                                       double T) const {
+  const double speed = support(part, n, direction * velocity_, direction * spin_) + speed_error_;
   const double acceleration = support(part, n, acceleration_, spin_rate_) + acceleration_error_ +
                               kUp * bounds_.jerk * T / 3.0;
   return {std::min(speed, bounds_.rate), std::min(acceleration, bounds_.acceleration)};

@@ -82,11 +82,18 @@ class FIRSTCONTACT_API LinkWindow {
   /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
   [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n) const;
 
+  /// The same from t back to t_from(): what holds for the motion in reverse.
+  [[nodiscard]] DirectedBound displacement_back(const LinkPart& part,
+                                                const Eigen::Vector3d& n) const;
+
   /// [m per step]  The velocity of every point of the part along n, at every time of the window.
   [[nodiscard]] double speed_bound(const LinkPart& part, const Eigen::Vector3d& n) const;
 
  private:
   friend class LinkPath;
+
+  [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n,
+                                           double direction, double T) const;
 
   /// The greatest n . (linear + angular e) over the part's offsets e from the link's origin.
   [[nodiscard]] double support(const LinkPart& part, const Eigen::Vector3d& n,

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
+#include <vector>
+
+#include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {
 namespace {
@@ -27,7 +31,40 @@ struct RobotModel::Data {
   std::vector<std::optional<std::size_t>> parent_joint;  // Of each link.
   std::vector<std::size_t> depth;                        // Of each link: joints above it.
   std::size_t root = 0;
+  std::vector<std::size_t> rigid_root;                  // Of each link.
+  std::vector<PreciseTransform> from_rigid_root;        // Of each link.
+  std::vector<std::shared_ptr<const JointPath>> tails;  // Of each link.
+  std::vector<detail::JointFrame> frames;               // Of each joint.
+
+  void lay_out();
 };
+
+/// Links rigid to each other are one, in the frame of the first of them.
+void RobotModel::Data::lay_out() {
+  const std::size_t count = description.links.size();
+  rigid_root.resize(count);
+  from_rigid_root.resize(count);
+  tails.resize(count);
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return depth[a] < depth[b]; });
+  for (const std::size_t link : order) {
+    const std::optional<std::size_t> joint = parent_joint[link];
+    rigid_root[link] = link;
+    if (joint && description.joints[*joint].type == JointType::fixed) {
+      const std::size_t parent = parent_link[*joint];
+      rigid_root[link] = rigid_root[parent];
+      from_rigid_root[link] = from_rigid_root[parent] * precise(description.joints[*joint].X_PJ);
+      tails[link] = std::make_shared<const JointPath>(JointPath::rigid(from_rigid_root[link]));
+    }
+  }
+  for (std::size_t j = 0; j < description.joints.size(); ++j) {
+    const Joint& joint = description.joints[j];
+    frames.push_back(
+        detail::joint_frame(joint, from_rigid_root[parent_link[j]] * precise(joint.X_PJ)));
+  }
+}
 
 RobotModel::RobotModel(RobotDescription description) {
   if (const std::optional<RobotDefect> defect = find_defect(description)) {
@@ -55,6 +92,8 @@ RobotModel::RobotModel(RobotDescription description) {
     data->root = link;
   }
   data->description = std::move(description);
+  const FloatEnvironmentGuard guard;
+  data->lay_out();
   data_ = std::move(data);
 }
 
@@ -86,19 +125,18 @@ bool RobotModel::are_adjacent(std::size_t link, std::size_t other) const {
   return hangs_on(link, other) || hangs_on(other, link);
 }
 
-std::size_t RobotModel::rigid_root(std::size_t link) const {
-  while (parent_joint(link) && joints()[*parent_joint(link)].type == JointType::fixed) {
-    link = parent_link(*parent_joint(link));
-  }
-  return link;
+std::size_t RobotModel::rigid_root(std::size_t link) const { return data_->rigid_root[link]; }
+
+const PreciseTransform& RobotModel::from_rigid_root(std::size_t link) const {
+  return data_->from_rigid_root[link];
 }
 
-PreciseTransform RobotModel::from_rigid_root(std::size_t link) const {
-  PreciseTransform X;
-  for (const std::size_t joint : chain(rigid_root(link), link)) {
-    X = X * precise(joints()[joint].X_PJ);
-  }
-  return X;
+const detail::JointFrame& RobotModel::frame(std::size_t joint) const {
+  return data_->frames[joint];
+}
+
+const std::shared_ptr<const JointPath>& RobotModel::tail(std::size_t link) const {
+  return data_->tails[link];
 }
 
 std::vector<std::size_t> RobotModel::chain(std::size_t ancestor, std::size_t link) const {

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include <firstcontact/articulated/detail/joint_frame.h>
+#include <firstcontact/articulated/joint_path.h>
 #include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/math/export.h>
@@ -45,7 +47,13 @@ class FIRSTCONTACT_API RobotModel {
   [[nodiscard]] std::size_t rigid_root(std::size_t link) const;
 
   /// X_RL, with R the frame of rigid_root(link).
-  [[nodiscard]] PreciseTransform from_rigid_root(std::size_t link) const;
+  [[nodiscard]] const PreciseTransform& from_rigid_root(std::size_t link) const;
+
+  /// Of a joint: what all motions of the robot share.
+  [[nodiscard]] const detail::JointFrame& frame(std::size_t joint) const;
+
+  /// X_RL as a joint that does not move; null where the two are one.
+  [[nodiscard]] const std::shared_ptr<const JointPath>& tail(std::size_t link) const;
 
   /// The joints from a link down to one that hangs on it, in that order; empty if they are one.
   ///

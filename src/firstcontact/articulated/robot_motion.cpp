@@ -61,23 +61,6 @@ void require_match(const Joint& joint, const JointMotion& motion) {
   }
 }
 
-/// A planar joint's x and y direction: those of J, turned by the shortest rotation from z to n.
-std::array<DoubleDoubleVector3, 2> planar_directions(const DoubleDoubleVector3& n) {
-  const DoubleDoubleVector3 x(1.0, 0.0, 0.0);
-  const DoubleDoubleVector3 y(0.0, 1.0, 0.0);
-  const DoubleDouble across = n.c[0] * n.c[0] + n.c[1] * n.c[1];
-  if (across.hi == 0.0) {
-    return {x, n.c[2].hi > 0.0 ? y : DoubleDouble(-1.0) * y};
-  }
-  // R e = e - (n . e) / (1 + n_z) (z + n) for e across z, with 1 + n_z = across / (1 - n_z) where
-  // the sum would cancel.
-  const DoubleDouble sum =
-      n.c[2].hi > 0.0 ? DoubleDouble(1.0) + n.c[2] : across / (DoubleDouble(1.0) - n.c[2]);
-  const DoubleDoubleVector3 z_n = DoubleDoubleVector3(0.0, 0.0, 1.0) + n;
-  const DoubleDoubleVector3 halfway{z_n.c[0], z_n.c[1], sum};
-  return {x - (n.c[0] / sum) * halfway, y - (n.c[1] / sum) * halfway};
-}
-
 const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, double t_end) {
   const auto holds = [&](const CoordinateSegment& s) {
     return s.t_begin <= t_begin && t_end <= s.t_end;
@@ -114,43 +97,28 @@ std::size_t piece_of(const Motion& motion, double t_begin) {
 }
 
 /// A joint that moves, over one piece of its own.
-///
-/// @param X_RJ  its frame J in that of the link that moves before it
 JointPath path_of(const RobotModel& model, const std::vector<AnyMotion>& motions, std::size_t index,
-                  const PreciseTransform& X_RJ, double t_begin, double t_end) {
+                  double t_begin, double t_end) {
+  const detail::JointFrame& frame = model.frame(index);
   const Joint& joint = model.joints()[index];
-  const DoubleDoubleVector3 axis = precise_direction(joint.axis);
-  const PreciseTransform rest;
-  switch (joint.type) {
-    case JointType::fixed:
-      break;
-    case JointType::revolute:
-    case JointType::continuous:
-      return JointPath::polynomial(X_RJ, axis, coordinate(model, motions, index, t_begin, t_end),
-                                   {}, rest);
-    case JointType::prismatic:
-      return JointPath::polynomial(
-          X_RJ, axis, {}, {{axis, coordinate(model, motions, index, t_begin, t_end)}}, rest);
-    case JointType::screw: {
-      const CoordinateSegment q = coordinate(model, motions, index, t_begin, t_end);
-      return JointPath::polynomial(X_RJ, axis, q, {{axis, q.mimicked(joint.pitch, 0.0)}}, rest);
-    }
-    case JointType::planar: {
-      const auto& path = std::get<PlanarPath>(motions[index]);
-      const auto [x, y] = planar_directions(axis);
-      return JointPath::polynomial(
-          X_RJ, axis, segment_of(path[2], t_begin, t_end),
-          {{x, segment_of(path[0], t_begin, t_end)}, {y, segment_of(path[1], t_begin, t_end)}},
-          rest);
-    }
-    case JointType::floating:
-    case JointType::ball: {
-      const auto& motion = std::get<Motion>(motions[index]);
-      return JointPath::of_motion(X_RJ,
-                                  motion.path(piece_of(motion, t_begin), Eigen::Vector3d::Zero()));
-    }
+  if (const auto* motion = std::get_if<Motion>(&motions[index])) {
+    return JointPath::of_motion(frame.X_RJ,
+                                motion->path(piece_of(*motion, t_begin), Eigen::Vector3d::Zero()));
   }
-  return JointPath::rigid(X_RJ);
+  if (const auto* path = std::get_if<PlanarPath>(&motions[index])) {
+    const std::array<CoordinateSegment, 2> slides = {segment_of((*path)[0], t_begin, t_end),
+                                                     segment_of((*path)[1], t_begin, t_end)};
+    return frame.path->moved(segment_of((*path)[2], t_begin, t_end), slides);
+  }
+  const CoordinateSegment q = coordinate(model, motions, index, t_begin, t_end);
+  if (joint.type == JointType::prismatic) {
+    return frame.path->moved({}, {&q, 1});
+  }
+  if (joint.type == JointType::screw) {
+    const CoordinateSegment slide = q.mimicked(joint.pitch, 0.0);
+    return frame.path->moved(q, {&slide, 1});
+  }
+  return frame.path->moved(q, {});
 }
 
 /// Refuses coordinates that run so far between what was given, or by a mimic's multiplier, that
@@ -258,12 +226,10 @@ Pieces pieces_of(const RobotModel& model, const std::vector<AnyMotion>& motions,
   } else {
     std::visit([&](const auto& kind) { add_breaks(breaks, kind); }, motions[joint]);
   }
-  const PreciseTransform X_RJ =
-      model.from_rigid_root(model.parent_link(joint)) * precise(model.joints()[joint].X_PJ);
   Pieces pieces;
   for (auto begin = breaks.begin(); std::next(begin) != breaks.end(); ++begin) {
     const double t_end = *std::next(begin);
-    pieces.add(t_end, path_of(model, motions, joint, X_RJ, *begin, t_end));
+    pieces.add(t_end, path_of(model, motions, joint, *begin, t_end));
   }
   return pieces;
 }
@@ -285,8 +251,7 @@ struct RobotMotion::Data {
   std::vector<AnyMotion> motions;
   Motion base = Motion::fixed();
   Pieces base_pieces;
-  std::vector<Pieces> joint_pieces;                     // Empty for fixed joints.
-  std::vector<std::shared_ptr<const JointPath>> tails;  // Of links behind fixed joints, else null.
+  std::vector<Pieces> joint_pieces;  // Empty for fixed joints.
   std::vector<double> breaks;
 };
 
@@ -329,12 +294,6 @@ RobotMotion::RobotMotion(RobotModel model, const std::map<std::string, JointMoti
     const bool moves = model_.joints()[j].type != JointType::fixed;
     data->joint_pieces.push_back(moves ? pieces_of(model_, data->motions, j) : Pieces{});
     breaks.insert(data->joint_pieces.back().ends.begin(), data->joint_pieces.back().ends.end());
-  }
-  for (std::size_t link = 0; link < model_.links().size(); ++link) {
-    const bool is_root = model_.rigid_root(link) == link;
-    data->tails.push_back(is_root ? nullptr
-                                  : std::make_shared<const JointPath>(
-                                        JointPath::rigid(model_.from_rigid_root(link))));
   }
   data->breaks.assign(breaks.begin(), breaks.end());
   data_ = std::move(data);
@@ -402,7 +361,7 @@ LinkPath RobotMotion::along(std::size_t frame, std::size_t link, double t, bool 
   joints.reserve(chain.size() + 2);
   if (from_world) {
     add(data_->base_pieces);
-  } else if (data_->tails[frame] && !chain.empty()) {
+  } else if (model_.tail(frame) && !chain.empty()) {
     // Paths of joints start where the last joint before them moved.
     joints.push_back(std::make_shared<const JointPath>(
         JointPath::rigid(inverse(model_.from_rigid_root(frame)))));
@@ -412,8 +371,8 @@ LinkPath RobotMotion::along(std::size_t frame, std::size_t link, double t, bool 
       add(data_->joint_pieces[joint]);
     }
   }
-  if (data_->tails[link] && (from_world || !chain.empty())) {
-    joints.push_back(data_->tails[link]);
+  if (model_.tail(link) && (from_world || !chain.empty())) {
+    joints.push_back(model_.tail(link));
   }
   return {t_begin, t_end, std::move(joints)};
 }

@@ -85,6 +85,12 @@ void RobotScene::require_member(std::size_t member) const {
   }
 }
 
+void RobotScene::require_robot(std::size_t robot) const {
+  if (robot >= robots_.size()) {
+    refuse("there is no robot " + std::to_string(robot));
+  }
+}
+
 void RobotScene::require_new(const std::string& name) const {
   if (name.empty()) {
     refuse("a name is empty");
@@ -143,6 +149,18 @@ std::size_t RobotScene::add_robot(std::string name, RobotMotion motion,
   std::vector<TrackingError> errors(model.joints().size());
   robots_.push_back({std::move(name), std::move(motion), first, std::move(errors)});
   return robots_.size() - 1;
+}
+
+void RobotScene::set_motion(std::size_t robot, RobotMotion motion) {
+  require_robot(robot);
+  // Copies of a model share their links.
+  if (motion.model().links().data() != robots_[robot].motion.model().links().data()) {
+    refuse("robot '" + robots_[robot].name + "' is another model than that of its new motion");
+  }
+  robots_[robot].motion = std::move(motion);
+  for (const Attachment& attachment : attachments_) {
+    divide_into_stretches(attachment.body);
+  }
 }
 
 void RobotScene::attach(Attachment attachment) {
@@ -218,9 +236,7 @@ void RobotScene::set_padding(std::size_t member, double padding) {
 
 void RobotScene::set_tracking_error(std::size_t robot, std::string_view joint,
                                     const TrackingError& error) {
-  if (robot >= robots_.size()) {
-    refuse("there is no robot " + std::to_string(robot));
-  }
+  require_robot(robot);
   Robot& changed = robots_[robot];
   const RobotModel& model = changed.motion.model();
   const std::optional<std::size_t> index = model.find_joint(joint);

@@ -94,6 +94,10 @@ class FIRSTCONTACT_API RobotScene {
   std::size_t add_robot(std::string name, RobotMotion motion,
                         std::span<const DisabledPair> disabled = {});
 
+  /// Another motion of the same robot; all else stays as it is said. Of bodies that it carries the
+  /// places are taken anew.
+  void set_motion(std::size_t robot, RobotMotion motion);
+
   /// A body may be attached several times, one after the other.
   void attach(Attachment attachment);
 
@@ -175,6 +179,7 @@ class FIRSTCONTACT_API RobotScene {
   };
 
   void require_member(std::size_t member) const;
+  void require_robot(std::size_t robot) const;
   void require_new(const std::string& name) const;
   void divide_into_stretches(std::size_t body);
 

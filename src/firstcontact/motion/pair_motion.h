@@ -26,6 +26,11 @@ class FIRSTCONTACT_API PairMotion {
   /// faster during the piece.
   [[nodiscard]] virtual double speed_bound(double radius_A, double radius_B) const = 0;
 
+  /// [-]  Boxes are not placed anew for less motion than this part of the shapes' size: a bound
+  /// from a little earlier loses only what is of second order in time. The more where a state is
+  /// dear.
+  [[nodiscard]] virtual double boxes_window() const { return 0x1p-9; }
+
   /// [m]  A's point C in the frame of the motions, where points are reported.
   [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;
 

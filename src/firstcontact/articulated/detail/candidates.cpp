@@ -11,10 +11,7 @@ namespace {
 constexpr double kUp = 1.0 + 0x1p-40;
 
 /// Halvings of a piece. More cost more places of links than they spare searches.
-constexpr int kDepth = 3;
-
-/// [-]  Of the sweeps of both balls: halved, they have to be enough for the other pairs.
-constexpr double kSweepThatHelps = 1.0;
+constexpr int kDepth = 4;
 
 /// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
 constexpr double kLooseError = 0.05;
@@ -24,16 +21,21 @@ constexpr int kErrorDepth = 8;
 struct Question {
   std::size_t pair = 0;
   std::array<std::size_t, 2> parts = {};
+  std::optional<std::size_t> paths = {};         // Where they are remembered.
+  Eigen::Vector3d n = Eigen::Vector3d::UnitX();  // Between the two, found last.
+  double middle = 0.0;                           // [m]  Gap at the middle of the window.
+  bool apart = false;                            // Beyond the threshold there.
 };
 
 class Search {
  public:
   Search(const RobotTimeline& timeline, std::size_t piece,
-         const std::vector<std::optional<SweptBall>>& resting, LinkScratch& scratch)
+         const std::vector<std::optional<SweptPart>>& resting, LinkScratch& scratch)
       : timeline_(timeline),
         piece_(piece),
         scratch_(scratch),
-        balls_(resting),
+        resting_(resting),
+        swept_(resting.size()),
         paths_(resting.size()) {}
 
   std::vector<PartCandidate> run(const std::vector<Question>& questions) {
@@ -54,50 +56,87 @@ class Search {
   }
 
  private:
-  const SweptBall& ball(std::size_t part, const TimeWindow& window) {
-    std::optional<SweptBall>& ball = balls_[part];
-    if (!ball) {
+  const SweptPart& swept(std::size_t part, const TimeWindow& window) {
+    if (resting_[part]) {
+      return *resting_[part];
+    }
+    std::optional<SweptPart>& swept = swept_[part];
+    if (!swept) {
       std::optional<PartPath>& path = paths_[part];
       if (!path) {
         path = timeline_.path(part, 0.5 * (window.begin + window.end));
       }
-      ball = swept_ball(timeline_.parts()[part].ball, *path, window, scratch_);
+      swept = sweep(timeline_.parts()[part], *path, window, scratch_);
       placed_.push_back(part);
     }
-    return *ball;
+    return *swept;
   }
 
-  void forget_balls() {
+  void forget_swept() {
     for (const std::size_t part : placed_) {
-      balls_[part].reset();
+      swept_[part].reset();
     }
     placed_.clear();
   }
 
   void narrow(const TimeWindow& window, std::span<const Question> questions, int depth) {
     std::vector<Question> open;
-    for (const Question& question : questions) {
-      const SweptBall& a = ball(question.parts[0], window);
-      const SweptBall& b = ball(question.parts[1], window);
-      const double threshold = timeline_.pairs()[question.pair].margin;
-      const double missing =
-          (threshold + a.tracking_error + b.tracking_error) * kUp - gap_bound(a, b);
-      if (missing < 0.0) {
-        continue;
+    for (Question question : questions) {
+      const double margin = timeline_.pairs()[question.pair].margin;
+      const auto is_far = [&](const SweptGap& gap, double threshold) {
+        question.n = gap.n;
+        question.middle = gap.middle;
+        question.apart = gap.middle > threshold;
+        return gap.bound > threshold;
+      };
+      const bool own_frame = timeline_.share_frame(question.parts[0], question.parts[1]);
+      if (depth == 0 || !own_frame) {
+        const SweptPart& a = swept(question.parts[0], window);
+        const SweptPart& b = swept(question.parts[1], window);
+        const double threshold = (margin + a.tracking_error + b.tracking_error) * kUp;
+        if (is_far(gap_of_boxes(a, b, window, threshold), threshold) ||
+            (!own_frame && is_far(gap_of_hulls(a, b, window, threshold, question.n), threshold))) {
+          continue;
+        }
       }
-      // Shorter windows help where the balls are apart but for their sweeps.
-      if (depth < kDepth && missing < kSweepThatHelps * (a.sweep + b.sweep)) {
+      if (own_frame) {
+        const PairPaths& paths = paths_of(question, window);
+        const SweptPart a = sweep(part(question, 0), paths.A, window, scratch_);
+        const SweptPart b = sweep(part(question, 1), paths.B, window, scratch_);
+        const double threshold = (margin + a.tracking_error + b.tracking_error) * kUp;
+        if (is_far(gap_of_boxes(a, b, window, threshold), threshold) ||
+            is_far(gap_of_hulls(a, b, window, threshold, question.n), threshold)) {
+          continue;
+        }
+      }
+      // Shorter windows help where the parts are apart at the middle of this one.
+      if (depth < kDepth && question.apart) {
         open.push_back(question);
       } else {
-        found_.push_back({window, piece_, question.pair, question.parts, 0.0});
+        found_.push_back(
+            {window, piece_, question.pair, question.parts, 0.0, question.middle - margin});
       }
     }
-    forget_balls();
+    forget_swept();
     if (!open.empty()) {
       const double middle = 0.5 * (window.begin + window.end);
       narrow({window.begin, middle}, open, depth + 1);
       narrow({middle, window.end}, open, depth + 1);
     }
+  }
+
+  [[nodiscard]] const Part& part(const Question& question, std::size_t which) const {
+    return timeline_.parts()[question.parts[which]];
+  }
+
+  /// In the frame that both parts share, over the piece.
+  const PairPaths& paths_of(Question& question, const TimeWindow& window) {
+    if (!question.paths) {
+      question.paths = pair_paths_.size();
+      pair_paths_.push_back(
+          timeline_.paths(question.parts[0], question.parts[1], 0.5 * (window.begin + window.end)));
+    }
+    return pair_paths_[*question.paths];
   }
 
   void join_windows() {
@@ -113,6 +152,7 @@ class Search {
                            joined.back().window.end == c.window.begin;
       if (follows) {
         joined.back().window.end = c.window.end;
+        joined.back().gap = std::min(joined.back().gap, c.gap);
       } else {
         joined.push_back(c);
       }
@@ -122,7 +162,7 @@ class Search {
 
   /// Windows so short that the bound of tracking errors is tight.
   void add_thresholds(const PartCandidate& candidate, int depth) {
-    const auto& [window, piece, pair, parts, unused] = candidate;
+    const auto& [window, piece, pair, parts, unused, gap] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
     const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
     const auto error_over = [&, &parts = candidate.parts](const TimeWindow& part) {
@@ -132,18 +172,20 @@ class Search {
     };
     const double error = error_over(window);
     if (depth < kErrorDepth && error > (1.0 + kLooseError) * error_over({middle, middle})) {
-      add_thresholds({{window.begin, middle}, piece, pair, parts, 0.0}, depth + 1);
-      add_thresholds({{middle, window.end}, piece, pair, parts, 0.0}, depth + 1);
+      add_thresholds({{window.begin, middle}, piece, pair, parts, 0.0, gap}, depth + 1);
+      add_thresholds({{middle, window.end}, piece, pair, parts, 0.0, gap}, depth + 1);
       return;
     }
-    found_.push_back({window, piece, pair, parts, timeline_.pairs()[pair].margin + error});
+    found_.push_back({window, piece, pair, parts, timeline_.pairs()[pair].margin + error, gap});
   }
 
   const RobotTimeline& timeline_;
   std::size_t piece_;
   LinkScratch& scratch_;
-  std::vector<std::optional<SweptBall>> balls_;
+  const std::vector<std::optional<SweptPart>>& resting_;
+  std::vector<std::optional<SweptPart>> swept_;
   std::vector<std::optional<PartPath>> paths_;  // Of the piece.
+  std::vector<PairPaths> pair_paths_;           // Of the piece.
   std::vector<std::size_t> placed_;
   std::vector<PartCandidate> found_;
 };
@@ -173,8 +215,7 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   LinkScratch scratch;
   for (std::size_t part = 0; part < resting_.size(); ++part) {
     if (timeline.parts()[part].rests) {
-      resting_[part] =
-          swept_ball(timeline.parts()[part].ball, timeline.path(part, 0.5), {0.0, 1.0}, scratch);
+      resting_[part] = sweep(timeline.parts()[part], timeline.path(part, 0.5), {0.0, 1.0}, scratch);
     }
   }
 }
@@ -192,7 +233,7 @@ std::vector<PartCandidate> CandidateSearch::find(std::size_t piece,
     for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
       for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
            ++b) {
-        questions.push_back({k, {a, b}});
+        questions.push_back({.pair = k, .parts = {a, b}});
       }
     }
   }

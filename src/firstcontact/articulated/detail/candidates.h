@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/articulated/detail/swept_part.h>
 #include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact::detail {
@@ -23,12 +25,14 @@ struct PartCandidate {
   std::size_t pair = 0;                   ///< Index among the tested pairs.
   std::array<std::size_t, 2> parts = {};  ///< Of its members, in their order.
   double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
+  double gap = 0.0;        ///< [m]  A bound of how far apart they are at some time of the window.
 
-  /// Least time first.
+  /// By pieces; in each the nearest first, whose contact may spare the search for others.
   friend bool operator<(const PartCandidate& x, const PartCandidate& y) {
-    return x.window.begin != y.window.begin ? x.window.begin < y.window.begin
-           : x.pair != y.pair               ? x.pair < y.pair
-                                            : x.parts < y.parts;
+    const auto key = [](const PartCandidate& c) {
+      return std::tuple(c.piece, c.gap, c.window.begin, c.pair, c.parts);
+    };
+    return key(x) < key(y);
   }
 };
 
@@ -61,7 +65,7 @@ class CandidateSearch {
 
  private:
   const RobotTimeline& timeline_;
-  std::vector<std::optional<SweptBall>> resting_;  // Of each part that rests.
+  std::vector<std::optional<SweptPart>> resting_;  // Of each part that rests.
 };
 
 }  // namespace firstcontact::detail

@@ -1,6 +1,7 @@
 #include <firstcontact/articulated/detail/chain_walk.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace firstcontact::detail {
 namespace {
@@ -31,6 +32,27 @@ PassedJoint pass(const JointState& joint, bool is_first, const DoubleDoubleVecto
   return passed;
 }
 
+/// The same of a joint that rests: one step, and the axes after it.
+PassedJoint pass_rest(const JointState& joint, bool is_first, const DoubleDoubleVector3& p_FO,
+                      ChainWalk& walk) {
+  const Vector3d step = step_to(joint, is_first, p_FO) + joint.p_QL;
+  walk.position_error +=
+      joint.position_error +
+      0x1p-90 * (rough_size(joint.p_PQ.value()) + (is_first ? rough_size(p_FO.value()) : 0.0));
+  walk.move(walk.R * step);
+  walk.R = (walk.R * joint.R_PL).eval();
+  walk.rotation_error += kRotationStep + joint.angle_error;
+  ++walk.joints;
+  return {walk.p, Vector3d::Zero(), step.norm(), 0.0, walk.p};
+}
+
+PassedJoint pass(const JointPath& joint, double t, bool is_first, const DoubleDoubleVector3& p_FO,
+                 ChainWalk& walk) {
+  const JointState* rest = joint.rest();
+  return rest != nullptr ? pass_rest(*rest, is_first, p_FO, walk)
+                         : pass(joint.state(t), is_first, p_FO, walk);
+}
+
 ChainWalk start_at(const DoubleDoubleVector3& p_FO, bool has_joints) {
   ChainWalk walk;
   if (!has_joints) {
@@ -50,7 +72,7 @@ bool equal(const DoubleDoubleVector3& a, const DoubleDoubleVector3& b) {
 ChainWalk walk_along(Joints joints, double t, const DoubleDoubleVector3& p_FO) {
   ChainWalk walk = start_at(p_FO, !joints.empty());
   for (const std::shared_ptr<const JointPath>& joint : joints) {
-    pass(joint->state(t), walk.joints == 0, p_FO, walk);
+    pass(*joint, t, walk.joints == 0, p_FO, walk);
   }
   return walk;
 }
@@ -65,38 +87,51 @@ ChainMemory::Instant& ChainMemory::instant(double t, const DoubleDoubleVector3& 
   next_instant_ = (next_instant_ + 1) % kInstants;
   fresh.t = t;
   fresh.p_FO = p_FO;
-  fresh.nodes.assign(1, Node{});
+  fresh.nodes.resize(std::max<std::size_t>(fresh.nodes.size(), 1));
+  fresh.nodes[0].first_child = 0;
+  fresh.used = 1;
   return fresh;
 }
 
+std::size_t ChainMemory::Instant::add_child(std::size_t parent) {
+  if (used == nodes.size()) {
+    nodes.resize(2 * used + 14);
+  }
+  Node& node = nodes[used];
+  node.parent = parent;
+  node.first_child = 0;
+  node.next_sibling = nodes[parent].first_child;
+  node.t_from = node.t_to = std::numeric_limits<double>::quiet_NaN();
+  return nodes[parent].first_child = used++;
+}
+
 ChainMemory::Walked ChainMemory::walk(Joints joints, double t, const DoubleDoubleVector3& p_FO) {
-  std::vector<Node>& nodes = instant(t, p_FO).nodes;
+  Instant& now = instant(t, p_FO);
+  std::vector<Node>& nodes = now.nodes;
   nodes[0].walk = start_at(p_FO, !joints.empty());
   std::size_t at = 0;
   for (const std::shared_ptr<const JointPath>& joint : joints) {
     std::size_t child = nodes[at].first_child;
-    while (child != 0 && nodes[child].joint != joint) {
+    while (child != 0 && nodes[child].joint != joint->id()) {
       child = nodes[child].next_sibling;
     }
     if (child == 0) {
-      child = nodes.size();
-      Node node;
-      node.joint = joint;
-      node.parent = at;
-      node.next_sibling = nodes[at].first_child;
+      child = now.add_child(at);
+      Node& node = nodes[child];
+      node.joint = joint->id();
       node.walk = nodes[at].walk;
-      node.passed = pass(joint->state(t), at == 0, p_FO, node.walk);
-      nodes[at].first_child = child;
-      nodes.push_back(std::move(node));
+      node.passed = pass(*joint, t, at == 0, p_FO, node.walk);
     }
     at = child;
   }
   return {nodes, at};
 }
 
-const JointBounds& ChainMemory::bounds(const Node& node, double t_from, double t_to) {
+const JointBounds& ChainMemory::bounds(const Node& node, const JointPath& joint, double t_from,
+                                       double t_to) {
+  assert(node.joint == joint.id());
   if (!(node.t_from == t_from && node.t_to == t_to)) {
-    node.bounds = node.joint->bounds(t_from, t_to);
+    node.bounds = joint.bounds(t_from, t_to);
     node.t_from = t_from;
     node.t_to = t_to;
   }

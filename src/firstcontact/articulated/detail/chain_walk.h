@@ -148,11 +148,11 @@ using Joints = std::span<const std::shared_ptr<const JointPath>>;
 [[nodiscard]] ChainWalk walk_along(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
 /// Remembers the last walks: the links of a robot share the joints before them, and pairs of them
-/// the times at which they are asked about. Joints that it remembers stay alive.
+/// the times at which they are asked about.
 class ChainMemory {
  public:
   struct Node {
-    std::shared_ptr<const JointPath> joint;
+    std::uint64_t joint = 0;  ///< Its path's id.
     std::size_t parent = 0;
     std::size_t first_child = 0;  ///< 0 for none: the root is no child.
     std::size_t next_sibling = 0;
@@ -176,7 +176,8 @@ class ChainMemory {
   [[nodiscard]] Walked walk(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
   /// Of the joint that leads to a node of the walk.
-  [[nodiscard]] static const JointBounds& bounds(const Node& node, double t_from, double t_to);
+  [[nodiscard]] static const JointBounds& bounds(const Node& node, const JointPath& joint,
+                                                 double t_from, double t_to);
 
  private:
   static constexpr std::size_t kInstants = 32;
@@ -184,7 +185,11 @@ class ChainMemory {
   struct Instant {
     double t = std::numeric_limits<double>::quiet_NaN();
     DoubleDoubleVector3 p_FO;
-    std::vector<Node> nodes;
+    std::vector<Node> nodes;  // Those in use first; the others' memory is kept.
+    std::size_t used = 0;
+
+    /// A node without state; those before it may move.
+    std::size_t add_child(std::size_t parent);
   };
   Instant& instant(double t, const DoubleDoubleVector3& p_FO);
 

@@ -15,6 +15,11 @@ LinkPart ball_around(const Shape& shape) {
   return {.centre = hierarchy.centre, .radius = (hierarchy.radius + shape.radius()) * kUp};
 }
 
+LinkPart box_around(const Shape& shape) {
+  const ShapeBounds& bounds = shape.bounds();
+  return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
+}
+
 /// Of each joint; that of a screw slides, too. Empty if all are zero.
 std::vector<TrackingError> errors_of(const RobotScene& scene, std::size_t robot) {
   std::vector<TrackingError> errors = scene.tracking_errors(robot);
@@ -61,11 +66,26 @@ RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
   find_breaks();
 }
 
+void RobotTimeline::follow_motions() {
+  for (const Attachment& attachment : scene_.attachments()) {
+    for (std::size_t part = first_part_[attachment.body]; part < first_part_[attachment.body + 1];
+         ++part) {
+      seats_[part] = seats_of_body(attachment.body);
+    }
+  }
+  find_breaks();
+}
+
 void RobotTimeline::add_parts(std::size_t member) {
   const std::optional<RobotLink> link = scene_.robot_link(member);
   const auto geometries = scene_.geometries(member);
   for (std::size_t g = 0; g < geometries.size(); ++g) {
-    Part part{member, g, &geometries[g].shape, ball_around(geometries[g].shape)};
+    Part part{member,
+              g,
+              &geometries[g].shape,
+              ball_around(geometries[g].shape),
+              box_around(geometries[g].shape),
+              (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
     if (link) {
       seats_.push_back({seat_on_link(*link, scene_.paths(member)[g], 1.0)});
     } else {
@@ -220,6 +240,13 @@ PartPath RobotTimeline::path(const Seat& seat, double t, std::optional<std::size
 
 PartPath RobotTimeline::path(std::size_t part, double t) const {
   return path(seat(part, t), t, std::nullopt);
+}
+
+bool RobotTimeline::share_frame(std::size_t a, std::size_t b) const {
+  const std::optional<RobotLink>& link = seats_[a].front().link;
+  const std::optional<RobotLink>& other = seats_[b].front().link;
+  return seats_[a].size() == 1 && seats_[b].size() == 1 && link && other &&
+         link->robot == other->robot;
 }
 
 PairPaths RobotTimeline::paths(std::size_t a, std::size_t b, double t) const {

@@ -24,6 +24,8 @@ struct Part {
   std::size_t geometry = 0;  ///< Index among those of the member.
   const Shape* shape = nullptr;
   LinkPart ball;       ///< Around the shape, thickening included, in its frame S.
+  LinkPart box;        ///< So too.
+  double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
   bool rests = false;  ///< Over the whole step.
 };
 
@@ -56,6 +58,9 @@ class RobotTimeline {
  public:
   explicit RobotTimeline(const RobotScene& scene);
 
+  /// Lays out anew what depends on the motions of robots.
+  void follow_motions();
+
   [[nodiscard]] const RobotScene& scene() const { return scene_; }
 
   [[nodiscard]] std::span<const Part> parts() const { return parts_; }
@@ -74,6 +79,9 @@ class RobotTimeline {
 
   /// In the world, over the piece around t.
   [[nodiscard]] PartPath path(std::size_t part, double t) const;
+
+  /// Whether both hang on one robot throughout.
+  [[nodiscard]] bool share_frame(std::size_t a, std::size_t b) const;
 
   /// @param a, b  parts
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;

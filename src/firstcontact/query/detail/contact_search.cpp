@@ -19,10 +19,6 @@ double after(double t, double tau) {
   return error < 0.0 ? std::nextafter(sum, 0.0) : sum;
 }
 
-/// Boxes are not moved for less than this fraction of the shapes' size: a bound from a little
-/// earlier loses only what is of second order in time.
-constexpr double kBoxesWindow = 0x1p-9;
-
 /// Below this ratio of squared lengths the direction between two closest points is worse than the
 /// one that the features define.
 constexpr double kNearlyCoinciding = 0x1p-40;
@@ -52,7 +48,8 @@ class Search {
         steps_before_(work.node_groups + work.steps),
         frame_(pair.box_frame()),
         box_threshold_(box_threshold() + limits.tolerance),
-        boxes_window_(kBoxesWindow * pair.unit() / std::max(pair.speed_bound(), 1e-300)),
+        boxes_window_(pair.motion().boxes_window() * pair.unit() /
+                      std::max(pair.speed_bound(), 1e-300)),
         // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
         tie_window_(0.25 * limits.tolerance / std::max(pair.speed_bound(), 1e-300)) {}
 
