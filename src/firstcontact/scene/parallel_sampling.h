@@ -13,8 +13,8 @@
 
 namespace firstcontact {
 
-/// As sample_gap; distances are the same for every number of processors, proven bounds to their last
-/// digits. A stop leaves samples out.
+/// As sample_gap; distances are the same for every number of processors, proven bounds to their
+/// last digits. A stop leaves samples out.
 [[nodiscard]] FIRSTCONTACT_API std::vector<GapSample> sample_in_parallel(
     const LoadedScene& loaded, std::span<const double> times, const std::stop_token& stop = {});
 
