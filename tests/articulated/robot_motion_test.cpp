@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 #include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/articulated/robot_motion.h>
@@ -93,6 +95,14 @@ TEST(RobotMotion, OneJointMovesNeighboursAgainstEachOtherOnly) {
   EXPECT_EQ(relative.A.at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 0.0);
   EXPECT_EQ(relative.B.at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 0.0);
   EXPECT_GE(motion.link(3).at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 1e3);
+}
+
+TEST(RobotMotion, TellsWhatItWasGiven) {
+  const RobotMotion motion(arm(), {{"shoulder", ramp(0.0, 1.0)}, {"elbow", ramp(0.5, -1.5)}});
+  const std::optional<JointMotion> elbow = motion.given(1);
+  ASSERT_TRUE(elbow && std::holds_alternative<CoordinatePath>(*elbow));
+  EXPECT_EQ(std::get<CoordinatePath>(*elbow).segments()[0].a[1].hi, -2.0);
+  EXPECT_FALSE(motion.given(2)) << "a fixed joint";
 }
 
 TEST(RobotMotion, NamesTheJointThatDoesNotMatch) {
