@@ -99,7 +99,7 @@ function linkMotion(robot: RobotData, link: number) {
   return {
     kind: chain.at(-1)?.type ?? "base",
     atRest: moves.length === 0 && restsOn(robot.base),
-    angle: angle + robot.base.length * (restsOn(robot.base) ? 0 : Math.PI),
+    angle: angle + (restsOn(robot.base) ? 0 : Math.PI * robot.base.length),
   };
 }
 

@@ -123,7 +123,7 @@ function rootsFirst({ links, joints }: RobotData): JointData[] {
 }
 
 /// The joints from the root to a link.
-export function chainTo({ joints }: RobotData, link: number): JointData[] {
-  const joint = joints.find(({ child }) => child === link);
-  return joint ? [...chainTo({ joints } as RobotData, joint.parent), joint] : [];
+export function chainTo(robot: RobotData, link: number): JointData[] {
+  const joint = robot.joints.find(({ child }) => child === link);
+  return joint ? [...chainTo(robot, joint.parent), joint] : [];
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <optional>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include <firstcontact/articulated/precise_transform.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/trajectory.h>
@@ -115,7 +115,7 @@ class RobotPage {
     for (const LinkGeometry& geometry : geometries) {
       try {
         array.push_back(write(geometry));
-      } catch (const ParseError& error) {
+      } catch (const std::exception& error) {  // A file, or a size, that no shape can be made of.
         warnings_.push_back("link " + in_quotes(link) + " is drawn in part: " + error.what());
       }
     }
