@@ -26,7 +26,7 @@ const all = [
   { name: "bunny", question: scene("bunny_plate"), theme: "dark", keys: ["Enter"] },
   { name: "shapes", question: scene("shapes", "--all-pairs"), theme: "light", keys: ["o"] },
   { name: "phone", question: scene("shapes"), theme: "dark", keys: ["Enter"], size: [390, 780] },
-  { name: "puma", question: scene("puma_post"), theme: "light", keys: ["g"], t: 0.43436418 },
+  { name: "puma", question: scene("puma_post"), theme: "light", keys: ["g", "Enter", "f"] },
   {
     name: "panda",
     question: [...shelf, "--closest"],
