@@ -1,6 +1,9 @@
 """Scenes with robots answer as the tool does, and tell more than scenes of bodies."""
 
+import json
 import pickle
+import re
+import subprocess
 
 import firstcontact as fc
 import numpy as np
@@ -102,3 +105,19 @@ def test_gap_is_sampled(swing):
 def test_bodies_have_no_intervals(swing):
     with pytest.raises(ValueError, match="in scenes with robots only"):
         fc.check({"firstcontact": 1, "bodies": swing["bodies"]}, all_contacts_in_time=True)
+
+
+def test_page_is_the_tools(swing, tool, tmp_path):
+    path = tmp_path / "swing.json"
+    path.write_text(fc.load_scene(swing).to_json())
+    subprocess.run([tool, "check", path, "--html", tmp_path / "tool.html"], capture_output=True,
+                   check=False, timeout=300)
+    fc.check(path).save_html(tmp_path / "ours.html")
+
+    def view(name: str) -> dict:
+        text = (tmp_path / name).read_text()
+        return json.loads(re.search(r'application/json">(.*?)</script>', text, re.S)[1])["view"]
+    ours, theirs = view("ours.html"), view("tool.html")
+    assert [link["name"] for link in ours["robots"][0]["links"]] == ["base", "bar", "tip"]
+    for drawn in ("bodies", "robots", "carried", "meshes", "warnings"):
+        assert ours[drawn] == theirs[drawn]
