@@ -91,6 +91,13 @@ class BoxesAtInstant {
       return MovingPair::gap(boxes.pair_.place_A(boxes.state_, a),
                              boxes.pair_.place_B(boxes.state_, b));
     }
+    /// [m]  The same along a unit vector only.
+    [[nodiscard]] double gap_along(const Eigen::Vector3d& n) const {
+      const BoxId a{node_a, static_cast<std::uint32_t>(index / HierarchyNode::kWidth)};
+      const BoxId b{node_b, static_cast<std::uint32_t>(index % HierarchyNode::kWidth)};
+      return MovingPair::gap_along(n, boxes.pair_.place_A(boxes.state_, a),
+                                   boxes.pair_.place_B(boxes.state_, b));
+    }
     [[nodiscard]] BoxPair inside() const {
       return open_lane(boxes.pair_, node_a, node_b, index, (bounds.larger_a >> index & 1u) != 0,
                        (bounds.larger_b >> index & 1u) != 0);

@@ -219,6 +219,10 @@ double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
   return best;
 }
 
+double MovingPair::gap_along(const Vector3d& n, const PlacedBox& a, const PlacedBox& b) {
+  return n.dot(b.centre - a.centre) - extent_along(a, n) - extent_along(b, -n);
+}
+
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
   const std::array<double, 2> units{A_.unit, B_.unit};

@@ -89,6 +89,12 @@ class MovingPair {
   /// negative where none separates.
   [[nodiscard]] static double gap(const PlacedBox& a, const PlacedBox& b);
 
+  /// [m]  The same by one direction.
+  ///
+  /// @param n  [-]  unit, to the last bits
+  [[nodiscard]] static double gap_along(const Eigen::Vector3d& n, const PlacedBox& a,
+                                        const PlacedBox& b);
+
   [[nodiscard]] bool deforms() const { return A_.deforms() || B_.deforms(); }
 
   /// bound_boxes(), or its like for bodies that deform, by what the frame says.
