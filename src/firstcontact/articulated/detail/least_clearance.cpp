@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <optional>
 
 #include <firstcontact/articulated/detail/part_search.h>
@@ -45,12 +45,29 @@ class Descent {
   Descent(const RobotCheckOptions& options, LeastClearance& best)
       : options_(options), tolerance_(kPart * options.tolerance), best_(best) {}
 
+  /// [m]  Half way.
+  double look(PartSearch& search, const TimeWindow& window) {
+    return try_time(search, 0.5 * (window.begin + window.end));
+  }
+
+  /// At a few times, and down from the least of them.
+  void sample(PartSearch& search, const TimeWindow& window) {
+    constexpr int kSamples = 4;
+    const auto at = [&](int k) {
+      return k == kSamples ? window.end : window.begin + (window.end - window.begin) * k / kSamples;
+    };
+    std::array<double, kSamples + 1> distances{};
+    for (int k = 0; k <= kSamples; ++k) {
+      distances[static_cast<std::size_t>(k)] = try_time(search, at(k));
+    }
+    const auto least =
+        static_cast<int>(std::min_element(distances.begin(), distances.end()) - distances.begin());
+    narrow(search, at(std::max(least - 1, 0)), at(least), at(std::min(least + 1, kSamples)));
+  }
+
   /// Proves the piece farther than the best distance less the tolerance, or finds a lesser one.
   void run(PartSearch& search, const TimeWindow& window) {
     double t = window.begin;
-    if (!std::isfinite(best_.distance)) {
-      sample(search, window);
-    }
     while (best_.distance > tolerance_ && best_.reason == UndecidedReason::none) {
       best_.reason = spent(options_.budget);
       if (best_.reason != UndecidedReason::none) {
@@ -84,20 +101,6 @@ class Descent {
     return distance;
   }
 
-  void sample(PartSearch& search, const TimeWindow& window) {
-    constexpr int kSamples = 4;
-    const auto at = [&](int k) {
-      return k == kSamples ? window.end : window.begin + (window.end - window.begin) * k / kSamples;
-    };
-    std::array<double, kSamples + 1> distances{};
-    for (int k = 0; k <= kSamples; ++k) {
-      distances[static_cast<std::size_t>(k)] = try_time(search, at(k));
-    }
-    const auto least =
-        static_cast<int>(std::min_element(distances.begin(), distances.end()) - distances.begin());
-    narrow(search, at(std::max(least - 1, 0)), at(least), at(std::min(least + 1, kSamples)));
-  }
-
   /// Descends from the middle of three times.
   void narrow(PartSearch& search, double left, double middle, double right) {
     constexpr int kSteps = 24;
@@ -126,20 +129,43 @@ class Descent {
 LeastClearance least_clearance_of(const RobotTimeline& timeline, const BallsOfPieces& balls,
                                   std::size_t pair, const RobotCheckOptions& options,
                                   LinkWorkspace& workspace) {
+  constexpr std::size_t kLooks = 8;  // What is near half way is likely to be nearest.
+  const double tolerance = kPart * options.tolerance;
+  const std::vector<Place> places = places_by_distance(timeline, balls, pair);
+  const auto search_of = [&](const Place& place) {
+    return PartSearch(timeline, place.candidate, options, workspace);
+  };
   LeastClearance best;
   Descent descent(options, best);
-  for (const Place& place : places_by_distance(timeline, balls, pair)) {
-    const bool is_known = place.bound >= best.distance - kPart * options.tolerance ||
-                          best.distance <= kPart * options.tolerance;
-    if (is_known || best.reason != UndecidedReason::none) {
+  const Place* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  const std::size_t looks =
+      spent(options.budget) == UndecidedReason::none ? std::min(kLooks, places.size()) : 0;
+  for (std::size_t k = 0; k < looks && places[k].bound < least; ++k) {
+    PartSearch search = search_of(places[k]);
+    const double distance = descent.look(search, places[k].candidate.window);
+    if (distance < least) {
+      least = distance;
+      nearest = &places[k];
+    }
+  }
+  if (nearest != nullptr) {
+    PartSearch search = search_of(*nearest);
+    descent.sample(search, nearest->candidate.window);
+  }
+  double unproven = std::numeric_limits<double>::infinity();  // [m]  Where the budget ended it.
+  for (const Place& place : places) {
+    if (place.bound >= best.distance - tolerance || best.distance <= tolerance) {
       break;
     }
-    PartSearch search(timeline, place.candidate, options, workspace);
+    PartSearch search = search_of(place);
     descent.run(search, place.candidate.window);
+    if (best.reason != UndecidedReason::none) {
+      unproven = place.bound;  // Those that come later are no nearer.
+      break;
+    }
   }
-  best.lower_bound = best.reason == UndecidedReason::none
-                         ? std::max(0.0, best.distance - kPart * options.tolerance)
-                         : 0.0;
+  best.lower_bound = std::max(0.0, std::min(best.distance - tolerance, unproven));
   return best;
 }
 

@@ -18,8 +18,9 @@ using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 
 /// The least distance of a tested pair over all pieces in which it is tested.
 ///
-/// Pieces are taken in the order of what balls say of them. Samples and descent find a distance;
-/// first contact with a margin of it less the tolerance proves it, or finds a lesser one.
+/// Pieces are taken in the order of what balls say of them. Looks half way through the first of
+/// them, samples and descent find a distance; first contact with a margin of it less the tolerance
+/// proves it, or finds a lesser one. Where the budget ends that, what balls say of the rest holds.
 [[nodiscard]] LeastClearance least_clearance_of(const RobotTimeline& timeline,
                                                 const BallsOfPieces& balls, std::size_t pair,
                                                 const RobotCheckOptions& options,
