@@ -82,39 +82,15 @@ class Search {
   void narrow(const TimeWindow& window, std::span<const Question> questions, int depth) {
     std::vector<Question> open;
     for (Question question : questions) {
-      const double margin = timeline_.pairs()[question.pair].margin;
-      const auto is_far = [&](const SweptGap& gap, double threshold) {
-        question.n = gap.n;
-        question.middle = gap.middle;
-        question.apart = gap.middle > threshold;
-        return gap.bound > threshold;
-      };
-      const bool own_frame = timeline_.share_frame(question.parts[0], question.parts[1]);
-      if (depth == 0 || !own_frame) {
-        const SweptPart& a = swept(question.parts[0], window);
-        const SweptPart& b = swept(question.parts[1], window);
-        const double threshold = (margin + a.tracking_error + b.tracking_error) * kUp;
-        if (is_far(gap_of_boxes(a, b, window, threshold), threshold) ||
-            (!own_frame && is_far(gap_of_hulls(a, b, window, threshold, question.n), threshold))) {
-          continue;
-        }
-      }
-      if (own_frame) {
-        const PairPaths& paths = paths_of(question, window);
-        const SweptPart a = sweep(part(question, 0), paths.A, window, scratch_);
-        const SweptPart b = sweep(part(question, 1), paths.B, window, scratch_);
-        const double threshold = (margin + a.tracking_error + b.tracking_error) * kUp;
-        if (is_far(gap_of_boxes(a, b, window, threshold), threshold) ||
-            is_far(gap_of_hulls(a, b, window, threshold, question.n), threshold)) {
-          continue;
-        }
+      if (is_far(question, window, depth)) {
+        continue;
       }
       // Shorter windows help where the parts are apart at the middle of this one.
       if (depth < kDepth && question.apart) {
         open.push_back(question);
       } else {
-        found_.push_back(
-            {window, piece_, question.pair, question.parts, 0.0, question.middle - margin});
+        found_.push_back({window, piece_, question.pair, question.parts, 0.0,
+                          question.middle - timeline_.pairs()[question.pair].margin});
       }
     }
     forget_swept();
@@ -125,8 +101,49 @@ class Search {
     }
   }
 
-  [[nodiscard]] const Part& part(const Question& question, std::size_t which) const {
-    return timeline_.parts()[question.parts[which]];
+  /// Whether the two are proven farther apart than their threshold throughout the window.
+  bool is_far(Question& question, const TimeWindow& window, int depth) {
+    const auto [first, second] = question.parts;
+    if (!timeline_.share_frame(first, second)) {
+      const SweptPart& a = swept(first, window);
+      const SweptPart& b = swept(second, window);
+      return boxes_are_far(question, a, b, window) || hulls_are_far(question, a, b, window);
+    }
+    // In the world all pairs have their places in common. What is not far there may be so in a
+    // frame of its own, in which what moves both has cancelled.
+    if (depth == 0 &&
+        boxes_are_far(question, swept(first, window), swept(second, window), window)) {
+      return true;
+    }
+    const PairPaths& paths = paths_of(question, window);
+    const SweptPart a = sweep(timeline_.parts()[first], paths.A, window, scratch_);
+    const SweptPart b = sweep(timeline_.parts()[second], paths.B, window, scratch_);
+    return boxes_are_far(question, a, b, window) || hulls_are_far(question, a, b, window);
+  }
+
+  bool boxes_are_far(Question& question, const SweptPart& a, const SweptPart& b,
+                     const TimeWindow& window) const {
+    const double threshold = threshold_of(question, a, b);
+    return take(gap_of_boxes(a, b, window, threshold), threshold, question);
+  }
+
+  bool hulls_are_far(Question& question, const SweptPart& a, const SweptPart& b,
+                     const TimeWindow& window) const {
+    const double threshold = threshold_of(question, a, b);
+    return take(gap_of_hulls(a, b, window, threshold, question.n), threshold, question);
+  }
+
+  [[nodiscard]] double threshold_of(const Question& question, const SweptPart& a,
+                                    const SweptPart& b) const {
+    const double margin = timeline_.pairs()[question.pair].margin;
+    return (margin + a.tracking_error + b.tracking_error) * kUp;
+  }
+
+  static bool take(const SweptGap& gap, double threshold, Question& question) {
+    question.n = gap.n;
+    question.middle = gap.middle;
+    question.apart = gap.middle > threshold;
+    return gap.bound > threshold;
   }
 
   /// In the frame that both parts share, over the piece.
