@@ -21,10 +21,10 @@
 
 #include "benchmarks/support/fcl_scene.h"
 #include "benchmarks/support/normalised_mesh.h"
-#include "tests/support/random.h"
 #include "benchmarks/support/random_motion.h"
 #include "benchmarks/support/timing.h"
 #include "benchmarks/support/torus_knot.h"
+#include "tests/support/random.h"
 
 namespace firstcontact::benchmarks {
 namespace {
