@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/articulated/detail/joint_frame.h>
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {

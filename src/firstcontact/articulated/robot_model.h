@@ -11,13 +11,16 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/articulated/detail/joint_frame.h>
 #include <firstcontact/articulated/joint_path.h>
 #include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
+
+namespace detail {
+struct JointFrame;
+}
 
 /// A tree of links. Links and joints are named by their index in the description.
 ///

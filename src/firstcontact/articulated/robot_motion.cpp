@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <firstcontact/articulated/detail/joint_frame.h>
 #include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/sine_cosine.h>
