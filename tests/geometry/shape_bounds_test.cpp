@@ -72,7 +72,8 @@ TEST(ShapeBounds, HoldAllTriangles) {
 }
 
 TEST(ShapeBounds, OfOnePointIsThatPoint) {
-  const ShapeBounds& bounds = make_sphere(0.5).bounds();
+  const Shape sphere = make_sphere(0.5);
+  const ShapeBounds& bounds = sphere.bounds();
   EXPECT_LT(bounds.reach, 1e-12);
   EXPECT_EQ(bounds.corners.rows(), 1);
   expect_holds(make_point_cloud({{1e6, 2.0, -3.0}}), 0);
@@ -95,7 +96,8 @@ TEST(ShapeBounds, OfManyCornersAreThoseOfTheBox) {
 /// Tight.
 TEST(ShapeBounds, OfABoxIsTheBox) {
   const Vector3d size(0.3, 1.2, 5.0);
-  const ShapeBounds& bounds = make_box(size).bounds();
+  const Shape box = make_box(size);
+  const ShapeBounds& bounds = box.bounds();
   EXPECT_TRUE(bounds.half_extents.isApprox(0.5 * size, 1e-13));
   EXPECT_NEAR(bounds.reach, 0.5 * size.norm(), 1e-12);
   EXPECT_EQ(bounds.corners.rows(), 8);

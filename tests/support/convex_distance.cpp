@@ -32,7 +32,10 @@ void offer_face(const std::vector<Vector3d>& face, Nearest& best) {
   if (!weights.allFinite() || (weights.array() < 0.0).any() || weights.sum() > 1.0) {
     return;
   }
-  const Vector3d point = face[0] + edges * weights;
+  Vector3d point = face[0];
+  for (Eigen::Index k = 0; k < count; ++k) {
+    point += weights[k] * edges.col(k);
+  }
   if (point.squaredNorm() < best.point.squaredNorm()) {
     best = {point, face};
   }
