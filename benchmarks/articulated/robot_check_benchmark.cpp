@@ -11,11 +11,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>

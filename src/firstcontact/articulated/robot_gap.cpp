@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <firstcontact/articulated/detail/candidates.h>
 #include <firstcontact/articulated/detail/link_query.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/articulated/detail/swept_ball.h>
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {

@@ -12,11 +12,11 @@
 
 namespace firstcontact {
 
-/// A convex polytope at its place.
+/// A convex polytope at its place, in a frame W that both share.
 struct PlacedPolytope {
   const PointRows& corners;  ///< [m]  From its centre.
-  Eigen::Matrix3d R;
-  Eigen::Vector3d centre;  ///< [m]
+  Eigen::Matrix3d R;         ///< [-]  From its own axes to those of W.
+  Eigen::Vector3d centre;    ///< [m]  In W.
 };
 
 /// How far apart A and B are along n.

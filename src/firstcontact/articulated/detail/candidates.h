@@ -1,5 +1,5 @@
 /// @file
-/// Which parts of a scene may touch in a piece of time, by balls around them.
+/// Which parts of a scene may touch in a piece of time.
 
 #pragma once
 
@@ -35,20 +35,6 @@ struct PartCandidate {
     return key(x) < key(y);
   }
 };
-
-/// A ball around a part wherever it is in a window.
-struct SweptBall {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the world.
-  double radius = 0.0;                               ///< [m]
-  double sweep = 0.0;           ///< [m]  How much of the radius is due to the motion.
-  double tracking_error = 0.0;  ///< [m]  Bounds that of the part; not in the radius.
-};
-
-[[nodiscard]] SweptBall swept_ball(const LinkPart& ball, const PartPath& path,
-                                   const TimeWindow& window, LinkScratch& scratch);
-
-/// [m]  A proven lower bound of the distance of two parts throughout the window; may be negative.
-[[nodiscard]] double gap_bound(const SweptBall& a, const SweptBall& b);
 
 /// Finds the parts that may touch, piece by piece. Thread-safe.
 class CandidateSearch {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/detail/candidates.h>
 #include <firstcontact/articulated/detail/link_query.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/articulated/detail/swept_ball.h>
 
 namespace firstcontact::detail {
 
