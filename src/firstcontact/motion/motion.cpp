@@ -164,6 +164,14 @@ ConstantRateSegment at_rest(const Pose& pose) {
   return s;
 }
 
+/// The segment turns about its body origin; afterwards about Q, which moves as the origin did.
+void move_pivot(ConstantRateSegment& s, const Eigen::Vector3d& p_BQ) {
+  s.p_BQ = DoubleDoubleVector3(p_BQ);
+  s.p_WQ = s.p_WQ + s.p_BQ.c[0] * s.rotation[0] + s.p_BQ.c[1] * s.rotation[1] +
+           s.p_BQ.c[2] * s.rotation[2];
+  s.position_error += kConstructionError * (rounded_length(s.p_WQ) + 4.0 * p_BQ.norm());
+}
+
 ConstantRateSegment constant_velocity_segment(const Pose& start,
                                               const DoubleDoubleVector3& translation,
                                               const AxisAngle& turn) {
@@ -263,6 +271,28 @@ Motion Motion::constant_velocity(const Pose& start, const Eigen::Vector3d& trans
   return {{0.0, 1.0},
           {constant_velocity_segment(start, DoubleDoubleVector3(translation),
                                      axis_angle(rotation_vector))}};
+}
+
+Motion Motion::constant_rates(std::span<const ConstantRatePiece> pieces,
+                              const Eigen::Vector3d& p_BQ) {
+  require(!pieces.empty() && pieces.back().t_end == 1.0,
+          "a motion of constant rates needs at least one piece, and the last one ends at 1");
+  require_coordinates(p_BQ, "p_BQ");
+  std::vector<double> breaks{0.0};
+  std::vector<ConstantRateSegment> segments;
+  for (const ConstantRatePiece& piece : pieces) {
+    require(piece.t_end > breaks.back(), "the ends of a motion's pieces must increase");
+    require_pose(piece.X_WB);
+    require_coordinates(piece.translation, "translation");
+    require(piece.rotation_vector.norm() <= kMaximumAngle,
+            "rotation_vector must be finite and at most 1e8 rad long");
+    ConstantRateSegment s = constant_velocity_segment(
+        piece.X_WB, DoubleDoubleVector3(piece.translation), axis_angle(piece.rotation_vector));
+    move_pivot(s, p_BQ);
+    segments.push_back(pieces.size() == 1 ? s : over(s, breaks.back(), piece.t_end));
+    breaks.push_back(piece.t_end);
+  }
+  return {std::move(breaks), std::move(segments)};
 }
 
 Motion Motion::constant_velocity(const Pose& from, const Pose& to) {

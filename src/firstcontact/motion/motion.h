@@ -21,6 +21,14 @@ enum class Between {
   screw,              ///< One rotation about, and one translation along, one axis.
 };
 
+/// One piece of a motion of constant rates, from the end of the piece before it.
+struct ConstantRatePiece {
+  double t_end = 1.0;                                         ///< [-]  In (0, 1].
+  Pose X_WB;                                                  ///< Where the piece begins.
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]    Of the pivot, world frame.
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World frame; any turns.
+};
+
 /// The motion X_WB(t) of a rigid body over the step, t in [0, 1]. Immutable; cheap to share.
 ///
 /// The motion contract. A motion is a sequence of pieces, each of which is smooth and rigid and
@@ -66,6 +74,15 @@ class FIRSTCONTACT_API Motion {
   /// @param times  [-]  in [0, 1], strictly increasing, as many as poses
   static Motion waypoints(std::span<const double> times, std::span<const Pose> poses,
                           Between between = Between::constant_velocity);
+
+  /// Piece after piece, each with its own translation of a pivot Q of the body and rotation about
+  /// it. What a simulator makes: Q is the centre of mass, and a piece begins at the rounded pose at
+  /// which the one before it ended.
+  ///
+  /// @param pieces  at least one; their ends increase, the last one is 1
+  /// @param p_BQ    [m]
+  static Motion constant_rates(std::span<const ConstantRatePiece> pieces,
+                               const Eigen::Vector3d& p_BQ = Eigen::Vector3d::Zero());
 
   /// 0 = breaks[0] < ... < breaks[n] = 1: the ends of the n pieces.
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }

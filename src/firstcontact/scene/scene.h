@@ -16,6 +16,7 @@
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/body_shape.h>
 #include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/simulation.h>
 
 namespace firstcontact {
 
@@ -23,6 +24,8 @@ struct Body {
   std::string name;  ///< Unique in the scene, not empty.
   BodyShape shape;
   BodyMotion motion;
+  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else as its motion says.
+  Surface surface = {};
 };
 
 /// What can touch is a member of the scene, numbered in this order: its bodies, then the links of
@@ -67,6 +70,7 @@ struct Scene {
   std::vector<GroupPair> ignored_groups;
   std::vector<GroupMargin> group_margins;  ///< Of several the greatest holds.
   SceneOptions options;
+  std::optional<Simulation> simulation = {};
   double duration = 1.0;    ///< [s]  Of the step; t = 1 there.
   std::string text_digest;  ///< SHA-256 of the text that was read, in hexadecimal; may be empty.
   std::vector<std::string> warnings = {};  ///< What a user should know of what was read.

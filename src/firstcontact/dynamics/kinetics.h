@@ -1,0 +1,67 @@
+/// @file
+/// Mass and motion of one rigid body: its kinetic metric, energy, momentum and free flight.
+
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// What resists motion. Locked axes are the world's.
+struct Inertia {
+  double mass = 1.0;                                        ///< [kg]  > 0
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();           ///< [m]  Centre of mass.
+  Eigen::Matrix3d about_C_B = Eigen::Matrix3d::Identity();  ///< [kg m^2]  Body axes; definite.
+  std::array<bool, 3> locked_translation{};
+  std::array<bool, 3> locked_rotation{};
+};
+
+/// Where a body is and how it moves.
+struct RigidState {
+  Pose X_WB;
+  Eigen::Vector3d v_WC = Eigen::Vector3d::Zero();  ///< [m/s]  Of the centre of mass.
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< [rad/s]
+};
+
+/// The inverse of the kinetic metric on velocities (v_WC, w_WB), world axes: what locked axes do
+/// not allow has inverse mass 0. All zero: a body that nothing moves.
+struct InverseInertia {
+  Eigen::Vector3d mass = Eigen::Vector3d::Zero();      ///< [1/kg]  Diagonal.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();  ///< [1/(kg m^2)]
+};
+
+[[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d centre_of_mass(const Inertia& inertia,
+                                                              const Pose& X_WB);  ///< [m]  p_WC
+
+/// [kg m^2]  About C, world axes.
+[[nodiscard]] FIRSTCONTACT_API Eigen::Matrix3d rotational_inertia(const Inertia& inertia,
+                                                                  const Pose& X_WB);
+
+[[nodiscard]] FIRSTCONTACT_API InverseInertia inverse_inertia(const Inertia& inertia,
+                                                              const Pose& X_WB);
+
+[[nodiscard]] FIRSTCONTACT_API double kinetic_energy(const Inertia& inertia,
+                                                     const RigidState& state);  ///< [J]
+
+/// How a body turns over a time without contacts.
+struct FreeTurn {
+  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Over the time.
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();             ///< [rad/s]  At its end.
+};
+
+/// Keeps the angular momentum, but for what the torque adds, and follows the implicit midpoint rule
+/// in sub-steps of at most kSubStep rad: time-reversible, so that energy does not drift. The body
+/// gets from the first to the last orientation by one rotation at a constant rate, the one of those
+/// between the two that is nearest to the mean angular velocity.
+///
+/// @param torque_W  [N m]  constant, about C
+/// @param dt        [s]
+[[nodiscard]] FIRSTCONTACT_API FreeTurn free_turn(const Inertia& inertia, const RigidState& state,
+                                                  const Eigen::Vector3d& torque_W, double dt);
+
+}  // namespace firstcontact

@@ -1,0 +1,67 @@
+/// @file
+/// What a scene says beyond motion, for its bodies to move under forces.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/query/pair_rules.h>
+
+namespace firstcontact {
+
+/// A force and a torque on a body from one time to another; several add up.
+struct TimedForce {
+  double from = 0.0;                                 ///< [s]
+  double to = 0.0;                                   ///< [s]  > from; may be infinite.
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]   World axes, at the centre of mass.
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m] World axes.
+};
+
+/// A body that forces and contacts move. Its motion in the scene is fixed: the pose that it starts
+/// from. Of density and mass at most one is given; with neither the density is 1000 kg/m^3.
+struct FreeBody {
+  std::optional<double> density;                  ///< [kg/m^3]  > 0; of the solid it encloses.
+  std::optional<double> mass;                     ///< [kg]  > 0
+  std::optional<Eigen::Vector3d> centre_of_mass;  ///< [m]  p_BC; else that of the solid.
+  std::optional<Eigen::Matrix3d> inertia;         ///< [kg m^2]  About C, axes of the body frame;
+                                                  ///< else that of the solid.
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of C, world axes.
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
+  std::array<bool, 3> locked_translation{};  ///< Along the world's axes: C keeps its coordinate.
+  std::array<bool, 3> locked_rotation{};     ///< About the world's axes: no angular velocity.
+  std::vector<TimedForce> forces;
+};
+
+/// How a surface meets others; the scene's where nothing is said.
+struct Surface {
+  std::optional<double> friction;     ///< [-]  Coulomb's coefficient, >= 0.
+  std::optional<double> restitution;  ///< [-]  Newton's, in [0, 1].
+};
+
+/// Of one pair of bodies, in place of what their surfaces give.
+struct PairSurface {
+  BodyPair bodies;
+  Surface surface;
+};
+
+/// How a scene is simulated. A pair of bodies has the geometric mean of their frictions and the
+/// greater of their restitutions.
+struct Simulation {
+  double duration = 1.0;                        ///< [s]  > 0
+  double step = 1.0 / 240.0;                    ///< [s]  > 0
+  Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]
+  double friction = 0.5;                        ///< [-]  >= 0
+  double restitution = 0.0;                     ///< [-]  In [0, 1].
+  /// [m]  > 0  Bodies that touch rest at this distance; by default 1e-4 of the radius of the
+  /// smallest free body.
+  std::optional<double> contact_distance;
+  std::size_t events = 1000;  ///< > 0  In a step; when they are spent, the step ends early.
+  std::vector<PairSurface> pairs;
+};
+
+}  // namespace firstcontact
