@@ -1,0 +1,34 @@
+/// @file
+/// Volume, centre of mass and inertia of what a shape encloses.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// Of a solid of density 1; times a density in kg/m^3 they are mass and moments.
+struct MassProperties {
+  double volume = 0.0;                                ///< [m^3]  > 0
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< [m]  Centre of mass, in the body frame.
+  Eigen::Matrix3d about_C = Eigen::Matrix3d::Zero();  ///< [m^5]  Inertia about it, body axes.
+};
+
+/// The integrals over the solid, exact but for rounding: of the polyhedron that the triangles
+/// enclose, whether or not the shape counts as solid; of a ball for a thickened point; of a capsule
+/// for a thickened edge. Vertices at the same place count as one.
+///
+/// Triangles may all face outwards or all inwards; those around a cavity face into it. What they
+/// wind around twice, as parts that overlap, counts twice. A radius around a closed mesh has no
+/// mass: the polyhedron has it all. A curved body enclosed by triangles has the volume of these.
+///
+/// Precise far from the body frame's origin too: integrals are relative to the mesh.
+///
+/// @throws std::invalid_argument if the shape encloses no space: open edges, neighbours that face
+///         opposite sides, no volume within rounding, a part inside out that is no cavity
+[[nodiscard]] FIRSTCONTACT_API MassProperties mass_properties(const Shape& shape);
+
+}  // namespace firstcontact
