@@ -1,0 +1,97 @@
+/// @file
+/// Gauss' principle for bodies in contact: the velocities that contacts and friction allow.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// A point at which two bodies touch. In the problem its velocity u is that of B's point relative
+/// to A's, and its impulse r acts on B; both in the contact's frame: along the normal, then along
+/// two tangents.
+struct ContactPoint {
+  std::array<std::size_t, 2> bodies = {};               ///< A, then B; not equal.
+  Eigen::Vector3d arm_A = Eigen::Vector3d::Zero();      ///< [m]  p_CaP_W, from A's centre of mass.
+  Eigen::Vector3d arm_B = Eigen::Vector3d::Zero();      ///< [m]  p_CbP_W
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< [-]  Rows: n_AB_W, two tangents; a
+                                                        ///< rotation.
+  double friction = 0.0;                                ///< [-]  Coulomb's coefficient; >= 0.
+  /// [m/s]  Least normal velocity: 0 of a resting contact, what Newton's law asks of an impact,
+  /// negative where the bodies still have a way to go.
+  double least_normal_velocity = 0.0;
+  Eigen::Vector3d guess = Eigen::Vector3d::Zero();  ///< [N s]  To start from.
+};
+
+/// A body of a contact problem.
+struct ContactBody {
+  InverseInertia inverse_inertia;               ///< Zero of a body that nothing moves.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of its centre of mass.
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
+};
+
+/// Bodies with the velocities that they would have without contacts, and the contacts.
+struct ContactProblem {
+  std::vector<ContactBody> bodies;
+  std::vector<ContactPoint> contacts;
+};
+
+/// Where the problem is solved; the answer is the same.
+enum class ProjectionSpace {
+  automatic,  ///< The cheaper one; motion where contact does not get there.
+  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, exact for each contact.
+  motion,     ///< Unknown: the velocities. Newton's method on an augmented Lagrangian.
+};
+
+struct ProjectionOptions {
+  double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
+  ProjectionSpace space = ProjectionSpace::automatic;
+  int sweeps = 400;  ///< At most, of all contacts in contact space; > 0.
+};
+
+struct ContactSolution {
+  std::vector<ContactBody> bodies;        ///< With the velocities that contacts allow.
+  std::vector<Eigen::Vector3d> impulses;  ///< [N s]  r of each contact, in its frame.
+  double residual = 0.0;  ///< [m/s]  See contact_residual(); above the tolerance: not converged.
+  ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
+  int iterations = 0;                                ///< Sweeps, or factorisations.
+};
+
+/// Projects velocities on what contacts allow, in the kinetic metric.
+///
+/// Of all velocities v that meet u_n >= least_normal_velocity it finds the one nearest to the free
+/// one, |v - v_free| in the kinetic metric M (Gauss' principle of least constraint; Redon, Kheddar,
+/// Coquillart, "Gauss' least constraints principle and rigid body simulations", ICRA 2002). Its
+/// multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary to
+/// u_n - least_normal_velocity >= 0. With friction an impulse lies in Coulomb's cone |r_t| <= mu
+/// r_n, the round one; where it is on its side, u_t points against r_t, and where u_t is not
+/// 0, it is on its side. All contacts at once: impacts are simultaneous.
+///
+/// In contact space each contact is solved exactly in turn, with all others held, until none
+/// changes: r in K, u + mu |u_t| n in its dual, orthogonal (De Saxce, Feng, "The bipotential
+/// method", Mathematical and Computer Modelling 28 (1998)). In motion space the velocities minimise
+///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
+/// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
+/// however many contacts there are, and no loss where masses differ greatly.
+///
+/// The velocities are unique without friction, the impulses only without redundant contacts.
+///
+/// @throws std::invalid_argument if an option is outside its range.
+[[nodiscard]] FIRSTCONTACT_API ContactSolution
+project_on_contacts(const ContactProblem& problem, const ProjectionOptions& options = {});
+
+/// [m/s]  How far a solution is from the laws above: the greatest over contacts of
+/// |r - proj_K(r - rho (u' + mu |u_t| n))| / rho, with u' = u - least_normal_velocity n and rho the
+/// inverse of the contact's greatest response to an impulse (the largest of the diagonal).
+/// 0 exactly where all laws hold.
+[[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
+                                                       const ContactSolution& solution);
+
+}  // namespace firstcontact

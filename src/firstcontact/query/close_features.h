@@ -1,0 +1,25 @@
+/// @file
+/// The features of two shapes that are close at one instant.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+
+/// Every feature pair of A(t) and B(t) within `band`, sorted by features, each once: the contact
+/// state of first_contact() at a time of the caller's choice. Replaces what `contacts` held.
+///
+/// Complete but for pairs whose distance differs from the band by less than the rounding error.
+/// Only surfaces count: what lies inside a solid without being near its surface is not listed.
+///
+/// @param t     [-]  in [0, 1]
+/// @param band  [m]  finite, >= 0; radii are included in distances
+/// @throws std::invalid_argument if t or the band is outside its range.
+FIRSTCONTACT_API void close_features(const MovingShape& A, const MovingShape& B, double t,
+                                     double band, Workspace& workspace,
+                                     std::vector<Contact>& contacts);
+
+}  // namespace firstcontact
