@@ -30,7 +30,8 @@ struct RunPiece {
 /// whole run have none.
 struct RunBody {
   std::size_t body = 0;          ///< Its number in the scene.
-  std::vector<RunPiece> pieces;  ///< At least one; the last one ends with the step.
+  std::vector<RunPiece> pieces;  ///< At least one, but none in a step that lasted 0 s; the last
+                                 ///< one ends with the step.
   Pose X_WB;
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
@@ -52,7 +53,8 @@ struct RunStep {
   double time = 0.0;              ///< [s]  Simulated until here; the sum of what the steps lasted.
   double lasted = 0.0;            ///< [s]  The step asked for, but for what is lost.
   double time_lost = 0.0;         ///< [s]  In this step, its events spent.
-  double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0.
+  double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0, infinite
+                                  ///< where there is no pair.
   double kinetic_energy = 0.0;    ///< [J]  Of the free bodies.
   double potential_energy = 0.0;  ///< [J]  In the field of gravity; 0 at the world's origin.
   Eigen::Vector3d linear_momentum = Eigen::Vector3d::Zero();   ///< [kg m/s]

@@ -246,6 +246,20 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& source,
   return scene;
 }
 
+Scene parse_embedded_scene(std::string_view text, const std::string& name, std::size_t first_line) {
+  const JsonValue root = detail::parse_json(text, name, first_line);
+  const auto* object = std::get_if<JsonObject>(&root.value);
+  const JsonValue* scene = object == nullptr ? nullptr : find(*object, "scene");
+  if (scene == nullptr) {
+    throw ParseError(name, first_line, "expected an object with a \"scene\"");
+  }
+  try {
+    return parse_scene(detail::write_json(*scene), "scene");
+  } catch (const ParseError& error) {
+    throw ParseError(name, scene->line, "scene: " + error.message());
+  }
+}
+
 Scene read_scene(const std::filesystem::path& path) {
   return parse_scene(detail::read_file(path, "a scene file"), path);
 }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include <firstcontact/math/export.h>
@@ -34,5 +35,15 @@ namespace firstcontact {
 [[nodiscard]] FIRSTCONTACT_API Scene parse_scene(std::string_view text,
                                                  const std::filesystem::path& source,
                                                  std::size_t first_line = 1);
+
+/// The scene under the key "scene" of a JSON object, as results and runs embed it. Its paths are as
+/// they were opened, not relative to the object's file.
+///
+/// @param text  one JSON object; its other keys may be anything
+/// @param name  the file that the text is from, for errors
+/// @throws ParseError  as read_scene, or if there is no scene
+[[nodiscard]] FIRSTCONTACT_API Scene parse_embedded_scene(std::string_view text,
+                                                          const std::string& name,
+                                                          std::size_t first_line = 1);
 
 }  // namespace firstcontact
