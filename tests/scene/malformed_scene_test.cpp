@@ -92,7 +92,8 @@ TEST(MalformedScene, IsNamedByLineAndField) {
        "s:2: bodies[1].name: expected a name that no other body has, got \"a\""},
       {scene(body("")), "s:1: bodies[0].name: expected a name, got \"\""},
       {scene("\n7"),
-       "s:2: bodies[0]: expected an object with \"name\", \"shape\", \"pose\", \"motion\", got 7"},
+       "s:2: bodies[0]: expected an object with \"name\", \"shape\", \"pose\", \"motion\", "
+       "\"dynamics\", \"surface\", got 7"},
       {scene(R"({"name": "a"})"), "s:1: bodies[0]: expected a key \"shape\", got none"},
       {scene(body("a", R"("pose": {}, "motion": {"type": "fixed"})")),
        "s:1: bodies[0].pose: expected either \"pose\" (at rest) or \"motion\", got both; "

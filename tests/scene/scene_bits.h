@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -27,6 +29,8 @@ class SceneBits {
       add(body.shape.enclosure_error);
       add(static_cast<double>(body.motion.index()));
       std::visit([this](const auto& motion) { add(motion); }, body.motion);
+      add(body.free);
+      add(body.surface);
     }
     for (const BodyPair& pair : scene.ignored_pairs) {
       add(pair);
@@ -50,6 +54,7 @@ class SceneBits {
     }
     add(scene.options);
     add(scene.duration);
+    add(scene.simulation);
   }
 
   friend bool operator==(const SceneBits&, const SceneBits&) = default;
@@ -164,6 +169,57 @@ class SceneBits {
   void add(const VertexMotion& motion) {
     for (const Eigen::Vector3d& vertex : motion.to) {
       add(vertex);
+    }
+  }
+
+  template <class T>
+  void add(const std::optional<T>& value) {
+    add(value ? 1.0 : 0.0);
+    if (value) {
+      add(*value);
+    }
+  }
+  void add(const Eigen::Matrix3d& matrix) {
+    for (const double x : matrix.reshaped()) {
+      add(x);
+    }
+  }
+  void add(const std::array<bool, 3>& locks) {
+    for (const bool lock : locks) {
+      add(lock ? 1.0 : 0.0);
+    }
+  }
+  void add(const FreeBody& free) {
+    add(free.density);
+    add(free.mass);
+    add(free.centre_of_mass);
+    add(free.inertia);
+    add(free.linear_velocity);
+    add(free.angular_velocity);
+    add(free.locked_translation);
+    add(free.locked_rotation);
+    for (const TimedForce& force : free.forces) {
+      add(force.from);
+      add(force.to);
+      add(force.force);
+      add(force.torque);
+    }
+  }
+  void add(const Surface& surface) {
+    add(surface.friction);
+    add(surface.restitution);
+  }
+  void add(const Simulation& simulation) {
+    add(simulation.duration);
+    add(simulation.step);
+    add(simulation.gravity);
+    add(simulation.friction);
+    add(simulation.restitution);
+    add(simulation.contact_distance);
+    add(static_cast<double>(simulation.events));
+    for (const PairSurface& pair : simulation.pairs) {
+      add(pair.bodies);
+      add(pair.surface);
     }
   }
 

@@ -38,6 +38,23 @@ Pose random_pose(std::mt19937_64& rng) {
                                          random_number(rng), random_number(rng))};
 }
 
+FreeBody random_free_body(std::mt19937_64& rng) {
+  const auto one = [&] { return 1.0 + 0.5 * std::abs(std::remainder(random_number(rng), 1.0)); };
+  Eigen::Matrix3d inertia = Eigen::Vector3d(one(), one(), one()).asDiagonal();
+  inertia(0, 1) = inertia(1, 0) = 0.1 * one();
+  return {
+      .density = {},
+      .mass = one(),
+      .centre_of_mass = random_vector(rng),
+      .inertia = inertia,
+      .linear_velocity = random_vector(rng),
+      .angular_velocity = random_vector(rng),
+      .locked_translation = {true, false, false},
+      .locked_rotation = {false, false, true},
+      .forces = {{.from = 0.1, .to = one(), .force = random_vector(rng)},
+                 {.to = std::numeric_limits<double>::infinity(), .torque = random_vector(rng)}}};
+}
+
 /// Every kind of motion, with numbers of all sizes where no range forbids them.
 Scene random_scene(std::mt19937_64& rng) {
   Scene scene;
@@ -73,6 +90,15 @@ Scene random_scene(std::mt19937_64& rng) {
                             .shape = shape,
                             .motion = FixedMotion{}});
   }
+  for (const bool is_free : {false, true}) {
+    scene.bodies.push_back({.name = "body " + std::to_string(scene.bodies.size()),
+                            .shape = {.source = SphereShape{size()}},
+                            .motion = FixedMotion{random_pose(rng)}});
+    scene.bodies.back().surface = {.friction = size(), .restitution = 0.3};
+    if (is_free) {
+      scene.bodies.back().free = random_free_body(rng);
+    }
+  }
   scene.ignored_pairs = {{0, 3}, {1, 2}};
   scene.groups = {{"odd", {1, 3}}, {"even", {0, 2, 4}}};
   scene.ignored_groups = {{0, 0}};
@@ -85,6 +111,14 @@ Scene random_scene(std::mt19937_64& rng) {
                    .contact_band = 1e-3,
                    .deadline = 0.1};
   scene.duration = 0.7;
+  scene.simulation = Simulation{.duration = 0.5,
+                                .step = std::abs(random_number(rng)) + 1e-300,
+                                .gravity = random_vector(rng),
+                                .friction = std::abs(random_number(rng)),
+                                .restitution = 1.0,
+                                .contact_distance = 1e-3,
+                                .events = 7,
+                                .pairs = {{{1, 4}, {.friction = 0.1, .restitution = {}}}}};
   return scene;
 }
 

@@ -11,6 +11,7 @@
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/size_warning.h>
+#include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact {
 
@@ -32,13 +33,24 @@ DeformingBody moving(const Body& body, Shape shape, double duration) {
   return move_vertices(shape, vertices->to);
 }
 
-}  // namespace
-
-LoadedScene load_scene(Scene scene, ShapeCache& cache) {
-  if (!scene.robots.empty()) {
-    return detail::load_robots(std::move(scene), cache);
+/// Queries ask about motions that are given.
+void warn_of_free_bodies(LoadedScene& loaded) {
+  const std::vector<Body>& bodies = loaded.scene.bodies;
+  const auto is_free = [](const Body& body) { return body.free.has_value(); };
+  const auto first = std::ranges::find_if(bodies, is_free);
+  if (first == bodies.end()) {
+    return;
   }
+  const auto others = std::count_if(first + 1, bodies.end(), is_free);
+  loaded.warnings.push_back(
+      detail::in_quotes(first->name) +
+      (others == 0 ? "" : " and " + std::to_string(others) + " more") +
+      " with \"dynamics\": at rest here; \"firstcontact simulate\" moves what has dynamics");
+}
+
+LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
   LoadedScene loaded{.scene = {}, .bodies = BodySet(detail::rules_of(scene)), .input_digest = {}};
+  loaded.warnings = scene.warnings;
   std::string digests = scene.text_digest + '\n';
   for (const Body& body : scene.bodies) {
     CachedShape cached = cache.load(body.shape);
@@ -51,6 +63,15 @@ LoadedScene load_scene(Scene scene, ShapeCache& cache) {
   }
   loaded.input_digest = detail::sha256(digests);
   loaded.scene = std::move(scene);
+  return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(Scene scene, ShapeCache& cache) {
+  LoadedScene loaded = scene.robots.empty() ? load_bodies(std::move(scene), cache)
+                                            : detail::load_robots(std::move(scene), cache);
+  warn_of_free_bodies(loaded);
   return loaded;
 }
 

@@ -46,7 +46,8 @@ struct LoadedScene {
 /// @throws std::invalid_argument  names the first limit that a robot leaves, where one does
 FIRSTCONTACT_API void require_within_limits(const LoadedScene& loaded);
 
-/// Loads the meshes of a scene, as far as the cache does not hold them yet.
+/// Loads the meshes of a scene, as far as the cache does not hold them yet. Free bodies rest at
+/// their pose: a warning says so.
 ///
 /// @throws ParseError if a mesh file cannot be used; std::invalid_argument if the scene, made by
 ///         hand, holds what read_scene would refuse

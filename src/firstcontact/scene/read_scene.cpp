@@ -14,6 +14,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/detail/parse_json.h>
+#include <firstcontact/scene/detail/read_dynamics.h>
 #include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pairs.h>
@@ -21,6 +22,7 @@
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_robots.h>
 #include <firstcontact/scene/detail/read_shape.h>
+#include <firstcontact/scene/detail/read_simulation.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/write_json.h>
 
@@ -88,8 +90,30 @@ void require_vertices(const Body& body, const JsonValue& motion, const JsonReade
   }
 }
 
+/// A free body has its surface among its dynamics.
+void read_dynamics_or_surface(const JsonObject& object, Body& body, const JsonReader& read) {
+  const JsonValue* dynamics = find(object, "dynamics");
+  const JsonValue* surface = find(object, "surface");
+  if (dynamics != nullptr && find(object, "motion") != nullptr) {
+    read.fail(*dynamics,
+              "expected either \"dynamics\" (moved by forces, from its \"pose\") or \"motion\" "
+              "(moved as it says), got both");
+  }
+  if (dynamics != nullptr && surface != nullptr) {
+    read.fail(*surface,
+              "expected \"friction\" and \"restitution\" in \"dynamics\", where a body has them");
+  }
+  if (dynamics != nullptr) {
+    detail::read_dynamics(*dynamics, body, read);
+  }
+  if (surface != nullptr) {
+    body.surface = detail::read_surface(read.object(*surface, {{"friction", "restitution"}}), read);
+  }
+}
+
 Body read_body(const JsonValue& value, const SceneFolders& folders, const JsonReader& read) {
-  const JsonObject& object = read.object(value, {{"name", "shape", "pose", "motion"}});
+  const JsonObject& object =
+      read.object(value, {{"name", "shape", "pose", "motion", "dynamics", "surface"}});
   Body body;
   body.name = read.string(read.member(value, "name"), "a name");
   body.shape = detail::read_shape(read.member(value, "shape"), folders, read);
@@ -97,6 +121,7 @@ Body read_body(const JsonValue& value, const SceneFolders& folders, const JsonRe
   if (std::holds_alternative<VertexMotion>(body.motion)) {
     require_vertices(body, read.member(value, "motion"), read);
   }
+  read_dynamics_or_surface(object, body, read);
   return body;
 }
 
@@ -138,15 +163,18 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   return options;
 }
 
-/// `asked` may be null.
-double scene_duration(const Scene& scene, const JsonValue* asked, const JsonReader& read) {
-  const double last = last_time(scene);
+/// `asked` and `simulated` (how long the simulation takes) may be null.
+double scene_duration(const Scene& scene, const JsonValue* asked, const JsonValue* simulated,
+                      const JsonReader& read) {
+  const double last =
+      std::max(last_time(scene), simulated == nullptr ? 0.0 : scene.simulation->duration);
   if (asked == nullptr) {
     return last > 0.0 ? last : 1.0;
   }
   const double duration = read.positive(*asked);
   if (last > 0.0 && duration != last) {
-    read.fail_expected(detail::write_json(last) + ", the last time of the waypoints" +
+    read.fail_expected(detail::write_json(last) + ", the last time of the " +
+                           (simulated == nullptr ? "" : "simulation, the ") + "waypoints" +
                            (scene.robots.empty() ? "" : " and trajectories") +
                            " (or no \"duration\" at all)",
                        *asked);
@@ -205,10 +233,27 @@ void read_members(const JsonValue& root, const JsonObject& object, const SceneFo
   }
 }
 
+bool has_free_body(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies, [](const Body& body) { return body.free.has_value(); });
+}
+
+/// What a scene says of its simulation, or the defaults where bodies need one. Returns its duration
+/// where that is given, else null.
+const JsonValue* take_simulation(const JsonObject& object, Scene& scene, const JsonReader& read) {
+  if (const JsonValue* simulation = find(object, "simulation")) {
+    scene.simulation = detail::read_simulation(*simulation, scene, read);
+    return find(std::get<JsonObject>(simulation->value), "duration");
+  }
+  if (has_free_body(scene)) {
+    scene.simulation.emplace();
+  }
+  return nullptr;
+}
+
 Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read) {
   require_version(root, read);
-  const JsonObject& object = read.object(
-      root, {{"firstcontact", "id", "package_roots", "bodies", "robots", "pairs", "options"}});
+  const JsonObject& object = read.object(root, {{"firstcontact", "id", "package_roots", "bodies",
+                                                 "robots", "pairs", "options", "simulation"}});
   Scene scene;
   if (const JsonValue* id = find(object, "id")) {
     const auto* text = std::get_if<std::string>(&id->value);
@@ -226,7 +271,11 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
     scene.options = read_options(given, read);
     duration = find(given, "duration");
   }
-  scene.duration = scene_duration(scene, duration, read);
+  const JsonValue* simulated = take_simulation(object, scene, read);
+  scene.duration = scene_duration(scene, duration, simulated, read);
+  if (scene.simulation && simulated == nullptr) {
+    scene.simulation->duration = scene.duration;
+  }
   if (const JsonValue* bodies = find(object, "bodies")) {
     require_motions(scene, std::get<JsonArray>(bodies->value), read);
   }

@@ -46,6 +46,11 @@ void add_body(Scene& scene, Body body) {
   for (PairMargin& pair : scene.pair_margins) {
     renumber(pair.bodies);
   }
+  if (scene.simulation) {
+    for (PairSurface& pair : scene.simulation->pairs) {
+      renumber(pair.bodies);
+    }
+  }
   scene.bodies.push_back(std::move(body));
 }
 

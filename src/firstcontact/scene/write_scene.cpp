@@ -13,6 +13,7 @@
 
 #include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/detail/write_simulation.h>
 
 namespace firstcontact {
 namespace {
@@ -211,6 +212,7 @@ struct MotionMember {
 JsonValue to_json(const Body& body) {
   JsonObject object{{"name", to_json(body.name)}, {"shape", to_json(body.shape)}};
   object.push_back(std::visit(MotionMember{}, body.motion));
+  detail::add_dynamics(body, object);
   return {.value = std::move(object)};
 }
 
@@ -372,6 +374,9 @@ std::string write_scene(const Scene& scene) {
   }
   object.push_back({"pairs", pairs_to_json(scene)});
   object.push_back({"options", options_to_json(scene)});
+  if (scene.simulation) {
+    object.push_back({"simulation", detail::simulation_to_json(scene)});
+  }
   return detail::write_json({.value = std::move(object)});
 }
 

@@ -186,6 +186,10 @@ class RobotReader {
     };
     SceneAttachment attachment{.body = body(read_.member(value, "body")),
                                .link = link_of(read_.member(value, "link"))};
+    if (scene_.bodies[attachment.body].free) {
+      read_.fail(read_.member(value, "body"),
+                 "expected a body without \"dynamics\": the link carries it");
+    }
     if (const JsonValue* from = find(object, "from_time")) {
       attachment.from_time = read_.not_negative(*from);
     }

@@ -1,0 +1,26 @@
+/// @file
+/// Reads what a body needs to move under forces.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// `dynamics` of a body without a motion: its `free` and `surface`.
+///
+/// @throws ParseError
+void read_dynamics(const JsonValue& value, Body& body, const JsonReader& read);
+
+/// `friction` and `restitution`, where they are there.
+///
+/// @throws ParseError
+[[nodiscard]] Surface read_surface(const JsonObject& object, const JsonReader& read);
+
+/// A number in [0, 1].
+///
+/// @throws ParseError
+[[nodiscard]] double read_restitution(const JsonValue& value, const JsonReader& read);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,18 @@
+/// @file
+/// Reads how a scene is simulated.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// Reads "simulation" of a scene that has its bodies, robots and groups. Where it says no duration
+/// that is left at its default.
+///
+/// @throws ParseError
+[[nodiscard]] Simulation read_simulation(const JsonValue& value, const Scene& scene,
+                                         const JsonReader& read);
+
+}  // namespace firstcontact::detail

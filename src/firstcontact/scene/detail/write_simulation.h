@@ -1,0 +1,17 @@
+/// @file
+/// Writes what a simulation is told.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// `dynamics` of a free body, `surface` of another one that has any.
+void add_dynamics(const Body& body, JsonObject& object);
+
+/// @param scene  has a simulation
+[[nodiscard]] JsonValue simulation_to_json(const Scene& scene);
+
+}  // namespace firstcontact::detail
