@@ -29,10 +29,10 @@ struct RunPiece {
 /// A body at the end of a step, and how it got there. Bodies that rest at the scene's pose for the
 /// whole run have none.
 struct RunBody {
-  std::size_t body = 0;          ///< Its number in the scene.
-  std::vector<RunPiece> pieces;  ///< At least one, but none in a step that lasted 0 s; the last
-                                 ///< one ends with the step.
-  Pose X_WB;
+  std::size_t body = 0;               ///< Its number in the scene.
+  std::vector<RunPiece> pieces = {};  ///< At least one, but none in a step that lasted 0 s; the
+                                      ///< last one ends with the step.
+  Pose X_WB = {};
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
 };
@@ -61,17 +61,18 @@ struct RunStep {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
   double residual = 0.0;   ///< [m/s]  The greatest of the step's contact problems.
   std::size_t events = 0;  ///< Times within the step at which contacts were projected.
-  std::vector<RunBody> bodies;
-  std::vector<RunContact> contacts;
+  std::vector<RunBody> bodies = {};
+  std::vector<RunContact> contacts = {};
 };
 
 /// What a run begins with.
 struct RunHeader {
   Scene scene;  ///< With its simulation, resolved: `contact_distance` is given.
   std::string version;
-  std::string input_digest;                      ///< SHA-256 of everything read, in hexadecimal.
-  std::vector<double> masses;                    ///< [kg]  Of every body; 0: not free.
-  std::vector<Eigen::Vector3d> centres_of_mass;  ///< [m]  p_BC of every body; pivots of the pieces.
+  std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal.
+  std::vector<double> masses = {};  ///< [kg]  Of every body; 0: not free.
+  std::vector<Eigen::Vector3d> centres_of_mass =
+      {};  ///< [m]  p_BC of every body; pivots of the pieces.
 };
 
 }  // namespace firstcontact

@@ -1,0 +1,560 @@
+#include <firstcontact/dynamics/detail/island.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include <firstcontact/dynamics/detail/response.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// How often slight contacts of the motion ahead are turned into constraints before the bodies are
+/// moved until the first of them.
+constexpr int kRounds = 4;
+
+/// A contact ahead is slight if the bodies approach by less than this part of the smaller one's
+/// radius over the rest of the step, and would not bounce.
+constexpr double kSlightApproach = 0.1;
+
+/// Half of what is missing to the rest distance is made up for in a step.
+constexpr double kPush = 0.5;
+
+/// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
+constexpr double kStepsWithoutBounce = 2.0;
+
+/// After as many impacts in a row that hardly let time pass, the island is jammed.
+constexpr std::size_t kMostStalls = 30;
+constexpr double kStall = 1e-9;  // [-]  Of the step.
+
+/// A touch of the motion ahead, and how it would be reached.
+struct TouchAhead {
+  Touch touch;
+  ContactPoint contact;  // With the arms of its time.
+  double least = 0.0;    // [m/s]  Normal velocity that keeps the pair apart until the end.
+};
+
+/// What the bodies do over the rest of the step.
+struct Plan {
+  std::vector<Move> moves = {};     // Of each member.
+  std::vector<ContactBody> at_end;  // Velocities of each member.
+  std::vector<Touch> touches = {};  // With their impulses.
+  double residual = 0.0;            // [m/s]
+};
+
+/// A pair that the plan brings into contact.
+struct Hit {
+  BodyPair bodies;
+  double t = 0.0;  // [-]  Of the rest of the step.
+  bool is_slight = false;
+  std::vector<TouchAhead> ahead = {};
+};
+
+class Island {
+ public:
+  Island(const World& world, const StepStart& start, std::vector<std::size_t> members,
+         const std::vector<Touch>& guesses, Workspace& workspace)
+      : world_(world), start_(start), guesses_(guesses), workspace_(workspace) {
+    track_.members = std::move(members);
+    track_.pieces.resize(track_.members.size());
+    track_.clearance = std::numeric_limits<double>::infinity();
+    is_member_.assign(world.bodies.size(), false);
+    for (const std::size_t body : track_.members) {
+      is_member_[body] = true;
+      states_.push_back(start.states[body]);
+    }
+    poses_.resize(world.bodies.size());
+  }
+
+  IslandTrack run() {
+    std::size_t stalls = 0;
+    place();
+    find_manifolds();
+    if (has_bounce()) {
+      ++track_.events;
+      impact();
+    }
+    while (track_.reached < start_.h) {
+      if (track_.events >= world_.events || stalls >= kMostStalls) {
+        break;
+      }
+      const double reached = track_.reached;
+      const double t = advance();
+      if (t < 1.0) {
+        ++track_.events;
+        impact();
+      }
+      stalls = track_.reached - reached > kStall * start_.h ? 0 : stalls + 1;
+    }
+    return std::move(track_);
+  }
+
+ private:
+  [[nodiscard]] double rest() const { return start_.h - track_.reached; }
+  [[nodiscard]] std::size_t size() const { return track_.members.size(); }
+  [[nodiscard]] const SimBody& member(std::size_t k) const {
+    return world_.bodies[track_.members[k]];
+  }
+  [[nodiscard]] std::array<Pose, 2> poses_of(const BodyPair& pair) const {
+    return {poses_[pair[0]], poses_[pair[1]]};
+  }
+
+  /// Where everything is now.
+  void place() {
+    const double share = track_.reached / start_.h;
+    for (std::size_t b = 0; b < poses_.size(); ++b) {
+      if (world_.bodies[b].kind != BodyKind::free) {
+        poses_[b] = scripted_pose(world_, start_, b, share);
+      }
+    }
+    for (std::size_t k = 0; k < size(); ++k) {
+      poses_[track_.members[k]] = states_[k].X_WB;
+    }
+  }
+
+  [[nodiscard]] Move scripted_move(std::size_t body) const {
+    return start_.scripted[body].part(rest() / start_.h);
+  }
+
+  /// Pairs of a member and any other body of the island or around it whose boxes overlap.
+  template <class Use>
+  void for_each_pair(const std::vector<AlignedBox3d>& member_boxes,
+                     const std::vector<Move>& moves_of_others, double reach, const Use& use) {
+    const Vector3d slack = Vector3d::Constant(reach);
+    std::vector<std::pair<std::size_t, AlignedBox3d>> others;
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
+      if (world_.bodies[b].kind != BodyKind::free) {
+        others.emplace_back(b, swept_box(world_.bodies[b], poses_[b], moves_of_others[b]));
+      }
+    }
+    for (std::size_t k = 0; k < size(); ++k) {
+      others.emplace_back(track_.members[k], member_boxes[k]);
+    }
+    for (std::size_t k = 0; k < size(); ++k) {
+      const std::size_t a = track_.members[k];
+      const AlignedBox3d box(member_boxes[k].min() - slack, member_boxes[k].max() + slack);
+      for (const auto& [b, other] : others) {
+        if (a == b || (is_member_[b] && b < a)) {
+          continue;
+        }
+        const BodyPair pair{std::min(a, b), std::max(a, b)};
+        const std::optional<double> margin = world_.laws.margin(pair);
+        if (margin && box.exteriorDistance(other) <= *margin) {
+          use(pair, *margin);
+        }
+      }
+    }
+  }
+
+  void find_manifolds() {
+    manifolds_.clear();
+    std::vector<AlignedBox3d> boxes;
+    for (std::size_t k = 0; k < size(); ++k) {
+      boxes.push_back(swept_box(member(k), states_[k].X_WB, {}));
+    }
+    const std::vector<Move> still(world_.bodies.size());
+    for_each_pair(boxes, still, world_.distances.band, [&](const BodyPair& pair, double margin) {
+      Manifold manifold = find_manifold(world_, pair, poses_of(pair), margin, workspace_);
+      if (manifold.gap <= world_.distances.band) {
+        for (Touch& touch : manifold.touches) {
+          touch.impulse = guess_of(touch);
+        }
+        manifolds_.emplace(pair, std::move(manifold));
+      }
+    });
+  }
+
+  [[nodiscard]] Vector3d guess_of(const Touch& touch) const {
+    const auto found = std::lower_bound(guesses_.begin(), guesses_.end(), touch, comes_before);
+    return found != guesses_.end() && !comes_before(touch, *found) ? found->impulse
+                                                                   : Vector3d(Vector3d::Zero());
+  }
+
+  /// The members as they move now, and what they touch.
+  [[nodiscard]] ProblemBodies problem_bodies() const {
+    ProblemBodies bodies(world_.bodies.size());
+    for (std::size_t k = 0; k < size(); ++k) {
+      const RigidState& state = states_[k];
+      bodies.add(track_.members[k],
+                 {inverse_inertia(member(k).inertia, state.X_WB), state.v_WC, state.w_WB},
+                 centre_of_mass(member(k).inertia, state.X_WB));
+    }
+    return bodies;
+  }
+
+  void add_others(const BodyPair& pair, ProblemBodies& bodies) const {
+    for (const std::size_t b : pair) {
+      if (!bodies.has(b)) {
+        const Move& move = start_.scripted[b];
+        bodies.add(b, {{}, move.translation / start_.h, move.rotation_vector / start_.h},
+                   centre_of_mass(world_.bodies[b].inertia, poses_[b]));
+      }
+    }
+  }
+
+  // --- Between impacts -------------------------------------------------------------------------
+
+  /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
+  /// step. Returns how far, in parts of the rest.
+  double advance() {
+    std::vector<Hit> constraints;
+    Plan plan;
+    for (int round = 0; round < kRounds; ++round) {
+      plan = make_plan(constraints);
+      const std::vector<Hit> hits = find_hits(plan);
+      if (hits.empty()) {
+        move_to(plan, 1.0);
+        return 1.0;
+      }
+      const bool has_slight =
+          std::ranges::any_of(hits, [](const Hit& hit) { return hit.is_slight; });
+      if (!has_slight || round + 1 == kRounds) {
+        const double t = std::ranges::min(hits, {}, [](const Hit& hit) { return hit.t; }).t;
+        move_to(plan, t);
+        return t;
+      }
+      std::ranges::copy_if(hits, std::back_inserter(constraints),
+                           [](const Hit& hit) { return hit.is_slight; });
+    }
+    return 0.0;  // Not reached: the last round moves.
+  }
+
+  /// Velocities without contacts, and how far they lead.
+  struct FreeFlight {
+    std::vector<ContactBody> at_end;
+    std::vector<Vector3d> rotation_vectors;
+  };
+
+  [[nodiscard]] FreeFlight free_flight(const std::vector<ContactBody>& bodies) const {
+    FreeFlight flight;
+    flight.at_end = bodies;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const SimBody& body = member(k);
+      Vector3d force = body.inertia.mass * world_.gravity;
+      Vector3d torque = Vector3d::Zero();
+      const double from = start_.time + track_.reached;
+      for (const TimedForce& timed : body.forces) {
+        // The mean over the rest of the step.
+        const double share =
+            std::max(0.0, std::min(timed.to, from + rest()) - std::max(timed.from, from)) / rest();
+        force += share * timed.force;
+        torque += share * timed.torque;
+      }
+      flight.at_end[k].v += rest() * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
+      const FreeTurn turn = free_turn(body.inertia, states_[k], torque, rest());
+      flight.at_end[k].w = turn.w_WB;
+      flight.rotation_vectors.push_back(turn.rotation_vector);
+    }
+    return flight;
+  }
+
+  [[nodiscard]] Plan make_plan(const std::vector<Hit>& constraints) {
+    ProblemBodies bodies = problem_bodies();
+    ContactProblem problem;
+    std::vector<Touch> touches = {};
+    const auto add = [&](const Touch& touch, double least) -> ContactPoint& {
+      add_others(touch.bodies, bodies);
+      problem.contacts.push_back(
+          contact_at(touch, bodies, world_.laws.friction(touch.bodies), least));
+      touches.push_back(touch);
+      return problem.contacts.back();
+    };
+    for (const auto& [pair, manifold] : manifolds_) {
+      for (const Touch& touch : manifold.touches) {
+        const ContactPoint& contact =
+            add(touch, -std::max(0.0, touch.gap - world_.distances.least) / rest());
+        // What will bounce has to arrive first.
+        if (bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
+          problem.contacts.pop_back();
+          touches.pop_back();
+        }
+      }
+    }
+    for (const Hit& hit : constraints) {
+      for (const TouchAhead& ahead : hit.ahead) {
+        ContactPoint& contact = add(ahead.touch, ahead.least);
+        contact.arm_A = ahead.contact.arm_A;
+        contact.arm_B = ahead.contact.arm_B;
+      }
+    }
+    const FreeFlight flight = free_flight(bodies.bodies());
+    problem.bodies = flight.at_end;
+    ContactSolution solution;
+    solution.bodies = problem.bodies;
+    if (!problem.contacts.empty()) {
+      solution = project_on_contacts(problem, projection_options());
+    }
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      touches[k].impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
+    }
+    Plan plan{
+        .at_end = solution.bodies, .touches = std::move(touches), .residual = solution.residual};
+    plan.at_end.resize(size());
+    set_moves(problem, bodies.bodies(), flight, solution, plan);
+    push_apart(plan);
+    return plan;
+  }
+
+  [[nodiscard]] ProjectionOptions projection_options() const { return {}; }
+
+  /// The mean of the velocities at both ends is exact under constant forces; where it would break a
+  /// constraint, as at one that only begins to act, those at the end lead the bodies in contact.
+  void set_moves(const ContactProblem& problem, const std::vector<ContactBody>& before,
+                 const FreeFlight& flight, const ContactSolution& solution, Plan& plan) const {
+    std::vector<ContactBody> mean = solution.bodies;
+    for (std::size_t b = 0; b < mean.size(); ++b) {
+      mean[b].v = 0.5 * (before[b].v + solution.bodies[b].v);
+      mean[b].w = 0.5 * (before[b].w + solution.bodies[b].w);
+    }
+    const bool mean_is_allowed =
+        std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
+          constexpr double kRounding = 1e-9;  // [m/s]  As the solver's tolerance.
+          return normal_velocity(contact, mean) >= contact.least_normal_velocity - kRounding;
+        });
+    std::vector<bool> by_end(before.size(), false);
+    if (!mean_is_allowed) {
+      for (const ContactPoint& contact : problem.contacts) {
+        by_end[contact.bodies[0]] = true;
+        by_end[contact.bodies[1]] = true;
+      }
+    }
+    for (std::size_t k = 0; k < size(); ++k) {
+      const Vector3d& w_free = flight.at_end[k].w;
+      const Vector3d& w = solution.bodies[k].w;
+      const Vector3d turn =
+          by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
+      plan.moves.push_back({rest() * (by_end[k] ? solution.bodies[k].v : mean[k].v),
+                            flight.rotation_vectors[k] + rest() * turn});
+    }
+  }
+
+  /// Adds displacements that lead pairs back to their distance of rest: least in the kinetic
+  /// metric, and without velocity, so that they add no energy of motion.
+  void push_apart(Plan& plan) {
+    const ContactDistances& distances = world_.distances;
+    const bool is_needed = std::ranges::any_of(
+        manifolds_, [&](const auto& entry) { return entry.second.gap < distances.pushed; });
+    if (!is_needed) {
+      return;
+    }
+    ProblemBodies bodies = problem_bodies();
+    ContactProblem problem;
+    for (const auto& [pair, manifold] : manifolds_) {
+      for (const Touch& touch : manifold.touches) {
+        add_others(pair, bodies);
+        const double missing = distances.least - touch.gap;
+        Touch unknown = touch;
+        unknown.impulse.setZero();
+        problem.contacts.push_back(
+            contact_at(unknown, bodies, 0.0, missing > 0.0 ? kPush * missing : missing));
+      }
+    }
+    problem.bodies = bodies.bodies();
+    for (ContactBody& body : problem.bodies) {
+      body.v.setZero();
+      body.w.setZero();
+    }
+    // In metres in place of metres per second.
+    const ContactSolution solution =
+        project_on_contacts(problem, {.tolerance = 1e-3 * distances.least, .sweeps = 50});
+    for (std::size_t k = 0; k < size(); ++k) {
+      plan.moves[k].translation += solution.bodies[k].v;
+      plan.moves[k].rotation_vector += solution.bodies[k].w;
+    }
+  }
+
+  /// Asks all pairs that the plan may bring near each other.
+  [[nodiscard]] std::vector<Hit> find_hits(const Plan& plan) {
+    std::vector<Move> moves(world_.bodies.size());
+    for (std::size_t b = 0; b < moves.size(); ++b) {
+      moves[b] = scripted_move(b);
+    }
+    std::vector<AlignedBox3d> boxes;
+    for (std::size_t k = 0; k < size(); ++k) {
+      moves[track_.members[k]] = plan.moves[k];
+      boxes.push_back(swept_box(member(k), states_[k].X_WB, plan.moves[k]));
+    }
+    std::vector<Hit> hits;
+    const double reach = world_.distances.least + world_.distances.tolerance;
+    clearance_ = world_.distances.least;
+    for_each_pair(boxes, moves, reach,
+                  [&](const BodyPair& pair, double margin) { ask(pair, margin, moves, hits); });
+    return hits;
+  }
+
+  void ask(const BodyPair& pair, double margin, const std::vector<Move>& moves,
+           std::vector<Hit>& hits) {
+    const auto found = manifolds_.find(pair);
+    const double gap =
+        found == manifolds_.end() ? std::numeric_limits<double>::infinity() : found->second.gap;
+    const HeldDistance held = held_distance(world_.distances, margin, gap);
+    clearance_ = std::min(clearance_, held.margin);
+    FirstContactOptions options;
+    options.margin = held.margin;
+    options.tolerance = held.tolerance;
+    const Motion A = motion_of(world_.bodies[pair[0]], poses_[pair[0]], moves[pair[0]]);
+    const Motion B = motion_of(world_.bodies[pair[1]], poses_[pair[1]], moves[pair[1]]);
+    first_contact({world_.bodies[pair[0]].shape, A}, {world_.bodies[pair[1]].shape, B}, workspace_,
+                  options, answer_);
+    if (answer_.verdict == Verdict::free) {
+      return;
+    }
+    hits.push_back(hit_of(pair, margin, {A.pose(answer_.t), B.pose(answer_.t)}, moves));
+  }
+
+  /// The contact that was just found, as a constraint on the rest of the step.
+  [[nodiscard]] Hit hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
+                           const std::vector<Move>& moves) {
+    Hit hit{.bodies = pair, .t = answer_.t};
+    ProblemBodies bodies(world_.bodies.size());
+    for (int side = 0; side < 2; ++side) {
+      const Move& move = moves[pair[side]];
+      bodies.add(pair[side], {{}, move.translation / rest(), move.rotation_vector / rest()},
+                 centre_of_mass(world_.bodies[pair[side]].inertia, poses[side]));
+    }
+    double closing = 0.0;
+    for (Touch& touch : touches_among(world_, pair, poses, margin, answer_.contacts)) {
+      TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
+      const double u_n = normal_velocity(ahead.contact, bodies.bodies());
+      ahead.least = (world_.distances.least - touch.gap) / rest() + hit.t * u_n;
+      closing = std::max(closing, -u_n);
+      hit.ahead.push_back(std::move(ahead));
+    }
+    hit.is_slight = !hit.ahead.empty() && !bounces(pair, closing) &&
+                    closing * rest() <= kSlightApproach * smaller_reach(pair);
+    return hit;
+  }
+
+  [[nodiscard]] double smaller_reach(const BodyPair& pair) const {
+    double smaller = std::numeric_limits<double>::infinity();
+    for (const std::size_t b : pair) {
+      if (world_.bodies[b].kind == BodyKind::free) {
+        smaller = std::min(smaller, world_.bodies[b].reach);
+      }
+    }
+    return smaller;
+  }
+
+  [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const {
+    return world_.laws.restitution(pair) > 0.0 &&
+           closing > kStepsWithoutBounce * world_.gravity.norm() * start_.h;
+  }
+
+  /// Makes the plan's motions real until t, and looks around there.
+  void move_to(const Plan& plan, double t) {
+    const double to = t < 1.0 ? track_.reached + t * rest() : start_.h;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const RigidState begin = states_[k];
+      RigidState& end = states_[k];
+      end.X_WB = motion_of(member(k), begin.X_WB, plan.moves[k]).pose(t);
+      end.X_WB.rotation.normalize();
+      end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
+      end.w_WB = begin.w_WB + t * (plan.at_end[k].w - begin.w_WB);
+      if (t > 0.0) {
+        const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
+        track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
+      }
+    }
+    track_.reached = to;
+    track_.touches = plan.touches;
+    track_.residual = std::max(track_.residual, plan.residual);
+    track_.clearance = std::min(track_.clearance, clearance_);
+    if (t < 1.0) {
+      place();
+      find_manifolds();
+    }
+  }
+
+  // --- Impacts ---------------------------------------------------------------------------------
+
+  /// Whether anything touches that approaches fast enough to bounce.
+  [[nodiscard]] bool has_bounce() const {
+    ProblemBodies bodies = problem_bodies();
+    for (const auto& [pair, manifold] : manifolds_) {
+      add_others(pair, bodies);
+      for (const Touch& touch : manifold.touches) {
+        const ContactPoint contact = contact_at(touch, bodies, 0.0, 0.0);
+        if (touch.gap <= world_.distances.touching &&
+            bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Changes the velocities of what touches now.
+  void impact() {
+    ProblemBodies bodies = problem_bodies();
+    ContactProblem problem;
+    std::vector<double> restitution;
+    for (const auto& [pair, manifold] : manifolds_) {
+      for (const Touch& touch : manifold.touches) {
+        if (touch.gap > world_.distances.touching) {
+          continue;
+        }
+        add_others(pair, bodies);
+        Touch unknown = touch;
+        unknown.impulse.setZero();
+        problem.contacts.push_back(contact_at(unknown, bodies, world_.laws.friction(pair), 0.0));
+        const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
+        restitution.push_back(bounces(pair, closing) ? world_.laws.restitution(pair) : 0.0);
+      }
+    }
+    if (problem.contacts.empty()) {
+      return;
+    }
+    problem.bodies = bodies.bodies();
+    const Impact impact = project_impact(world_, track_.members, states_, std::move(problem),
+                                         restitution, projection_options());
+    for (std::size_t k = 0; k < size(); ++k) {
+      states_[k].v_WC = impact.solution.bodies[k].v;
+      states_[k].w_WB = impact.solution.bodies[k].w;
+    }
+    track_.residual = std::max(track_.residual, impact.solution.residual);
+  }
+
+  const World& world_;
+  const StepStart& start_;
+  const std::vector<Touch>& guesses_;
+  Workspace& workspace_;
+  IslandTrack track_;
+  std::vector<bool> is_member_;     // Of each body.
+  std::vector<RigidState> states_;  // Of each member, now.
+  std::vector<Pose> poses_;         // Of each body, now; not of free bodies elsewhere.
+  std::map<BodyPair, Manifold> manifolds_;
+  FirstContactResult answer_;
+  double clearance_ = 0.0;  // [m]  Of the motion asked last.
+};
+
+}  // namespace
+
+HeldDistance held_distance(const ContactDistances& distances, double pair_margin, double gap) {
+  if (gap > distances.least + distances.tolerance) {
+    return {pair_margin + distances.least, distances.tolerance};
+  }
+  return {pair_margin + 0.5 * gap, 0.25 * gap};
+}
+
+bool comes_before(const Touch& x, const Touch& y) {
+  const auto key = [](const Touch& touch) {
+    return std::tuple(touch.bodies, touch.feature_A.type, touch.feature_A.index,
+                      touch.feature_B.type, touch.feature_B.index);
+  };
+  return key(x) < key(y);
+}
+
+IslandTrack advance_island(const World& world, const StepStart& start,
+                           std::vector<std::size_t> members, const std::vector<Touch>& guesses,
+                           Workspace& workspace) {
+  return Island(world, start, std::move(members), guesses, workspace).run();
+}
+
+}  // namespace firstcontact::detail

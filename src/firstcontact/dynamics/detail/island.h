@@ -1,0 +1,60 @@
+/// @file
+/// Bodies that act on each other within a step, advanced together.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/dynamics/detail/touch.h>
+#include <firstcontact/dynamics/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// A part of a step without impacts.
+struct TrackPiece {
+  double to = 0.0;  ///< [s]  Since the step began.
+  Pose X_WB;        ///< At its begin.
+  Move move;
+  RigidState begin;  ///< Velocities at its begin.
+  RigidState end;    ///< Pose and velocities at its end.
+};
+
+/// How the bodies of an island move over a step, or over as much of it as could be proven free.
+struct IslandTrack {
+  std::vector<std::size_t> members;             ///< Free bodies.
+  std::vector<std::vector<TrackPiece>> pieces;  ///< Of each member.
+  std::vector<Touch> touches = {};              ///< That acted last, with their impulses.
+  double reached = 0.0;                         ///< [s]
+  double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
+  double residual = 0.0;   ///< [m/s]
+  std::size_t events = 0;
+};
+
+/// Advances the free bodies `members`, with all fixed and scripted bodies around them, and without
+/// any other.
+///
+/// Until the step is over: velocities are what gravity, forces and the contacts within the band
+/// make of them (Gauss' principle); the in-between motion over the rest of the step is asked for
+/// its first contact. Where it is slight, it becomes a constraint of the same span; else all move
+/// until it, and the impact is projected there.
+///
+/// @param guesses  touches of the step before, sorted; their impulses start the solver
+[[nodiscard]] IslandTrack advance_island(const World& world, const StepStart& start,
+                                         std::vector<std::size_t> members,
+                                         const std::vector<Touch>& guesses, Workspace& workspace);
+
+/// Whether the features of one touch come before those of the other.
+[[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
+
+/// How a pair is asked for first contact, which was this far apart at the start.
+///
+/// @param gap  [m]  least, infinite where it is beyond the band
+struct HeldDistance {
+  double margin = 0.0;     ///< [m]  Of the question.
+  double tolerance = 0.0;  ///< [m]
+};
+[[nodiscard]] HeldDistance held_distance(const ContactDistances& distances, double pair_margin,
+                                         double gap);
+
+}  // namespace firstcontact::detail

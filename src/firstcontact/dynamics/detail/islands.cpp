@@ -1,0 +1,211 @@
+#include <firstcontact/dynamics/detail/islands.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// Sets of bodies, each named after its least member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t find(std::size_t k) {
+    while (parent_[k] != k) {
+      parent_[k] = parent_[parent_[k]];
+      k = parent_[k];
+    }
+    return k;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+class Islands {
+ public:
+  Islands(const World& world, const StepStart& start, const std::vector<Touch>& guesses,
+          Workspace& workspace)
+      : world_(world),
+        start_(start),
+        guesses_(guesses),
+        workspace_(workspace),
+        sets_(world.bodies.size()) {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+      if (world.bodies[b].kind == BodyKind::free) {
+        free_.push_back(b);
+      }
+    }
+  }
+
+  std::optional<std::vector<IslandTrack>> run(const std::stop_token& stop) {
+    join_near();
+    while (true) {
+      if (!advance_changed(stop)) {
+        return std::nullopt;
+      }
+      if (!join_meeting()) {
+        break;
+      }
+    }
+    std::vector<IslandTrack> tracks;
+    for (auto& track : tracks_) {
+      if (track) {
+        tracks.push_back(std::move(*track));
+      }
+    }
+    return tracks;
+  }
+
+ private:
+  [[nodiscard]] bool may_touch(std::size_t a, std::size_t b) const {
+    return world_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
+  }
+
+  /// Boxes are widened by half of what any pair may have to keep apart.
+  [[nodiscard]] AlignedBox3d widened(const AlignedBox3d& box, double by) const {
+    const Vector3d slack = Vector3d::Constant(0.5 * (by + world_.laws.greatest_margin()));
+    return {box.min() - slack, box.max() + slack};
+  }
+
+  void join_near() {
+    std::vector<AlignedBox3d> boxes;
+    for (const std::size_t b : free_) {
+      boxes.push_back(
+          widened(swept_box(world_.bodies[b], start_.states[b].X_WB, {}), world_.distances.band));
+    }
+    for (const auto& [i, k] : overlapping_pairs(boxes)) {
+      if (may_touch(free_[i], free_[k])) {
+        sets_.join(free_[i], free_[k]);
+      }
+    }
+  }
+
+  /// Advances the sets that are new. Returns false if it was stopped.
+  bool advance_changed(const std::stop_token& stop) {
+    std::vector<std::vector<std::size_t>> members(world_.bodies.size());
+    for (const std::size_t b : free_) {
+      members[sets_.find(b)].push_back(b);
+    }
+    tracks_.resize(world_.bodies.size());
+    is_new_.assign(world_.bodies.size(), false);
+    for (std::size_t s = 0; s < members.size(); ++s) {
+      if (tracks_[s] && tracks_[s]->members == members[s]) {
+        continue;
+      }
+      tracks_[s].reset();
+      if (members[s].empty()) {
+        continue;
+      }
+      if (stop.stop_requested()) {
+        return false;
+      }
+      is_new_[s] = true;
+      tracks_[s] = advance_island(world_, start_, std::move(members[s]), guesses_, workspace_);
+    }
+    return true;
+  }
+
+  /// The index in its island's track.
+  [[nodiscard]] const std::vector<TrackPiece>& pieces_of(std::size_t body) {
+    const IslandTrack& track = *tracks_[sets_.find(body)];
+    const auto found = std::ranges::lower_bound(track.members, body);
+    return track.pieces[static_cast<std::size_t>(found - track.members.begin())];
+  }
+
+  [[nodiscard]] AlignedBox3d box_of(std::size_t body) {
+    AlignedBox3d box = swept_box(world_.bodies[body], start_.states[body].X_WB, {});
+    for (const TrackPiece& piece : pieces_of(body)) {
+      box.extend(swept_box(world_.bodies[body], piece.X_WB, piece.move));
+    }
+    return box;
+  }
+
+  /// Over the whole step; at rest after what the island reached.
+  [[nodiscard]] Motion motion_over_step(std::size_t body) {
+    std::vector<ConstantRatePiece> pieces;
+    Pose last = start_.states[body].X_WB;
+    for (const TrackPiece& piece : pieces_of(body)) {
+      const double t_end = piece.to < start_.h ? piece.to / start_.h : 1.0;
+      if (t_end > (pieces.empty() ? 0.0 : pieces.back().t_end)) {
+        pieces.push_back({t_end, piece.X_WB, piece.move.translation, piece.move.rotation_vector});
+        last = piece.end.X_WB;
+      }
+    }
+    if (pieces.empty() || pieces.back().t_end < 1.0) {
+      pieces.push_back({1.0, last});
+    }
+    return Motion::constant_rates(pieces, world_.bodies[body].inertia.p_BC);
+  }
+
+  [[nodiscard]] bool meet(std::size_t a, std::size_t b) {
+    const BodyPair pair{std::min(a, b), std::max(a, b)};
+    FirstContactOptions options;
+    const HeldDistance held = held_distance(world_.distances, *world_.laws.margin(pair),
+                                            std::numeric_limits<double>::infinity());
+    options.margin = held.margin;
+    options.tolerance = held.tolerance;
+    options.contacts = ContactState::none;
+    const Motion A = motion_over_step(pair[0]);
+    const Motion B = motion_over_step(pair[1]);
+    return first_contact({world_.bodies[pair[0]].shape, A}, {world_.bodies[pair[1]].shape, B},
+                         workspace_, options)
+               .verdict != Verdict::free;
+  }
+
+  /// Joins islands of which the new motions meet. Returns whether there were any.
+  bool join_meeting() {
+    std::vector<AlignedBox3d> boxes;
+    for (const std::size_t b : free_) {
+      boxes.push_back(widened(box_of(b), world_.distances.least + world_.distances.tolerance));
+    }
+    std::vector<std::array<std::size_t, 2>> meeting;
+    for (const auto& [i, k] : overlapping_pairs(boxes)) {
+      const std::size_t a = free_[i];
+      const std::size_t b = free_[k];
+      const std::size_t set_a = sets_.find(a);
+      const std::size_t set_b = sets_.find(b);
+      if (set_a != set_b && (is_new_[set_a] || is_new_[set_b]) && may_touch(a, b) && meet(a, b)) {
+        meeting.push_back({a, b});
+      }
+    }
+    for (const auto& [a, b] : meeting) {
+      sets_.join(a, b);
+    }
+    return !meeting.empty();
+  }
+
+  const World& world_;
+  const StepStart& start_;
+  const std::vector<Touch>& guesses_;
+  Workspace& workspace_;
+  DisjointSets sets_;
+  std::vector<std::size_t> free_;
+  std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
+  std::vector<bool> is_new_;                        // Of each set.
+};
+
+}  // namespace
+
+std::optional<std::vector<IslandTrack>> advance_islands(const World& world, const StepStart& start,
+                                                        const std::vector<Touch>& guesses,
+                                                        Workspace& workspace,
+                                                        const std::stop_token& stop) {
+  return Islands(world, start, guesses, workspace).run(stop);
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,127 @@
+#include <firstcontact/dynamics/detail/response.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Rows: the normal and two tangents that depend on nothing else.
+Matrix3d frame_of(const Vector3d& normal) {
+  Eigen::Index least = 0;
+  normal.cwiseAbs().minCoeff(&least);
+  Matrix3d frame;
+  frame.row(0) = normal.transpose();
+  const Vector3d tangent = normal.cross(Vector3d::Unit(least)).normalized();
+  frame.row(1) = tangent.transpose();
+  frame.row(2) = normal.cross(tangent).transpose();
+  return frame;
+}
+
+double energy_of(const World& world, const std::vector<std::size_t>& members,
+                 const std::vector<RigidState>& states, const std::vector<ContactBody>& bodies) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    sum += kinetic_energy(world.bodies[members[k]].inertia,
+                          {states[k].X_WB, bodies[k].v, bodies[k].w});
+  }
+  return sum;
+}
+
+/// The velocities and impulses between two solutions.
+ContactSolution between(const ContactSolution& from, const ContactSolution& to, double share) {
+  ContactSolution mixed = to;
+  for (std::size_t b = 0; b < mixed.bodies.size(); ++b) {
+    mixed.bodies[b].v = (1.0 - share) * from.bodies[b].v + share * to.bodies[b].v;
+    mixed.bodies[b].w = (1.0 - share) * from.bodies[b].w + share * to.bodies[b].w;
+  }
+  for (std::size_t k = 0; k < mixed.impulses.size(); ++k) {
+    mixed.impulses[k] = (1.0 - share) * from.impulses[k] + share * to.impulses[k];
+  }
+  return mixed;
+}
+
+bool touches_scripted(const ContactProblem& problem, std::size_t members) {
+  return std::ranges::any_of(problem.contacts, [&](const ContactPoint& contact) {
+    return std::ranges::any_of(contact.bodies, [&](std::size_t place) {
+      const ContactBody& body = problem.bodies[place];
+      return place >= members && (body.v.any() || body.w.any());
+    });
+  });
+}
+
+}  // namespace
+
+std::size_t ProblemBodies::add(std::size_t body, const ContactBody& with, const Vector3d& p_WC) {
+  place_[body] = bodies_.size();
+  bodies_.push_back(with);
+  centres_.push_back(p_WC);
+  return place_[body];
+}
+
+ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies, double friction,
+                        double least_normal_velocity) {
+  ContactPoint contact;
+  contact.bodies = {bodies.place(touch.bodies[0]), bodies.place(touch.bodies[1])};
+  contact.arm_A = touch.point - bodies.centre(contact.bodies[0]);
+  contact.arm_B = touch.point - bodies.centre(contact.bodies[1]);
+  contact.frame = frame_of(touch.normal);
+  contact.friction = friction;
+  contact.least_normal_velocity = least_normal_velocity;
+  contact.guess = contact.frame * touch.impulse;
+  return contact;
+}
+
+double normal_velocity(const ContactPoint& contact, const std::vector<ContactBody>& bodies) {
+  const ContactBody& A = bodies[contact.bodies[0]];
+  const ContactBody& B = bodies[contact.bodies[1]];
+  const Vector3d u = B.v + B.w.cross(contact.arm_B) - A.v - A.w.cross(contact.arm_A);
+  return contact.frame.row(0).dot(u);
+}
+
+Impact project_impact(const World& world, const std::vector<std::size_t>& members,
+                      const std::vector<RigidState>& states, ContactProblem problem,
+                      const std::vector<double>& restitution, const ProjectionOptions& options) {
+  bool bounces = false;
+  std::vector<double> rebound(problem.contacts.size());
+  for (std::size_t k = 0; k < rebound.size(); ++k) {
+    const double approach = std::min(0.0, normal_velocity(problem.contacts[k], problem.bodies));
+    rebound[k] = -restitution[k] * approach;
+    bounces = bounces || rebound[k] > 0.0;
+    problem.contacts[k].least_normal_velocity = 0.0;
+  }
+  const double before = energy_of(world, members, states, problem.bodies);
+  Impact impact{project_on_contacts(problem, options)};
+  if (!bounces) {
+    return impact;
+  }
+  const ContactSolution plastic = impact.solution;
+  for (std::size_t k = 0; k < rebound.size(); ++k) {
+    problem.contacts[k].least_normal_velocity = rebound[k];
+  }
+  impact.solution = project_on_contacts(problem, options);
+  if (touches_scripted(problem, members.size())) {
+    return impact;  // A body that nothing stops may add energy.
+  }
+  const auto energy_at = [&](double share) {
+    return energy_of(world, members, states, between(plastic, impact.solution, share).bodies);
+  };
+  const double allowed = before * (1.0 + 1e-12);
+  if (energy_at(1.0) <= allowed) {
+    return impact;
+  }
+  double low = 0.0;
+  double high = 1.0;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (energy_at(middle) <= allowed ? low : high) = middle;
+  }
+  return {between(plastic, impact.solution, low), low};
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,66 @@
+/// @file
+/// Contact problems of an island: what its touches make of velocities.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/dynamics/detail/touch.h>
+#include <firstcontact/dynamics/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// The bodies of a problem: the members of an island first, by their place there, and the fixed and
+/// scripted bodies that they touch.
+class ProblemBodies {
+ public:
+  /// @param count  of the world's bodies
+  explicit ProblemBodies(std::size_t count) : place_(count, kNone) {}
+
+  /// @returns its place
+  std::size_t add(std::size_t body, const ContactBody& with, const Eigen::Vector3d& p_WC);
+
+  [[nodiscard]] bool has(std::size_t body) const { return place_[body] != kNone; }
+  [[nodiscard]] std::size_t place(std::size_t body) const { return place_[body]; }
+  [[nodiscard]] const std::vector<ContactBody>& bodies() const { return bodies_; }
+  [[nodiscard]] const Eigen::Vector3d& centre(std::size_t place) const { return centres_[place]; }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place_;  // Of each body of the world.
+  std::vector<ContactBody> bodies_;
+  std::vector<Eigen::Vector3d> centres_;  // [m]  p_WC
+};
+
+/// A contact of the problem at a touch, whose impulse starts the solver. Arms are those of the
+/// bodies' present centres.
+[[nodiscard]] ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies,
+                                      double friction, double least_normal_velocity);
+
+/// [m/s]  Of B relative to A along the normal.
+[[nodiscard]] double normal_velocity(const ContactPoint& contact,
+                                     const std::vector<ContactBody>& bodies);
+
+/// An impact: the contacts answer by Newton's law, each with its restitution, all at once.
+///
+/// Newton's law with friction can add energy (T. R. Kane, D. A. Levinson, "Dynamics: Theory and
+/// Applications", 1985). Where it would, all restitutions are lowered alike, until there is none
+/// added: the velocities are on the line from the answer without restitution, which loses energy,
+/// to the one with it.
+///
+/// @param restitution  of each contact, whose least normal velocity is replaced
+/// @param metric       kinetic energy of the problem's bodies with given velocities [J]
+struct Impact {
+  ContactSolution solution;
+  double share = 1.0;  ///< [-]  Of the restitution, that was left.
+};
+[[nodiscard]] Impact project_impact(const World& world, const std::vector<std::size_t>& members,
+                                    const std::vector<RigidState>& states, ContactProblem problem,
+                                    const std::vector<double>& restitution,
+                                    const ProjectionOptions& options);
+
+}  // namespace firstcontact::detail

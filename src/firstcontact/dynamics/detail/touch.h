@@ -1,0 +1,46 @@
+/// @file
+/// Where two bodies touch: the contacts that act on them.
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/workspace.h>
+
+namespace firstcontact::detail {
+
+/// A point at which two bodies are near each other.
+struct Touch {
+  BodyPair bodies = {};
+  Feature feature_A;
+  Feature feature_B;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the surfaces.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
+  double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
+};
+
+/// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
+/// it where none does. Contacts without normal, of surfaces that meet, are left out.
+///
+/// @param margin  [m]  of the pair
+[[nodiscard]] std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
+                                               const std::array<Pose, 2>& poses, double margin,
+                                               const std::vector<Contact>& contacts);
+
+/// The touches of two bodies at rest at these poses, and the least gap of all their features.
+struct Manifold {
+  BodyPair bodies = {};
+  double gap = 0.0;  ///< [m]  Infinite where nothing is within the band.
+  std::vector<Touch> touches = {};
+};
+
+[[nodiscard]] Manifold find_manifold(const World& world, const BodyPair& bodies,
+                                     const std::array<Pose, 2>& poses, double margin,
+                                     Workspace& workspace);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,353 @@
+#include <firstcontact/dynamics/simulator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/dynamics/detail/islands.h>
+#include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/query/distance.h>
+#include <firstcontact/scene/version.h>
+
+namespace firstcontact {
+
+using detail::BodyKind;
+using detail::IslandTrack;
+using detail::Move;
+using detail::SimBody;
+using detail::StepStart;
+using detail::Touch;
+using detail::TrackPiece;
+using detail::World;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Poses are rounded where a piece begins, and a cut piece has rounded rates: the exact motion that
+/// was proven free and the recorded one differ by less than this part of the sizes involved.
+constexpr double kRounding = 0x1p-46;
+
+void require_simulation(const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  if (!scene.simulation) {
+    throw std::invalid_argument("the scene has no \"simulation\"");
+  }
+  if (!scene.robots.empty()) {
+    throw std::invalid_argument("robot \"" + scene.robots.front().name +
+                                "\": robots are not simulated; leave it out");
+  }
+  for (const Body& body : scene.bodies) {
+    if (std::holds_alternative<VertexMotion>(body.motion)) {
+      throw std::invalid_argument("body \"" + body.name +
+                                  "\": a deforming body is not simulated; leave it out");
+    }
+  }
+}
+
+/// The rotation vector over a part of a motion: of one piece with all its turns, over several by
+/// the shortest way.
+Vector3d rotation_between(const Motion& motion, double from, double to) {
+  const auto breaks = motion.breaks();
+  const auto piece = static_cast<std::size_t>(
+      std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from) - breaks.begin() - 1);
+  if (to <= breaks[piece + 1]) {
+    const ConstantRatePath path = motion.path(piece, Vector3d::Zero());
+    return path.axis() * (path.rate() * (to - from));
+  }
+  const Eigen::AngleAxisd turn(motion.pose(to).rotation * motion.pose(from).rotation.conjugate());
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+class Simulator::Implementation {
+ public:
+  explicit Implementation(LoadedScene loaded)
+      : loaded_((require_simulation(loaded), std::move(loaded))), world_(loaded_) {
+    Scene& scene = loaded_.scene;
+    scene.simulation->contact_distance = world_.distances.least;
+    header_ = {.scene = scene, .version = version(), .input_digest = loaded_.input_digest};
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
+      const SimBody& body = world_.bodies[b];
+      const bool is_free = body.kind == BodyKind::free;
+      header_.masses.push_back(is_free ? body.inertia.mass : 0.0);
+      header_.centres_of_mass.push_back(body.inertia.p_BC);
+      RigidState state{.X_WB = loaded_.bodies.motion(b).pose(0.0)};
+      if (is_free) {
+        state.v_WC = scene.bodies[b].free->linear_velocity;
+        state.w_WB = scene.bodies[b].free->angular_velocity;
+        lock(body.inertia, state);
+      }
+      states_.push_back(state);
+    }
+    require_apart(states_, [](std::size_t) { return true; });
+  }
+
+  const RunHeader& header() const { return header_; }
+  double time() const { return time_; }
+  std::size_t step_count() const { return count_; }
+  const std::vector<RigidState>& states() const { return states_; }
+
+  void set_state(std::size_t body, const RigidState& state) {
+    if (body >= states_.size() || world_.bodies[body].kind != BodyKind::free) {
+      throw std::invalid_argument("set_state: body " + std::to_string(body) + " is not free");
+    }
+    if (!state.X_WB.position.allFinite() || !state.X_WB.rotation.coeffs().allFinite() ||
+        !(state.X_WB.rotation.norm() > 0.0) || !state.v_WC.allFinite() || !state.w_WB.allFinite()) {
+      throw std::invalid_argument("set_state: numbers must be finite, and the quaternion not zero");
+    }
+    std::vector<RigidState> states = states_;
+    states[body] = state;
+    states[body].X_WB.rotation.normalize();
+    lock(world_.bodies[body].inertia, states[body]);
+    require_apart(states, [body](std::size_t b) { return b == body; });
+    states_ = std::move(states);
+  }
+
+  void resume(const RunStep& step) {
+    std::vector<RigidState> states = states_;
+    std::size_t moving = 0;
+    for (const RunBody& body : step.bodies) {
+      if (body.body >= states.size() || world_.bodies[body.body].kind == BodyKind::fixed) {
+        throw std::invalid_argument("the step is of another scene: it moves body " +
+                                    std::to_string(body.body));
+      }
+      states[body.body] = {body.X_WB, body.linear_velocity, body.angular_velocity};
+      ++moving;
+    }
+    if (moving != moving_bodies()) {
+      throw std::invalid_argument("the step is of another scene: it moves " +
+                                  std::to_string(moving) + " bodies, not " +
+                                  std::to_string(moving_bodies()));
+    }
+    states_ = std::move(states);
+    time_ = step.time;
+    count_ = step.index;
+    touches_.clear();
+    for (const RunContact& contact : step.contacts) {
+      touches_.push_back({.bodies = contact.bodies,
+                          .feature_A = contact.feature_A,
+                          .feature_B = contact.feature_B,
+                          .impulse = contact.impulse});
+    }
+  }
+
+  std::optional<RunStep> step(const std::stop_token& stop) {
+    const StepStart start = step_start();
+    std::optional<std::vector<IslandTrack>> tracks =
+        detail::advance_islands(world_, start, touches_, workspace_, stop);
+    if (!tracks) {
+      return std::nullopt;
+    }
+    double lasted = start.h;
+    for (const IslandTrack& track : *tracks) {
+      lasted = std::min(lasted, track.reached);
+    }
+    RunStep step = record(start, *tracks, lasted);
+    touches_.clear();
+    for (const IslandTrack& track : *tracks) {
+      touches_.insert(touches_.end(), track.touches.begin(), track.touches.end());
+    }
+    std::ranges::sort(touches_, detail::comes_before);
+    for (const Touch& touch : touches_) {
+      step.contacts.push_back({touch.bodies, touch.feature_A, touch.feature_B, touch.point,
+                               touch.normal, touch.gap + world_.laws.margin(touch.bodies).value(),
+                               touch.impulse});
+    }
+    time_ = step.time;
+    count_ = step.index;
+    return step;
+  }
+
+ private:
+  static void lock(const Inertia& inertia, RigidState& state) {
+    for (int k = 0; k < 3; ++k) {
+      state.v_WC[k] = inertia.locked_translation[k] ? 0.0 : state.v_WC[k];
+      state.w_WB[k] = inertia.locked_rotation[k] ? 0.0 : state.w_WB[k];
+    }
+  }
+
+  [[nodiscard]] std::size_t moving_bodies() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        world_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
+  }
+
+  /// All pairs with a body that `concerns` says yes to.
+  template <class Concerns>
+  void require_apart(const std::vector<RigidState>& states, const Concerns& concerns) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    const Vector3d slack = Vector3d::Constant(0.5 * world_.laws.greatest_margin());
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      const Eigen::AlignedBox3d box = detail::swept_box(world_.bodies[b], states[b].X_WB, {});
+      boxes.emplace_back(box.min() - slack, box.max() + slack);
+    }
+    for (const auto& [a, b] : detail::overlapping_pairs(boxes)) {
+      const bool is_held =
+          world_.bodies[a].kind != BodyKind::free && world_.bodies[b].kind != BodyKind::free;
+      const std::optional<double> margin = world_.laws.margin({a, b});
+      if (is_held || !margin || !(concerns(a) || concerns(b))) {
+        continue;
+      }
+      const Motion A = Motion::fixed(states[a].X_WB);
+      const Motion B = Motion::fixed(states[b].X_WB);
+      const DistanceResult found =
+          distance({world_.bodies[a].shape, A}, {world_.bodies[b].shape, B}, 0.0, workspace_);
+      if (!(found.lower_bound > *margin)) {
+        const auto& bodies = loaded_.scene.bodies;
+        throw std::invalid_argument("bodies \"" + bodies[a].name + "\" and \"" + bodies[b].name +
+                                    "\" meet at the start; move them apart, or ignore the pair in "
+                                    "\"pairs\"");
+      }
+    }
+  }
+
+  [[nodiscard]] StepStart step_start() {
+    const Simulation& simulation = *loaded_.scene.simulation;
+    StepStart start{.time = time_, .h = simulation.step, .states = states_};
+    start.scripted.resize(states_.size());
+    for (std::size_t b = 0; b < states_.size(); ++b) {
+      if (world_.bodies[b].kind != BodyKind::scripted) {
+        continue;
+      }
+      const Motion& motion = loaded_.bodies.motion(b);
+      const double from = std::min(1.0, time_ / loaded_.scene.duration);
+      const double to = std::min(1.0, (time_ + start.h) / loaded_.scene.duration);
+      start.scripted[b] = {motion.pose(to).position - states_[b].X_WB.position,
+                           rotation_between(motion, from, to)};
+    }
+    return start;
+  }
+
+  /// The track of a body until `lasted`, as a run has it. Moves the body's state there.
+  RunBody recorded(std::size_t b, const std::vector<TrackPiece>& pieces, double lasted) {
+    RunBody body{.body = b};
+    RigidState& state = states_[b];
+    const RigidState begin = state;
+    double from = 0.0;
+    for (const TrackPiece& piece : pieces) {
+      const double share =
+          piece.to <= lasted ? 1.0 : std::max(0.0, (lasted - from) / (piece.to - from));
+      if (share < 1.0) {
+        const Motion motion = detail::motion_of(world_.bodies[b], piece.X_WB, piece.move);
+        state.X_WB = motion.pose(share);
+        state.X_WB.rotation.normalize();
+        state.v_WC = piece.begin.v_WC + share * (piece.end.v_WC - piece.begin.v_WC);
+        state.w_WB = piece.begin.w_WB + share * (piece.end.w_WB - piece.begin.w_WB);
+      } else {
+        state = piece.end;
+      }
+      const Move move = share < 1.0 ? piece.move.part(share) : piece.move;
+      body.pieces.push_back(
+          {std::min(piece.to, lasted), piece.X_WB, move.translation, move.rotation_vector});
+      from = piece.to;
+      if (from >= lasted) {
+        break;
+      }
+    }
+    if (body.pieces.empty()) {
+      body.pieces.push_back({lasted, begin.X_WB});
+    }
+    body.X_WB = state.X_WB;
+    body.linear_velocity = state.v_WC;
+    body.angular_velocity = state.w_WB;
+    return body;
+  }
+
+  RunBody recorded_script(std::size_t b, const StepStart& start, double lasted) {
+    const double share = lasted / start.h;
+    const Move move = start.scripted[b].part(share);
+    RunBody body{.body = b};
+    body.pieces.push_back({lasted, start.states[b].X_WB, move.translation, move.rotation_vector});
+    RigidState& state = states_[b];
+    state.X_WB = detail::scripted_pose(world_, start, b, share);
+    state.X_WB.rotation.normalize();
+    state.v_WC = start.scripted[b].translation / start.h;
+    state.w_WB = start.scripted[b].rotation_vector / start.h;
+    body.X_WB = state.X_WB;
+    body.linear_velocity = state.v_WC;
+    body.angular_velocity = state.w_WB;
+    return body;
+  }
+
+  RunStep record(const StepStart& start, const std::vector<IslandTrack>& tracks, double lasted) {
+    RunStep step{.index = count_ + 1,
+                 .time = time_ + lasted,
+                 .lasted = lasted,
+                 .time_lost = start.h - lasted};
+    step.clearance = world_.distances.least;
+    double size = 0.0;
+    for (const IslandTrack& track : tracks) {
+      step.clearance = std::min(step.clearance, track.clearance);
+      step.residual = std::max(step.residual, track.residual);
+      step.events += track.events;
+      for (std::size_t k = 0; k < track.members.size(); ++k) {
+        step.bodies.push_back(recorded(track.members[k], track.pieces[k], lasted));
+      }
+    }
+    for (std::size_t b = 0; b < states_.size(); ++b) {
+      if (world_.bodies[b].kind == BodyKind::scripted) {
+        step.bodies.push_back(recorded_script(b, start, lasted));
+      }
+    }
+    std::ranges::sort(step.bodies, {}, &RunBody::body);
+    for (const RunBody& body : step.bodies) {
+      for (const RunPiece& piece : body.pieces) {
+        size = std::max(size,
+                        piece.X_WB.position.cwiseAbs().maxCoeff() + piece.translation.norm() +
+                            world_.bodies[body.body].reach * (1.0 + piece.rotation_vector.norm()));
+      }
+    }
+    step.clearance = std::max(0.0, step.clearance - kRounding * size);
+    add_mechanics(step);
+    return step;
+  }
+
+  void add_mechanics(RunStep& step) const {
+    for (std::size_t b = 0; b < states_.size(); ++b) {
+      const SimBody& body = world_.bodies[b];
+      if (body.kind != BodyKind::free) {
+        continue;
+      }
+      const RigidState& state = states_[b];
+      const Vector3d p_WC = centre_of_mass(body.inertia, state.X_WB);
+      const Vector3d momentum = body.inertia.mass * state.v_WC;
+      step.kinetic_energy += kinetic_energy(body.inertia, state);
+      step.potential_energy -= body.inertia.mass * world_.gravity.dot(p_WC);
+      step.linear_momentum += momentum;
+      step.angular_momentum +=
+          p_WC.cross(momentum) + rotational_inertia(body.inertia, state.X_WB) * state.w_WB;
+    }
+  }
+
+  LoadedScene loaded_;
+  World world_;
+  RunHeader header_;
+  std::vector<RigidState> states_;
+  std::vector<Touch> touches_;  // Of the last step, sorted.
+  double time_ = 0.0;           // [s]
+  std::size_t count_ = 0;
+  Workspace workspace_;
+};
+
+Simulator::Simulator(LoadedScene loaded)
+    : implementation_(std::make_unique<Implementation>(std::move(loaded))) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+const RunHeader& Simulator::header() const { return implementation_->header(); }
+double Simulator::time() const { return implementation_->time(); }
+std::size_t Simulator::step_count() const { return implementation_->step_count(); }
+const std::vector<RigidState>& Simulator::states() const { return implementation_->states(); }
+void Simulator::set_state(std::size_t body, const RigidState& state) {
+  implementation_->set_state(body, state);
+}
+void Simulator::resume(const RunStep& step) { implementation_->resume(step); }
+std::optional<RunStep> Simulator::step(const std::stop_token& stop) {
+  return implementation_->step(stop);
+}
+
+}  // namespace firstcontact
