@@ -1,0 +1,36 @@
+/// @file
+/// The verifier's own hierarchy: boxes over the triangles of a body, seen from its pivot.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/mesh.h>
+
+namespace firstcontact::detail {
+
+/// A box with its faces along the axes of the body, around one triangle or two other boxes.
+struct BoxNode {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  From the pivot.
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< [m]  Half of its edges, rounded up.
+  double reach = 0.0;  ///< [m]  No point of it is farther from the pivot.
+  bool is_leaf = false;
+  std::uint32_t first = 0;  ///< Its triangle, or the first of its two children, which are adjacent.
+};
+
+/// Triangles by their corners, rounded: each within 2^-53 of its distance from the pivot.
+struct BoxTree {
+  std::vector<BoxNode> nodes;                             ///< The root is the first.
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles;  ///< [m]  From the pivot.
+};
+
+/// @param mesh  at least one triangle
+/// @param p_BC  [m]  the pivot
+[[nodiscard]] BoxTree build_box_tree(const Mesh& mesh, const Eigen::Vector3d& p_BC);
+
+}  // namespace firstcontact::detail

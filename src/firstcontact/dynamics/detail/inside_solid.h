@@ -1,0 +1,20 @@
+/// @file
+/// The verifier's own test of a point and a solid.
+
+#pragma once
+
+#include <optional>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/math/interval_vector.h>
+
+namespace firstcontact::detail {
+
+/// Whether the triangles wind around the point: proven either way; nothing where the point is
+/// too close to them to tell.
+///
+/// @param mesh  closed, its triangles agree on their inner side
+/// @param p     [m]  contains the point, in the mesh's frame
+[[nodiscard]] std::optional<bool> is_inside(const Mesh& mesh, const IntervalVector3& p);
+
+}  // namespace firstcontact::detail
