@@ -45,6 +45,12 @@ class RecordedRun {
     }
   }
 
+  /// Begins elsewhere.
+  void place(std::size_t body, const Pose& X_WB) {
+    header.scene.bodies[body].motion = FixedMotion{X_WB};
+    poses_[body] = X_WB;
+  }
+
   /// A step in which the named bodies move on, each by legs that take equally long together.
   RunStep& add(const std::vector<std::pair<std::size_t, std::vector<Leg>>>& moves,
                double clearance = 0.0) {
@@ -70,8 +76,6 @@ class RecordedRun {
     steps.push_back(step);
     return steps.back();
   }
-
-  [[nodiscard]] const Pose& pose(std::size_t body) const { return poses_[body]; }
 
   [[nodiscard]] RunVerification verify(const VerifyRunOptions& options = {}) const {
     std::size_t next = 0;

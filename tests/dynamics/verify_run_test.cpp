@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/dynamics/verify_run.h>
+#include <firstcontact/query/distance.h>
 
 #include "dynamics/recorded_run.h"
+#include "support/random.h"
 
 namespace firstcontact {
 namespace {
@@ -164,6 +166,103 @@ TEST(VerifyRun, ProvesEdgesThatPassClosely) {
   const RunVerification proven = run.verify();
   EXPECT_EQ(proven.verdict, RunVerdict::proven) << proven.problem;
   EXPECT_NEAR(proven.least_distance, 1e-4, 2e-6);
+}
+
+/// A handful of triangles within 0.3 m of each other, as the text of a shape.
+std::string random_soup(test::Random& random) {
+  std::string vertices;
+  std::string triangles;
+  for (int k = 0; k < 24; ++k) {
+    const Vector3d v = random.vector(0.05, 0.3);
+    vertices += (k == 0 ? "[" : ", [") + std::to_string(v.x()) + ", " + std::to_string(v.y()) +
+                ", " + std::to_string(v.z()) + "]";
+  }
+  for (int k = 0; k < 12; ++k) {
+    const int first = k % 8 * 3;
+    triangles += (k == 0 ? "[" : ", [") + std::to_string(first) + ", " + std::to_string(first + 1) +
+                 ", " + std::to_string((first + 2 + k) % 24) + "]";
+  }
+  return R"("shape": {"vertices": [)" + vertices + R"(], "triangles": [)" + triangles + "]}";
+}
+
+/// The motion of a body in a step, t = time / what the step lasted.
+Motion motion_of(const RunStep& step, const RunBody& body, const Vector3d& p_BC) {
+  std::vector<ConstantRatePiece> pieces;
+  for (const RunPiece& piece : body.pieces) {
+    pieces.push_back(
+        {piece.to / step.lasted, piece.X_WB, piece.translation, piece.rotation_vector});
+  }
+  pieces.back().t_end = 1.0;
+  return Motion::constant_rates(pieces, p_BC);
+}
+
+/// [m]  The least distance of the first two bodies at many instants of a step.
+double sampled_distance(const RecordedRun& run) {
+  const RunStep& step = run.steps.at(0);
+  std::vector<Shape> shapes;
+  std::vector<Motion> motions;
+  for (std::size_t b = 0; b < 2; ++b) {
+    shapes.emplace_back(std::get<Mesh>(run.header.scene.bodies[b].shape.source));
+    motions.push_back(motion_of(step, step.bodies[b], run.header.centres_of_mass[b]));
+  }
+  Workspace workspace;
+  double least = std::numeric_limits<double>::infinity();
+  constexpr int kSamples = 500;
+  for (int k = 0; k <= kSamples; ++k) {
+    const DistanceResult found = distance({shapes[0], motions[0]}, {shapes[1], motions[1]},
+                                          static_cast<double>(k) / kSamples, workspace);
+    least = std::min(least, found.distance);
+  }
+  return least;
+}
+
+// The library's own distance at many instants is the oracle: no instant is closer than what is
+// proven, and something is nearly as close.
+TEST(VerifyRun, AgreesWithManySamples) {
+  test::Random random(5);
+  int apart = 0;
+  int met = 0;
+  for (int n = 0; n < 100; ++n) {
+    const std::string first = random_soup(random);
+    RecordedRun run(scene(first, random_soup(random)), {0, 1});
+    const auto leg = [&](double lasts) {
+      return Leg{lasts, random.vector(0.0, 3.0), random.vector(0.0, 10.0)};
+    };
+    for (std::size_t b = 0; b < 2; ++b) {
+      run.header.centres_of_mass[b] = random.vector(0.0, 0.1);
+    }
+    // Begins apart, most often.
+    const Vector3d away = random.vector(0.4, 0.9);
+    run.place(1, {away, random.rotation()});
+    const double early = random.uniform(0.05, 0.15);
+    run.add({{0, {leg(0.1), leg(0.1)}}, {1, {leg(early), leg(0.2 - early)}}});
+    run.steps[0].lasted = run.steps[0].bodies[0].pieces.back().to;
+    run.steps[0].bodies[1].pieces.back().to = run.steps[0].lasted;
+    run.steps[0].time = run.steps[0].lasted;
+    const double sampled = sampled_distance(run);
+    if (sampled == 0.0) {
+      ++met;
+      EXPECT_NE(run.verify().verdict, RunVerdict::proven) << n;
+      run.steps[0].clearance = 1e-6;
+      EXPECT_EQ(run.verify().verdict, RunVerdict::closer) << n;
+      continue;
+    }
+    if (sampled < 0.01) {
+      continue;  // Perhaps they meet between samples.
+    }
+    ++apart;
+    const RunVerification proven = run.verify();
+    ASSERT_EQ(proven.verdict, RunVerdict::proven) << n << proven.problem;
+    EXPECT_LE(proven.least_distance, sampled) << n;
+    EXPECT_LE(proven.closest->distance, 1.02 * sampled) << n;
+    EXPECT_GE(proven.least_distance, 0.98 * proven.closest->distance) << n;
+    run.steps[0].clearance = 0.9999 * proven.least_distance;
+    EXPECT_EQ(run.verify().verdict, RunVerdict::proven) << n;
+    run.steps[0].clearance = 1.0001 * sampled;
+    EXPECT_EQ(run.verify().verdict, RunVerdict::closer) << n;
+  }
+  EXPECT_GT(apart, 15);
+  EXPECT_GT(met, 10);
 }
 
 TEST(VerifyRun, SeesTheThicknessOfShapes) {
