@@ -1,0 +1,60 @@
+/// @file
+/// The meshes of a fixture of Rigid IPC.
+
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/scene/detail/json_reader.h>
+
+namespace firstcontact::detail {
+
+/// Finds and reads meshes, each file once.
+class RigidIpcMeshes {
+ public:
+  /// @param fixture  the file that names the meshes
+  explicit RigidIpcMeshes(std::filesystem::path fixture) : fixture_(std::move(fixture)) {}
+
+  /// The file that a name means: beside the fixture, or in a folder `meshes` of a folder above it.
+  ///
+  /// @throws ParseError that says where it looked
+  [[nodiscard]] std::filesystem::path find(const JsonValue& name, const JsonReader& read) const;
+
+  /// Welded. A file of vertices alone is a cloud of points.
+  ///
+  /// @throws ParseError
+  const Mesh& load(const std::filesystem::path& path);
+
+  /// SHA-256 of what was read, a line for each file.
+  [[nodiscard]] std::string digests() const;
+
+ private:
+  struct Loaded {
+    Mesh mesh;
+    std::string digest;
+  };
+
+  std::filesystem::path fixture_;
+  std::map<std::filesystem::path, Loaded> loaded_;
+};
+
+/// [m]  From the least to the greatest coordinate of all vertices.
+[[nodiscard]] Eigen::Vector3d extent(const Mesh& mesh);
+
+/// @param factors  for x, y, z
+[[nodiscard]] Mesh scaled(Mesh mesh, const Eigen::Vector3d& factors);
+
+[[nodiscard]] Mesh moved(Mesh mesh, const Eigen::Vector3d& translation);
+
+/// The sets of triangles that share vertices, each a mesh of its own.
+[[nodiscard]] std::vector<Mesh> split_components(const Mesh& mesh);
+
+}  // namespace firstcontact::detail

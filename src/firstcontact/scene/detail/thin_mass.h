@@ -1,0 +1,23 @@
+/// @file
+/// Mass without volume: spread over triangles, edges or points.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/mesh.h>
+
+namespace firstcontact::detail {
+
+/// Of density 1: each triangle has the mass of its area; where no triangle has three corners each
+/// edge that of its length; where there is none each point one.
+struct ThinMass {
+  double mass = 0.0;                                  ///< [m^2, m or 1]
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< [m]  Centre of mass.
+  Eigen::Matrix3d about_C = Eigen::Matrix3d::Zero();  ///< Mass times m^2, body axes.
+};
+
+/// @param mesh  at least one triangle
+[[nodiscard]] ThinMass thin_mass(const Mesh& mesh);
+
+}  // namespace firstcontact::detail
