@@ -59,7 +59,8 @@ class CommandLine(ToolTest):
         self.assertRegex(result.stdout, r"^firstcontact \d+\.\d+\.\d+\n$")
 
     def test_helps(self):
-        for arguments in (["--help"], ["check", "--help"], ["batch", "--help"], ["info", "--help"]):
+        for arguments in (["--help"], ["check", "--help"], ["batch", "--help"], ["info", "--help"],
+                          ["verify", "--help"]):
             result = self.run_tool(*arguments)
             self.assertEqual(result.returncode, 0)
             self.assertIn("Usage: firstcontact", result.stdout)
@@ -95,6 +96,89 @@ class CommandLine(ToolTest):
         for words in ("contact: contact at t = 0.2", "floor and stone", "triangle 0", "normal", "closing at",
                       "closest", "sampling misses this contact"):
             self.assertIn(words, result.stdout)
+
+
+class Verify(ToolTest):
+    """A ball that falls towards a floor at 1 m/s and comes to rest at a height of 0.1 m over it."""
+
+    SCENE = {"firstcontact": 1, "simulation": {"duration": 0.9}, "bodies": [
+        {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, 1]}, "dynamics": {}},
+        {"name": "floor", "shape": {"box": {"size": [9, 9, 0.2]}}, "pose": {"position": [0, 0, -0.1]}}]}
+    HEADER = {"firstcontact_run": 1, "scene": SCENE, "version": "0.1.0", "input_digest": "", "masses": [1, 0],
+              "centres_of_mass": [[0, 0, 0], [0, 0, 0]]}
+
+    def step(self, index: int, begin: float, lasted: float, height: float, fall: float, **more) -> dict:
+        end = [0, 0, height - fall]
+        piece = [lasted, 0, 0, height, 1, 0, 0, 0, 0, 0, -fall, 0, 0, 0]
+        body = {"body": 0, "pieces": [piece], "position": end, "quaternion_wxyz": [1, 0, 0, 0],
+                "linear_velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]}
+        return {"step": index, "time": begin + lasted, "lasted": lasted, "time_lost": 0.125, "bodies": [body],
+                "contacts": [], "clearance": 0.1, "kinetic_energy": 0, "potential_energy": 0,
+                "linear_momentum": [0, 0, 0], "angular_momentum": [0, 0, 0], "residual": 0, "events": 0, **more}
+
+    def setUp(self):
+        super().setUp()
+        self.steps = [self.step(1, 0, 0.5, 1, 0.5), self.step(2, 0.5, 0.25, 0.5, 0.25)]
+
+    def verify(self, *arguments: str, cut: int = 0) -> subprocess.CompletedProcess:
+        text = "".join(json.dumps(line) + "\n" for line in [self.HEADER, *self.steps])
+        return self.run_tool("verify", self.file("run.jsonl", text[:len(text) - cut]), *arguments)
+
+    def test_proves_a_run(self):
+        result = self.verify()
+        self.assertEqual(result.returncode, 0, result)
+        self.assertEqual(result.stderr, "")
+        self.assertRegex(result.stdout, r"""^run\.jsonl: proven: at no time do two bodies interpenetrate
+  verified   2 steps, 750 ms of 900 ms
+  least      15\d.* mm between ball and floor at 0\.7\d* s \(step 2\); proven: 1(50|49|48).* mm or more
+  time lost  250 ms
+$""")
+
+    def test_writes_json(self):
+        found = json.loads(self.verify("--json").stdout)
+        self.assertEqual(found["verdict"], "proven")
+        self.assertEqual((found["steps"], found["time"], found["time_lost"]), (2, 0.75, 0.25))
+        self.assertEqual(found["closest"]["bodies"], ["ball", "floor"])
+        self.assertEqual(found["closest"]["step"], 2)
+        self.assertAlmostEqual(found["closest"]["distance"], 0.15, delta=0.002)
+        self.assertLessEqual(found["least_distance"], 0.15)
+        self.assertGreaterEqual(found["least_distance"], 0.148)
+        self.assertEqual((found["problem"], found["problem_at"]), ("", None))
+
+    def test_refutes_a_run(self):
+        self.steps.append(self.step(3, 0.75, 0.125, 0.25, 0.0625))
+        result = self.verify()
+        self.assertEqual(result.returncode, 1, result)
+        self.assertRegex(result.stdout, r"^run\.jsonl: refuted\n  problem +\"ball\" and \"floor\" come closer than "
+                         r"promised\.\n  when +0\.8\d+ s \(step 3\)\n  distance +\d\d.* mm or less\n")
+        found = json.loads(self.verify("--json").stdout)
+        self.assertEqual((found["verdict"], found["problem_at"]["step"]), ("closer", 3))
+
+    def test_refuses_a_broken_record(self):
+        self.steps[1]["bodies"][0]["pieces"][0][1] = 0.25
+        self.assert_refused(self.verify(), 'run.jsonl: Step 2: "ball" jumps by 0.25 m at 0.5 s.')
+        result = self.verify("--json")
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(json.loads(result.stdout)["verdict"], "broken")
+
+    def test_refuses_what_is_no_run(self):
+        self.assert_refused(self.run_tool("verify", "gone.jsonl"), "gone.jsonl: expected a run, cannot open this one")
+        self.assert_refused(self.run_tool("verify", self.file("scene.jsonl", scenes.FREE + "\n")),
+                            'scene.jsonl:1: expected the header of a run, an object with "firstcontact_run": 1')
+        self.steps[1]["lasted"] = None
+        self.assert_refused(self.verify(), "run.jsonl:3: lasted: expected a number")
+
+    def test_leaves_out_what_was_cut_off(self):
+        result = self.verify(cut=10)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("verified   1 step, 500 ms of 900 ms", result.stdout)
+        self.assertIn("the file ends in the middle of a line, which was left out", result.stdout)
+
+    def test_says_what_is_not_proven(self):
+        self.steps = []
+        result = self.verify()
+        self.assertEqual(result.returncode, 3, result)
+        self.assertIn("run.jsonl: not proven\n  problem    The run has no step.\n", result.stdout)
 
 
 class Robot(ToolTest):

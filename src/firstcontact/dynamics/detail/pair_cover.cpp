@@ -24,7 +24,7 @@ constexpr double kPromiseError = 0x1p-20;
 constexpr double kPrecision = 0.01;
 
 /// So often a step is halved to find the least distance; and to prove what was promised.
-constexpr int kFineDepth = 12;
+constexpr int kFineDepth = 24;
 constexpr int kDeepest = 50;
 
 /// Covers the roundings of a velocity and of what follows from it.

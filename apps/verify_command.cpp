@@ -1,0 +1,163 @@
+#include "verify_command.h"
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/core.h>
+
+#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/dynamics/verify_run.h>
+#include <firstcontact/dynamics/write_verification.h>
+#include <firstcontact/geometry/parse_error.h>
+
+#include "interrupt.h"
+#include "progress.h"
+#include "quantity_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+struct Arguments {
+  std::string run;
+  bool json = false;
+  int threads = 0;
+};
+
+ExitStatus status_of(RunVerdict verdict) {
+  switch (verdict) {
+    case RunVerdict::proven:
+      return ExitStatus::free;
+    case RunVerdict::closer:
+      return ExitStatus::contact;
+    case RunVerdict::broken:
+      return ExitStatus::bad_input;
+    case RunVerdict::not_proven:
+      break;
+  }
+  return ExitStatus::undecided;
+}
+
+/// Writes the lines of one answer, but for a broken record.
+class Description {
+ public:
+  Description(const std::string& file, const RunReader& run, const RunVerification& found)
+      : scene_(run.header().scene), run_(run), found_(found) {
+    text_ = fmt::format("{}: {}\n", file, verdict());
+  }
+
+  std::string write() {
+    problem();
+    const std::size_t steps = found_.steps;
+    line("verified", fmt::format("{} step{}, {}{}", steps, steps == 1 ? "" : "s",
+                                 time_text(found_.time), of_the_whole()));
+    if (found_.verdict == RunVerdict::proven && found_.closest) {
+      const RunMoment& at = *found_.closest;
+      line("least", fmt::format("{} between {} at {:.6g} s (step {}); proven: {} or more",
+                                length_text(at.distance), names(at.bodies), at.time, at.step,
+                                length_text(found_.least_distance)));
+    }
+    line("time lost", found_.time_lost > 0.0 ? time_text(found_.time_lost) : "none");
+    if (run_.is_cut_off()) {
+      line("note", "the file ends in the middle of a line, which was left out");
+    }
+    return text_;
+  }
+
+ private:
+  [[nodiscard]] const char* verdict() const {
+    if (found_.verdict == RunVerdict::proven) {
+      return "proven: at no time do two bodies interpenetrate";
+    }
+    return found_.verdict == RunVerdict::closer ? "refuted" : "not proven";
+  }
+
+  void line(const char* label, const std::string& value) {
+    text_ += fmt::format("  {:<10} {}\n", label, value);
+  }
+
+  [[nodiscard]] std::string names(const BodyPair& bodies) const {
+    return scene_.bodies[bodies[0]].name + " and " + scene_.bodies[bodies[1]].name;
+  }
+
+  void problem() {
+    if (!found_.problem.empty()) {
+      line("problem", found_.problem);
+    }
+    if (found_.problem_at) {
+      const RunMoment& at = *found_.problem_at;
+      line("when", fmt::format("{:.9g} s (step {})", at.time, at.step));
+      if (found_.verdict == RunVerdict::closer) {
+        line("distance", at.distance > 0.0 ? length_text(at.distance) + " or less" : "0");
+      }
+    }
+  }
+
+  /// A simulation may have ended early.
+  [[nodiscard]] std::string of_the_whole() const {
+    const double whole = scene_.simulation ? scene_.simulation->duration : 0.0;
+    return found_.time < (1.0 - 1e-9) * whole ? " of " + time_text(whole) : "";
+  }
+
+  const Scene& scene_;
+  const RunReader& run_;
+  const RunVerification& found_;
+  std::string text_;
+};
+
+ExitStatus verify(const Arguments& arguments) {
+  const Interrupt interrupt;  // First: other threads inherit what it blocks.
+  Progress progress;
+  std::ifstream stream(arguments.run, std::ios::binary);
+  if (!stream) {
+    throw ParseError(arguments.run, "expected a run, cannot open this one");
+  }
+  RunReader run(stream, arguments.run);
+  VerifyRunOptions options{.threads = arguments.threads, .stop = interrupt.token()};
+  options.progress = [&](double time) { progress.doing(fmt::format("verified {:.4g} s", time)); };
+  progress.doing("verifying");
+  const RunVerification found = [&] {
+    try {
+      return verify_run(
+          run.header(), [&] { return run.next(); }, options);
+    } catch (const std::invalid_argument& error) {
+      throw ParseError(arguments.run, error.what());
+    }
+  }();
+  if (arguments.json) {
+    fmt::print("{}\n", write_verification(run.header(), found));
+  } else if (found.verdict == RunVerdict::broken) {
+    throw ParseError(arguments.run, found.problem);
+  } else {
+    fmt::print("{}", Description(arguments.run, run, found).write());
+  }
+  if (std::fflush(stdout) != 0) {
+    throw std::runtime_error("standard output: cannot write all of the answer");
+  }
+  return status_of(found.verdict);
+}
+
+constexpr const char* kFooter = R"(
+Exit status: 0 proven; 1 refuted: two bodies interpenetrate or come closer than the run
+promises; 2 bad input, such as a record that contradicts itself; 3 not proven.
+Ctrl-C ends with status 3; again, at once.)";
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command = app.add_subcommand(
+      "verify", "Proves that no two bodies interpenetrate at any time of a recorded run");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("RUN", arguments->run, "The .jsonl file that a simulation wrote")->required();
+  command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "At most so many; 0, the default, for one on each core. The answer is the same")
+      ->check(CLI::Range(0, 1024));
+  command->footer(kFooter);
+  command->callback([arguments, &status] { status = verify(*arguments); });
+}
+
+}  // namespace firstcontact::app
