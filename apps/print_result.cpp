@@ -148,10 +148,11 @@ std::string describe(std::string_view title, const SceneAnswer& answer, bool all
 
 std::vector<std::string> told_warnings(const LoadedScene& loaded) {
   constexpr std::size_t kMost = 12;
-  std::vector<std::string> told = loaded.warnings;
+  std::vector<std::string> told = check_warnings(loaded);
   if (told.size() > kMost) {
+    const std::size_t others = told.size() - kMost;
     told.resize(kMost);
-    told.push_back(fmt::format("and {} more", loaded.warnings.size() - kMost));
+    told.push_back(fmt::format("and {} more", others));
   }
   return told;
 }

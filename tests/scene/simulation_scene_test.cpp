@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/read_scene.h>
 
 #include "scene/scene_text.h"
@@ -194,11 +194,11 @@ TEST(MalformedSimulation, SaysWhatIsWrong) {
   });
 }
 
-TEST(LoadScene, WarnsThatFreeBodiesRest) {
+TEST(CheckWarnings, SayThatFreeBodiesRest) {
   const std::string free = R"("dynamics": {})";
   ShapeCache cache;
   const auto warnings = [&](const std::string& bodies) {
-    return load_scene(parse_scene(scene(bodies), "s"), cache).warnings;
+    return check_warnings(load_scene(parse_scene(scene(bodies), "s"), cache));
   };
   EXPECT_TRUE(warnings(body("a")).empty());
   EXPECT_EQ(warnings(body("a") + "," + body("b", free)).at(0),

@@ -436,8 +436,10 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly("limits", &limits_of,
                              "LimitViolations: the joint limits that robots leave.")
       .def_property_readonly(
-          "warnings", [](const HeldResult& r) { return loaded_without_gil(*r.scene).warnings; },
-          "What a user should know of robots: joints that rest where nobody said, limits.")
+          "warnings",
+          [](const HeldResult& r) { return check_warnings(loaded_without_gil(*r.scene)); },
+          "What a user should know: joints that rest where nobody said, limits, free bodies that "
+          "rest.")
       .def_property_readonly(
           "tolerance_used", [](const HeldResult& r) { return r.answer.tolerance_used; },
           "[m] The greatest of the pairs that were searched.")

@@ -4,7 +4,11 @@
 #include <chrono>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact {
 
@@ -168,6 +172,21 @@ SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& opt
 }
 
 }  // namespace
+
+std::vector<std::string> check_warnings(const LoadedScene& loaded) {
+  std::vector<std::string> warnings = loaded.warnings;
+  const std::vector<Body>& bodies = loaded.scene.bodies;
+  const auto is_free = [](const Body& body) { return body.free.has_value(); };
+  const auto first = std::ranges::find_if(bodies, is_free);
+  if (first != bodies.end()) {
+    const auto others = std::count_if(first + 1, bodies.end(), is_free);
+    warnings.push_back(
+        detail::in_quotes(first->name) +
+        (others == 0 ? "" : " and " + std::to_string(others) + " more") +
+        " with \"dynamics\": at rest here; \"firstcontact simulate\" moves what has dynamics");
+  }
+  return warnings;
+}
 
 double proven_clearance(const RobotPairAnswer& pair) {
   return std::max(pair.t > 0.0 ? pair.threshold : 0.0,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
@@ -63,5 +64,8 @@ struct SceneResult {
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_scene(const LoadedScene& loaded,
                                                        ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});
+
+/// What a user should know of the answer: what loading warns of, and that free bodies rest in it.
+[[nodiscard]] FIRSTCONTACT_API std::vector<std::string> check_warnings(const LoadedScene& loaded);
 
 }  // namespace firstcontact

@@ -11,7 +11,6 @@
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/size_warning.h>
-#include <firstcontact/scene/detail/write_json.h>
 
 namespace firstcontact {
 
@@ -31,21 +30,6 @@ DeformingBody moving(const Body& body, Shape shape, double duration) {
                                               "\" moves, got one of " + std::to_string(count));
   }
   return move_vertices(shape, vertices->to);
-}
-
-/// Queries ask about motions that are given.
-void warn_of_free_bodies(LoadedScene& loaded) {
-  const std::vector<Body>& bodies = loaded.scene.bodies;
-  const auto is_free = [](const Body& body) { return body.free.has_value(); };
-  const auto first = std::ranges::find_if(bodies, is_free);
-  if (first == bodies.end()) {
-    return;
-  }
-  const auto others = std::count_if(first + 1, bodies.end(), is_free);
-  loaded.warnings.push_back(
-      detail::in_quotes(first->name) +
-      (others == 0 ? "" : " and " + std::to_string(others) + " more") +
-      " with \"dynamics\": at rest here; \"firstcontact simulate\" moves what has dynamics");
 }
 
 LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
@@ -69,10 +53,8 @@ LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
 }  // namespace
 
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
-  LoadedScene loaded = scene.robots.empty() ? load_bodies(std::move(scene), cache)
-                                            : detail::load_robots(std::move(scene), cache);
-  warn_of_free_bodies(loaded);
-  return loaded;
+  return scene.robots.empty() ? load_bodies(std::move(scene), cache)
+                              : detail::load_robots(std::move(scene), cache);
 }
 
 }  // namespace firstcontact

@@ -47,7 +47,7 @@ struct LoadedScene {
 FIRSTCONTACT_API void require_within_limits(const LoadedScene& loaded);
 
 /// Loads the meshes of a scene, as far as the cache does not hold them yet. Free bodies rest at
-/// their pose: a warning says so.
+/// their pose.
 ///
 /// @throws ParseError if a mesh file cannot be used; std::invalid_argument if the scene, made by
 ///         hand, holds what read_scene would refuse

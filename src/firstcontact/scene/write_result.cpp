@@ -186,8 +186,9 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
   JsonObject object = result.robots
                           ? detail::robot_result(loaded, *result.robots, options.all_pairs)
                           : writer.result(result, options.all_pairs);
-  if (!result.robots && !loaded.warnings.empty()) {
-    object.push_back({"warnings", to_json(loaded.warnings)});
+  const std::vector<std::string> warnings = check_warnings(loaded);
+  if (!result.robots && !warnings.empty()) {
+    object.push_back({"warnings", to_json(warnings)});
   }
   if (options.sampling) {
     object.push_back({"sampling", writer.sampling(*options.sampling)});

@@ -155,7 +155,7 @@ JsonObject robot_result(const LoadedScene& loaded, const RobotCheckResult& resul
     }
   }
   object.push_back({"limits", {.value = std::move(limits)}});
-  object.push_back({"warnings", to_json(loaded.warnings)});
+  object.push_back({"warnings", to_json(check_warnings(loaded))});
   return object;
 }
 
