@@ -53,7 +53,7 @@ enum class ProjectionSpace {
 struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
-  int sweeps = 400;  ///< At most, of all contacts in contact space; > 0.
+  int sweeps = 200;  ///< At most, of all contacts in contact space; > 0.
 };
 
 struct ContactSolution {

@@ -13,7 +13,7 @@ using detail::ContactRow;
 using detail::Projection;
 
 /// Dense factorisations grow with the cube of the bodies.
-constexpr std::size_t kMostBodiesInMotionSpace = 60;
+constexpr std::size_t kMostBodiesInMotionSpace = 24;
 
 /// Contacts for each body from where on motion space is cheaper (a sweep costs as many contacts as
 /// an assembly, of which far fewer are needed).
@@ -32,8 +32,9 @@ Projection start(const ContactProblem& problem, const std::vector<ContactRow>& r
   none.impulses.assign(rows.size(), Eigen::Vector3d::Zero());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     guessed.impulses.push_back(
-        rows[k].greatest > 0.0
-            ? detail::project_on_cone(problem.contacts[k].guess, rows[k].friction)
+        rows[k].greatest() > 0.0
+            ? detail::project_on_cone(rows[k].own.turn() * problem.contacts[k].guess,
+                                      rows[k].friction)
             : Eigen::Vector3d(Eigen::Vector3d::Zero()));
   }
   for (Projection* projection : {&guessed, &none}) {
@@ -44,15 +45,17 @@ Projection start(const ContactProblem& problem, const std::vector<ContactRow>& r
   return guessed.residual < none.residual ? guessed : none;
 }
 
-ContactSolution solution_of(const ContactProblem& problem, Projection projection,
-                            ProjectionSpace space) {
+ContactSolution solution_of(const ContactProblem& problem, const std::vector<ContactRow>& rows,
+                            const Projection& projection, ProjectionSpace space) {
   ContactSolution solution;
   solution.bodies = problem.bodies;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     solution.bodies[b].v = projection.velocities[b].head<3>();
     solution.bodies[b].w = projection.velocities[b].tail<3>();
   }
-  solution.impulses = std::move(projection.impulses);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    solution.impulses.push_back(rows[k].own.turn().transpose() * projection.impulses[k]);
+  }
   solution.residual = projection.residual;
   solution.space = space;
   solution.iterations = projection.iterations;
@@ -74,7 +77,7 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   const std::vector<ContactRow> rows = detail::contact_rows(problem);
   Projection projection = start(problem, rows);
   if (projection.residual <= options.tolerance) {
-    return solution_of(problem, std::move(projection), ProjectionSpace::contact);
+    return solution_of(problem, rows, projection, ProjectionSpace::contact);
   }
   const std::size_t moving = moving_bodies(problem);
   const bool automatic = options.space == ProjectionSpace::automatic;
@@ -83,19 +86,23 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   if (options.space == ProjectionSpace::contact || (automatic && !(is_small && has_many))) {
     detail::project_in_contact_space(rows, options, projection);
     if (!automatic || projection.residual <= options.tolerance || !is_small) {
-      return solution_of(problem, std::move(projection), ProjectionSpace::contact);
+      return solution_of(problem, rows, projection, ProjectionSpace::contact);
     }
   }
   const Projection before = projection;
   detail::project_in_motion_space(problem, rows, options, projection);
   return before.residual < projection.residual
-             ? solution_of(problem, before, ProjectionSpace::contact)
-             : solution_of(problem, std::move(projection), ProjectionSpace::motion);
+             ? solution_of(problem, rows, before, ProjectionSpace::contact)
+             : solution_of(problem, rows, projection, ProjectionSpace::motion);
 }
 
 double contact_residual(const ContactProblem& problem, const ContactSolution& solution) {
-  return detail::greatest_residual(detail::contact_rows(problem), solution.impulses,
-                                   detail::velocities(solution.bodies));
+  const std::vector<ContactRow> rows = detail::contact_rows(problem);
+  std::vector<Eigen::Vector3d> impulses;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    impulses.emplace_back(rows[k].own.turn() * solution.impulses[k]);
+  }
+  return detail::greatest_residual(rows, impulses, detail::velocities(solution.bodies));
 }
 
 }  // namespace firstcontact

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
-
 namespace firstcontact::detail {
 namespace {
 
@@ -17,32 +15,46 @@ Matrix3d cross_matrix(const Vector3d& v) {
 }
 
 /// Of one of the two bodies: sign -1 for A, 1 for B.
-void fill_side(const ContactProblem& problem, const ContactPoint& contact, int side,
-               ContactRow& row) {
+Jacobian jacobian(const ContactPoint& contact, int side) {
   const double sign = side == 0 ? -1.0 : 1.0;
-  const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
-  const InverseInertia& inverse = problem.bodies[contact.bodies[side]].inverse_inertia;
-  Jacobian& J = row.J[side];
+  Jacobian J;
   J.leftCols<3>() = sign * contact.frame;
-  J.rightCols<3>() = -sign * contact.frame * cross_matrix(arm);
-  row.response[side].topRows<3>() = inverse.mass.asDiagonal() * J.leftCols<3>().transpose();
-  row.response[side].bottomRows<3>() = inverse.rotation * J.rightCols<3>().transpose();
+  J.rightCols<3>() =
+      -sign * contact.frame * cross_matrix(side == 0 ? contact.arm_A : contact.arm_B);
+  return J;
+}
+
+Eigen::Matrix<double, 6, 3> response(const InverseInertia& inverse, const Jacobian& J) {
+  Eigen::Matrix<double, 6, 3> response;
+  response.topRows<3>() = inverse.mass.asDiagonal() * J.leftCols<3>().transpose();
+  response.bottomRows<3>() = inverse.rotation * J.rightCols<3>().transpose();
+  return response;
+}
+
+ContactRow make_row(const ContactProblem& problem, const ContactPoint& contact) {
+  std::array<Jacobian, 2> J;
+  std::array<Eigen::Matrix<double, 6, 3>, 2> responses;
+  Matrix3d W = Matrix3d::Zero();
+  for (int side = 0; side < 2; ++side) {
+    J[side] = jacobian(contact, side);
+    responses[side] = response(problem.bodies[contact.bodies[side]].inverse_inertia, J[side]);
+    W += J[side] * responses[side];
+  }
+  const ContactResponse own(W);
+  for (int side = 0; side < 2; ++side) {
+    J[side] = (own.turn() * J[side]).eval();
+    responses[side] = (responses[side] * own.turn().transpose()).eval();
+  }
+  return {contact.bodies, J, responses, own, contact.friction, contact.least_normal_velocity};
 }
 
 }  // namespace
 
 std::vector<ContactRow> contact_rows(const ContactProblem& problem) {
-  std::vector<ContactRow> rows(problem.contacts.size());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const ContactPoint& contact = problem.contacts[k];
-    ContactRow& row = rows[k];
-    row.bodies = contact.bodies;
-    fill_side(problem, contact, 0, row);
-    fill_side(problem, contact, 1, row);
-    row.W = row.J[0] * row.response[0] + row.J[1] * row.response[1];
-    row.friction = contact.friction;
-    row.least = contact.least_normal_velocity;
-    row.greatest = row.W.diagonal().maxCoeff();
+  std::vector<ContactRow> rows;
+  rows.reserve(problem.contacts.size());
+  for (const ContactPoint& contact : problem.contacts) {
+    rows.push_back(make_row(problem, contact));
   }
   return rows;
 }
@@ -56,13 +68,13 @@ std::vector<Velocity> velocities(const std::vector<ContactBody>& bodies) {
 }
 
 double residual_of(const ContactRow& row, const Vector3d& impulse, const std::vector<Velocity>& V) {
-  if (!(row.greatest > 0.0)) {
+  if (!(row.greatest() > 0.0)) {
     return 0.0;  // No impulse would change anything.
   }
   Vector3d u = row.excess_velocity(V);
   u[0] += row.friction * u.tail<2>().norm();
-  const Vector3d change = impulse - project_on_cone(impulse - u / row.greatest, row.friction);
-  return change.norm() * row.greatest;
+  const Vector3d change = impulse - project_on_cone(impulse - u / row.greatest(), row.friction);
+  return change.norm() * row.greatest();
 }
 
 double greatest_residual(const std::vector<ContactRow>& rows, const std::vector<Vector3d>& impulses,

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/dynamics/detail/coulomb_cone.h>
 
 namespace firstcontact::detail {
 
@@ -18,16 +19,16 @@ namespace firstcontact::detail {
 using Velocity = Eigen::Matrix<double, 6, 1>;
 using Jacobian = Eigen::Matrix<double, 3, 6>;
 
-/// u = J_B V_B + J_A V_A, in the contact's frame.
+/// u = J_B V_B + J_A V_A, in the contact's frame with the tangents of its response.
 struct ContactRow {
   std::array<std::size_t, 2> bodies;
   std::array<Jacobian, 2> J;
   std::array<Eigen::Matrix<double, 6, 3>, 2> response;  // M^-1 J^T
-  Eigen::Matrix3d W;                                    // [1/kg]  J M^-1 J^T
+  ContactResponse own;                                  // To its own impulse, J M^-1 J^T.
   double friction;
-  double least;     // [m/s]  Normal velocity.
-  double greatest;  // [1/kg]  Of the diagonal of W; 0: an impulse moves nothing.
+  double least;  // [m/s]  Normal velocity.
 
+  [[nodiscard]] double greatest() const { return own.greatest(); }
   [[nodiscard]] Eigen::Vector3d velocity(const std::vector<Velocity>& V) const {
     return J[0] * V[bodies[0]] + J[1] * V[bodies[1]];
   }

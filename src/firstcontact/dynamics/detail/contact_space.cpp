@@ -10,15 +10,15 @@ using Eigen::Vector3d;
 
 /// Solves one contact with all others held. Returns how much its velocity changes [m/s].
 double solve_contact(const ContactRow& row, Vector3d& impulse, std::vector<Velocity>& V) {
-  if (!(row.greatest > 0.0)) {
+  if (!(row.greatest() > 0.0)) {
     return 0.0;
   }
-  const Vector3d u_free = row.excess_velocity(V) - row.W * impulse;
-  const Vector3d solved = single_contact_impulse(row.W, u_free, row.friction);
+  const Vector3d u_free = row.excess_velocity(V) - row.own.W() * impulse;
+  const Vector3d solved = row.own.impulse(u_free, row.friction);
   const Vector3d change = solved - impulse;
   row.apply(change, V);
   impulse = solved;
-  return change.norm() * row.greatest;
+  return change.norm() * row.greatest();
 }
 
 }  // namespace

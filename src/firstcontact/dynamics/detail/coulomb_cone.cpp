@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace firstcontact::detail {
@@ -17,66 +17,19 @@ using Eigen::Vector3d;
 /// Added to a response, relative to its greatest entry: locked axes leave directions without one.
 constexpr double kRegularisation = 1e-13;
 
-/// The tangential impulse of a contact that slides with u_n = 0, for one guess of how fast.
-struct Sliding {
-  const Matrix3d& W;
-  const Vector3d& u_free;
-  double friction;
-  Matrix2d A;
-  Vector2d c;
+/// The rotation about the normal to axes along which a tangential system is diagonal.
+Matrix3d principal_turn(const Matrix2d& A) {
+  const double angle = 0.5 * std::atan2(2.0 * A(0, 1), A(0, 0) - A(1, 1));
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  Matrix3d turn = Matrix3d::Identity();
+  turn.bottomRightCorner<2, 2>() << c, s, -s, c;
+  return turn;
+}
 
-  Sliding(const Matrix3d& response, const Vector3d& free, double mu)
-      : W(response), u_free(free), friction(mu) {
-    A = W.bottomRightCorner<2, 2>() -
-        W.bottomLeftCorner<2, 1>() * W.topRightCorner<1, 2>() / W(0, 0);
-    c = u_free.tail<2>() - W.bottomLeftCorner<2, 1>() * (u_free[0] / W(0, 0));
-  }
-
-  [[nodiscard]] Vector3d impulse(double alpha) const {
-    const Vector2d r_t = -(A + alpha * Matrix2d::Identity()).inverse() * c;
-    const double r_n = -(u_free[0] + W.topRightCorner<1, 2>().dot(r_t)) / W(0, 0);
-    return {r_n, r_t[0], r_t[1]};
-  }
-
-  /// > 0: the impulse is outside the cone.
-  [[nodiscard]] double excess(const Vector3d& r) const {
-    return r.tail<2>().norm() - friction * r[0];
-  }
-};
-
-Vector3d sliding_impulse(const Sliding& sliding) {
-  // At alpha the tangential impulse is at most |c| / alpha, and r_n is then about -u_n / W_nn.
-  double low = 0.0;
-  double high = sliding.A.trace();
-  while (sliding.excess(sliding.impulse(high)) > 0.0) {
-    low = high;
-    high *= 8.0;
-    if (!(high < 1e300)) {
-      return Vector3d::Zero();
-    }
-  }
-  // Illinois' false position: keeps the bracket, and is faster than halving.
-  double f_low = sliding.excess(sliding.impulse(low));
-  double f_high = sliding.excess(sliding.impulse(high));
-  for (int k = 0; k < 80 && high - low > 1e-15 * high; ++k) {
-    const double split = f_low / (f_low - f_high);
-    const double alpha =
-        split > 0.0 && split < 1.0 ? low + split * (high - low) : 0.5 * (low + high);
-    const double f = sliding.excess(sliding.impulse(alpha));
-    if (f > 0.0) {
-      low = alpha;
-      f_low = f;
-      f_high *= 0.5;
-    } else {
-      high = alpha;
-      f_high = f;
-      f_low *= 0.5;
-    }
-    if (f == 0.0) {
-      break;
-    }
-  }
-  return sliding.impulse(high);
+Matrix2d tangential_system(const Matrix3d& W) {
+  return W.bottomRightCorner<2, 2>() -
+         W.bottomLeftCorner<2, 1>() * W.topRightCorner<1, 2>() / W(0, 0);
 }
 
 }  // namespace
@@ -109,20 +62,69 @@ Matrix3d cone_projection_derivative(const Vector3d& r, double friction) {
          (friction * normal / side) * across * across.transpose();
 }
 
-Vector3d single_contact_impulse(const Matrix3d& response, const Vector3d& u_free, double friction) {
-  if (u_free[0] >= 0.0 || !(response(0, 0) > 0.0)) {
+ContactResponse::ContactResponse(const Matrix3d& W)
+    : turn_(Matrix3d::Identity()),
+      W_(W),
+      inverse_(Matrix3d::Zero()),
+      a_(Vector2d::Zero()),
+      coupling_(Vector2d::Zero()),
+      greatest_(W(0, 0) > 0.0 ? W.diagonal().maxCoeff() : 0.0) {
+  if (!(greatest_ > 0.0)) {
+    return;
+  }
+  const Matrix3d regular = W + kRegularisation * greatest_ * Matrix3d::Identity();
+  turn_ = principal_turn(tangential_system(regular));
+  W_ = turn_ * regular * turn_.transpose();
+  inverse_ = W_.inverse();
+  a_ = tangential_system(W_).diagonal();
+  coupling_ = W_.bottomLeftCorner<2, 1>() / W_(0, 0);
+}
+
+Vector3d ContactResponse::impulse(const Vector3d& u_free, double friction) const {
+  if (u_free[0] >= 0.0 || !(greatest_ > 0.0)) {
     return Vector3d::Zero();
   }
   if (friction == 0.0) {
-    return {-u_free[0] / response(0, 0), 0.0, 0.0};
+    return {-u_free[0] / W_(0, 0), 0.0, 0.0};
   }
-  const double greatest = response.diagonal().maxCoeff();
-  const Matrix3d W = response + kRegularisation * greatest * Matrix3d::Identity();
-  const Vector3d sticking = -W.inverse() * u_free;
+  const Vector3d sticking = -inverse_ * u_free;
   if (sticking[0] >= 0.0 && sticking.tail<2>().norm() <= friction * sticking[0]) {
     return sticking;
   }
-  return sliding_impulse(Sliding(W, u_free, friction));
+  return sliding(u_free, friction);
+}
+
+Vector3d ContactResponse::sliding(const Vector3d& u_free, double friction) const {
+  const Vector2d c = u_free.tail<2>() - coupling_ * u_free[0];
+  const double pressed = -u_free[0] / W_(0, 0);  // r_n without tangential impulse, > 0.
+  // Exact where A is isotropic and nothing is coupled.
+  double alpha = std::max(0.0, c.norm() / (friction * pressed) - a_.maxCoeff());
+  double low = 0.0;
+  double high = std::numeric_limits<double>::infinity();
+  Vector3d r = Vector3d::Zero();
+  for (int k = 0; k < 60; ++k) {
+    const Eigen::Array2d divisor = a_.array() + alpha;
+    const Vector2d r_t = -(c.array() / divisor).matrix();
+    r << pressed - coupling_.dot(r_t), r_t;
+    const double side = r_t.norm();
+    const double excess = side - friction * r[0];  // > 0: outside the cone, alpha is too small.
+    if (std::abs(excess) <= 1e-14 * side) {
+      break;
+    }
+    (excess > 0.0 ? low : high) = alpha;
+    const Vector2d rate = -(r_t.array() / divisor).matrix();  // d r_t / d alpha
+    const double slope = r_t.dot(rate) / side + friction * coupling_.dot(rate);
+    double next = alpha - excess / slope;
+    if (!(next > low && next < high)) {  // Newton's step left the bracket, or there is none.
+      next = high < std::numeric_limits<double>::infinity() ? 0.5 * (low + high)
+                                                            : 2.0 * alpha + a_.maxCoeff();
+    }
+    if (next == alpha) {
+      break;
+    }
+    alpha = next;
+  }
+  return r;
 }
 
 }  // namespace firstcontact::detail

@@ -13,15 +13,37 @@ namespace firstcontact::detail {
 /// it nor the identity minus it has a negative eigenvalue.
 [[nodiscard]] Eigen::Matrix3d cone_projection_derivative(const Eigen::Vector3d& r, double friction);
 
-/// The impulse of one contact by itself: r in K with u = u_free + W r, such that 0 <= r_n
-/// complementary to u_n >= 0, and either u_t = 0 or u_t points against r_t on the side of K.
+/// How one contact answers its own impulse, prepared for many free velocities.
 ///
-/// Where the contact slides, r_t = -(A + alpha I)^-1 c with the tangential system A, c that is left
-/// when u_n = 0, and alpha > 0 the root of |r_t| = mu r_n.
-///
-/// @param W  [1/kg]  symmetric, positive semidefinite; with no response to the normal: r = 0
-[[nodiscard]] Eigen::Vector3d single_contact_impulse(const Eigen::Matrix3d& W,
-                                                     const Eigen::Vector3d& u_free,
-                                                     double friction);
+/// Its tangents are turned so that the tangential system that is left where the normal velocity is
+/// held, A = W_tt - W_tn W_nt / W_nn, is diagonal.
+class ContactResponse {
+ public:
+  /// @param W  [1/kg]  symmetric, positive semidefinite, in the contact's frame
+  explicit ContactResponse(const Eigen::Matrix3d& W);
+
+  /// From the contact's frame to that with the turned tangents.
+  [[nodiscard]] const Eigen::Matrix3d& turn() const { return turn_; }
+  [[nodiscard]] const Eigen::Matrix3d& W() const { return W_; }  ///< [1/kg]  Turned.
+  /// [1/kg]  Of the diagonal; 0: an impulse moves nothing.
+  [[nodiscard]] double greatest() const { return greatest_; }
+
+  /// The impulse by itself: r in K with u = u_free + W r, such that 0 <= r_n complementary to
+  /// u_n >= 0, and either u_t = 0 or u_t points against r_t on the side of K. All turned.
+  ///
+  /// Where the contact slides, r_t = -(A + alpha I)^-1 c with c the tangential velocity that is
+  /// left when u_n = 0, and alpha > 0 the root of |r_t| = mu r_n.
+  [[nodiscard]] Eigen::Vector3d impulse(const Eigen::Vector3d& u_free, double friction) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector3d sliding(const Eigen::Vector3d& u_free, double friction) const;
+
+  Eigen::Matrix3d turn_;
+  Eigen::Matrix3d W_;
+  Eigen::Matrix3d inverse_;   // [kg]
+  Eigen::Vector2d a_;         // [1/kg]  Diagonal of A.
+  Eigen::Vector2d coupling_;  // [-]  W_tn / W_nn
+  double greatest_;
+};
 
 }  // namespace firstcontact::detail

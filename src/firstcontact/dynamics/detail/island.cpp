@@ -30,6 +30,10 @@ constexpr double kPush = 0.5;
 /// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
 constexpr double kStepsWithoutBounce = 2.0;
 
+/// Of contact problems: of what gravity adds in a step.
+constexpr double kTolerance = 1e-6;
+constexpr double kLeastTolerance = 1e-9;  // [m/s]
+
 /// After as many impacts in a row that hardly let time pass, the island is jammed.
 constexpr std::size_t kMostStalls = 30;
 constexpr double kStall = 1e-9;  // [-]  Of the step.
@@ -268,8 +272,7 @@ class Island {
     };
     for (const auto& [pair, manifold] : manifolds_) {
       for (const Touch& touch : manifold.touches) {
-        const ContactPoint& contact =
-            add(touch, -std::max(0.0, touch.gap - world_.distances.least) / rest());
+        const ContactPoint& contact = add(touch, -world_.distances.way_to_rest(touch.gap) / rest());
         // What will bounce has to arrive first.
         if (bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
           problem.contacts.pop_back();
@@ -302,7 +305,9 @@ class Island {
     return plan;
   }
 
-  [[nodiscard]] ProjectionOptions projection_options() const { return {}; }
+  [[nodiscard]] ProjectionOptions projection_options() const {
+    return {.tolerance = std::max(kLeastTolerance, kTolerance * world_.gravity.norm() * start_.h)};
+  }
 
   /// The mean of the velocities at both ends is exact under constant forces; where it would break a
   /// constraint, as at one that only begins to act, those at the end lead the bodies in contact.

@@ -81,14 +81,14 @@ class Lagrangian {
   }
 
   [[nodiscard]] double rho(const Round& round, std::size_t k) const {
-    return rows_[k].greatest > 0.0 ? round.penalty / rows_[k].greatest : 0.0;
+    return rows_[k].greatest() > 0.0 ? round.penalty / rows_[k].greatest() : 0.0;
   }
 
   [[nodiscard]] double value(const Round& round, const VectorXd& x) const {
     const std::vector<Velocity> V = velocities_at(x);
     double sum = 0.5 * x.squaredNorm();
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      if (rows_[k].greatest > 0.0) {
+      if (rows_[k].greatest() > 0.0) {
         sum += project_on_cone(shifted(round, k, V), rows_[k].friction).squaredNorm() /
                (2.0 * rho(round, k));
       }
@@ -103,7 +103,7 @@ class Lagrangian {
     gradient = x;
     hessian.setIdentity(size_, size_);
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      if (!(rows_[k].greatest > 0.0)) {
+      if (!(rows_[k].greatest() > 0.0)) {
         continue;
       }
       const Vector3d y = shifted(round, k, V);

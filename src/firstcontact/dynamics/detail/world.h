@@ -29,6 +29,12 @@ struct ContactDistances {
         band(2.0 * contact_distance),
         pushed(0.9 * contact_distance) {}
 
+  /// [m]  How much nearer a pair may come before it rests. Where it is about to rest it does, or
+  /// every rounding of a gap would be a velocity.
+  [[nodiscard]] double way_to_rest(double gap) const {
+    return gap > least + 0.2 * tolerance ? gap - least : 0.0;
+  }
+
   double least;      ///< [m]
   double tolerance;  ///< [m]  A contact is found at least .. least + tolerance.
   double touching;   ///< [m]  Impacts act on pairs within it.
