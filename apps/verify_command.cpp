@@ -55,9 +55,9 @@ class Description {
                                  time_text(found_.time), of_the_whole()));
     if (found_.verdict == RunVerdict::proven && found_.closest) {
       const RunMoment& at = *found_.closest;
-      line("least", fmt::format("{} between {} at {:.6g} s (step {}); proven: {} or more",
-                                length_text(at.distance), names(at.bodies), at.time, at.step,
-                                length_text(found_.least_distance)));
+      line("least", fmt::format("{} (proven) to {}: {} at {:.6g} s (step {})",
+                                length_text(found_.least_distance), length_text(at.distance),
+                                names(at.bodies), at.time, at.step));
     }
     line("time lost", found_.time_lost > 0.0 ? time_text(found_.time_lost) : "none");
     if (run_.is_cut_off()) {

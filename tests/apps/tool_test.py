@@ -130,7 +130,7 @@ class Verify(ToolTest):
         self.assertEqual(result.stderr, "")
         self.assertRegex(result.stdout, r"""^run\.jsonl: proven: at no time do two bodies interpenetrate
   verified   2 steps, 750 ms of 900 ms
-  least      15\d.* mm between ball and floor at 0\.7\d* s \(step 2\); proven: 1(50|49|48).* mm or more
+  least      1[45]\d.* mm \(proven\) to 15\d.* mm: ball and floor at 0\.7\d* s \(step 2\)
   time lost  250 ms
 $""")
 
@@ -140,9 +140,9 @@ $""")
         self.assertEqual((found["steps"], found["time"], found["time_lost"]), (2, 0.75, 0.25))
         self.assertEqual(found["closest"]["bodies"], ["ball", "floor"])
         self.assertEqual(found["closest"]["step"], 2)
-        self.assertAlmostEqual(found["closest"]["distance"], 0.15, delta=0.002)
+        self.assertAlmostEqual(found["closest"]["distance"], 0.15, delta=0.009)
         self.assertLessEqual(found["least_distance"], 0.15)
-        self.assertGreaterEqual(found["least_distance"], 0.148)
+        self.assertGreaterEqual(found["least_distance"], 0.142)
         self.assertEqual((found["problem"], found["problem_at"]), ("", None))
 
     def test_refutes_a_run(self):

@@ -21,7 +21,10 @@ using Eigen::Vector3d;
 constexpr double kPromiseError = 0x1p-20;
 
 /// How closely the least distance is found.
-constexpr double kPrecision = 0.01;
+constexpr double kPrecision = 0.05;
+
+/// Of a distance, what a direction has to show of it to be the one of the closest points.
+constexpr double kPrecise = 0.999;
 
 /// So often a step is halved to find the least distance; and to prove what was promised.
 constexpr int kFineDepth = 24;
@@ -332,50 +335,61 @@ class Cover {
     return true;
   }
 
-  /// Along the line of the closest points; where that is not as wanted, also along the normals of
-  /// the faces and of the edges two by two, which stay precise at any small distance.
+  /// Along the line of the closest points, then along the normals of the faces, in whose planes
+  /// triangles may move for long. Where rounding blurs that line, also along the normals of the
+  /// edges two by two, which stay precise at any small distance.
   [[nodiscard]] double triangle_bound(const PlacedTriangle& A, const PlacedTriangle& B,
                                       const PointPair& closest, const Setting& s,
                                       double wanted) const {
-    double best = -std::numeric_limits<double>::infinity();
+    const Vector3d between = closest.on_B - closest.on_A;
+    const GapBound straight = triangle_gap_along(between / closest.distance, A, B, s);
+    double best = std::max(-std::numeric_limits<double>::infinity(), straight.least());
     const auto offer = [&](const Vector3d& axis) {
       if (!(best >= wanted)) {
-        best = std::max(best, triangle_bound_along(axis, A, B, s));
+        best = std::max(best, triangle_gap_along(axis, A, B, s).least());
       }
     };
-    const auto offer_both = [&](const Vector3d& axis) {
-      offer(axis);
-      offer(-axis);
-    };
-    offer((closest.on_B - closest.on_A) / closest.distance);
-    offer_both(A.normal());
-    offer_both(B.normal());
+    const std::array<Vector3d, 2> normals{A.normal(), B.normal()};
+    for (const Vector3d& n : normals) {
+      offer(n.dot(between) < 0.0 ? Vector3d(-n) : n);
+    }
+    if (straight.middle + thickness() + s.error >= kPrecise * closest.distance) {
+      return best;
+    }
+    for (const Vector3d& n : normals) {
+      offer(n.dot(between) < 0.0 ? n : Vector3d(-n));
+    }
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
-        offer_both(A.edge(i).cross(B.edge(j)).normalized());
+        const Vector3d n = A.edge(i).cross(B.edge(j)).normalized();
+        offer(n);
+        offer(-n);
       }
     }
     return best;
   }
 
   /// Of each two corners, as each moves on its own.
-  [[nodiscard]] double triangle_bound_along(const Vector3d& n, const PlacedTriangle& A,
+  [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
                                             const PlacedTriangle& B, const Setting& s) const {
     const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);
-    double least = std::numeric_limits<double>::infinity();
+    double middle = std::numeric_limits<double>::infinity();
+    double least = middle;
     for (std::size_t i = 0; i < 3; ++i) {
       const double at_A = n.dot(A.corners[i]);
       const double speed_A = n.dot(A.velocities[i]);
       for (std::size_t j = 0; j < 3; ++j) {
         const double rate = std::abs(n.dot(B.velocities[j]) - speed_A);
-        const double bound = n.dot(B.corners[j]) - at_A - fall(rate, bend, s);
+        const double gap = n.dot(B.corners[j]) - at_A;
+        const double bound = gap - fall(rate, bend, s);
         if (std::isnan(bound)) {
-          return -std::numeric_limits<double>::infinity();
+          return {};
         }
+        middle = std::min(middle, gap);
         least = std::min(least, bound);
       }
     }
-    return least - thickness() - s.error;
+    return {middle - thickness() - s.error, kUp * (middle - least)};
   }
 
   const CoverBody& A_;
