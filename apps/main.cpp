@@ -14,6 +14,7 @@
 #include "check_command.h"
 #include "exit_status.h"
 #include "info_command.h"
+#include "simulate_command.h"
 #include "verify_command.h"
 #include "view_command.h"
 
@@ -36,6 +37,7 @@ ExitStatus run(int argc, char** argv) {
   app.require_subcommand(1);
   add_check_command(app, status);
   add_batch_command(app, status);
+  add_simulate_command(app, status);
   add_verify_command(app, status);
   add_view_command(app);
   add_info_command(app);

@@ -1,0 +1,61 @@
+#include "run_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/dynamics/write_run.h>
+
+namespace firstcontact::app {
+
+RunFile::RunFile(std::string path, const char* mode)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), mode)) {
+  if (!file_) {
+    throw std::runtime_error(path_ + ": cannot write this file: " + std::strerror(errno));
+  }
+}
+
+RunFile::RunFile(const std::string& path, const RunHeader& header) : RunFile(path, "wb") {
+  write(write_run_header(header));
+}
+
+RunFile RunFile::resume(const std::string& path, const RunHeader& header) {
+  if (!std::filesystem::exists(path)) {
+    return {path, header};
+  }
+  std::optional<RunStep> last;
+  std::uint64_t size = 0;
+  {
+    std::ifstream stream(path, std::ios::binary);
+    RunReader run(stream, path);
+    if (write_run_header(run.header()) != write_run_header(header)) {
+      throw std::invalid_argument(
+          path +
+          ": holds a run of another scene, with other options or of another version; leave "
+          "out --resume to begin anew");
+    }
+    while (std::optional<RunStep> step = run.next()) {
+      last = std::move(step);
+    }
+    size = run.size();
+  }
+  std::filesystem::resize_file(path, size);
+  RunFile file(path, "ab");
+  file.last_ = std::move(last);
+  return file;
+}
+
+void RunFile::write(const RunStep& step) { write(write_run_step(step)); }
+
+void RunFile::write(const std::string& line) {
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() ||
+      std::fflush(file_.get()) != 0) {
+    throw std::runtime_error(path_ + ": cannot write all of the run: " + std::strerror(errno));
+  }
+}
+
+}  // namespace firstcontact::app

@@ -1,0 +1,48 @@
+/// @file
+/// The file that a simulation grows.
+
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <firstcontact/dynamics/run.h>
+
+namespace firstcontact::app {
+
+/// Holds a header and whole steps, at every moment but while a line is being written. What was cut
+/// off there is left out when the run is resumed.
+class RunFile {
+ public:
+  /// Begins a new run, in place of what the file held.
+  ///
+  /// @throws std::runtime_error, one line that names the file, where it cannot be written
+  RunFile(const std::string& path, const RunHeader& header);
+
+  /// Goes on with the run in the file, or begins one where there is no file.
+  ///
+  /// @throws std::invalid_argument if the file holds another run than one with this header;
+  ///         ParseError if it holds none
+  static RunFile resume(const std::string& path, const RunHeader& header);
+
+  /// Of a run that is resumed, if it has any.
+  [[nodiscard]] const std::optional<RunStep>& last() const { return last_; }
+
+  /// Appends a step; it is in the file when this returns.
+  void write(const RunStep& step);
+
+ private:
+  RunFile(std::string path, const char* mode);
+  void write(const std::string& line);
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::optional<RunStep> last_;
+};
+
+}  // namespace firstcontact::app

@@ -1,0 +1,214 @@
+#include "simulate_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include <fmt/core.h>
+
+#include <firstcontact/dynamics/simulator.h>
+#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/scene/shape_cache.h>
+
+#include "command_line_number.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "quantity_text.h"
+#include "run_file.h"
+
+namespace firstcontact::app {
+namespace {
+
+struct Arguments {
+  std::string scene;
+  std::string output;
+  std::optional<double> duration;  // [s]
+  std::optional<double> step;      // [s]
+  bool resume = false;
+};
+
+Simulator load(const Arguments& arguments) {
+  Scene scene = read_simulation_scene(arguments.scene);
+  if (!scene.simulation) {
+    throw ParseError(arguments.scene,
+                     "expected \"simulation\" or a body with \"dynamics\"; without them nothing "
+                     "moves freely (see `check` for scripted motion)");
+  }
+  if (arguments.duration) {
+    scene.simulation->duration = *arguments.duration;
+    scene.duration = std::max(last_time(scene), *arguments.duration);
+  }
+  if (arguments.step) {
+    scene.simulation->step = *arguments.step;
+  }
+  try {
+    ShapeCache cache;
+    return Simulator(load_scene(std::move(scene), cache));
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(arguments.scene, error.what());
+  }
+}
+
+/// What the steps of a run amount to.
+struct Tally {
+  std::size_t steps = 0;                                       // Of this call.
+  double simulated = 0.0;                                      // [s]  The same.
+  double time_lost = 0.0;                                      // [s]
+  double clearance = std::numeric_limits<double>::infinity();  // [m]
+  double slowest = 0.0;                                        // [s]
+  double residual = 0.0;                                       // [m/s]
+  std::size_t events = 0;
+  std::optional<double> first_energy;  // [J]
+  double last_energy = 0.0;            // [J]
+
+  void take(const RunStep& step, double seconds) {
+    ++steps;
+    simulated += step.lasted;
+    time_lost += step.time_lost;
+    clearance = std::min(clearance, step.clearance);
+    slowest = std::max(slowest, seconds);
+    residual = std::max(residual, step.residual);
+    events += step.events;
+    last_energy = step.kinetic_energy + step.potential_energy;
+    first_energy = first_energy.value_or(last_energy);
+  }
+};
+
+class Run {
+ public:
+  explicit Run(const Arguments& arguments) : arguments_(arguments), simulator_(load(arguments)) {
+    if (arguments.output.empty()) {
+      return;
+    }
+    std::error_code missing;
+    if (std::filesystem::equivalent(arguments.scene, arguments.output, missing)) {
+      throw std::invalid_argument(arguments.output + ": this would overwrite the scene");
+    }
+    if (!arguments.resume) {
+      file_.emplace(arguments.output, simulator_.header());
+      return;
+    }
+    file_.emplace(RunFile::resume(arguments.output, simulator_.header()));
+    if (file_->last()) {
+      simulator_.resume(*file_->last());
+    }
+  }
+
+  ExitStatus run() {
+    const Scene& scene = simulator_.header().scene;
+    const double step = scene.simulation->step;
+    const double duration = scene.simulation->duration;
+    // A duration of whole steps takes no other one for its rounding.
+    const auto count = static_cast<std::size_t>(std::ceil(duration / step * (1.0 - 1e-12)));
+    resumed_ = simulator_.step_count();
+    while (simulator_.step_count() < count) {
+      const auto begin = Clock::now();
+      const std::optional<RunStep> done = simulator_.step(interrupt_.token());
+      if (!done) {
+        break;
+      }
+      const std::chrono::duration<double> seconds = Clock::now() - begin;
+      seconds_ += seconds.count();
+      tally_.take(*done, seconds.count());
+      if (file_) {
+        file_->write(*done);
+      }
+      progress_.doing(bar(simulator_.step_count(), count));
+    }
+    const bool is_whole = simulator_.step_count() >= count;
+    print(is_whole, count);
+    return is_whole && tally_.time_lost == 0.0 ? ExitStatus::free : ExitStatus::undecided;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] std::string bar(std::size_t done, std::size_t count) const {
+    constexpr std::size_t kWidth = 24;
+    const std::size_t filled = kWidth * done / count;
+    return fmt::format("[{}{}] step {} of {}, {:.3g} s", std::string(filled, '#'),
+                       std::string(kWidth - filled, '.'), done, count, simulator_.time());
+  }
+
+  static void line(const char* label, const std::string& value) {
+    fmt::print("  {:<10} {}\n", label, value);
+  }
+
+  void print(bool is_whole, std::size_t count) const {
+    const Scene& scene = simulator_.header().scene;
+    fmt::print("{}: {}\n", arguments_.scene,
+               is_whole ? "simulated; no two bodies interpenetrate at any time" : "stopped early");
+    const auto free =
+        std::ranges::count_if(scene.bodies, [](const Body& b) { return b.free.has_value(); });
+    line("bodies", fmt::format("{}, {} of them free", scene.bodies.size(), free));
+    const std::string resumed =
+        resumed_ > 0 ? fmt::format(" (the first {} were there)", resumed_) : "";
+    line("steps", fmt::format("{} of {}, {} each{}", simulator_.step_count(), count,
+                              time_text(scene.simulation->step), resumed));
+    if (tally_.steps > 0) {
+      const auto steps = static_cast<double>(tally_.steps);
+      line("took", fmt::format("{}, {} a step, {} the slowest; {:.3g} times real time",
+                               time_text(seconds_), time_text(seconds_ / steps),
+                               time_text(tally_.slowest), tally_.simulated / seconds_));
+      line("apart", length_text(tally_.clearance) + " or more, proven");
+      line("impacts", fmt::format("{}", tally_.events));
+      line("residual", fmt::format("{:.2g} m/s at most, of the contact laws", tally_.residual));
+      line("energy", fmt::format("{:.6g} J after the first step, {:.6g} J at the end",
+                                 *tally_.first_energy, tally_.last_energy));
+      line("time lost", tally_.time_lost > 0.0 ? time_text(tally_.time_lost) : "none");
+    }
+    if (file_) {
+      line("run", arguments_.output + (is_whole ? "" : "; --resume goes on"));
+    }
+    if (std::fflush(stdout) != 0) {
+      throw std::runtime_error("standard output: cannot write all of the answer");
+    }
+  }
+
+  const Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Progress progress_;
+  const Arguments& arguments_;
+  Simulator simulator_;
+  std::optional<RunFile> file_;
+  Tally tally_;
+  double seconds_ = 0.0;
+  std::size_t resumed_ = 0;
+};
+
+constexpr const char* kFooter = R"(
+SCENE is a scene with "dynamics" (docs/simulation.md) or a fixture of Rigid IPC.
+RUN grows with every step: killed at any moment, it goes on with --resume, bit for bit.
+`firstcontact verify RUN` proves with other code that nothing interpenetrates.
+
+Exit status: 0 done; 2 bad input; 3 stopped early, or time was lost (the events of a step were
+spent). Ctrl-C ends after the step that is under way; again, at once.)";
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Moves bodies under forces and contacts; nothing ever interpenetrates");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("SCENE", arguments->scene, "The scene, .json")->required();
+  CLI::Option* output = command->add_option("-o,--output", arguments->output,
+                                            "Records the run: JSON Lines, a line a step");
+  add_number(*command, "--duration", arguments->duration, Range::positive,
+             "Seconds to simulate, in place of the scene's");
+  add_number(*command, "--step", arguments->step, Range::positive,
+             "Seconds of a step, in place of the scene's");
+  command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
+      ->needs(output);
+  command->footer(kFooter);
+  command->callback([arguments, &status] { status = Run(*arguments).run(); });
+}
+
+}  // namespace firstcontact::app
