@@ -171,6 +171,20 @@ TEST(RunFile, HasNoClearanceWhereThereIsNoPair) {
   EXPECT_EQ(reader.next().value().clearance, kInfinity);
 }
 
+TEST(RunFile, HasStepsThatLastNoTime) {
+  Doubles doubles;
+  RunStep step = example_step(1, doubles);
+  step.lasted = 0.0;
+  step.bodies[0].pieces = {{0.0, Pose{}}};
+  const auto read = [&] {
+    std::istringstream stream(write_run_header(example_header()) + write_run_step(step));
+    return RunReader(stream, "run.jsonl").next();
+  };
+  EXPECT_EQ(read().value().bodies.at(0).pieces.size(), 1u);
+  step.bodies[0].pieces.clear();
+  EXPECT_TRUE(read().value().bodies.at(0).pieces.empty());
+}
+
 TEST(RunFile, HoldsFiniteNumbersOnly) {
   Doubles doubles;
   RunStep step = example_step(1, doubles);

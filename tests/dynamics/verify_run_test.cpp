@@ -305,6 +305,17 @@ TEST(VerifyRun, LeavesIgnoredPairsAlone) {
   EXPECT_EQ(proven.least_distance, std::numeric_limits<double>::infinity());
 }
 
+// Nothing can stop a script. The same motion of a free body is refuted.
+TEST(VerifyRun, LeavesPairsWithoutAFreeBodyAlone) {
+  const std::string scripted = R"("shape": {"sphere": {"radius": 0.1}}, "motion":
+    {"type": "constant_velocity", "from": {"position": [0, 0, 1]}, "translation": [0, 0, -1]})";
+  RecordedRun run(scene(scripted, box("[1, 1, 1]", "[0, 0, 0]")), {});
+  run.add({{0, {{.lasts = 1.0, .velocity = {0.0, 0.0, -1.0}}}}}, 1e-6);
+  EXPECT_EQ(run.verify().verdict, RunVerdict::proven);
+  run.header.scene.bodies[1].free.emplace();
+  EXPECT_EQ(run.verify().verdict, RunVerdict::closer);
+}
+
 TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
   const std::string scripted = R"("shape": {"sphere": {"radius": 0.1}}, "motion":
     {"type": "constant_velocity", "from": {"position": [0, 0, 1]}, "translation": [1, 0, 0]})";
@@ -319,8 +330,25 @@ TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
       EXPECT_EQ(found.verdict, RunVerdict::broken);
       EXPECT_NE(found.problem.find("from where its motion in the scene puts it"),
                 std::string::npos);
+      // A step that ended early may have left its script on the way.
+      run.steps[0].time_lost = 0.1;
+      EXPECT_EQ(run.verify().verdict, RunVerdict::proven);
+      EXPECT_NEAR(run.verify().scripted_deviation, 0.5e-3, 1e-12);
     }
   }
+}
+
+TEST(VerifyRun, KnowsStepsThatLastNoTime) {
+  RecordedRun run = fly_by(0.0999);
+  RunStep stuck = run.steps[0];
+  stuck.index = 2;
+  stuck.lasted = 0.0;
+  stuck.bodies[0].pieces = {{0.0, stuck.bodies[0].X_WB}};
+  run.steps[1].index = 3;
+  run.steps.insert(run.steps.begin() + 1, stuck);
+  EXPECT_EQ(run.verify().verdict, RunVerdict::proven) << run.verify().problem;
+  run.steps[1].bodies[0].X_WB.position.z() += 1e-6;
+  EXPECT_EQ(run.verify().verdict, RunVerdict::broken);
 }
 
 /// A crate that slides over a floor at 0.1 mm, among others that do, for some steps of two pieces.

@@ -212,7 +212,7 @@ RunBody read_body(const json& value, std::size_t bodies, double lasted, const Li
   for (const json& row : line.array(value["pieces"])) {
     body.pieces.push_back(read_piece(row, line));
     const double to = body.pieces.back().to;
-    if (!(to > from)) {
+    if (!(to > from || (to == 0.0 && lasted == 0.0))) {
       line.fail(row, "a piece that ends after the one before it");
     }
     from = to;

@@ -30,8 +30,8 @@ struct RunPiece {
 /// whole run have none.
 struct RunBody {
   std::size_t body = 0;               ///< Its number in the scene.
-  std::vector<RunPiece> pieces = {};  ///< At least one, but none in a step that lasted 0 s; the
-                                      ///< last one ends with the step.
+  std::vector<RunPiece> pieces = {};  ///< At least one, one after another; the last one ends with
+                                      ///< the step. Where that lasted 0 s: none or of no length.
   Pose X_WB = {};
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.

@@ -50,16 +50,18 @@ struct RunVerification {
   std::optional<RunMoment> closest;     ///< Where bodies come about as close as that.
   std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
-  double scripted_deviation = 0.0;  ///< [m]  The greatest of a scripted body at the end of a piece.
+  /// [m]  The greatest of a scripted body at the end of a piece; steps that lost time count, but
+  /// may be off by more than the tolerance.
+  double scripted_deviation = 0.0;
 };
 
 /// Proves a run, with other code than that which simulates.
 ///
-/// For each step and each two bodies that may touch, at least one of which moves, the whole step is
-/// covered by windows of time in each of which every two triangles are shown to be apart along some
-/// direction; windows are halved until they are. What is proven is of the exact motions that the
-/// recorded doubles define, all roundings of the proof included. A promise counts as kept when the
-/// distance is proven to be above 0 and above the promise less 2^-20 of it and less twice the
+/// For each step and each two bodies that may touch, one of them free, one moving, the whole step
+/// is covered by windows of time in each of which every two triangles are shown to be apart along
+/// some direction; windows are halved until they are. What is proven is of the exact motions that
+/// the recorded doubles define, all roundings of the proof included. A promise counts as kept when
+/// the distance is proven to be above 0 and above the promise less 2^-20 of it and less twice the
 /// rounding. From the end of a piece to the begin of the next a pose may differ by 2^-44 of what
 /// it holds, which the proof covers. That no body begins inside a solid is tested at the start.
 ///

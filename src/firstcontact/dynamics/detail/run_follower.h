@@ -68,7 +68,7 @@ class RunFollower {
   [[nodiscard]] FollowedBody follow_body(const RunStep& step, const RunBody& body);
   [[nodiscard]] double jump(std::size_t body, const PieceMotion& from, double from_time,
                             const PieceMotion& to, double to_time);
-  void require_scripted(std::size_t body, const PieceMotion& piece);
+  void require_scripted(std::size_t body, const PieceMotion& piece, const RunStep& step);
 
   const std::vector<RunMember>& members_;
   double duration_;
