@@ -1,43 +1,39 @@
 #include <firstcontact/scene/read_rigid_ipc.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
-#include <set>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/motion/rotation_forms.h>
 #include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/detail/parse_json.h>
 #include <firstcontact/scene/detail/read_file.h>
+#include <firstcontact/scene/detail/read_rigid_ipc_body.h>
 #include <firstcontact/scene/detail/rigid_ipc_body.h>
+#include <firstcontact/scene/detail/rigid_ipc_groups.h>
+#include <firstcontact/scene/detail/rigid_ipc_keys.h>
 #include <firstcontact/scene/detail/rigid_ipc_meshes.h>
 #include <firstcontact/scene/detail/sha256.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_scene.h>
 
 namespace firstcontact {
 namespace {
 
 using detail::find;
-using detail::in_quotes;
-using detail::JsonArray;
 using detail::JsonObject;
 using detail::JsonReader;
 using detail::JsonValue;
 using detail::RigidIpcBody;
+using detail::RigidIpcKeys;
 using detail::RigidIpcMeshes;
+using detail::RigidIpcOrigin;
 using detail::RigidIpcType;
 using detail::weigh;
 using detail::WeighedShape;
@@ -48,24 +44,24 @@ constexpr const char* kProblem = "rigid_body_problem";
 class FixtureReader {
  public:
   FixtureReader(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read)
-      : root_(root), read_(read), meshes_(source) {}
+      : root_(root), read_(read), keys_(read), meshes_(source) {}
 
   Scene scene(const std::filesystem::path& source) {
     const JsonObject& fixture =
-        object(root_, {"scene_type", "solver", "timestep", "max_time", "max_iterations", kProblem,
-                       "distance_barrier_constraint", "friction_constraints", "ipc_solver",
-                       "newton_solver", "homotopy_solver", "ncp_solver", "volume_constraint",
-                       "viewport_bbox"});
+        keys_.object(root_, {"scene_type", "solver", "timestep", "max_time", "max_iterations",
+                             kProblem, "distance_barrier_constraint", "friction_constraints",
+                             "ipc_solver", "newton_solver", "homotopy_solver", "ncp_solver",
+                             "volume_constraint", "viewport_bbox"});
     scene_.id = source.stem().string();
     scene_.simulation.emplace();
-    simulation().step = positive_or(fixture, "timestep", 0.01);
+    simulation().step = keys_.positive_or(fixture, "timestep", 0.01);
     scene_.duration = simulation().duration = duration(fixture);
     simulation().contact_distance = contact_distance(fixture);
     const JsonObject& problem =
-        object(read_.member(root_, kProblem),
-               {"rigid_bodies", "coefficient_restitution", "coefficient_friction", "gravity",
-                "collision_eps", "time_stepper", "do_intersection_check"});
-    simulation().gravity = vector_or_zero(problem, "gravity");
+        keys_.object(read_.member(root_, kProblem),
+                     {"rigid_bodies", "coefficient_restitution", "coefficient_friction", "gravity",
+                      "collision_eps", "time_stepper", "do_intersection_check"});
+    simulation().gravity = keys_.vector_or_zero(problem, "gravity");
     simulation().friction = friction(fixture, problem);
     simulation().restitution = restitution(problem);
     const JsonValue& bodies = read_.member(read_.member(root_, kProblem), "rigid_bodies");
@@ -75,56 +71,17 @@ class FixtureReader {
     if (scene_.bodies.empty()) {
       read_.fail(bodies, "expected at least one body that is enabled, got none");
     }
-    name_bodies();
-    group_bodies();
+    detail::name_and_group(origins_, scene_);
+    scene_.warnings = keys_.warnings();
     return std::move(scene_);
   }
 
   [[nodiscard]] std::string digests() const { return meshes_.digests(); }
 
  private:
-  /// What names and groups are made of, for each body of the scene.
-  struct Origin {
-    std::string name;
-    std::size_t number = 0;  ///< In the file.
-    bool is_free = false;
-    double group = -1.0;
-  };
-
   Simulation& simulation() { return *scene_.simulation; }
 
-  /// Warns of unknown keys.
-  const JsonObject& object(const JsonValue& value, const std::vector<std::string_view>& known) {
-    const auto* members = std::get_if<JsonObject>(&value.value);
-    if (members == nullptr) {
-      read_.fail_expected("an object", value);
-    }
-    for (const auto& [key, member] : *members) {
-      if (!key.starts_with('#') && std::ranges::find(known, key) == known.end()) {
-        scene_.warnings.push_back("line " + std::to_string(member.line) + ": unknown key " +
-                                  in_quotes(key) + " passed over");
-      }
-    }
-    return *members;
-  }
-
-  [[nodiscard]] double positive_or(const JsonObject& object, std::string_view key,
-                                   double otherwise) const {
-    const JsonValue* value = find(object, key);
-    return value == nullptr ? otherwise : read_.positive(*value);
-  }
-
-  [[nodiscard]] Vector3d vector_or_zero(const JsonObject& object, std::string_view key) const {
-    const JsonValue* value = find(object, key);
-    return value == nullptr ? Vector3d(Vector3d::Zero()) : read_.vector3(*value);
-  }
-
-  /// [rad, or what else there is in degrees]
-  [[nodiscard]] Vector3d degrees_or_zero(const JsonObject& object, std::string_view key) const {
-    return vector_or_zero(object, key) * (std::numbers::pi / 180.0);
-  }
-
-  /// Negative: not given.
+  /// [s]  A negative time, or number of steps, is none.
   double duration(const JsonObject& fixture) {
     constexpr double kStepsByDefault = 1000.0;
     const JsonValue* time = find(fixture, "max_time");
@@ -141,23 +98,25 @@ class FixtureReader {
   }
 
   double contact_distance(const JsonObject& fixture) {
+    constexpr double kShare = 0.1;  // Of where repulsion begins there.
     double activation = 1e-3;
     double separation = 0.0;
     if (const JsonValue* value = find(fixture, "distance_barrier_constraint")) {
-      const JsonObject& barrier =
-          object(*value, {"initial_barrier_activation_distance", "minimum_separation_distance",
-                          "detection_method", "trajectory_type", "barrier_type"});
-      activation = positive_or(barrier, "initial_barrier_activation_distance", activation);
+      const JsonObject& barrier = keys_.object(
+          *value, {"initial_barrier_activation_distance", "minimum_separation_distance",
+                   "detection_method", "trajectory_type", "barrier_type"});
+      activation = keys_.positive_or(barrier, "initial_barrier_activation_distance", activation);
       if (const JsonValue* least = find(barrier, "minimum_separation_distance")) {
         separation = read_.not_negative(*least);
       }
     }
-    return separation + 0.1 * activation;
+    return separation + kShare * activation;
   }
 
   double friction(const JsonObject& fixture, const JsonObject& problem) {
     if (const JsonValue* value = find(fixture, "friction_constraints")) {
-      const JsonObject& solver = object(*value, {"static_friction_speed_bound", "iterations"});
+      const JsonObject& solver =
+          keys_.object(*value, {"static_friction_speed_bound", "iterations"});
       const JsonValue* iterations = find(solver, "iterations");
       if (iterations != nullptr && read_.number(*iterations) == 0.0) {
         return 0.0;
@@ -179,11 +138,11 @@ class FixtureReader {
 
   void add_entry(const JsonValue& value) {
     const std::size_t number = entries_++;
-    const JsonObject& entry =
-        object(value, {"mesh", "enabled", "type", "density", "is_dof_fixed", "oriented", "group_id",
-                       "position", "rotation", "scale", "dimensions", "linear_velocity",
-                       "angular_velocity", "force", "torque", "kinematic_max_time",
-                       "kinematic_poses", "split_components", "ipc_comparison_enabled"});
+    const JsonObject& entry = keys_.object(
+        value, {"mesh", "enabled", "type", "density", "is_dof_fixed", "oriented", "group_id",
+                "position", "rotation", "scale", "dimensions", "linear_velocity",
+                "angular_velocity", "force", "torque", "kinematic_max_time", "kinematic_poses",
+                "split_components", "ipc_comparison_enabled"});
     const JsonValue* enabled = find(entry, "enabled");
     if (enabled != nullptr && !read_.boolean(*enabled)) {
       return;
@@ -192,11 +151,11 @@ class FixtureReader {
     if (mesh == nullptr) {
       read_.fail(value, "expected a key \"mesh\": bodies whose vertices stand here are not read");
     }
-    const RigidIpcBody body = read_body(entry);
+    const RigidIpcBody body = detail::read_rigid_ipc_body(entry, keys_);
     const std::filesystem::path file = meshes_.find(*mesh, read_);
     const Vector3d scale = read_scale(entry, meshes_.load(file));
-    const Origin origin{file.stem().string(), number, body.type == RigidIpcType::dynamic,
-                        read_group(entry)};
+    const RigidIpcOrigin origin{file.stem().string(), number, body.type == RigidIpcType::dynamic,
+                                read_group(entry)};
     const JsonValue* split = find(entry, "split_components");
     try {
       if (split != nullptr && read_.boolean(*split)) {
@@ -206,65 +165,6 @@ class FixtureReader {
       }
     } catch (const std::invalid_argument& error) {
       read_.fail(value, error.what());
-    }
-  }
-
-  RigidIpcBody read_body(const JsonObject& entry) {
-    RigidIpcBody body;
-    body.X_WB = {.position = vector_or_zero(entry, "position"),
-                 .rotation = rotation_from_rpy(degrees_or_zero(entry, "rotation"))};
-    body.density = positive_or(entry, "density", body.density);
-    body.linear_velocity = vector_or_zero(entry, "linear_velocity");
-    body.angular_velocity = degrees_or_zero(entry, "angular_velocity");
-    body.force = vector_or_zero(entry, "force");
-    body.torque = degrees_or_zero(entry, "torque");
-    if (const JsonValue* type = find(entry, "type")) {
-      constexpr std::array kTypes{RigidIpcType::fixed, RigidIpcType::kinematic,
-                                  RigidIpcType::dynamic};
-      body.type = kTypes.at(read_.word(*type, {{"static", "kinematic", "dynamic"}}));
-    }
-    read_locks(entry, body);
-    const JsonValue* until = find(entry, "kinematic_max_time");
-    if (until != nullptr && read_.number(*until) >= 0.0) {
-      body.moves_until = read_.number(*until);
-    }
-    if (const JsonValue* poses = find(entry, "kinematic_poses")) {
-      for (const JsonValue& element : read_.array(*poses, "an array of poses")) {
-        const JsonObject& pose = object(element, {"position", "rotation"});
-        body.poses.push_back({.position = vector_or_zero(pose, "position"),
-                              .rotation = rotation_from_vector(vector_or_zero(pose, "rotation"))});
-      }
-    }
-    return body;
-  }
-
-  void read_locks(const JsonObject& entry, RigidIpcBody& body) const {
-    const JsonValue* value = find(entry, "is_dof_fixed");
-    if (value == nullptr) {
-      return;
-    }
-    std::array<bool, 6> locks{};
-    if (std::holds_alternative<bool>(value->value)) {
-      locks.fill(read_.boolean(*value));
-    } else {
-      const std::string expected =
-          "true, false, or six of them: three for translation, three for "
-          "rotation";
-      const JsonArray& elements = read_.array(*value, expected);
-      if (elements.size() != locks.size()) {
-        read_.fail_expected(expected, *value);
-      }
-      std::ranges::transform(elements, locks.begin(),
-                             [this](const JsonValue& lock) { return read_.boolean(lock); });
-    }
-    std::copy_n(locks.begin(), 3, body.locked_translation.begin());
-    std::copy_n(locks.begin() + 3, 3, body.locked_rotation.begin());
-    if (std::ranges::find(locks, false) == locks.end()) {
-      body.type = RigidIpcType::fixed;
-    }
-    for (int k = 0; k < 3; ++k) {
-      body.linear_velocity[k] *= body.locked_translation[k] ? 0.0 : 1.0;
-      body.angular_velocity[k] *= body.locked_rotation[k] ? 0.0 : 1.0;
     }
   }
 
@@ -289,18 +189,18 @@ class FixtureReader {
                : read_.vector3(*scale);
   }
 
-  void add_parts(const RigidIpcBody& body, const Origin& origin, const Mesh& mesh) {
+  void add_parts(const RigidIpcBody& body, const RigidIpcOrigin& origin, const Mesh& mesh) {
     const std::vector<Mesh> parts = detail::split_components(mesh);
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      Origin part = origin;
+      RigidIpcOrigin part = origin;
       part.name += "-part" + std::to_string(k);
       add_body(body, part, weigh(parts[k]));
     }
   }
 
   /// Equal ones share their shape. The file stands for it where it says the same.
-  void add_whole(const RigidIpcBody& body, const Origin& origin, const std::filesystem::path& file,
-                 const Vector3d& scale) {
+  void add_whole(const RigidIpcBody& body, const RigidIpcOrigin& origin,
+                 const std::filesystem::path& file, const Vector3d& scale) {
     const Mesh& mesh = meshes_.load(file);
     const std::tuple key(file, scale.x(), scale.y(), scale.z());
     auto known = weighed_.find(key);
@@ -316,7 +216,8 @@ class FixtureReader {
     }
   }
 
-  void add_body(const RigidIpcBody& body, const Origin& origin, const WeighedShape& weighed) {
+  void add_body(const RigidIpcBody& body, const RigidIpcOrigin& origin,
+                const WeighedShape& weighed) {
     Body& added = scene_.bodies.emplace_back();
     origins_.push_back(origin);
     added.shape.source = weighed.shape;
@@ -332,65 +233,13 @@ class FixtureReader {
     }
   }
 
-  void name_bodies() {
-    std::map<std::string, int> count;
-    for (const Origin& origin : origins_) {
-      ++count[origin.name];
-    }
-    std::set<std::string> taken;
-    for (std::size_t k = 0; k < origins_.size(); ++k) {
-      std::string name = origins_[k].name;
-      if (count[name] > 1) {
-        name += "-" + std::to_string(origins_[k].number);
-      }
-      scene_.bodies[k].name = free_name(std::move(name), taken);
-    }
-    names_ = std::move(taken);
-  }
-
-  /// The name, or one like it that is not taken; takes it.
-  static std::string free_name(std::string name, std::set<std::string>& taken) {
-    while (!taken.insert(name).second) {
-      name += "'";
-    }
-    return name;
-  }
-
-  /// Bodies that do not move freely are of one group, with all of the groups that they are in.
-  void group_bodies() {
-    constexpr double kNone = -1.0;
-    std::set<double> not_free;
-    for (const Origin& origin : origins_) {
-      if (!origin.is_free && origin.group >= 0.0) {
-        not_free.insert(origin.group);
-      }
-    }
-    std::map<double, std::vector<std::size_t>> groups;
-    for (std::size_t k = 0; k < origins_.size(); ++k) {
-      const Origin& origin = origins_[k];
-      if (!origin.is_free || not_free.contains(origin.group)) {
-        groups[kNone].push_back(k);
-      } else if (origin.group >= 0.0) {
-        groups[origin.group].push_back(k);
-      }
-    }
-    for (auto& [id, members] : groups) {
-      if (members.size() < 2) {
-        continue;
-      }
-      const std::string name = id == kNone ? "not free" : "group " + detail::write_json(id);
-      scene_.ignored_groups.push_back({scene_.groups.size(), scene_.groups.size()});
-      scene_.groups.push_back({free_name(name, names_), std::move(members)});
-    }
-  }
-
   const JsonValue& root_;
   const JsonReader& read_;
+  RigidIpcKeys keys_;
   RigidIpcMeshes meshes_;
   Scene scene_;
   std::size_t entries_ = 0;
-  std::vector<Origin> origins_;
-  std::set<std::string> names_;
+  std::vector<RigidIpcOrigin> origins_;
   std::map<std::tuple<std::filesystem::path, double, double, double>, WeighedShape> weighed_;
 };
 

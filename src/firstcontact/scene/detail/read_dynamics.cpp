@@ -33,7 +33,7 @@ Eigen::Matrix3d read_inertia(const JsonValue& value, const JsonReader& read) {
   if (!((given - given.transpose()).cwiseAbs().maxCoeff() <= kPrinted * size)) {
     read.fail(value, "expected a symmetric matrix: row i, column j as row j, column i");
   }
-  const Eigen::Matrix3d inertia = 0.5 * (given + given.transpose());
+  Eigen::Matrix3d inertia = 0.5 * (given + given.transpose());
   // Scaled to size 1, so that no product under- or overflows.
   const Eigen::Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia / size, Eigen::EigenvaluesOnly)

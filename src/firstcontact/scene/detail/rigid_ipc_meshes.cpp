@@ -60,7 +60,7 @@ Mesh parse(const fs::path& path, std::string text) {
 fs::path RigidIpcMeshes::find(const JsonValue& name, const JsonReader& read) const {
   const std::string& text = read.string(name, "a mesh file");
   std::error_code ignored;
-  const fs::path beside = fixture_.parent_path() / text;
+  fs::path beside = fixture_.parent_path() / text;
   if (is_file(beside)) {
     return beside;
   }
