@@ -31,13 +31,16 @@ RunFile RunFile::resume(const std::string& path, const RunHeader& header) {
   std::uint64_t size = 0;
   {
     std::ifstream stream(path, std::ios::binary);
-    RunReader run(stream, path);
-    if (write_run_header(run.header()) != write_run_header(header)) {
+    std::string first;
+    std::getline(stream, first);
+    if (first + '\n' != write_run_header(header)) {
       throw std::invalid_argument(
           path +
           ": holds a run of another scene, with other options or of another version; leave "
           "out --resume to begin anew");
     }
+    stream.seekg(0);
+    RunReader run(stream, path);
     while (std::optional<RunStep> step = run.next()) {
       last = std::move(step);
     }

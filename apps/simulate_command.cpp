@@ -45,7 +45,6 @@ Simulator load(const Arguments& arguments) {
   }
   if (arguments.duration) {
     scene.simulation->duration = *arguments.duration;
-    scene.duration = std::max(last_time(scene), *arguments.duration);
   }
   if (arguments.step) {
     scene.simulation->step = *arguments.step;
@@ -202,7 +201,7 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
   CLI::Option* output = command->add_option("-o,--output", arguments->output,
                                             "Records the run: JSON Lines, a line a step");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "Seconds to simulate, in place of the scene's");
+             "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,
              "Seconds of a step, in place of the scene's");
   command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")

@@ -293,6 +293,7 @@ class Island {
     solution.bodies = problem.bodies;
     if (!problem.contacts.empty()) {
       solution = project_on_contacts(problem, projection_options());
+      limit_energy(problem, solution.bodies);
     }
     for (std::size_t k = 0; k < touches.size(); ++k) {
       touches[k].impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
@@ -307,6 +308,42 @@ class Island {
 
   [[nodiscard]] ProjectionOptions projection_options() const {
     return {.tolerance = std::max(kLeastTolerance, kTolerance * world_.gravity.norm() * start_.h)};
+  }
+
+  /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
+  /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
+  /// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
+  /// answer is anything: it is shortened to that length.
+  void limit_energy(const ContactProblem& problem, std::vector<ContactBody>& bodies) const {
+    double before = 0.0;
+    double after = 0.0;
+    double mass = 0.0;
+    for (std::size_t k = 0; k < size(); ++k) {
+      const Inertia& inertia = member(k).inertia;
+      const Pose& X_WB = states_[k].X_WB;
+      before += kinetic_energy(inertia, {X_WB, problem.bodies[k].v, problem.bodies[k].w});
+      after += kinetic_energy(inertia, {X_WB, bodies[k].v, bodies[k].w});
+      mass += inertia.mass;
+    }
+    double speed = 0.0;
+    for (const ContactPoint& contact : problem.contacts) {
+      for (int side = 0; side < 2; ++side) {
+        const ContactBody& body = problem.bodies[contact.bodies[side]];
+        if (contact.bodies[side] >= size()) {
+          const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
+          speed = std::max(speed, (body.v + body.w.cross(arm)).norm());
+        }
+      }
+    }
+    const double allowed = std::sqrt(before) + 2.0 * speed * std::sqrt(0.5 * mass);
+    if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
+      return;
+    }
+    const double share = allowed / std::sqrt(after);
+    for (std::size_t k = 0; k < size(); ++k) {
+      bodies[k].v *= share;
+      bodies[k].w *= share;
+    }
   }
 
   /// The mean of the velocities at both ends is exact under constant forces; where it would break a
@@ -428,7 +465,7 @@ class Island {
     for (Touch& touch : touches_among(world_, pair, poses, margin, answer_.contacts)) {
       TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
       const double u_n = normal_velocity(ahead.contact, bodies.bodies());
-      ahead.least = (world_.distances.least - touch.gap) / rest() + hit.t * u_n;
+      ahead.least = std::min(0.0, (world_.distances.least - touch.gap) / rest() + hit.t * u_n);
       closing = std::max(closing, -u_n);
       hit.ahead.push_back(std::move(ahead));
     }
