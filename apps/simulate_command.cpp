@@ -18,6 +18,7 @@
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene/simulation_duration.h>
 
 #include "command_line_number.h"
 #include "interrupt.h"
@@ -44,7 +45,7 @@ Simulator load(const Arguments& arguments) {
                      "moves freely (see `check` for scripted motion)");
   }
   if (arguments.duration) {
-    scene.simulation->duration = *arguments.duration;
+    set_simulation_duration(scene, *arguments.duration);
   }
   if (arguments.step) {
     scene.simulation->step = *arguments.step;

@@ -9,6 +9,7 @@
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/simulation_duration.h>
 
 #include "scene/scene_text.h"
 
@@ -109,6 +110,31 @@ TEST(SimulationScene, LastsAsLongAsIsSaid) {
   EXPECT_EQ(durations(scene(moved, R"("simulation": {"duration": 2})")), std::pair(3.0, 2.0));
   const std::string options = R"("simulation": {}, "options": {"duration": 4})";
   EXPECT_EQ(durations(scene(body("a"), options)), std::pair(4.0, 4.0));
+}
+
+// As `--duration` asks.
+TEST(SimulationScene, KeepsRatesForAnotherDuration) {
+  const std::string motion = R"("motion": {"type": "constant_velocity", )";
+  const std::string bodies =
+      body("a", motion + R"("translation": [2, 0, 0], "rotation_vector": [0, 0, 4]})") + "," +
+      body("b", motion + R"("to": {"position": [1, 0, 0]}})");
+  const Scene scene = parse_scene(test::scene(bodies, R"("simulation": {"duration": 2})"), "s");
+  Scene shorter = scene;
+  set_simulation_duration(shorter, 1.0);
+  EXPECT_EQ(shorter.simulation.value().duration, 1.0);
+  EXPECT_EQ(shorter.duration, 2.0);
+  Scene longer = scene;
+  set_simulation_duration(longer, 6.0);
+  EXPECT_EQ(longer.duration, 6.0);
+  for (const Body& body : longer.bodies) {
+    const Body& before = scene.bodies.at(body.name == "a" ? 0 : 1);
+    const Pose now = normalised_motion(body.motion, 6.0).pose(1.0 / 6.0);
+    const Pose then = normalised_motion(before.motion, 2.0).pose(0.5);
+    EXPECT_LE((now.position - then.position).norm(), 1e-15) << body.name;
+    EXPECT_LE(now.rotation.angularDistance(then.rotation), 1e-15) << body.name;
+  }
+  EXPECT_EQ(normalised_motion(longer.bodies[0].motion, 6.0).pose(1.0).position.x(), 6.0);
+  EXPECT_EQ(normalised_motion(longer.bodies[1].motion, 6.0).pose(1.0).position.x(), 1.0);
 }
 
 TEST(SimulationScene, NumbersPairsAnewWithTheirBodies) {

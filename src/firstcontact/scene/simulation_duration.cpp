@@ -1,0 +1,55 @@
+#include <firstcontact/scene/simulation_duration.h>
+
+#include <stdexcept>
+#include <variant>
+
+namespace firstcontact {
+namespace {
+
+/// A motion over a longer time, at the same rates; the overloads are picked by std::visit.
+struct LongerMotion {
+  double from;  // [s]
+  double to;    // [s]  > from
+
+  BodyMotion operator()(const FixedMotion& motion) const { return motion; }
+
+  BodyMotion operator()(ConstantVelocityMotion motion) const {
+    motion.translation *= to / from;
+    motion.rotation_vector *= to / from;
+    return motion;
+  }
+
+  BodyMotion operator()(ScrewMotion motion) const {
+    motion.angle *= to / from;
+    motion.translation *= to / from;
+    return motion;
+  }
+
+  BodyMotion operator()(const TwoPoseMotion& motion) const {
+    return WaypointMotion{{0.0, from}, {motion.from, motion.to}, motion.between};
+  }
+
+  BodyMotion operator()(const WaypointMotion& motion) const { return motion; }
+
+  BodyMotion operator()(const VertexMotion&) const {
+    throw std::invalid_argument("expected no body that deforms where a simulation goes on");
+  }
+};
+
+}  // namespace
+
+void set_simulation_duration(Scene& scene, double duration) {
+  if (!scene.simulation || !(duration > 0.0)) {
+    throw std::invalid_argument("set_simulation_duration: expected a simulation and a time > 0");
+  }
+  scene.simulation->duration = duration;
+  if (!(duration > scene.duration)) {
+    return;
+  }
+  for (Body& body : scene.bodies) {
+    body.motion = std::visit(LongerMotion{scene.duration, duration}, body.motion);
+  }
+  scene.duration = duration;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,20 @@
+/// @file
+/// How long a scene is simulated.
+
+#pragma once
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// Simulates a scene for another time. Scripted bodies keep their rates: a run may end before they
+/// do, and in a longer one constant velocities and screws go on; who moves between two poses rests
+/// at the second.
+///
+/// @param duration  [s]  > 0
+/// @throws std::invalid_argument if there is no simulation, the duration is not > 0, or a body
+///         would deform for longer than it is told
+FIRSTCONTACT_API void set_simulation_duration(Scene& scene, double duration);
+
+}  // namespace firstcontact
