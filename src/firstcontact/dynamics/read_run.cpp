@@ -139,7 +139,7 @@ class Line {
 
   [[nodiscard]] Eigen::Quaterniond quaternion(const json& row, std::size_t first) const {
     const Eigen::Vector3d v = vector3(row, first + 1);
-    const Eigen::Quaterniond q(number(row[first]), v.x(), v.y(), v.z());
+    Eigen::Quaterniond q(number(row[first]), v.x(), v.y(), v.z());
     if (!(q.coeffs().cwiseAbs().maxCoeff() > 0.0)) {
       fail(row, "a quaternion that is not zero");
     }

@@ -203,7 +203,7 @@ class Verification {
     std::vector<Eigen::Vector3d> points;
     for (std::size_t b = 0; b < members_.size(); ++b) {
       const detail::BodyInstant now = at_start(b).pieces.front().instant(0.0, {0.0, 0.0, 0.0});
-      points.push_back(now.pivot + now.R * members_[b].tree.triangles.front().front());
+      points.emplace_back(now.pivot + now.R * members_[b].tree.triangles.front().front());
     }
     constexpr double kSlack = 1.0 + 0x1p-30;
     for (std::size_t a = 0; a < points.size(); ++a) {
@@ -219,7 +219,7 @@ class Verification {
   }
 
   [[nodiscard]] double known() const {
-    return result_.closest ? result_.closest->distance : kInfinity;
+    return result_.closest.value_or(RunMoment{.distance = kInfinity}).distance;
   }
 
   /// False at the end of the run.
