@@ -312,6 +312,9 @@ TEST_F(RigidIpc, SaysWhatIsWrong) {
   expect(error(R"({"mesh": "cube.obj", "density": 0})"), "density: expected a number > 0, got 0");
   expect(error(R"({"mesh": "cube.obj", "position": [0, 0]})"), "position: expected three numbers");
   expect(error(R"({"mesh": "line.obj"})"), "expected a mesh that does not lie on a line");
+  expect(error(R"({"mesh": "cube.obj", "type": "kinematic", "kinematic_poses": [{}],
+                   "angular_velocity": [0, 0, 1e6]})"),
+         "rigid_bodies[0]: expected at most 2500 turns of a kinematic body");
   expect(error(R"({"mesh": "cube.obj"})", R"("timestep": 0,)"), "timestep: expected a number > 0");
   expect(error(R"({"mesh": "cube.obj"})", "", R"("coefficient_restitution": 2,)"),
          "coefficient_restitution: expected a number of at most 1, got 2");

@@ -67,13 +67,14 @@ Pose advanced(const Pose& pose, const RigidIpcBody& body, double dt) {
 /// Goes on from the last waypoint at constant rates, by turns that are the shortest.
 void go_on(const RigidIpcBody& body, double until, WaypointMotion& motion) {
   constexpr double kQuarterTurn = std::numbers::pi / 2.0;
-  constexpr double kMostPieces = 1e6;
+  constexpr double kMostPieces = 1e4;
   const double from = motion.times.back();
   const Pose start = motion.poses.back();
   const double pieces =
       std::max(1.0, std::ceil(body.angular_velocity.norm() * (until - from) / kQuarterTurn));
   if (!(pieces <= kMostPieces)) {
-    throw std::invalid_argument("expected fewer turns than 250000 of a body that is stopped");
+    throw std::invalid_argument(
+        "expected at most 2500 turns of a kinematic body that has poses, or an end");
   }
   for (double k = 1.0; k <= pieces; k += 1.0) {
     const double time = k < pieces ? from + (until - from) * (k / pieces) : until;
