@@ -34,7 +34,7 @@ class Builder {
 
   /// Node over the triangles from `begin` to `end`; halves them along their greatest spread.
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
-    const auto first = tree_.triangles.begin();
+    Triangle* const first = tree_.triangles.data();
     Eigen::AlignedBox3d box;
     Eigen::AlignedBox3d middles;
     for (std::size_t k = begin; k < end; ++k) {
