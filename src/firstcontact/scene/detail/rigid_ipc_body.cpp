@@ -76,8 +76,9 @@ void go_on(const RigidIpcBody& body, double until, WaypointMotion& motion) {
     throw std::invalid_argument(
         "expected at most 2500 turns of a kinematic body that has poses, or an end");
   }
-  for (double k = 1.0; k <= pieces; k += 1.0) {
-    const double time = k < pieces ? from + (until - from) * (k / pieces) : until;
+  const int count = static_cast<int>(pieces);
+  for (int k = 1; k <= count; ++k) {
+    const double time = k < count ? from + (until - from) * (k / pieces) : until;
     if (time > motion.times.back()) {
       motion.times.push_back(time);
       motion.poses.push_back(advanced(start, body, time - from));
