@@ -35,8 +35,11 @@ constexpr double kTolerance = 1e-6;
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
 /// After as many impacts in a row that hardly let time pass, the island is jammed.
-constexpr std::size_t kMostStalls = 30;
+constexpr std::size_t kMostStalls = 10;
 constexpr double kStall = 1e-9;  // [-]  Of the step.
+
+/// Pairs nearer than this part of their distance of rest are hardly let nearer.
+constexpr double kJammed = 1e-3;
 
 /// A touch of the motion ahead, and how it would be reached.
 struct TouchAhead {
@@ -357,8 +360,8 @@ class Island {
     }
     const bool mean_is_allowed =
         std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
-          constexpr double kRounding = 1e-9;  // [m/s]  As the solver's tolerance.
-          return normal_velocity(contact, mean) >= contact.least_normal_velocity - kRounding;
+          return normal_velocity(contact, mean) >=
+                 contact.least_normal_velocity - 2.0 * projection_options().tolerance;
         });
     std::vector<bool> by_end(before.size(), false);
     if (!mean_is_allowed) {
@@ -582,7 +585,9 @@ HeldDistance held_distance(const ContactDistances& distances, double pair_margin
   if (gap > distances.least + distances.tolerance) {
     return {pair_margin + distances.least, distances.tolerance};
   }
-  return {pair_margin + 0.5 * gap, 0.25 * gap};
+  // What cannot yield, as a body that is crushed, would halve its way to nothing.
+  const double share = gap > kJammed * distances.least ? 0.5 : 0.99;
+  return {pair_margin + share * gap, 0.5 * (1.0 - share) * gap};
 }
 
 bool comes_before(const Touch& x, const Touch& y) {

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kMostRounds = 60;       // Of multipliers.
+constexpr int kMostRounds = 300;      // Of multipliers.
 constexpr int kMostNewtonSteps = 40;  // In a round.
 constexpr double kFirstPenalty = 1e2;
 constexpr double kGreatestPenalty = 1e6;

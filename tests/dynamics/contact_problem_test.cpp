@@ -1,0 +1,278 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/dynamics/contact_problem.h>
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kTolerance = 1e-10;  // [m/s]
+
+Vector3d random_vector(std::mt19937& rng) {
+  std::normal_distribution<double> normal;
+  return {normal(rng), normal(rng), normal(rng)};
+}
+
+Matrix3d random_frame(std::mt19937& rng) {
+  std::normal_distribution<double> n;
+  return Eigen::Quaterniond(n(rng), n(rng), n(rng), n(rng)).normalized().toRotationMatrix();
+}
+
+ContactBody cube(double mass, const Vector3d& v = Vector3d::Zero()) {
+  ContactBody body;
+  body.inverse_inertia.mass = Vector3d::Constant(1.0 / mass);
+  body.inverse_inertia.rotation = 6.0 / mass * Matrix3d::Identity();  // Of side 1.
+  body.v = v;
+  return body;
+}
+
+/// A contact with normal z between the ground, body 0, and body 1 with its centre at height 1/2.
+ContactPoint on_ground(double x, double y, double friction) {
+  ContactPoint contact;
+  contact.bodies = {0, 1};
+  contact.arm_A = {x, y, 0.0};
+  contact.arm_B = {x, y, -0.5};
+  contact.frame << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  contact.friction = friction;
+  return contact;
+}
+
+/// A heap of bodies, each touching some before it; body 0 is fixed.
+ContactProblem random_heap(std::mt19937& rng, double friction) {
+  std::normal_distribution<double> normal;
+  ContactProblem problem;
+  problem.bodies.resize(1);
+  for (std::size_t b = 1; b < 7; ++b) {
+    ContactBody body = cube(std::exp(normal(rng)), random_vector(rng));
+    body.w = random_vector(rng);
+    problem.bodies.push_back(body);
+    for (int k = 0; k < 4; ++k) {
+      ContactPoint contact;
+      contact.bodies = {rng() % b, b};
+      contact.arm_A = random_vector(rng);
+      contact.arm_B = random_vector(rng);
+      contact.frame = random_frame(rng);
+      contact.friction = friction;
+      contact.least_normal_velocity = -std::abs(0.1 * normal(rng));
+      problem.contacts.push_back(contact);
+    }
+  }
+  return problem;
+}
+
+ContactSolution solve(const ContactProblem& problem, ProjectionSpace space) {
+  return project_on_contacts(problem, {.tolerance = kTolerance, .space = space, .sweeps = 100000});
+}
+
+double greatest_difference(const ContactSolution& x, const ContactSolution& y) {
+  double greatest = 0.0;
+  for (std::size_t b = 0; b < x.bodies.size(); ++b) {
+    greatest = std::max(
+        {greatest, (x.bodies[b].v - y.bodies[b].v).norm(), (x.bodies[b].w - y.bodies[b].w).norm()});
+  }
+  return greatest;
+}
+
+/// 1/2 |V - V_free|^2 in the kinetic metric, of bodies of which something moves.
+double constraint(const ContactProblem& problem, const std::vector<ContactBody>& bodies) {
+  double sum = 0.0;
+  for (std::size_t b = 1; b < bodies.size(); ++b) {
+    const InverseInertia& inverse = problem.bodies[b].inverse_inertia;
+    const Vector3d dv = bodies[b].v - problem.bodies[b].v;
+    const Vector3d dw = bodies[b].w - problem.bodies[b].w;
+    sum += 0.5 * dv.dot(inverse.mass.cwiseInverse().cwiseProduct(dv)) +
+           0.5 * dw.dot(inverse.rotation.inverse() * dw);
+  }
+  return sum;
+}
+
+TEST(ProjectOnContacts, IsTheSameInBothSpacesWithoutFriction) {
+  std::mt19937 rng(1);
+  for (int i = 0; i < 100; ++i) {
+    const ContactProblem problem = random_heap(rng, 0.0);
+    const ContactSolution contact = solve(problem, ProjectionSpace::contact);
+    const ContactSolution motion = solve(problem, ProjectionSpace::motion);
+    ASSERT_LE(contact.residual, kTolerance) << i;
+    ASSERT_LE(motion.residual, kTolerance) << i;
+    ASSERT_LE(greatest_difference(contact, motion), 1e-7) << i;
+  }
+}
+
+// Gauss: nothing that the contacts allow is nearer to the free velocities.
+TEST(ProjectOnContacts, IsTheNearestAllowedMotion) {
+  std::mt19937 rng(2);
+  for (int i = 0; i < 20; ++i) {
+    const ContactProblem problem = random_heap(rng, 0.0);
+    const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+    const double least = constraint(problem, solution.bodies);
+    for (int k = 0; k < 50; ++k) {
+      // Another allowed motion: the answer to other free velocities.
+      ContactProblem other = problem;
+      for (std::size_t b = 1; b < other.bodies.size(); ++b) {
+        other.bodies[b].v += 0.1 * random_vector(rng);
+        other.bodies[b].w += 0.1 * random_vector(rng);
+      }
+      const ContactSolution allowed = solve(other, ProjectionSpace::automatic);
+      ASSERT_GE(constraint(problem, allowed.bodies), least - 1e-8) << i;
+    }
+  }
+}
+
+TEST(ProjectOnContacts, MeetsTheLawsWithFriction) {
+  std::mt19937 rng(3);
+  for (int i = 0; i < 100; ++i) {
+    // Arms as long as a body: a contact that sees less inertia along its normal than friction
+    // takes may have no solution (Painleve).
+    ContactProblem problem = random_heap(rng, 0.4);
+    for (ContactPoint& contact : problem.contacts) {
+      contact.arm_A *= 0.3;
+      contact.arm_B *= 0.3;
+    }
+    for (const ProjectionSpace space : {ProjectionSpace::contact, ProjectionSpace::motion}) {
+      const ContactSolution solution =
+          project_on_contacts(problem, {.tolerance = 1e-8, .space = space, .sweeps = 20000});
+      ASSERT_LE(solution.residual, 1e-8) << i << " " << static_cast<int>(space);
+      ASSERT_NEAR(contact_residual(problem, solution), solution.residual, 1e-12) << i;
+      for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+        const Vector3d& r = solution.impulses[k];
+        ASSERT_LE(r.tail<2>().norm(), 0.4 * r[0] + 1e-12) << i;
+      }
+    }
+  }
+}
+
+// Momentum changes by the impulses and by nothing else.
+TEST(ProjectOnContacts, ImpulsesMakeTheVelocities) {
+  std::mt19937 rng(4);
+  const ContactProblem problem = random_heap(rng, 0.3);
+  const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+  std::vector<Vector3d> momentum(problem.bodies.size(), Vector3d::Zero());
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    const ContactPoint& contact = problem.contacts[k];
+    const Vector3d impulse = contact.frame.transpose() * solution.impulses[k];
+    momentum[contact.bodies[0]] -= impulse;
+    momentum[contact.bodies[1]] += impulse;
+  }
+  for (std::size_t b = 1; b < problem.bodies.size(); ++b) {
+    const Vector3d change = problem.bodies[b].inverse_inertia.mass.cwiseProduct(momentum[b]);
+    EXPECT_LE((solution.bodies[b].v - problem.bodies[b].v - change).norm(), 1e-12);
+  }
+}
+
+// The cone is round: friction points against sliding, whatever its direction.
+TEST(ProjectOnContacts, FrictionOpposesSlidingInEveryDirection) {
+  for (int degrees = 0; degrees < 360; degrees += 7) {
+    const double angle = degrees * 3.14159265358979 / 180.0;
+    ContactProblem problem;
+    problem.bodies = {{}, cube(2.0, {3.0 * std::cos(angle), 3.0 * std::sin(angle), -1.0})};
+    problem.bodies[1].inverse_inertia.rotation.setZero();
+    problem.contacts = {on_ground(0.0, 0.0, 0.5)};
+    const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+    const Vector3d expected(2.5 * std::cos(angle), 2.5 * std::sin(angle), 0.0);
+    EXPECT_LE((solution.bodies[1].v - expected).norm(), 1e-12) << degrees;
+  }
+}
+
+TEST(ProjectOnContacts, SticksInsideTheConeAndSlidesOutside) {
+  const auto speed_after = [](double friction) {
+    ContactProblem problem;
+    problem.bodies = {{}, cube(1.0, {0.5, 0.0, -1.0})};
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        problem.contacts.push_back(on_ground(x, y, friction));
+      }
+    }
+    return solve(problem, ProjectionSpace::automatic).bodies[1].v.x();
+  };
+  EXPECT_NEAR(speed_after(0.51), 0.0, 1e-9);
+  EXPECT_NEAR(speed_after(0.49), 0.01, 1e-9);
+}
+
+TEST(ProjectOnContacts, TakesAThousandRedundantContacts) {
+  ContactProblem problem;
+  problem.bodies = {{}, cube(1.0, {0.2, 0.1, -1.0})};
+  problem.bodies[1].w = {0.3, -0.2, 0.1};
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> side(-0.5, 0.5);
+  for (int k = 0; k < 1000; ++k) {
+    problem.contacts.push_back(on_ground(side(rng), side(rng), 0.6));
+  }
+  const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+  EXPECT_EQ(solution.space, ProjectionSpace::motion);
+  EXPECT_LE(solution.residual, kTolerance);
+  EXPECT_LE(solution.bodies[1].v.norm() + solution.bodies[1].w.norm(), 1e-9);
+}
+
+// A light cube under a heavy one.
+TEST(ProjectOnContacts, TakesMassRatiosOfTenThousand) {
+  for (const double ratio : {1e-4, 1.0, 1e4}) {
+    ContactProblem problem;
+    problem.bodies = {{}, cube(1.0, {0, 0, -1}), cube(ratio, {0, 0, -1})};
+    for (const std::size_t upper : {1u, 2u}) {
+      for (const double x : {-0.5, 0.5}) {
+        for (const double y : {-0.5, 0.5}) {
+          ContactPoint contact = on_ground(x, y, 0.5);
+          contact.bodies = {upper - 1, upper};
+          contact.arm_A.z() = upper == 1 ? 0.0 : 0.5;
+          problem.contacts.push_back(contact);
+        }
+      }
+    }
+    const ContactSolution solution = project_on_contacts(problem, {.tolerance = 1e-9});
+    EXPECT_LE(solution.residual, 1e-9) << ratio;
+    for (const ContactBody& body : solution.bodies) {
+      EXPECT_LE(body.v.norm() + body.w.norm(), 1e-7) << ratio;
+    }
+  }
+}
+
+TEST(ProjectOnContacts, StartsFromAGoodGuess) {
+  std::mt19937 rng(6);
+  ContactProblem problem = random_heap(rng, 0.3);
+  const ContactSolution first = solve(problem, ProjectionSpace::contact);
+  ASSERT_GT(first.iterations, 1);
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    problem.contacts[k].guess = first.impulses[k];
+  }
+  EXPECT_LE(project_on_contacts(problem, {.tolerance = 2.0 * kTolerance}).iterations, 1);
+}
+
+TEST(ProjectOnContacts, KeepsLockedAxes) {
+  ContactProblem problem;
+  problem.bodies = {{}, cube(1.0, {0.5, 0.0, -1.0})};
+  problem.bodies[1].inverse_inertia.rotation.setZero();
+  problem.bodies[1].inverse_inertia.mass.y() = 0.0;
+  problem.contacts = {on_ground(0.4, 0.1, 0.2)};
+  const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+  EXPECT_EQ(solution.bodies[1].v.y(), 0.0);
+  EXPECT_EQ(solution.bodies[1].w, Vector3d::Zero());
+  EXPECT_NEAR(solution.bodies[1].v.x(), 0.3, 1e-12);
+}
+
+TEST(ContactResidual, GrowsWithTheErrorOfASolution) {
+  std::mt19937 rng(7);
+  const ContactProblem problem = random_heap(rng, 0.3);
+  ContactSolution wrong = solve(problem, ProjectionSpace::automatic);
+  ASSERT_LE(contact_residual(problem, wrong), kTolerance);
+  wrong.impulses[0][0] += 0.01;
+  EXPECT_GE(contact_residual(problem, wrong), 1e-4);
+}
+
+TEST(ProjectOnContacts, RefusesOptionsOutOfRange) {
+  EXPECT_THROW((void)project_on_contacts({}, {.tolerance = 0.0}), std::invalid_argument);
+  EXPECT_THROW((void)project_on_contacts({}, {.tolerance = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW((void)project_on_contacts({}, {.sweeps = 0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact

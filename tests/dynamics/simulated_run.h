@@ -1,0 +1,55 @@
+/// @file
+/// Simulations of scenes written in tests.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/dynamics/simulator.h>
+#include <firstcontact/dynamics/verify_run.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+
+namespace firstcontact::test {
+
+inline Simulator simulator(const std::string& bodies, const std::string& simulation) {
+  ShapeCache cache;
+  return Simulator(load_scene(parse_scene(R"({"firstcontact": 1, "bodies": [)" + bodies +
+                                              R"(], "simulation": {)" + simulation + "}}",
+                                          "test.json"),
+                              cache));
+}
+
+/// A body as scenes have it; `more` begins with a comma.
+inline std::string body(const std::string& name, const std::string& shape,
+                        const std::string& position, const std::string& more = "") {
+  return R"({"name": ")" + name + R"(", "shape": )" + shape + R"(, "pose": {"position": )" +
+         position + "}" + more + "}";
+}
+
+inline std::string box(const std::string& size) { return R"({"box": {"size": )" + size + "}}"; }
+inline std::string ball(const std::string& radius) {
+  return R"({"sphere": {"radius": )" + radius + "}}";
+}
+
+inline std::vector<RunStep> run(Simulator& simulator, std::size_t steps) {
+  std::vector<RunStep> run;
+  for (std::size_t k = 0; k < steps; ++k) {
+    run.push_back(simulator.step().value());
+  }
+  return run;
+}
+
+inline RunVerification verify(const RunHeader& header, const std::vector<RunStep>& steps) {
+  std::size_t next = 0;
+  return verify_run(header,
+                    [&]() -> std::optional<RunStep> {
+                      return next < steps.size() ? std::optional(steps[next++]) : std::nullopt;
+                    },
+                    {});
+}
+
+}  // namespace firstcontact::test

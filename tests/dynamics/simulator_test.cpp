@@ -1,0 +1,313 @@
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/dynamics/write_run.h>
+
+#include "dynamics/simulated_run.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+using test::ball;
+using test::body;
+using test::box;
+using test::run;
+using test::simulator;
+using test::verify;
+
+const std::string kFree = R"(, "dynamics": {})";
+const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
+
+double total_energy(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
+
+// --- Closed forms --------------------------------------------------------------------------------
+
+TEST(Simulator, FreeFlightIsExact) {
+  Simulator s = simulator(
+      body("a", box("[1, 2, 3]"), "[0, 0, 0]", R"(, "dynamics": {"linear_velocity": [1, 2, 3]})"),
+      R"("step": 0.01, "gravity": [0, 0, -10])");
+  const RunStep last = run(s, 100).back();
+  EXPECT_NEAR(last.bodies[0].X_WB.position.x(), 1.0, 1e-12);
+  EXPECT_NEAR(last.bodies[0].X_WB.position.z(), 3.0 - 5.0, 1e-12);
+  EXPECT_NEAR(last.bodies[0].linear_velocity.z(), -7.0, 1e-12);
+}
+
+TEST(Simulator, TimedForcesActWhileTheyLast) {
+  Simulator s = simulator(
+      body(
+          "a", ball("0.1"), "[0, 0, 0]",
+          R"(, "dynamics": {"mass": 2, "forces": [{"from": 0.105, "to": 0.305, "force": [10, 0, 0]}]})"),
+      R"("step": 0.01, "gravity": [0, 0, 0])");
+  const RunStep last = run(s, 50).back();
+  EXPECT_NEAR(last.bodies[0].linear_velocity.x(), 10.0 / 2.0 * 0.2, 1e-12);
+}
+
+/// The greatest change of energy of a torque-free body that flips about its intermediate axis.
+double energy_drift(double step) {
+  Simulator s = simulator(body("a", box("[0.1, 0.2, 0.4]"), "[0, 0, 0]",
+                               R"(, "dynamics": {"angular_velocity": [0.01, 6, 0.01]})"),
+                          R"("gravity": [0, 0, 0], "step": )" + std::to_string(step));
+  const auto steps = run(s, static_cast<std::size_t>(std::lround(6.0 / step)));
+  double drift = 0.0;
+  bool flipped = false;
+  for (const RunStep& at : steps) {
+    drift = std::max(drift, std::abs(at.kinetic_energy / steps[0].kinetic_energy - 1.0));
+    EXPECT_LE((at.angular_momentum - steps[0].angular_momentum).norm(),
+              1e-10 * steps[0].angular_momentum.norm());
+    // The body's y axis turns against the momentum.
+    flipped = flipped || (at.bodies[0].X_WB.rotation * Vector3d::UnitY()).y() < -0.9;
+  }
+  EXPECT_TRUE(flipped);
+  return drift;
+}
+
+TEST(Simulator, IntermediateAxisFlipsAndKeepsMomentumAndEnergy) {
+  EXPECT_LE(energy_drift(0.01), 1e-3);
+  EXPECT_LE(energy_drift(0.0025), 1e-4);
+}
+
+TEST(Simulator, ElasticBallsExchangeTheirVelocities) {
+  Simulator s = simulator(
+      body("a", ball("0.1"), "[0, 0, 0]", R"(, "dynamics": {"linear_velocity": [1, 0, 0]})") + "," +
+          body("b", ball("0.1"), "[0.5, 0, 0]", R"(, "dynamics": {"linear_velocity": [-2, 0, 0]})"),
+      R"("step": 0.01, "gravity": [0, 0, 0], "restitution": 1)");
+  const auto steps = run(s, 30);
+  EXPECT_NEAR(steps.back().bodies[0].linear_velocity.x(), -2.0, 1e-10);
+  EXPECT_NEAR(steps.back().bodies[1].linear_velocity.x(), 1.0, 1e-10);
+  EXPECT_LE((steps.back().linear_momentum - steps[0].linear_momentum).norm(), 1e-10);
+  EXPECT_LE((steps.back().angular_momentum - steps[0].angular_momentum).norm(), 1e-10);
+  EXPECT_NEAR(steps.back().kinetic_energy, steps[0].kinetic_energy, 1e-10);
+}
+
+TEST(Simulator, InelasticBallsGoOnTogether) {
+  Simulator s = simulator(
+      body("a", ball("0.1"), "[0, 0, 0]", R"(, "dynamics": {"linear_velocity": [1, 0, 0]})") + "," +
+          body("b", ball("0.1"), "[0.5, 0, 0]", kFree),
+      R"("step": 0.01, "gravity": [0, 0, 0], "restitution": 0)");
+  const auto steps = run(s, 60);
+  EXPECT_NEAR(steps.back().bodies[0].linear_velocity.x(), 0.5, 1e-8);
+  EXPECT_NEAR(steps.back().bodies[1].linear_velocity.x(), 0.5, 1e-8);
+  EXPECT_LE((steps.back().linear_momentum - steps[0].linear_momentum).norm(), 1e-10);
+}
+
+// Gaps of 0.1 mm: the impacts come one after the other, and only the last ball leaves.
+TEST(Simulator, NewtonsCradleHandsTheImpactOn) {
+  std::string balls =
+      body("b0", ball("0.05"), "[-0.2, 0, 0]", R"(, "dynamics": {"linear_velocity": [1, 0, 0]})");
+  for (int k = 1; k < 5; ++k) {
+    balls += "," + body("b" + std::to_string(k), ball("0.05"),
+                        "[" + std::to_string(0.1001 * (k - 1)) + ", 0, 0]", kFree);
+  }
+  Simulator s = simulator(balls, R"("step": 0.01, "gravity": [0, 0, 0], "restitution": 1)");
+  const RunStep last = run(s, 30).back();
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(last.bodies[k].linear_velocity.x(), 0.0, 1e-9) << k;
+  }
+  EXPECT_NEAR(last.bodies[4].linear_velocity.x(), 1.0, 1e-9);
+}
+
+// A rod falls flat on a ball under its end: v' = v - J / m, w = J r / I with J = m v / (1 + m r^2 /
+// I).
+TEST(Simulator, RodTurnsAboutWhatStruckIt) {
+  Simulator s =
+      simulator(body("rod", box("[1, 0.02, 0.02]"), "[0, 0, 0.2]",
+                     R"(, "dynamics": {"linear_velocity": [0, 0, -1]})") +
+                    "," + body("ball", ball("0.05"), "[0.45, 0, 0]"),
+                R"("step": 0.001, "gravity": [0, 0, 0], "restitution": 0, "friction": 0)");
+  std::vector<RunStep> steps = run(s, 150);
+  const double inertia = (1.0 + 0.02 * 0.02) / 12.0;  // Over the mass.
+  const double J = 1.0 / (1.0 + 0.45 * 0.45 / inertia);
+  EXPECT_NEAR(steps.back().bodies[0].linear_velocity.z(), -1.0 + J, 2e-3);
+  EXPECT_NEAR(steps.back().bodies[0].angular_velocity.y(), -J * 0.45 / inertia, 1e-2);
+}
+
+/// Down a slope of tan = 1/2 after a second; the slope is a floor under tilted gravity.
+double slid(double friction) {
+  const double g = 9.81;
+  const double c = 2.0 / std::sqrt(5.0);
+  Simulator s =
+      simulator(kFloor + "," + body("a", box("[0.5, 0.5, 0.5]"), "[0, 0, 0.25005]", kFree),
+                R"("step": 0.01, "friction": )" + std::to_string(friction) + R"(, "gravity": [)" +
+                    std::to_string(0.5 * c * g) + ", 0, " + std::to_string(-c * g) + "]");
+  return run(s, 100).back().bodies[0].X_WB.position.x();
+}
+
+TEST(Simulator, SticksOnASlopeUpToTheFrictionAngle) {
+  EXPECT_NEAR(slid(0.501), 0.0, 1e-4);
+  const double c = 2.0 / std::sqrt(5.0);
+  EXPECT_NEAR(slid(0.4), 0.5 * 9.81 * (0.5 - 0.4) * c, 1e-3);
+}
+
+TEST(Simulator, BouncesToTheHeightThatRestitutionLeaves) {
+  Simulator s = simulator(kFloor + "," + body("a", ball("0.1"), "[0, 0, 1.1]", kFree),
+                          R"("step": 0.005, "restitution": 0.8)");
+  double highest = 0.0;
+  bool bounced = false;
+  for (const RunStep& step : run(s, 200)) {
+    bounced = bounced || step.bodies[0].linear_velocity.z() > 0.0;
+    highest = bounced ? std::max(highest, step.bodies[0].X_WB.position.z()) : highest;
+  }
+  EXPECT_NEAR(highest, 0.1 + 0.64, 2e-3);
+}
+
+// --- Nothing interpenetrates
+// -----------------------------------------------------------------------
+
+TEST(Simulator, HeapComesToRestProvenApart) {
+  std::string bodies = kFloor;
+  for (int k = 0; k < 6; ++k) {
+    const std::string x = std::to_string(0.07 * (k % 2));
+    bodies += "," + body("b" + std::to_string(k), box("[0.2, 0.25, 0.15]"),
+                         "[" + x + ", " + x + ", " + std::to_string(0.2 + 0.3 * k) + "]",
+                         R"(, "dynamics": {"angular_velocity": [1, 2, 3]})");
+  }
+  Simulator s = simulator(bodies, R"("step": 0.01)");
+  const auto steps = run(s, 150);
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    ASSERT_EQ(steps[k].time_lost, 0.0) << k;
+    ASSERT_GT(steps[k].clearance, 0.0) << k;
+    // Pairs that are pushed back to their distance of rest lift what lies on them.
+    ASSERT_LE(total_energy(steps[k]), total_energy(steps[k - 1]) + 1e-3) << k;
+  }
+  EXPECT_LE(steps.back().kinetic_energy, 1e-2);
+  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
+TEST(Simulator, NothingTunnelsThroughAThinPlate) {
+  for (const double speed : {20.0, 200.0, 2000.0}) {
+    for (const double spin : {0.0, 1000.0}) {
+      Simulator s =
+          simulator(body("plate", box("[0.0001, 1, 1]"), "[0, 0, 0]") + "," +
+                        body("shot", box("[0.01, 0.01, 0.01]"), "[-0.1, 0.013, 0.007]",
+                             R"(, "dynamics": {"linear_velocity": [)" + std::to_string(speed) +
+                                 R"(, 0, 0], "angular_velocity": [0, )" + std::to_string(spin) +
+                                 ", " + std::to_string(0.3 * spin) + "]}"),
+                    R"("step": 0.016666666666666666, "gravity": [0, 0, 0])");
+      const auto steps = run(s, 3);
+      EXPECT_LT(steps.back().bodies[0].X_WB.position.x(), 0.0) << speed << " " << spin;
+      EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven) << speed << " " << spin;
+    }
+  }
+}
+
+// Two that never come near each other do not share their impacts.
+TEST(Simulator, IslandsAdvanceApart) {
+  const std::string falling = body("a", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.3]", kFree);
+  Simulator alone = simulator(kFloor + "," + falling, R"("step": 0.01)");
+  Simulator both = simulator(kFloor + "," + falling + "," +
+                                 body("b", box("[0.2, 0.2, 0.2]"), "[2, 0, 0.31]",
+                                      R"(, "dynamics": {"angular_velocity": [4, 5, 6]})"),
+                             R"("step": 0.01)");
+  const auto first = run(alone, 60);
+  const auto second = run(both, 60);
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    ASSERT_EQ(first[k].bodies[0].X_WB.position, second[k].bodies[0].X_WB.position) << k;
+    ASSERT_EQ(first[k].bodies[0].angular_velocity, second[k].bodies[0].angular_velocity) << k;
+  }
+}
+
+// Nothing can yield: time is lost, and nothing else.
+TEST(Simulator, CrushedBodyStopsTime) {
+  Simulator s =
+      simulator(kFloor + "," + body("a", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.1001]", kFree) + R"(,
+      {"name": "press", "shape": {"box": {"size": [1, 1, 0.1]}},
+       "motion": {"type": "waypoints", "times": [0, 1],
+                  "poses": [{"position": [0, 0, 0.4]}, {"position": [0, 0, -0.1]}]}})",
+                R"("step": 0.02, "duration": 1, "events": 50)");
+  const auto steps = run(s, 20);
+  double lost = 0.0;
+  for (const RunStep& step : steps) {
+    lost += step.time_lost;
+    ASSERT_LE(step.kinetic_energy, 100.0);
+  }
+  EXPECT_GT(lost, 0.05);
+  EXPECT_NEAR(steps.back().time, 0.4 - lost, 1e-12);
+  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
+TEST(Simulator, ScriptedBodiesPushOthers) {
+  Simulator s = simulator(body("a", ball("0.1"), "[0, 0, 0]", kFree) + R"(,
+      {"name": "pusher", "shape": {"sphere": {"radius": 0.1}},
+       "motion": {"type": "waypoints", "times": [0, 1],
+                  "poses": [{"position": [-0.5, 0, 0]}, {"position": [0.5, 0, 0]}]}})",
+                          R"("step": 0.01, "duration": 1, "gravity": [0, 0, 0])");
+  const auto steps = run(s, 100);
+  EXPECT_GT(steps.back().bodies[0].X_WB.position.x(), 0.7);
+  EXPECT_NEAR(steps.back().bodies[0].linear_velocity.x(), 1.0, 1e-6);
+  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
+// --- The record --------------------------------------------------------------------------------
+
+TEST(Simulator, GoesOnBitForBit) {
+  const std::string bodies = kFloor + "," +
+                             body("a", box("[0.2, 0.3, 0.2]"), "[0, 0, 0.3]",
+                                  R"(, "dynamics": {"angular_velocity": [4, 5, 6]})") +
+                             "," + body("b", box("[0.2, 0.2, 0.2]"), "[0.05, 0, 0.8]", kFree);
+  Simulator whole = simulator(bodies, R"("step": 0.01)");
+  const auto steps = run(whole, 80);
+  for (const std::size_t at : {0u, 30u, 45u, 70u}) {
+    Simulator resumed = simulator(bodies, R"("step": 0.01)");
+    if (at > 0) {
+      resumed.resume(steps[at - 1]);
+    }
+    for (std::size_t k = at; k < steps.size(); ++k) {
+      ASSERT_EQ(write_run_step(resumed.step().value()), write_run_step(steps[k])) << at << " " << k;
+    }
+  }
+}
+
+TEST(Simulator, StoppedStepChangesNothing) {
+  Simulator s = simulator(kFloor + "," + body("a", ball("0.1"), "[0, 0, 1]", kFree), "");
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(s.step(stop.get_token()).has_value());
+  EXPECT_EQ(s.step_count(), 0u);
+  EXPECT_EQ(s.step().value().index, 1u);
+}
+
+TEST(Simulator, TakesStatesFromOutside) {
+  Simulator s = simulator(kFloor + "," + body("a", ball("0.1"), "[0, 0, 1]", kFree), "");
+  RigidState state;
+  state.X_WB.position = {0.0, 0.0, 2.0};
+  state.v_WC = {1.0, 0.0, 0.0};
+  s.set_state(1, state);
+  EXPECT_GT(s.step().value().bodies[0].X_WB.position.x(), 0.0);
+  EXPECT_THROW(s.set_state(0, state), std::invalid_argument);
+  state.X_WB.position.z() = 0.05;
+  EXPECT_THROW(s.set_state(1, state), std::invalid_argument);
+  state.X_WB.position.z() = std::nan("");
+  EXPECT_THROW(s.set_state(1, state), std::invalid_argument);
+  EXPECT_GT(s.states()[1].X_WB.position.z(), 1.9);
+}
+
+/// What a scene that cannot be simulated is told.
+std::string complaint(const std::string& bodies) {
+  try {
+    (void)simulator(bodies, "");
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Simulator, SaysWhatIsWrongWithAScene) {
+  EXPECT_NE(complaint(kFloor + "," + body("a", ball("0.1"), "[0, 0, 0.05]", kFree))
+                .find("\"floor\" and \"a\" meet at the start"),
+            std::string::npos);
+  EXPECT_NE(
+      complaint(body("flag", R"({"vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]})",
+                     "[0, 0, 0]", kFree))
+          .find("body \"flag\""),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace firstcontact
