@@ -18,6 +18,7 @@ using Eigen::VectorXd;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr int kMostRounds = 300;      // Of multipliers.
+constexpr int kPatience = 8;          // Rounds without a residual of half the best one.
 constexpr int kMostNewtonSteps = 40;  // In a round.
 constexpr double kFirstPenalty = 1e2;
 constexpr double kGreatestPenalty = 1e6;
@@ -187,8 +188,10 @@ void project_in_motion_space(const ContactProblem& problem, const std::vector<Co
   VectorXd x = VectorXd::Zero(lagrangian.size());
   std::vector<Velocity> V = projection.velocities;
   double least = std::numeric_limits<double>::infinity();
+  double goal = least;  // What the next rounds have to reach.
+  int waited = 0;
   int factorisations = 0;
-  for (int k = 0; k < kMostRounds && least > options.tolerance; ++k) {
+  for (int k = 0; k < kMostRounds && least > options.tolerance && waited < kPatience; ++k) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       round.bias[i] = rows[i].friction * rows[i].velocity(V).tail<2>().norm();
     }
@@ -198,6 +201,11 @@ void project_in_motion_space(const ContactProblem& problem, const std::vector<Co
       round.multipliers[i] = project_on_cone(lagrangian.shifted(round, i, V), rows[i].friction);
     }
     const double residual = greatest_residual(rows, round.multipliers, V);
+    ++waited;
+    if (residual <= goal) {
+      goal = 0.5 * residual;
+      waited = 0;
+    }
     if (residual < least) {
       least = residual;
       projection = {V, round.multipliers, residual, factorisations};
