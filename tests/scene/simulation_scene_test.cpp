@@ -10,6 +10,7 @@
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
+#include <firstcontact/scene/write_scene.h>
 
 #include "scene/scene_text.h"
 
@@ -123,6 +124,8 @@ TEST(SimulationScene, KeepsRatesForAnotherDuration) {
   set_simulation_duration(shorter, 1.0);
   EXPECT_EQ(shorter.simulation.value().duration, 1.0);
   EXPECT_EQ(shorter.duration, 2.0);
+  const Scene again = parse_scene(write_scene(shorter), "s");
+  EXPECT_EQ(std::pair(again.duration, again.simulation.value().duration), std::pair(2.0, 1.0));
   Scene longer = scene;
   set_simulation_duration(longer, 6.0);
   EXPECT_EQ(longer.duration, 6.0);
@@ -214,9 +217,10 @@ TEST(MalformedSimulation, SaysWhatIsWrong) {
       {simulated(R"("pairs": [{"bodies": ["a", "b"], "friction": 1}, )"
                  R"({"bodies": ["b", "a"], "friction": 1}])"),
        "simulation.pairs[1]: expected each pair once, got a second one"},
-      {scene(body("a"), R"("simulation": {"duration": 2}, "options": {"duration": 3})"),
-       "options.duration: expected 2, the last time of the simulation, the waypoints (or no "
-       "\"duration\" at all), got 3"},
+      {scene(body("a"), R"("simulation": {"duration": 2}, "options": {"duration": 1})"),
+       "options.duration: expected 2 or more, the last time of the simulation, the waypoints (or "
+       "no "
+       "\"duration\" at all), got 1"},
   });
 }
 

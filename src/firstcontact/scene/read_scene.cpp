@@ -172,8 +172,11 @@ double scene_duration(const Scene& scene, const JsonValue* asked, const JsonValu
     return last > 0.0 ? last : 1.0;
   }
   const double duration = read.positive(*asked);
-  if (last > 0.0 && duration != last) {
-    read.fail_expected(detail::write_json(last) + ", the last time of the " +
+  // A simulation may end before motions that span the scene do.
+  const bool fits = simulated == nullptr ? duration == last : duration >= last;
+  if (last > 0.0 && !fits) {
+    read.fail_expected(detail::write_json(last) + (simulated == nullptr ? "" : " or more") +
+                           ", the last time of the " +
                            (simulated == nullptr ? "" : "simulation, the ") + "waypoints" +
                            (scene.robots.empty() ? "" : " and trajectories") +
                            " (or no \"duration\" at all)",
