@@ -23,7 +23,8 @@ RunFile::RunFile(const std::string& path, const RunHeader& header) : RunFile(pat
   write(write_run_header(header));
 }
 
-RunFile RunFile::resume(const std::string& path, const RunHeader& header) {
+RunFile RunFile::resume(const std::string& path, const RunHeader& header,
+                        const std::function<void(const RunStep&)>& each) {
   if (!std::filesystem::exists(path)) {
     return {path, header};
   }
@@ -42,6 +43,7 @@ RunFile RunFile::resume(const std::string& path, const RunHeader& header) {
     stream.seekg(0);
     RunReader run(stream, path);
     while (std::optional<RunStep> step = run.next()) {
+      each(*step);
       last = std::move(step);
     }
     size = run.size();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,9 +24,11 @@ class RunFile {
 
   /// Goes on with the run in the file, or begins one where there is no file.
   ///
+  /// @param each    called with every step that is there
   /// @throws std::invalid_argument if the file holds another run than one with this header;
   ///         ParseError if it holds none
-  static RunFile resume(const std::string& path, const RunHeader& header);
+  static RunFile resume(const std::string& path, const RunHeader& header,
+                        const std::function<void(const RunStep&)>& each);
 
   /// Of a run that is resumed, if it has any.
   [[nodiscard]] const std::optional<RunStep>& last() const { return last_; }

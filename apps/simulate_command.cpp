@@ -14,17 +14,20 @@
 #include <fmt/core.h>
 
 #include <firstcontact/dynamics/simulator.h>
+#include <firstcontact/dynamics/write_run_page.h>
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>
 
+#include "atomic_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "run_file.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -32,6 +35,7 @@ namespace {
 struct Arguments {
   std::string scene;
   std::string output;
+  std::string page;
   std::optional<double> duration;  // [s]
   std::optional<double> step;      // [s]
   bool resume = false;
@@ -86,18 +90,25 @@ struct Tally {
 class Run {
  public:
   explicit Run(const Arguments& arguments) : arguments_(arguments), simulator_(load(arguments)) {
+    for (const std::string& file : {arguments.output, arguments.page}) {
+      std::error_code missing;
+      if (std::filesystem::equivalent(arguments.scene, file, missing)) {
+        throw std::invalid_argument(file + ": this would overwrite the scene");
+      }
+    }
+    if (!arguments.page.empty()) {
+      template_ = viewer_page();  // Missing is better known before the work than after it.
+      page_.emplace(simulator_.header());
+    }
     if (arguments.output.empty()) {
       return;
-    }
-    std::error_code missing;
-    if (std::filesystem::equivalent(arguments.scene, arguments.output, missing)) {
-      throw std::invalid_argument(arguments.output + ": this would overwrite the scene");
     }
     if (!arguments.resume) {
       file_.emplace(arguments.output, simulator_.header());
       return;
     }
-    file_.emplace(RunFile::resume(arguments.output, simulator_.header()));
+    file_.emplace(RunFile::resume(arguments.output, simulator_.header(),
+                                  [this](const RunStep& step) { collect(step); }));
     if (file_->last()) {
       simulator_.resume(*file_->last());
     }
@@ -119,18 +130,35 @@ class Run {
       const std::chrono::duration<double> seconds = Clock::now() - begin;
       seconds_ += seconds.count();
       tally_.take(*done, seconds.count());
+      collect(*done);
       if (file_) {
         file_->write(*done);
       }
       progress_.doing(bar(simulator_.step_count(), count));
     }
     const bool is_whole = simulator_.step_count() >= count;
+    write_page();
     print(is_whole, count);
     return is_whole && tally_.time_lost == 0.0 ? ExitStatus::free : ExitStatus::undecided;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  void collect(const RunStep& step) {
+    if (page_) {
+      page_->add(step);
+    }
+  }
+
+  /// Where it was asked for, and there is something to play.
+  void write_page() const {
+    if (page_ && page_->time() > 0.0) {
+      ShapeCache cache;
+      const LoadedScene loaded = load_scene(simulator_.header().scene, cache);
+      write_file(arguments_.page, page_->write(template_, loaded));
+    }
+  }
 
   [[nodiscard]] std::string bar(std::size_t done, std::size_t count) const {
     constexpr std::size_t kWidth = 24;
@@ -169,6 +197,9 @@ class Run {
     if (file_) {
       line("run", arguments_.output + (is_whole ? "" : "; --resume goes on"));
     }
+    if (page_) {
+      line("page", page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play");
+    }
     if (std::fflush(stdout) != 0) {
       throw std::runtime_error("standard output: cannot write all of the answer");
     }
@@ -178,6 +209,8 @@ class Run {
   Progress progress_;
   const Arguments& arguments_;
   Simulator simulator_;
+  std::string template_;  // Of the page.
+  std::optional<RunPage> page_;
   std::optional<RunFile> file_;
   Tally tally_;
   double seconds_ = 0.0;
@@ -201,6 +234,8 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
   command->add_option("SCENE", arguments->scene, "The scene, .json")->required();
   CLI::Option* output = command->add_option("-o,--output", arguments->output,
                                             "Records the run: JSON Lines, a line a step");
+  command->add_option("--html", arguments->page, "Makes a page that plays the run")
+      ->type_name("FILE");
   add_number(*command, "--duration", arguments->duration, Range::positive,
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -15,6 +17,8 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/dynamics/write_run_page.h>
 #include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/read_result.h>
@@ -59,18 +63,26 @@ void open(const std::string& page) {
   }
 }
 
-void view(const Arguments& arguments) {
-  const std::string page = viewer_page();
-  const std::string text = read_text(arguments.result);
-  StoredResult stored = read_result(text, arguments.result);
-  const std::string output =
-      arguments.output.empty()
-          ? std::filesystem::path(arguments.result).replace_extension(".html").string()
-          : arguments.output;
-  std::error_code missing;
-  if (std::filesystem::equivalent(arguments.result, output, missing)) {
-    throw std::invalid_argument(output + ": this would overwrite the result");
+/// As write_run_header begins it.
+bool is_run(const std::string& text) { return text.starts_with("{\"firstcontact_run\""); }
+
+std::string page_of_run(const std::string& page, const std::string& text, const std::string& path) {
+  std::istringstream stream(text);
+  RunReader run(stream, path);
+  RunPage collected(run.header());
+  while (const std::optional<RunStep> step = run.next()) {
+    collected.add(*step);
   }
+  if (!(collected.time() > 0.0)) {
+    throw ParseError(path, "expected steps after the header; there is nothing to play");
+  }
+  ShapeCache cache;
+  return collected.write(page, load_scene(run.header().scene, cache));
+}
+
+std::string page_of_result(const std::string& page, const std::string& text,
+                           const std::string& path) {
+  StoredResult stored = read_result(text, path);
   const Interrupt interrupt;
   ShapeCache cache;
   const LoadedScene loaded = load_scene(std::move(stored.scene), cache);
@@ -79,7 +91,22 @@ void view(const Arguments& arguments) {
   answer.t = stored.t;
   answer.clearance = stored.clearance;
   const std::vector<GapPoint> bound = gap_lower_bound(loaded, answer, gap);
-  write_file(output, write_page(page, loaded, text, {gap, bound}));
+  return write_page(page, loaded, text, {gap, bound});
+}
+
+void view(const Arguments& arguments) {
+  const std::string page = viewer_page();
+  const std::string& path = arguments.result;
+  const std::string text = read_text(path);
+  const std::string output = arguments.output.empty()
+                                 ? std::filesystem::path(path).replace_extension(".html").string()
+                                 : arguments.output;
+  std::error_code missing;
+  if (std::filesystem::equivalent(path, output, missing)) {
+    throw std::invalid_argument(output + ": this would overwrite the result");
+  }
+  write_file(output,
+             is_run(text) ? page_of_run(page, text, path) : page_of_result(page, text, path));
   fmt::print("{}\n", output);
   if (!arguments.no_open) {
     open(output);
@@ -89,13 +116,14 @@ void view(const Arguments& arguments) {
 }  // namespace
 
 void add_view_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("view", "Makes a page that plays a result, and opens it in the browser");
+  CLI::App* command = app.add_subcommand(
+      "view", "Makes a page that plays a result or a run, and opens it in the browser");
   auto arguments = std::make_shared<Arguments>();
   command
-      ->add_option("RESULT", arguments->result,
-                   "What `firstcontact check SCENE -o RESULT` wrote; run this in the same folder "
-                   "as that, its mesh files are read again")
+      ->add_option(
+          "RESULT", arguments->result,
+          "What `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote; run "
+          "this in the same folder as that, its mesh files are read again")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,

@@ -1,5 +1,5 @@
 /// @file
-/// `firstcontact view RESULT`: the page that plays a result.
+/// `firstcontact view RESULT`: the page that plays a result or a run.
 
 #pragma once
 

@@ -25,6 +25,11 @@ FREE = scene(body("floor"), falling(5), id="free")
 UNDECIDED = scene(body("floor"), falling(1), id="undecided", options={"deadline": 1e-9})
 BAD = scene(body("floor", pose={"positon": [0, 0, 0]}))
 
+# A box that falls on a floor and comes to rest there.
+DROP = json.dumps({"firstcontact": 1, "id": "drop", "simulation": {"duration": 0.4, "step": 0.02}, "bodies": [
+    {"name": "box", "shape": {"box": {"size": [1, 1, 1]}}, "pose": {"position": [0, 0, 0.6]}, "dynamics": {}},
+    {"name": "floor", "shape": {"box": {"size": [9, 9, 0.1]}}}]})
+
 # A tip that turns sixteen million times, and each time passes a wall at a millionth of a millimetre.
 ENDLESS = scene(
     {"name": "tip", "shape": {"vertices": [[0, 0, 0], [1, 0, 0]], "triangles": [[0, 1, 1]]},

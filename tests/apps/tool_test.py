@@ -3,6 +3,7 @@
     tool_test.py TOOL [unittest arguments]
 """
 
+import base64
 import json
 import math
 import os
@@ -11,6 +12,7 @@ import pty
 import re
 import signal
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
@@ -557,6 +559,11 @@ class Plot(ToolTest):
         self.assert_refused(result, "--svg draws one scene; give one .json file")
 
 
+def numbers(kind: str, base64_text: str) -> tuple:
+    data = base64.b64decode(base64_text)
+    return struct.unpack(f"<{len(data) // struct.calcsize(kind)}{kind}", data)
+
+
 class ViewerPage(ToolTest):
     """Tools that are built without the page say so."""
 
@@ -597,6 +604,46 @@ class ViewerPage(ToolTest):
             "scene.json: expected one result, as `firstcontact check SCENE -o FILE` writes it")
         self.assert_refused(self.run_tool("view", "none.json", "--no-open"),
                             "none.json: cannot be read")
+
+    def run_of(self, page: str) -> dict:
+        text = (self.folder / page).read_text(encoding="utf-8")
+        return json.loads(re.search(r'type="application/json">(.*?)</script>', text, re.DOTALL)[1])["run"]
+
+    def test_plays_a_run(self):
+        scene = self.file("scene.json", scenes.DROP)
+        made = self.run_tool("simulate", scene, "-o", "run.jsonl", "--html", "page.html")
+        if not self.template.exists():
+            self.assert_refused(made, self.missing)
+            return
+        self.assertEqual(made.returncode, 0, made)
+        self.assertIn("  page       page.html\n", made.stdout)
+        shown = self.run_of("page.html")
+        header, *steps = [json.loads(line) for line in (self.folder / "run.jsonl").read_text().splitlines()]
+        self.assertEqual(shown["header"], header)
+        self.assertEqual(shown["steps"], [{**step, "bodies": [], "contacts": []} for step in steps])
+        times = numbers("d", shown["ways"][0]["times"])
+        self.assertEqual((len(shown["ways"]), times[0], times[-1]), (1, 0.0, steps[-1]["time"]))
+        self.assertEqual(numbers("d", shown["ways"][0]["places"])[-3:], tuple(steps[-1]["bodies"][0]["position"]))
+        counts = numbers("I", shown["contacts"]["until"])
+        self.assertEqual(counts[-1], sum(len(step["contacts"]) for step in steps))
+        self.assertGreater(counts[-1], 0)
+        # The same of the record, and of a run that goes on.
+        self.assertEqual(self.run_tool("view", "run.jsonl", "--no-open").stdout, "run.html\n")
+        self.assertEqual(self.run_of("run.html"), shown)
+        lines = (self.folder / "run.jsonl").read_text().splitlines(keepends=True)
+        (self.folder / "run.jsonl").write_text("".join(lines[:4]))
+        self.run_tool("simulate", scene, "-o", "run.jsonl", "--resume", "--html", "again.html")
+        self.assertEqual(self.run_of("again.html"), shown)
+
+    def test_needs_steps_of_a_run(self):
+        if not self.template.exists():
+            self.skipTest("built without the viewer's page")
+        self.run_tool("simulate", self.file("scene.json", scenes.DROP), "-o", "run.jsonl")
+        header = (self.folder / "run.jsonl").read_text().splitlines(keepends=True)[0]
+        self.assert_refused(self.run_tool("view", self.file("none.jsonl", header), "--no-open"),
+                            "none.jsonl: expected steps after the header; there is nothing to play")
+        self.assert_refused(self.run_tool("simulate", "scene.json", "--html", "scene.json"),
+                            "scene.json: this would overwrite the scene")
 
     def test_shows_one_scene(self):
         lines = self.file("scenes.jsonl", scenes.FREE + "\n" + scenes.CONTACT)

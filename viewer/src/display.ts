@@ -9,6 +9,8 @@ export class Display {
   readonly ghosts = new Signal(false);
   readonly onion = new Signal(false);
   readonly contacts = new Signal(true);
+  /// Arrows of contact forces, in runs.
+  readonly forces = new Signal(true);
   /// What links look like, in place of what was tested.
   readonly looks = new Signal(false);
   /// Cuts away what stands before the point that the camera looks at.

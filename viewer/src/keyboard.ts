@@ -3,7 +3,6 @@
 import type { Commands } from "./commands";
 import type { Signal } from "./core/signal";
 import type { Model } from "./model";
-import { coarseStep, fineStep } from "./panels/transport";
 
 const flip = (signal: Signal<boolean>): void => {
   signal.value = !signal.value;
@@ -29,6 +28,7 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     g: () => flip(display.ghosts),
     o: () => flip(display.onion),
     c: () => flip(display.contacts),
+    a: () => model.run && flip(display.forces),
     v: () => model.hasLooks && flip(display.looks),
     m: () => flip(display.measure),
     l: () => flip(player.loop),
@@ -55,10 +55,9 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     ) {
       return;
     }
-    const step = event.shiftKey ? fineStep : coarseStep;
     const body = digit(event) - 1;
     if (event.key === "ArrowLeft" || event.key === "ArrowRight") {
-      player.step(event.key === "ArrowLeft" ? -step : step);
+      commands.step(event.key === "ArrowLeft" ? -1 : 1, event.shiftKey);
     } else if (body >= 0 && event.shiftKey) {
       display.setVisible(body, !display.isVisible(body));
     } else if (body >= 0) {

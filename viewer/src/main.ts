@@ -19,6 +19,9 @@ import { jointContent } from "./panels/joint_chart";
 import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
 import { probePanel } from "./panels/probe";
+import { runPanel } from "./panels/run";
+import { runCharts, runChartsPanel, type RunChart } from "./panels/run_charts";
+import { stepContactsPanel, stepPanel } from "./panels/step";
 import { summaryPanel } from "./panels/summary";
 import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
@@ -30,6 +33,8 @@ import { SceneView } from "./view/scene_view";
 import { triad } from "./view/triad";
 
 const narrow = "(max-width: 760px)";
+const coarseStep = 1 / 100;
+const fineStep = 1 / 1000;
 const clickSlack = 4; // [px] A press that moves farther turns the view.
 
 function listenToClicks(view: SceneView): void {
@@ -50,23 +55,29 @@ function notice(stage: HTMLElement, text: string): void {
 }
 
 function start(model: Model): void {
-  const title = model.result.id || "Scene";
-  document.title = `${title} · firstcontact`;
+  document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
   const display = new Display();
   const player = new Player(model.duration, model.contactTime, momentOf(location.hash) ?? 0);
+  if (model.run) {
+    player.speed.value = 1; // Real time.
+  }
   const panelOpen = new Signal(!matchMedia(narrow).matches);
   const stage = element("main.stage");
   const app = element("div.app", {}, stage);
   document.body.append(app);
 
   const view = new SceneView(model, player, display, stage);
-  const help = helpDialog(model.result.version);
+  const help = helpDialog(model.version);
   const firstContact = model.contacts[0];
   const commands: Commands = {
     player,
     display,
     commands: {
+      step: (direction, fine = false) =>
+        model.run && !fine
+          ? player.seek(model.run.neighbour(player.t.value, direction))
+          : player.step(direction * (fine ? fineStep : coarseStep)),
       fit: () => view.fitAll(),
       toContact: () => {
         player.toContact();
@@ -83,11 +94,11 @@ function start(model: Model): void {
       },
       savePicture: () => {
         view.draw();
-        view.canvas.toBlob((blob) => blob && download(blob, fileName(title, "png")));
+        view.canvas.toBlob((blob) => blob && download(blob, fileName(model.title, "png")));
       },
       saveAnimation: () => {
         animationOf(model, view.bodies).then(
-          (blob) => download(blob, fileName(title, "glb")),
+          (blob) => download(blob, fileName(model.title, "glb")),
           (error: unknown) => notice(stage, `The animation could not be made: ${String(error)}`),
         );
       },
@@ -98,19 +109,31 @@ function start(model: Model): void {
   };
 
   const joint = new Signal<Coordinate | null>(null);
+  const charts = model.run ? runCharts(model.run) : [];
+  const shownChart = new Signal<RunChart | null>(charts[0] ?? null);
   const content = new Signal<ChartContent | null>(null);
   joint.subscribe((one) => {
     const close = (): void => void (joint.value = null);
     content.value = one ? jointContent(one, model.duration, close) : gapContent(model);
   });
+  shownChart.subscribe((one) => {
+    if (one) {
+      content.value = one.content;
+    }
+  });
   const chart = new TimeChart(model, player, theme, content);
   const cards = [
-    summaryPanel(model),
+    ...(model.result ? [summaryPanel(model, model.result)] : []),
+    ...(model.run ? [runPanel(model, model.run)] : []),
     probePanel(view, display, player),
+    ...(model.run
+      ? [stepPanel(model.run, player), runChartsPanel(model.run, charts, player, shownChart)]
+      : []),
     pairsPanel(model, view, player),
     contactsPanel(model, view, player),
     jointsPanel(model, player, joint),
     bodiesPanel(model, view, display),
+    model.run && stepContactsPanel(model, model.run, view, player),
     warningsPanel(model),
   ].filter((card) => card !== null);
   stage.append(toolbar(model, commands, panelOpen), triad(view));

@@ -1,11 +1,15 @@
-/// A result made ready to be shown.
+/// A result, or a run, made ready to be shown.
 
 import type { BodyData, Contact, Limit, PairAnswer, Result, Vector3 } from "./data/result";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
 import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
+import type { RunData, WayData } from "./data/run_data";
 import { combine, identity, isAtRest, motionOf, poseOf, totalAngle } from "./motion/motion";
 import type { Motion, Pose } from "./motion/motion";
 import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/robot";
+import { length, scale, unit, zero } from "./motion/vector";
+import { angleAlong, motionAlong } from "./motion/way";
+import { Run } from "./run";
 
 /// A rigid piece of a body, in a frame of its own; or the whole of a body that deforms.
 export interface Part {
@@ -74,6 +78,18 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
     motion: motionOf(data, duration),
     atRest: isAtRest(data),
     angle: motion ? totalAngle(motion) : 0,
+  };
+}
+
+/// A body by its way in a run, and no longer by what the scene says.
+function along(body: Body, way: WayData, { header, steps }: RunData): Body {
+  const centre = header.centres_of_mass[way.body]!;
+  return {
+    ...body,
+    kind: header.masses[way.body]! > 0 ? "free" : body.kind,
+    motion: motionAlong(way, centre, steps.at(-1)!.time),
+    atRest: false,
+    angle: angleAlong(way),
   };
 }
 
@@ -167,7 +183,13 @@ function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]
 }
 
 export class Model {
-  readonly result: Result;
+  readonly title: string;
+  readonly version: string;
+  /// [s]
+  readonly duration: number;
+  /// One of these two.
+  readonly result: Result | null;
+  readonly run: Run | null;
   /// Bodies, then the links of each robot.
   readonly bodies: readonly Body[];
   readonly robots: readonly string[];
@@ -182,14 +204,18 @@ export class Model {
   private readonly indices: ReadonlyMap<string, number>;
 
   constructor(page: PageData) {
-    const { result, robots } = page;
+    const { result, run, scene, robots } = page;
+    this.title = scene.id || "Scene";
+    this.version = page.version;
     this.result = result;
+    this.run = run ? new Run(run) : null;
+    this.duration = this.run?.duration ?? scene.options.duration;
     this.gap = page.gap;
     this.gapBound = page.gapBound;
-    const { duration } = result.scene.options;
-    const bodies = result.scene.bodies.map((data, index) =>
-      bodyOf(data, index, page.meshes[page.bodies[index]!]!, duration),
+    const bodies = scene.bodies.map((data, index) =>
+      bodyOf(data, index, page.meshes[page.bodies[index]!]!, scene.options.duration),
     );
+    run?.ways.forEach((way) => (bodies[way.body] = along(bodies[way.body]!, way, run)));
     robots.forEach((robot, index) =>
       bodies.push(...linksOf(robot, index, bodies.length, page.meshes)),
     );
@@ -199,25 +225,32 @@ export class Model {
     this.bodies = bodies;
     this.robots = robots.map(({ name }) => name);
     this.coordinates = robots.flatMap((robot, index) =>
-      coordinatesOf(robot, index, result.limits ?? []),
+      coordinatesOf(robot, index, result?.limits ?? []),
     );
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
-    this.pairs = result.pairs ?? [];
-    this.warnings = [...(result.warnings ?? []), ...page.warnings];
+    this.pairs = result?.pairs ?? [];
+    this.warnings = [...(result?.warnings ?? []), ...page.warnings];
   }
 
-  get duration(): number {
-    return this.result.scene.options.duration;
+  /// Against gravity, in runs.
+  get up(): Vector3 {
+    const up = unit(scale(-1, this.run?.gravity ?? zero));
+    return length(up) > 0 ? up : [0, 0, 1];
+  }
+
+  /// t until which all bodies are proven apart; those of a run are to its end.
+  get provenUntil(): number {
+    return this.result?.t ?? 1;
   }
 
   /// t of the first contact; none where nothing touches, or nobody knows.
   get contactTime(): number | null {
-    const { verdict, t } = this.result;
-    return verdict === "contact" || verdict === "contact_at_start" ? t : null;
+    const touch = this.result?.verdict === "contact" || this.result?.verdict === "contact_at_start";
+    return touch ? this.provenUntil : null;
   }
 
   get contacts(): readonly Contact[] {
-    return this.result.contacts;
+    return this.result?.contacts ?? [];
   }
 
   get triangleCount(): number {

@@ -5,7 +5,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { chromium, type Browser, type Page } from "playwright-core";
-import type { Result } from "../src/data/result";
+import type { Result, Vector3 } from "../src/data/result";
 
 export const tool = process.env.FIRSTCONTACT_TOOL;
 const browserPath = process.env.CHROMIUM ?? "/usr/bin/chromium";
@@ -33,6 +33,25 @@ function run(options: readonly string[]): Promise<void> {
       error && error.code !== 1 ? reject(new Error(error.message)) : resolve(),
     );
   });
+}
+
+/// A step of a run, as docs/simulation.md has it.
+export interface RecordedStep {
+  readonly time: number;
+  readonly lasted: number;
+  readonly bodies: readonly {
+    readonly body: number;
+    readonly pieces: readonly (readonly number[])[];
+    readonly position: Vector3;
+  }[];
+  readonly contacts: readonly { readonly point: Vector3; readonly impulse: Vector3 }[];
+  readonly kinetic_energy: number;
+}
+
+export interface MadeRun {
+  readonly url: string;
+  readonly file: string;
+  readonly steps: readonly RecordedStep[];
 }
 
 export interface MadePage {
@@ -63,6 +82,21 @@ export class Folder {
     return { url: `file://${file}`, file, result };
   }
 
+  /// A page of a run.
+  async simulate(name: string, scene: object): Promise<MadeRun> {
+    const [file, record, input] = [".html", ".jsonl", ".scene.json"].map((end) =>
+      join(this.path, name + end),
+    ) as [string, string, string];
+    writeFileSync(input, JSON.stringify(scene));
+    await run(["simulate", input, "--html", file, "-o", record]);
+    const lines = readFileSync(record, "utf8").trimEnd().split("\n").slice(1);
+    return {
+      url: `file://${file}`,
+      file,
+      steps: lines.map((line) => JSON.parse(line) as RecordedStep),
+    };
+  }
+
   remove(): void {
     rmSync(this.path, { recursive: true });
   }
@@ -86,4 +120,46 @@ export async function colorsOf(
     words.forEach((word) => counts.set(word, (counts.get(word) ?? 0) + 1));
     return { count: counts.size, largest: Math.max(...counts.values()) / words.length };
   }, png.toString("base64"));
+}
+
+/// What the page leaves for whoever asks it.
+declare global {
+  interface Window {
+    firstcontact: {
+      model: { bodies: { name: string }[] };
+      player: { t: { value: number }; playing: { value: boolean }; seek(t: number): void };
+      display: { hidden: { value: Set<number> } };
+      view: {
+        bodies: {
+          group: { matrix: { elements: number[] } };
+          parts: PieceOfPage[];
+          looks: PieceOfPage[];
+        }[];
+        forces: {
+          dots: { visible: boolean };
+          arrows: {
+            visible: boolean;
+            count: number;
+            instanceMatrix: { array: Float32Array };
+          };
+        } | null;
+        camera: { position: { x: number; y: number; z: number } };
+      };
+    };
+  }
+}
+interface PieceOfPage {
+  part: { mesh: MeshOfPage };
+  surface: SurfaceOfPage;
+  shown: boolean;
+}
+interface SurfaceOfPage {
+  position: { toArray(): number[] };
+  /// As drawn: deformed.
+  getVertexPosition(index: number, target: object): { toArray(): number[] };
+}
+interface MeshOfPage {
+  origin: number[];
+  positions: Float32Array;
+  triangles: Uint16Array | Uint32Array;
 }

@@ -115,40 +115,6 @@ const armScene = {
   ],
 };
 
-/// What the page leaves for whoever asks it.
-declare global {
-  interface Window {
-    firstcontact: {
-      model: { bodies: { name: string }[] };
-      player: { t: { value: number }; playing: { value: boolean }; seek(t: number): void };
-      display: { hidden: { value: Set<number> } };
-      view: {
-        bodies: {
-          group: { matrix: { elements: number[] } };
-          parts: PieceOfPage[];
-          looks: PieceOfPage[];
-        }[];
-        camera: { position: { x: number; y: number; z: number } };
-      };
-    };
-  }
-}
-interface PieceOfPage {
-  part: { mesh: MeshOfPage };
-  surface: SurfaceOfPage;
-  shown: boolean;
-}
-interface SurfaceOfPage {
-  position: { toArray(): number[] };
-  /// As drawn: deformed.
-  getVertexPosition(index: number, target: object): { toArray(): number[] };
-}
-interface MeshOfPage {
-  origin: number[];
-  positions: Float32Array;
-  triangles: Uint16Array | Uint32Array;
-}
-
 describe.skipIf(!canLook)("the page", () => {
   let browser: Browser;
   let peg: MadePage;

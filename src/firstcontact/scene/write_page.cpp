@@ -63,14 +63,8 @@ std::string without_tags(std::string_view json) {
   return text;
 }
 
-}  // namespace
-
-std::string write_page(std::string_view page_template, const LoadedScene& loaded,
-                       std::string_view result, const GapChart& gap) {
-  const std::size_t place = page_template.find(kPlaceholder);
-  if (place == std::string_view::npos) {
-    throw std::invalid_argument("the viewer's page has no place for a result");
-  }
+/// What bodies and robots look like.
+JsonObject look_of(const LoadedScene& loaded) {
   detail::PageMeshes meshes;
   JsonObject view{{"bodies", {.value = meshes_of_bodies(loaded, meshes)}}};
   if (loaded.robots) {
@@ -80,13 +74,34 @@ std::string write_page(std::string_view page_template, const LoadedScene& loaded
     view.push_back({"warnings", to_json(warnings)});
   }
   view.push_back({"meshes", {.value = meshes.take()}});
-  view.push_back({"gap", line_to_json(gap.samples)});
-  view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
+  return view;
+}
+
+std::string fill(std::string_view page_template, const PageRecord& record, JsonObject view) {
+  const std::size_t place = page_template.find(kPlaceholder);
+  if (place == std::string_view::npos) {
+    throw std::invalid_argument("the viewer's page has no place for a result");
+  }
   std::string page(page_template.substr(0, place));
-  page += "{\"result\":" + without_tags(result) +
+  page += "{" + detail::write_json(record.name) + ":" + without_tags(record.json) +
           ",\"view\":" + detail::write_json({.value = std::move(view)}) + "}";
   page += page_template.substr(place + kPlaceholder.size());
   return page;
+}
+
+}  // namespace
+
+std::string write_page(std::string_view page_template, const LoadedScene& loaded,
+                       std::string_view result, const GapChart& gap) {
+  JsonObject view = look_of(loaded);
+  view.push_back({"gap", line_to_json(gap.samples)});
+  view.push_back({"gap_bound", line_to_json(gap.lower_bound)});
+  return fill(page_template, {.name = "result", .json = result}, std::move(view));
+}
+
+std::string write_page(std::string_view page_template, const LoadedScene& loaded,
+                       const PageRecord& record) {
+  return fill(page_template, record, look_of(loaded));
 }
 
 }  // namespace firstcontact

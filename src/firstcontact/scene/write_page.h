@@ -1,5 +1,5 @@
 /// @file
-/// Writes the page that plays a result: one HTML file that needs nothing else.
+/// Writes the page that plays a result, or another record: one HTML file that needs nothing else.
 
 #pragma once
 
@@ -35,5 +35,18 @@ struct GapChart {
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
                                                       std::string_view result, const GapChart& gap);
+
+/// A record that the viewer knows beside results, such as a run.
+struct PageRecord {
+  std::string_view name;  ///< By which the viewer knows it.
+  std::string_view json;
+};
+
+/// Fills the viewer's page with another record, and what its bodies look like, as above.
+///
+/// @throws std::invalid_argument if the template has no place for a record
+[[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
+                                                      const LoadedScene& loaded,
+                                                      const PageRecord& record);
 
 }  // namespace firstcontact

@@ -20,12 +20,33 @@ const times: readonly Unit[] = [
   { name: "µs", size: 1e-6 },
 ];
 
+const energies: readonly Unit[] = [
+  { name: "GJ", size: 1e9 },
+  { name: "MJ", size: 1e6 },
+  { name: "kJ", size: 1e3 },
+  { name: "J", size: 1 },
+  { name: "mJ", size: 1e-3 },
+  { name: "µJ", size: 1e-6 },
+  { name: "nJ", size: 1e-9 },
+];
+const forces: readonly Unit[] = [
+  { name: "GN", size: 1e9 },
+  { name: "MN", size: 1e6 },
+  { name: "kN", size: 1e3 },
+  { name: "N", size: 1 },
+  { name: "mN", size: 1e-3 },
+  { name: "µN", size: 1e-6 },
+];
+
 const unitFor = (units: readonly Unit[], base: Unit, value: number): Unit =>
   value === 0 ? base : (units.find(({ size }) => Math.abs(value) >= size) ?? units.at(-1)!);
 
 /// The unit in which numbers of this size are best read.
 export const lengthUnit = (value: number): Unit => unitFor(lengths, lengths[1]!, value);
 export const timeUnit = (value: number): Unit => unitFor(times, times[0]!, value);
+
+export const energyUnit = (value: number): Unit => unitFor(energies, energies[3]!, value);
+export const forceUnit = (value: number): Unit => unitFor(forces, forces[3]!, value);
 
 /// A true minus sign, and no more digits than asked.
 export function number(value: number, digits = 4): string {
@@ -40,14 +61,22 @@ export function number(value: number, digits = 4): string {
   return text.replace("-", "−");
 }
 
-function quantity(value: number | null, unit: Unit, digits: number): string {
-  return value === null ? "—" : `${number(value / unit.size, digits)}\u00a0${unit.name}`;
+/// Without a value a dash.
+export function quantity(value: number | null, unit: Unit, digits: number): string {
+  return value === null
+    ? "—"
+    : `${number(value / unit.size, digits)}${unit.name && `\u00a0${unit.name}`}`;
 }
 
 export const lengthText = (value: number | null, digits = 4): string =>
   quantity(value, lengthUnit(value ?? 0), digits);
 export const timeText = (value: number | null, digits = 5): string =>
   quantity(value, timeUnit(value ?? 0), digits);
+
+export const energyText = (value: number, digits = 4): string =>
+  quantity(value, energyUnit(value), digits);
+export const forceText = (value: number, digits = 3): string =>
+  quantity(value, forceUnit(value), digits);
 
 /// "(x, y, z) mm", all in the unit of the greatest.
 export function pointText(point: Vector3, digits = 6): string {

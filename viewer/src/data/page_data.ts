@@ -1,7 +1,9 @@
-/// What the tool leaves in the page: the result, and what the page needs to draw it.
+/// What the tool leaves in the page: a result or a run, and what the page needs to draw it.
 
-import type { Result, Vector3 } from "./result";
+import { bytesOf } from "./bytes";
+import type { Result, SceneData, Vector3 } from "./result";
 import type { CarriedData, RobotData } from "./robot_data";
+import { runOf, type RunData, type StoredRun } from "./run_data";
 
 export interface MeshData {
   /// Vertices are relative to this point of the body frame.
@@ -17,7 +19,11 @@ export interface GapLine {
 }
 
 export interface PageData {
-  readonly result: Result;
+  /// One of these two.
+  readonly result: Result | null;
+  readonly run: RunData | null;
+  readonly scene: SceneData;
+  readonly version: string;
   readonly meshes: readonly MeshData[];
   /// Of each body: the index of its mesh.
   readonly bodies: readonly number[];
@@ -25,7 +31,7 @@ export interface PageData {
   readonly carried: readonly CarriedData[];
   /// What could not be drawn.
   readonly warnings: readonly string[];
-  /// Samples of the gap: they prove nothing of the times between them.
+  /// Samples of the gap, of results: they prove nothing of the times between them.
   readonly gap: GapLine;
   /// The gap is proven to be nowhere below; may be empty.
   readonly gapBound: GapLine;
@@ -38,26 +44,17 @@ interface StoredMesh {
 }
 
 interface StoredPage {
-  readonly result: Result;
+  readonly result?: Result;
+  readonly run?: StoredRun;
   readonly view: {
     readonly meshes: readonly StoredMesh[];
     readonly bodies: readonly number[];
     readonly robots?: readonly RobotData[];
     readonly carried?: readonly CarriedData[];
     readonly warnings?: readonly string[];
-    readonly gap: GapLine;
-    readonly gap_bound: GapLine;
+    readonly gap?: GapLine;
+    readonly gap_bound?: GapLine;
   };
-}
-
-/// The bytes of a base64 text, as a buffer that typed arrays can share.
-export function bytesOf(base64: string): ArrayBuffer {
-  const text = atob(base64);
-  const bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) {
-    bytes[i] = text.charCodeAt(i);
-  }
-  return bytes.buffer;
 }
 
 const shortIndices = 65_536; // Vertices; of so many or fewer the corners have two bytes.
@@ -73,23 +70,29 @@ function meshOf({ origin, positions, triangles }: StoredMesh): MeshData {
   };
 }
 
+const noLine: GapLine = { t: [], distance: [] };
+
 /// @throws Error where the text is not what the tool leaves
 export function readPageData(text: string): PageData {
   const stored = JSON.parse(text) as StoredPage | string;
-  if (typeof stored === "string" || !stored.result || !stored.view) {
+  const source = typeof stored === "string" ? null : (stored.result ?? stored.run?.header);
+  if (typeof stored === "string" || !source || !stored.view) {
     throw new Error(
       "This page holds no result. Make one with: firstcontact check SCENE --html PAGE",
     );
   }
-  const { view } = stored;
+  const { result, run, view } = stored;
   return {
-    result: stored.result,
+    result: result ?? null,
+    run: run ? runOf(run) : null,
+    scene: source.scene,
+    version: source.version,
     meshes: view.meshes.map(meshOf),
     bodies: view.bodies,
     robots: view.robots ?? [],
     carried: view.carried ?? [],
     warnings: view.warnings ?? [],
-    gap: view.gap,
-    gapBound: view.gap_bound,
+    gap: view.gap ?? noLine,
+    gapBound: view.gap_bound ?? noLine,
   };
 }

@@ -9,6 +9,7 @@ import {
   Points,
   PointsMaterial,
   QuaternionKeyframeTrack,
+  Vector3,
   VectorKeyframeTrack,
   type KeyframeTrack,
 } from "three";
@@ -22,8 +23,13 @@ const leastKeys = 61;
 const mostKeys = 2401;
 const keyAngle = Math.PI / 24; // Between two keys a player turns by the shortest way.
 
-/// Enough keys for the body that turns most, the first contact among them.
+/// Enough keys for the body that turns most, the first contact among them; of a run, its steps.
 export function keyTimes(model: Model): number[] {
+  if (model.run) {
+    const { ends } = model.run;
+    const every = Math.ceil(ends.length / mostKeys);
+    return [0, ...ends.filter((_, k) => (ends.length - 1 - k) % every === 0)];
+  }
   const angle = Math.max(...model.bodies.map((body) => body.angle));
   const count = Math.min(Math.max(leastKeys, Math.ceil(angle / keyAngle) + 1), mostKeys);
   const times = new Set(Array.from({ length: count }, (_, k) => k / (count - 1)));
@@ -81,8 +87,8 @@ function pieceOf({ part, drawn, surface }: PartView, name: string, color: string
 export async function animationOf(model: Model, views: readonly BodyView[]): Promise<Blob> {
   const keys = keyTimes(model);
   const root = new Object3D();
-  root.name = model.result.id || "scene";
-  root.rotation.x = -0.5 * Math.PI; // Up is z in scenes, and y in glTF.
+  root.name = model.title;
+  root.quaternion.setFromUnitVectors(new Vector3(...model.up), new Vector3(0, 1, 0)); // As in glTF.
   const tracks: KeyframeTrack[] = [];
   for (const { body, color, shownPieces } of views) {
     const name = `body${body.index}`;

@@ -7,13 +7,14 @@ declare const LICENCES: string;
 
 const keys: readonly (readonly [string, string])[] = [
   ["Space", "play, pause"],
-  ["← →", "step by a hundredth; with Shift by a thousandth"],
+  ["← →", "step by a hundredth, or a step of a run; with Shift by a thousandth"],
   ["Home End", "start, end"],
   ["Enter", "first contact"],
   ["f", "show everything"],
   ["1 … 9", "look at a body; with Shift show or hide it"],
   ["w x k e", "wireframe, x-ray, cut away what is in front, edges"],
   ["g o c", "ghosts, onion skin, contact points"],
+  ["a", "contact forces of a run"],
   ["v", "what robots look like, in place of their collision geometry"],
   ["m", "measure: click two points"],
   ["l", "repeat"],

@@ -7,64 +7,25 @@ import type { Signal } from "../core/signal";
 import type { Coordinate, Model } from "../model";
 import type { Player } from "../player";
 import { badTimes, rangeOf, timesOf, valueText, violationText } from "./joint_chart";
-
-const height = 40; // Of a drawing that is 1000 wide; both are stretched.
-
-const drawn = "http://www.w3.org/2000/svg";
-
-function shape(name: string, kind: string, attributes: Readonly<Record<string, number | string>>) {
-  const made = document.createElementNS(drawn, name);
-  made.classList.add(kind);
-  Object.entries(attributes).forEach(([key, value]) => made.setAttribute(key, String(value)));
-  return made;
-}
-
-const upright = (kind: string, t: number) => shape("path", kind, { d: `M${1000 * t} 0V${height}` });
+import { layer, sketch, stretch, upright } from "./sketch";
 
 /// The coordinate as a small picture, and what moves its line of time.
-function picture(coordinate: Coordinate, model: Model) {
-  const times = timesOf(coordinate);
-  const values = times.map(coordinate.at);
-  const [least, most] = rangeOf(coordinate, values);
-  const y = (value: number): number => (height * (most - value)) / (most - least);
+function picture(coordinate: Coordinate, model: Model, player: Player) {
+  const t = timesOf(coordinate);
+  const value = t.map(coordinate.at);
+  const line = { t, value, range: rangeOf(coordinate, value) };
   const { lower, upper } = coordinate;
-  const svg = shape("svg", "joint-picture", {
-    viewBox: `0 0 1000 ${height}`,
-    preserveAspectRatio: "none",
-    "aria-hidden": "true",
-  });
-  const beyond = (from: number, to: number) =>
-    shape("rect", "beyond", { x: 0, width: 1000, y: from, height: Math.max(to - from, 0) });
-  const parts = [
-    ...(upper === null ? [] : [beyond(0, y(upper))]),
-    ...(lower === null ? [] : [beyond(y(lower), height)]),
-    ...badTimes(coordinate, model.duration).map(([from, to]) =>
-      shape("rect", "bad", { x: 1000 * from, width: 1000 * (to - from), y: 0, height }),
-    ),
-    shape("path", "curve", {
-      d: values.map((value, k) => `${k ? "L" : "M"}${1000 * times[k]!} ${y(value)}`).join(""),
-    }),
-    ...(model.contactTime === null ? [] : [upright("contact", model.contactTime)]),
-  ];
-  const now = upright("now", 0);
-  svg.append(...parts, now);
-  return { svg, show: (t: number) => now.setAttribute("d", `M${1000 * t} 0V${height}`) };
-}
-
-function seekIn(svg: SVGElement, player: Player): void {
-  const seek = (event: PointerEvent): void => {
-    const box = svg.getBoundingClientRect();
-    player.seek((event.clientX - box.left) / box.width);
-  };
-  svg.addEventListener("pointerdown", (event) => {
-    svg.setPointerCapture(event.pointerId);
-    seek(event);
-  });
-  svg.addEventListener("pointermove", (event) => {
-    if (svg.hasPointerCapture(event.pointerId)) {
-      seek(event);
-    }
-  });
+  const [least, most] = line.range;
+  return sketch(
+    line,
+    [
+      ...(upper === null ? [] : [layer("beyond", upper, most, line)]),
+      ...(lower === null ? [] : [layer("beyond", least, lower, line)]),
+      ...badTimes(coordinate, model.duration).map(([from, to]) => stretch("bad", from, to)),
+    ],
+    model.contactTime === null ? [] : [upright("contact", model.contactTime)],
+    player,
+  );
 }
 
 function limitsText({ lower, upper, unit }: Coordinate): string {
@@ -79,7 +40,7 @@ function row(
   selected: Signal<Coordinate | null>,
 ): HTMLElement {
   const { name, violations, mimics, atRest } = coordinate;
-  const now = element("span.joint-now");
+  const now = element("span.row-now");
   const button = element(
     "button.row-name",
     { type: "button", title: `Show ${name} in the large chart` },
@@ -90,17 +51,12 @@ function row(
     selected.value = selected.value === coordinate ? null : coordinate;
   });
   selected.subscribe((value) => button.setAttribute("aria-pressed", String(value === coordinate)));
-  const { svg, show } = picture(coordinate, model);
-  seekIn(svg, player);
-  player.t.subscribe((t) => {
-    now.textContent = valueText(coordinate.at(t), coordinate);
-    show(t);
-  });
+  player.t.subscribe((t) => (now.textContent = valueText(coordinate.at(t), coordinate)));
   return element(
     "li.joint",
     { "data-bad": violations.length > 0, "data-rest": atRest },
     button,
-    svg,
+    picture(coordinate, model, player),
     element("span.detail", {}, limitsText(coordinate), mimics ? ` · follows ${mimics}` : ""),
     ...violations.map((found) => element("span.joint-bad", {}, violationText(found, coordinate))),
   );

@@ -63,7 +63,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     button.addEventListener("click", () => sortBy(index));
     return element("th", { scope: "col" }, button);
   });
-  const isFree = model.result.verdict === "free" && model.pairs.some(({ closest }) => closest);
+  const isFree = model.result?.verdict === "free" && model.pairs.some(({ closest }) => closest);
   let sorted = { column: isFree ? 3 : 2, down: false }; // By time, or by how near they come.
 
   const focus = (pair: PairAnswer): void => {

@@ -2,7 +2,9 @@
 
 import { element } from "../core/dom";
 import { lengthText, number, timeText } from "../core/format";
+import type { Result } from "../data/result";
 import type { Model } from "../model";
+import { factList } from "./facts";
 
 const words = {
   free: "Free",
@@ -11,12 +13,11 @@ const words = {
   undecided: "Undecided",
 } as const;
 
-function sentence(model: Model): string {
-  const { verdict, pair, time, reason } = model.result;
+function sentence({ duration }: Model, { verdict, pair, time, reason }: Result): string {
   const who = pair ? `${pair[0]} and ${pair[1]}` : "the bodies";
   switch (verdict) {
     case "free":
-      return `Proven: nothing touches during the whole ${timeText(model.duration)}.`;
+      return `Proven: nothing touches during the whole ${timeText(duration)}.`;
     case "contact":
       return `Proven free until ${timeText(time)}; then ${who} touch.`;
     case "contact_at_start":
@@ -26,8 +27,7 @@ function sentence(model: Model): string {
   }
 }
 
-function facts(model: Model): [string, string][] {
-  const { result } = model;
+function facts(model: Model, result: Result): [string, string][] {
   const { margin } = result.scene.options;
   const list: [string, string][] = [];
   if (result.verdict !== "free") {
@@ -50,21 +50,14 @@ function facts(model: Model): [string, string][] {
   return list;
 }
 
-export function summaryPanel(model: Model): HTMLElement {
-  const { verdict, id } = model.result;
+export function summaryPanel(model: Model, result: Result): HTMLElement {
+  const { verdict } = result;
   return element(
     "section.card",
     { "aria-label": "Answer" },
-    element("h1", {}, id || "Scene"),
+    element("h1", {}, model.title),
     element("p.verdict", { "data-verdict": verdict }, words[verdict]),
-    element("p", {}, sentence(model)),
-    element(
-      "dl.facts",
-      {},
-      ...facts(model).flatMap(([name, value]) => [
-        element("dt", {}, name),
-        element("dd", {}, value),
-      ]),
-    ),
+    element("p", {}, sentence(model, result)),
+    factList(facts(model, result)),
   );
 }

@@ -20,6 +20,10 @@ export interface ChartLine {
   readonly color: string;
   readonly width: number;
   readonly fill?: string;
+  /// Shown beside the title, where there are several.
+  readonly label?: string;
+  /// Its values are those of the stretches that end at its times.
+  readonly stepped?: boolean;
 }
 
 /// A stretch of t in [0, 1] with a colour of its own.
@@ -34,6 +38,8 @@ export interface ChartContent {
   readonly title: string;
   readonly unit: string;
   readonly range: readonly [number, number];
+  /// By powers of ten.
+  readonly logarithmic?: boolean;
   readonly lines: readonly ChartLine[];
   /// Drawn across all of the time.
   readonly levels: readonly number[];
@@ -84,13 +90,16 @@ export class TimeChart {
       ticks: { show: false },
       font: "11px system-ui, sans-serif",
     };
-    const values = (_: uPlot, splits: number[]): string[] => splits.map((x) => number(x));
-    const series = content.lines.map(({ color, width, fill }): uPlot.Series => ({
+    // Of a logarithmic axis some have no number, for lack of room.
+    const values = (_: uPlot, splits: (number | null)[]): string[] =>
+      splits.map((x) => (x === null ? "" : number(x)));
+    const series = content.lines.map(({ color, width, fill, stepped }): uPlot.Series => ({
       spanGaps: true,
       points: { show: false },
       stroke: theme.color(color),
       width,
       ...(fill ? { fill: theme.color(fill) } : {}),
+      ...(stepped ? { paths: uPlot.paths.stepped!({ align: -1 }) } : {}),
     }));
     this.plot = new uPlot(
       {
@@ -101,7 +110,7 @@ export class TimeChart {
         cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
         scales: {
           x: { time: false, range: [0, this.model.duration / this.unit.size] },
-          y: { range: [...content.range] },
+          y: { range: [...content.range], distr: content.logarithmic ? 3 : 1 },
         },
         axes: [
           { ...axis, size: 24, gap: 3, values },
@@ -116,7 +125,13 @@ export class TimeChart {
       this.dataOf(content),
       this.element,
     );
-    const title = element("span.chart-title", {}, `${content.title} [${content.unit}]`);
+    const unit = content.unit ? ` [${content.unit}]` : "";
+    const labels = content.lines
+      .filter(({ label }) => label)
+      .map(({ label, color }) =>
+        element("span.chart-label", { style: `--line-color:var(--${color})` }, label!),
+      );
+    const title = element("span.chart-title", {}, `${content.title}${unit}`, ...labels);
     if (content.close) {
       const close = iconButton(icons.close, "Back to the gap", null, content.close);
       close.classList.add("chart-close");
@@ -152,7 +167,7 @@ export class TimeChart {
 
   /// Proven free, what lies after it, and what the content says.
   private shade({ ctx, bbox }: uPlot, { bands }: ChartContent): void {
-    const { t } = this.model.result;
+    const t = this.model.provenUntil;
     const all = [
       { from: 0, to: t, color: "chart-proven" },
       { from: t, to: 1, color: "chart-after" },

@@ -32,6 +32,7 @@ export function toolbar(
       ? [toggle(icons.visual, "Visual in place of collision geometry", "v", display.looks)]
       : []),
     toggle(icons.marker, "Contact points", "c", display.contacts),
+    ...(model.run ? [toggle(icons.force, "Contact forces", "a", display.forces)] : []),
     toggle(icons.measure, "Measure a distance", "m", display.measure),
   );
   const page = element(

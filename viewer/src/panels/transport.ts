@@ -7,9 +7,6 @@ import type { Commands } from "../commands";
 import type { Model } from "../model";
 import { speeds } from "../player";
 
-const fineStep = 1 / 1000;
-const coarseStep = 1 / 100;
-
 function slider(model: Model, { player }: Commands): HTMLElement {
   const input = element("input", {
     type: "range",
@@ -29,7 +26,7 @@ function slider(model: Model, { player }: Commands): HTMLElement {
       `${number((t * model.duration) / unit.size, 5)} ${unit.name}`,
     );
   });
-  track.style.setProperty("--free", `${100 * model.result.t}%`);
+  track.style.setProperty("--free", `${100 * model.provenUntil}%`);
   if (model.contactTime !== null) {
     const mark = element("span.contact-mark", { "aria-hidden": "true" });
     mark.style.left = `${100 * model.contactTime}%`;
@@ -77,18 +74,20 @@ function contactButton(model: Model, { commands }: Commands): HTMLElement {
   return button;
 }
 
-/// The moment in seconds, and in the t that results speak of.
+/// The moment in seconds, and in the t that results or the steps that runs speak of.
 function clock(model: Model, { player }: Commands): HTMLElement {
   const unit = timeUnit(model.duration);
   const now = element("span.now");
-  const normalised = element("span.detail");
+  const detail = element("span.detail");
   const digits = (x: number): string =>
     (x / unit.size).toFixed(decimals(model.duration / unit.size));
   player.t.subscribe((t) => {
     now.textContent = `${digits(t * model.duration)} ${unit.name}`;
-    normalised.textContent = `t = ${t.toFixed(6)}`;
+    detail.textContent = model.run
+      ? `step ${model.run.stepAt(t) + 1} of ${model.run.steps.length}`
+      : `t = ${t.toFixed(6)}`;
   });
-  return element("div.clock", { "aria-live": "off" }, now, normalised);
+  return element("div.clock", { "aria-live": "off" }, now, detail);
 }
 
 /// So that about five digits are seen.
@@ -115,16 +114,14 @@ export function transport(model: Model, commands: Commands, chart: HTMLElement):
         "div.tool-group",
         { role: "group", "aria-label": "Play" },
         iconButton(icons.start, "To the start", "Home", () => player.seek(0)),
-        iconButton(icons.back, "Step back", "←", () => player.step(-coarseStep)),
+        iconButton(icons.back, "Step back", "←", () => commands.commands.step(-1)),
         playButton(commands),
-        iconButton(icons.forward, "Step forward", "→", () => player.step(coarseStep)),
+        iconButton(icons.forward, "Step forward", "→", () => commands.commands.step(1)),
         loop,
       ),
-      contactButton(model, commands),
+      ...(model.result ? [contactButton(model, commands)] : []),
       clock(model, commands),
       speedChoice(commands),
     ),
   );
 }
-
-export { coarseStep, fineStep };

@@ -25,7 +25,7 @@ const arrowLength = 0.09; // of the distance from the camera
 const dotSize = 15; // [px]
 const many = 12; // Contacts; from here on their dots are small.
 
-function roundDot(): CanvasTexture {
+export function roundDot(): CanvasTexture {
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = 64;
   const context = canvas.getContext("2d")!;
@@ -39,7 +39,7 @@ function roundDot(): CanvasTexture {
   return new CanvasTexture(canvas);
 }
 
-function overlay(opacity: number): MeshBasicMaterial {
+export function overlay(opacity: number): MeshBasicMaterial {
   return new MeshBasicMaterial({
     color: contactColor,
     transparent: true,
@@ -175,7 +175,7 @@ export class ContactMarkers {
 /// How much of a contact's surroundings is worth seeing, from the sizes of its triangles.
 export function contactSize(model: Model, contact: Contact): number {
   const sizes = ([0, 1] as const).map((side) => {
-    const p = cornersAt(model.partOf(contact, side), contact.triangles[side], model.result.t);
+    const p = cornersAt(model.partOf(contact, side), contact.triangles[side], model.provenUntil);
     const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
     return Math.max(
       corner(0).distanceTo(corner(1)),

@@ -1,6 +1,7 @@
 /// The ground: a grid that fades with the distance, so that height and size can be seen.
 
 import { Box3, Color, DoubleSide, Mesh, PlaneGeometry, ShaderMaterial, Vector3 } from "three";
+import { corners } from "./bounds";
 
 const vertexShader = /* glsl */ `
   varying vec2 place;
@@ -41,7 +42,8 @@ export class Grid {
   readonly object: Mesh<PlaneGeometry, ShaderMaterial>;
   readonly cell: number;
 
-  constructor(sweep: Box3) {
+  /// @param up  unit
+  constructor(sweep: Box3, up: Vector3) {
     const center = sweep.getCenter(new Vector3());
     const size = Math.max(sweep.getSize(new Vector3()).length(), 1e-9);
     this.cell = roundNumber(size / 12);
@@ -63,7 +65,13 @@ export class Grid {
     );
     // Lines stand at multiples of five cells in the world, wherever the scene is.
     const snap = (x: number): number => Math.round(x / (5 * this.cell)) * 5 * this.cell;
-    this.object.position.set(snap(center.x), snap(center.y), sweep.min.z - 0.002 * size);
+    this.object.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), up);
+    const fromWorld = this.object.quaternion.clone().invert();
+    const { x, y } = center.applyQuaternion(fromWorld);
+    const lowest = Math.min(...corners(sweep.min, sweep.max).map((corner) => corner.dot(up)));
+    this.object.position
+      .set(snap(x), snap(y), lowest - 0.002 * size)
+      .applyQuaternion(this.object.quaternion);
     this.object.renderOrder = -1;
   }
 

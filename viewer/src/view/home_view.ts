@@ -1,12 +1,12 @@
 /// From where a scene is looked at first.
 
-import { Box3, Ray, Vector3 } from "three";
+import { Box3, Quaternion, Ray, Vector3 } from "three";
 import type { Body, Model } from "../model";
 import { combine, place, unplace, type Pose } from "../motion/motion";
 import { conjugate, rotate } from "../motion/vector";
 import { partBox } from "./bounds";
 
-/// From the front on the right, then around by turns to both sides.
+/// From the front on the right, then around by turns to both sides; where z is up.
 const directions = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => {
   const angle = -0.3 * Math.PI + (eighth * Math.PI) / 4;
   return new Vector3(Math.cos(angle), Math.sin(angle), 0.52).normalize();
@@ -56,7 +56,12 @@ export function homeDirection(model: Model): Vector3 {
   const sign = contact && model.body(contact.bodies[0]).atRest ? 1 : -1;
   const normal = contact?.normal ? new Vector3(...contact.normal).multiplyScalar(sign) : null;
   const misfit = (d: Vector3): number => (normal ? Math.max(0, 0.25 - d.dot(normal)) : 0);
-  const scores = directions.map((d) => misfit(d) + hidden(d));
+  const upright = new Quaternion().setFromUnitVectors(
+    new Vector3(0, 0, 1),
+    new Vector3(...model.up),
+  );
+  const all = directions.map((d) => d.clone().applyQuaternion(upright));
+  const scores = all.map((d) => misfit(d) + hidden(d));
   const least = Math.min(...scores);
-  return directions[scores.findIndex((score) => score < least + alike)]!.clone();
+  return all[scores.findIndex((score) => score < least + alike)]!;
 }

@@ -17,7 +17,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { MeshData } from "../data/page_data";
-import type { Contact } from "../data/result";
+import type { Contact, Vector3 as Triple } from "../data/result";
 import type { Display } from "../display";
 import type { Body, Model, Part } from "../model";
 import { unplace } from "../motion/motion";
@@ -29,6 +29,7 @@ import { bodyColor } from "./colors";
 import { contactSize, ContactMarkers, middleOf, sideViews, touchingSurface } from "./contact_view";
 import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
+import { ForceMarkers } from "./force_view";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
 import { homeDirection } from "./home_view";
@@ -42,6 +43,8 @@ export class SceneView {
   readonly probe = new Probe();
   readonly bodies: readonly BodyView[];
   readonly bounds: Bounds;
+  /// Of a run.
+  readonly forces: ForceMarkers | null;
   /// [ms] between the last frames while the picture moves.
   frameTime = 0;
   onFrame: (() => void) | null = null;
@@ -72,7 +75,7 @@ export class SceneView {
     this.renderer.domElement.setAttribute("role", "img");
     this.renderer.domElement.setAttribute("aria-label", "The bodies in motion");
     container.append(this.renderer.domElement);
-    this.camera.up.set(0, 0, 1);
+    this.camera.up.set(...model.up);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
     this.controls.zoomToCursor = true;
     this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN };
@@ -81,14 +84,16 @@ export class SceneView {
     this.bounds = new Bounds(model.bodies);
     this.sweep = this.bounds.sweep();
     this.home = this.sweep.getBoundingSphere(new Sphere());
-    this.grid = new Grid(this.sweep);
+    this.grid = new Grid(this.sweep, this.camera.up);
     this.bodies = this.makeBodies();
     this.ghosts = new Ghosts(this.bodies);
+    this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.home.radius);
     this.scene.add(
       ...this.bodies.map(({ group }) => group),
       this.ghosts.group,
       this.grid.object,
       this.markers.group,
+      ...(this.forces ? [this.forces.group] : []),
       this.probe.group,
       this.camera,
     );
@@ -152,6 +157,13 @@ export class SceneView {
   focusBodies(bodies: readonly Body[]): void {
     this.display.cutaway.value = false;
     this.flyTo(this.bounds.bodiesAt(bodies, this.player.t.value));
+  }
+
+  /// Near enough to see where two bodies touch.
+  focusPoint(point: Triple, bodies: readonly Body[]): void {
+    this.display.cutaway.value = false;
+    const sizes = bodies.map((body) => this.bounds.bodiesAt([body], this.player.t.value).radius);
+    this.flyTo(new Sphere(new Vector3(...point), Math.min(...sizes)));
   }
 
   /// From where the normal is seen from the side, near enough to see the triangles. What hides the
@@ -255,7 +267,7 @@ export class SceneView {
     key.target.position.set(0, 0, -1);
     fill.target.position.set(0, 0, -1);
     const sky = new HemisphereLight(0xffffff, 0x667788, 0.9);
-    sky.position.set(0, 0, 1);
+    sky.position.copy(this.camera.up);
     this.scene.add(sky, new AmbientLight(0xffffff, 0.25));
   }
 
@@ -274,10 +286,19 @@ export class SceneView {
     [display.ghosts, display.onion].forEach((signal) => signal.subscribe(() => this.showGhosts()));
     display.contacts.subscribe((shown) => {
       this.markers.group.visible = shown;
+      if (this.forces) {
+        this.forces.dots.visible = shown;
+      }
       this.bodies
         .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
         .filter(({ name }) => name === "touching")
         .forEach((surface) => (surface.visible = shown));
+      this.requestFrame();
+    });
+    display.forces.subscribe((shown) => {
+      if (this.forces) {
+        this.forces.arrows.visible = shown;
+      }
       this.requestFrame();
     });
     display.hidden.subscribe((hidden) => {
@@ -297,6 +318,7 @@ export class SceneView {
     this.bodies.forEach((view) => view.show(t));
     const contact = this.player.contact;
     this.markers.setPresent(contact !== null && Math.abs(t - contact) < 1e-9);
+    this.forces?.show(t);
     this.probe.show(t);
     this.requestFrame();
   }

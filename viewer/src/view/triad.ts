@@ -12,12 +12,15 @@ const axes = [
 
 const size = 76; // [px]
 const arm = 26;
-const nearlyUp = new Vector3(0, -1e-3, 1).normalize(); // Straight up has no right and left.
 
 export function triad(view: SceneView): HTMLElement {
   const lines = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   lines.setAttribute("viewBox", `${-size / 2} ${-size / 2} ${size} ${size}`);
   lines.setAttribute("aria-hidden", "true");
+  const { up } = view.camera;
+  const upright = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), up);
+  // Straight up has no right and left.
+  const nearlyUp = new Vector3(0, -1e-3, 1).normalize().applyQuaternion(upright);
   const parts = axes.map(({ name, direction }) => {
     const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
     line.setAttribute("class", `axis-${name}`);
@@ -27,7 +30,9 @@ export function triad(view: SceneView): HTMLElement {
       { type: "button", "aria-label": `Look along ${name}`, title: `Look along ${name}` },
       name,
     );
-    button.addEventListener("click", () => view.lookAlong(name === "z" ? nearlyUp : direction));
+    button.addEventListener("click", () =>
+      view.lookAlong(direction.dot(up) > 0.999 ? nearlyUp : direction),
+    );
     return { line, button, direction };
   });
   const turned = new Quaternion();

@@ -1,7 +1,6 @@
 #include <firstcontact/scene/detail/page_meshes.h>
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <utility>
 #include <variant>
@@ -9,32 +8,15 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/scene/detail/base64.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/scene/page_numbers.h>
 
 namespace firstcontact::detail {
 namespace {
 
 /// Corners of a mesh with no more vertices than this have two bytes.
 constexpr std::size_t kShortIndices = 65'536;
-
-/// Numbers in the order of bytes that every browser of today has.
-class Bytes {
- public:
-  void add(float number) { add(std::bit_cast<std::uint32_t>(number), 4); }
-
-  void add(std::uint32_t number, int size) {
-    for (int k = 0; k < size; ++k) {
-      bytes_.push_back(static_cast<std::uint8_t>(number >> (8 * k)));
-    }
-  }
-
-  [[nodiscard]] JsonValue json() const { return {.value = base64(bytes_)}; }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
 
 /// Vertices are relative to the middle, so that single precision suffices far from the origin too.
 JsonValue mesh_to_json(const Mesh& mesh) {
@@ -43,21 +25,21 @@ JsonValue mesh_to_json(const Mesh& mesh) {
     box.extend(vertex);
   }
   const Eigen::Vector3d middle = box.center();
-  Bytes positions;
+  PageNumbers positions;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
     for (const double coordinate : Eigen::Vector3d(vertex - middle)) {
       positions.add(static_cast<float>(coordinate));
     }
   }
-  Bytes triangles;
+  PageNumbers triangles;
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t corner : triangle) {
       triangles.add(corner, mesh.vertices.size() <= kShortIndices ? 2 : 4);
     }
   }
   return {.value = JsonObject{{"origin", to_json(middle)},
-                              {"positions", positions.json()},
-                              {"triangles", triangles.json()}}};
+                              {"positions", {.value = positions.base64()}},
+                              {"triangles", {.value = triangles.base64()}}}};
 }
 
 /// Empty where the geometry is of no file.

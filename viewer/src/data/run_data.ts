@@ -1,0 +1,90 @@
+/// A run as `firstcontact simulate` records it, as far as the page shows it (see docs/simulation.md).
+
+import { bytesOf } from "./bytes";
+import type { SceneData, Vector3 } from "./result";
+
+/// What is said of all bodies together.
+export interface StepData {
+  readonly step: number;
+  readonly time: number; ///< [s] At its end.
+  readonly lasted: number; ///< [s]
+  readonly time_lost: number; ///< [s]
+  readonly clearance: number | null; ///< [m]
+  readonly kinetic_energy: number; ///< [J]
+  readonly potential_energy: number; ///< [J]
+  readonly linear_momentum: Vector3; ///< [kg m/s]
+  readonly angular_momentum: Vector3; ///< [kg m²/s]
+  readonly residual: number; ///< [m/s]
+  readonly events: number;
+}
+
+/// The way of a body: where each of its pieces begins, and where the last one ends.
+export interface WayData {
+  readonly body: number;
+  readonly times: Float64Array; ///< [s]
+  readonly places: Float64Array; ///< [m] Of the centre of mass.
+  readonly rotations: Float32Array; ///< w, x, y, z
+  readonly turns: Float32Array; ///< [rad] Rotation vector until the next place.
+}
+
+/// All contacts, step after step.
+export interface RunContactsData {
+  readonly until: Uint32Array; ///< Of each step: how many there are with those before.
+  readonly bodies: Uint32Array; ///< Two of each.
+  readonly points: Float64Array; ///< [m]
+  readonly impulses: Float32Array; ///< [N s] On the second body.
+  readonly distances: Float32Array; ///< [m]
+}
+
+export interface RunHeader {
+  readonly scene: SceneData & {
+    readonly simulation: { readonly duration: number; readonly gravity: Vector3 };
+  };
+  readonly version: string;
+  readonly masses: readonly number[];
+  readonly centres_of_mass: readonly Vector3[];
+}
+
+export interface RunData {
+  readonly header: RunHeader;
+  readonly steps: readonly StepData[];
+  readonly ways: readonly WayData[];
+  readonly contacts: RunContactsData;
+}
+
+/// As the tool leaves it: rows of numbers are base64.
+type Stored<T> = {
+  readonly [K in keyof T]: T[K] extends Float64Array | Float32Array | Uint32Array ? string : T[K];
+};
+
+export interface StoredRun {
+  readonly header: RunHeader;
+  readonly steps: readonly StepData[];
+  readonly ways: readonly Stored<WayData>[];
+  readonly contacts: Stored<RunContactsData>;
+}
+
+const doubles = (text: string): Float64Array => new Float64Array(bytesOf(text));
+const singles = (text: string): Float32Array => new Float32Array(bytesOf(text));
+const counts = (text: string): Uint32Array => new Uint32Array(bytesOf(text));
+
+export function runOf({ header, steps, ways, contacts }: StoredRun): RunData {
+  return {
+    header,
+    steps,
+    ways: ways.map(({ body, times, places, rotations, turns }) => ({
+      body,
+      times: doubles(times),
+      places: doubles(places),
+      rotations: singles(rotations),
+      turns: singles(turns),
+    })),
+    contacts: {
+      until: counts(contacts.until),
+      bodies: counts(contacts.bodies),
+      points: doubles(contacts.points),
+      impulses: singles(contacts.impulses),
+      distances: singles(contacts.distances),
+    },
+  };
+}

@@ -1,0 +1,10 @@
+/// Names and what they are, in two columns.
+
+import { element } from "../core/dom";
+
+export const factList = (facts: readonly (readonly [string, string])[]): HTMLElement =>
+  element(
+    "dl.facts",
+    {},
+    ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]),
+  );

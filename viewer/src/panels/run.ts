@@ -1,0 +1,54 @@
+/// What a run amounts to, in one card.
+
+import { element } from "../core/dom";
+import { energyText, forceText, lengthText, number, timeText } from "../core/format";
+import type { Model } from "../model";
+import type { Run } from "../run";
+import { factList } from "./facts";
+
+const sum = (values: readonly number[]): number => values.reduce((total, x) => total + x, 0);
+const least = (values: readonly number[]): number => values.reduce((a, b) => Math.min(a, b));
+const most = (values: readonly number[]): number => values.reduce((a, b) => Math.max(a, b));
+
+function facts(model: Model, run: Run): [string, string][] {
+  const { steps, masses } = run;
+  const clearances = steps.flatMap(({ clearance }) => (clearance === null ? [] : [clearance]));
+  const energies = steps.map((step) => step.kinetic_energy + step.potential_energy);
+  const lost = sum(steps.map(({ time_lost }) => time_lost));
+  return [
+    ["Steps", `${steps.length}, ${timeText(run.duration)}`],
+    ["Bodies", `${masses.length}, ${masses.filter((mass) => mass > 0).length} free`],
+    ...(clearances.length > 0
+      ? [["Apart", `≥ ${lengthText(least(clearances))}`] as [string, string]]
+      : []),
+    ["Impacts", String(sum(steps.map(({ events }) => events)))],
+    ["Greatest force", forceText(most(run.greatestForces))],
+    ["Energy after step 1", energyText(energies[0]!)],
+    ["Energy at the end", energyText(energies.at(-1)!)],
+    ["Time lost", lost > 0 ? timeText(lost) : "none"],
+    ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`],
+    ["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")],
+  ];
+}
+
+export function runPanel(model: Model, run: Run): HTMLElement {
+  const isWhole = run.duration > run.asked * (1 - 1e-9);
+  return element(
+    "section.card",
+    { "aria-label": "Run" },
+    element("h1", {}, model.title),
+    element(
+      "p.verdict",
+      { "data-verdict": isWhole ? "free" : "undecided" },
+      isWhole ? "Simulated" : "Stopped early",
+    ),
+    element(
+      "p",
+      {},
+      isWhole
+        ? "At no time do two bodies interpenetrate."
+        : `After ${timeText(run.duration)} of ${timeText(run.asked)}; until then no two bodies interpenetrate.`,
+    ),
+    factList(facts(model, run)),
+  );
+}

@@ -1,0 +1,178 @@
+/// What is said of every step, over time. A click shows one of them in the large chart.
+
+import { element } from "../core/dom";
+import { energyUnit, forceUnit, lengthUnit, quantity, timeUnit, type Unit } from "../core/format";
+import type { Signal } from "../core/signal";
+import type { StepData } from "../data/run_data";
+import type { Player } from "../player";
+import type { Run } from "../run";
+import { sketch, type SketchLine } from "./sketch";
+import type { ChartContent, ChartLine } from "./time_chart";
+
+export interface RunChart {
+  readonly name: string;
+  readonly content: ChartContent;
+  /// Of each step, in SI units.
+  readonly values: readonly (number | null)[];
+  readonly unitFor: (value: number) => Unit;
+}
+
+/// What is counted has no unit.
+const ones = (): Unit => ({ name: "", size: 1 });
+
+const finite = (values: readonly (number | null)[]): number[] =>
+  values.filter((value) => value !== null);
+const least = (values: readonly number[]): number =>
+  values.reduce((a, b) => Math.min(a, b), Infinity);
+const most = (values: readonly number[]): number => values.reduce((a, b) => Math.max(a, b), 0);
+
+/// What a step took holds from its beginning to its end.
+function steppedLine({ ends }: Run, values: readonly (number | null)[]): ChartLine {
+  const known = values.flatMap((value, k) => (value === null ? [] : [{ t: ends[k]!, value }]));
+  const first = known[0] ? [{ t: 0, value: known[0].value }] : [];
+  const all = [...first, ...known];
+  return {
+    t: all.map(({ t }) => t),
+    value: all.map(({ value }) => value),
+    color: "accent",
+    width: 2,
+    stepped: true,
+  };
+}
+
+/// From nothing to the greatest.
+function amount(
+  run: Run,
+  name: string,
+  unitFor: (value: number) => Unit,
+  of: (step: StepData, k: number) => number,
+): RunChart {
+  const values = run.steps.map(of);
+  const unit = unitFor(most(values));
+  const line = steppedLine(
+    run,
+    values.map((value) => value / unit.size),
+  );
+  const content: ChartContent = {
+    title: name,
+    unit: unit.name,
+    range: [0, (1.08 * (most(values) || 1)) / unit.size],
+    lines: [line],
+    levels: [],
+    bands: [],
+  };
+  return { name, content, values, unitFor };
+}
+
+function energy(run: Run): RunChart {
+  const kinetic = run.steps.map((step) => step.kinetic_energy);
+  const total = run.steps.map((step) => step.kinetic_energy + step.potential_energy);
+  const all = [0, ...kinetic, ...total];
+  const [low, high] = [least(all), most(all)];
+  const unit = energyUnit(Math.max(-low, high));
+  const room = (0.08 * (high - low || 1)) / unit.size;
+  const t = Array.from(run.ends);
+  const line = (values: readonly number[], look: Omit<ChartLine, "t" | "value">): ChartLine => ({
+    t,
+    value: values.map((value) => value / unit.size),
+    ...look,
+  });
+  const lines = [
+    line(total, { color: "text", width: 2, label: "total" }),
+    line(kinetic, { color: "accent", width: 2, label: "kinetic" }),
+  ];
+  const content: ChartContent = {
+    title: "energy",
+    unit: unit.name,
+    range: [low / unit.size - (low < 0 ? room : 0), high / unit.size + room],
+    lines,
+    levels: [],
+    bands: [],
+  };
+  return { name: "kinetic energy", content, values: kinetic, unitFor: energyUnit };
+}
+
+/// By powers of ten: bodies that rest come nearer than those that fly by orders of magnitude.
+function clearance(run: Run): RunChart[] {
+  const values = run.steps.map((step) => step.clearance);
+  const known = finite(values).filter((value) => value > 0);
+  if (known.length === 0) {
+    return [];
+  }
+  const unit = lengthUnit(least(known));
+  const drawn = values.map((value) => (value === null || value <= 0 ? null : value / unit.size));
+  const power = (value: number, round: (x: number) => number): number =>
+    10 ** round(Math.log10(value / unit.size));
+  const low = power(least(known), Math.floor);
+  const content: ChartContent = {
+    title: "apart by at least",
+    unit: unit.name,
+    range: [low, Math.max(power(most(known), Math.ceil), 10 * low)],
+    logarithmic: true,
+    lines: [steppedLine(run, drawn)],
+    levels: [],
+    bands: [],
+  };
+  return [{ name: "apart by at least", content, values, unitFor: lengthUnit }];
+}
+
+export const runCharts = (run: Run): RunChart[] => [
+  energy(run),
+  amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
+  amount(run, "greatest contact force", forceUnit, (_, k) => run.greatestForces[k]!),
+  amount(run, "impacts", ones, ({ events }) => events),
+  ...clearance(run),
+  amount(run, "time lost", timeUnit, ({ time_lost }) => time_lost),
+];
+
+/// A chart's line as a small picture has it.
+function sketchLine(
+  { t, value, stepped }: ChartLine,
+  { range, logarithmic }: ChartContent,
+): SketchLine {
+  const scaled = (x: number): number => (logarithmic ? Math.log10(x) : x);
+  const from = (k: number): number[] => (stepped && k > 0 ? [t[k - 1]!, t[k]!] : [t[k]!]);
+  return {
+    t: t.flatMap((_, k) => from(k)),
+    value: value.flatMap((x, k) => from(k).map(() => scaled(x))),
+    range: [scaled(range[0]), scaled(range[1])],
+  };
+}
+
+function row(
+  chart: RunChart,
+  run: Run,
+  player: Player,
+  shown: Signal<RunChart | null>,
+): HTMLElement {
+  const { name, content, values, unitFor } = chart;
+  const now = element("span.row-now");
+  const button = element(
+    "button.row-name",
+    { type: "button", title: `Show ${name} in the large chart` },
+    element("span.name", {}, name),
+    now,
+  );
+  button.addEventListener("click", () => (shown.value = chart));
+  shown.subscribe((value) => button.setAttribute("aria-pressed", String(value === chart)));
+  player.t.subscribe((t) => {
+    const value = values[run.stepAt(t)] ?? null;
+    now.textContent = quantity(value, unitFor(value ?? 0), 4);
+  });
+  const line = content.lines.at(-1)!;
+  return element("li.run-chart", {}, button, sketch(sketchLine(line, content), [], [], player));
+}
+
+export function runChartsPanel(
+  run: Run,
+  charts: readonly RunChart[],
+  player: Player,
+  shown: Signal<RunChart | null>,
+): HTMLElement {
+  return element(
+    "section.card",
+    { "aria-label": "Over time" },
+    element("h2", {}, "Over time"),
+    element("ul.rows", {}, ...charts.map((chart) => row(chart, run, player, shown))),
+  );
+}

@@ -1,0 +1,86 @@
+/// The steps of a run, and what acted in each of them.
+
+import type { Vector3 } from "./data/result";
+import type { RunContactsData, RunData, StepData } from "./data/run_data";
+import { length, scale } from "./motion/vector";
+import { firstNotLess } from "./motion/way";
+
+export interface RunContact {
+  readonly bodies: readonly [number, number];
+  readonly point: Vector3;
+  /// [N] On the second body, the mean over the step.
+  readonly force: Vector3;
+  readonly distance: number; ///< [m]
+}
+
+const near = 1e-9; // In t: a moment this close to the end of a step is its end.
+
+export class Run {
+  readonly steps: readonly StepData[];
+  readonly masses: readonly number[];
+  readonly gravity: Vector3; ///< [m/s²]
+  /// [s] That was asked for; more than the last step's time where the run was stopped.
+  readonly asked: number;
+  /// t at the end of each step.
+  readonly ends: Float64Array;
+  /// [N] The greatest contact force of each step.
+  readonly greatestForces: readonly number[];
+
+  private readonly all: RunContactsData;
+
+  constructor({ header, steps, contacts }: RunData) {
+    this.steps = steps;
+    this.masses = header.masses;
+    this.gravity = header.scene.simulation.gravity;
+    this.asked = header.scene.simulation.duration;
+    this.all = contacts;
+    this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
+    this.greatestForces = steps.map((_, step) =>
+      this.contactsOf(step).reduce((most, { force }) => Math.max(most, length(force)), 0),
+    );
+  }
+
+  get duration(): number {
+    return this.steps.at(-1)!.time;
+  }
+
+  /// The number, from 0, of the step that is under way or just ends.
+  stepAt(t: number): number {
+    return Math.min(firstNotLess(this.ends, t - near), this.steps.length - 1);
+  }
+
+  /// The next end of a step, or the one before.
+  neighbour(t: number, direction: 1 | -1): number {
+    const next = firstNotLess(this.ends, direction > 0 ? t + near : t - near);
+    return direction > 0 ? (this.ends[next] ?? 1) : (this.ends[next - 1] ?? 0);
+  }
+
+  contactCount(step: number): number {
+    return this.all.until[step]! - this.firstContact(step);
+  }
+
+  get mostContacts(): number {
+    return this.steps.reduce((most, _, step) => Math.max(most, this.contactCount(step)), 0);
+  }
+
+  contactsOf(step: number): RunContact[] {
+    const { bodies, points, impulses, distances } = this.all;
+    const { lasted } = this.steps[step]!;
+    const row = (numbers: ArrayLike<number>, k: number): Vector3 => [
+      numbers[3 * k]!,
+      numbers[3 * k + 1]!,
+      numbers[3 * k + 2]!,
+    ];
+    const first = this.firstContact(step);
+    return Array.from({ length: this.contactCount(step) }, (_, i) => first + i).map((k) => ({
+      bodies: [bodies[2 * k]!, bodies[2 * k + 1]!],
+      point: row(points, k),
+      force: scale(lasted > 0 ? 1 / lasted : 0, row(impulses, k)),
+      distance: distances[k]!,
+    }));
+  }
+
+  private firstContact(step: number): number {
+    return step > 0 ? this.all.until[step - 1]! : 0;
+  }
+}

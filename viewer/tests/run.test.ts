@@ -1,0 +1,244 @@
+/// The page of a run in a browser: bodies are where the record says, at every instant.
+
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, describe, expect, test } from "vitest";
+import type { QuaternionWxyz, Vector3 } from "../src/data/result";
+import type { WayData } from "../src/data/run_data";
+import { motionAlong } from "../src/motion/way";
+import {
+  add,
+  compose,
+  distance,
+  length,
+  rotate,
+  scale,
+  subtract,
+  turn,
+  unit,
+} from "../src/motion/vector";
+import { canLook, Folder, launch, type MadeRun } from "./browser";
+
+describe("the way of a body", () => {
+  const quarter = 0.5 * Math.PI;
+  const way: WayData = {
+    body: 0,
+    times: new Float64Array([0, 1, 1, 3]),
+    places: new Float64Array([0, 0, 0, 2, 0, 0, 2, 0, 0, 2, 4, 0]),
+    rotations: new Float32Array([1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, Math.SQRT1_2, 0, 0, Math.SQRT1_2]), // prettier-ignore
+    turns: new Float32Array([0, 0, 0, 0, 0, 0, 0, 0, quarter]),
+  };
+  const motion = motionAlong(way, [1, 0, 0], 3);
+
+  test("goes on lines between its places, while the body turns about its centre of mass", () => {
+    expect(distance(motion(0.5 / 3).position, [0, 0, 0])).toBeLessThan(1e-12);
+    const { position, rotation } = motion(2 / 3);
+    const c = Math.SQRT1_2;
+    expect(distance(position, [2 - c, 2 - c, 0])).toBeLessThan(1e-6);
+    expect(distance(rotate(rotation, [1, 0, 0]), [c, c, 0])).toBeLessThan(1e-6);
+  });
+
+  test("stays at its ends", () => {
+    expect(distance(motion(0).position, [-1, 0, 0])).toBeLessThan(1e-12);
+    expect(distance(motion(1).position, [2, 3, 0])).toBeLessThan(1e-6);
+    expect(distance(motion(1.5).position, [2, 3, 0])).toBeLessThan(1e-6);
+  });
+});
+
+/// A crate with an odd centre of mass that turns and drops on a floor, and a pusher.
+const centre: Vector3 = [0.1, 0, 0.05];
+const drop = {
+  firstcontact: 1,
+  id: "drop",
+  bodies: [
+    {
+      name: "crate",
+      shape: { box: { size: [1, 1, 1] } },
+      pose: { position: [0, 0, 0.8] },
+      dynamics: { centre_of_mass: centre, angular_velocity: [0, 0, 3], linear_velocity: [1, 0, 0] },
+    },
+    { name: "floor", shape: { box: { size: [9, 9, 0.1] } } },
+    {
+      name: "pusher",
+      shape: { sphere: { radius: 0.1 } },
+      motion: {
+        type: "waypoints",
+        times: [0, 1],
+        poses: [{ position: [-4, 3, 1] }, { position: [4, 3, 1] }],
+      },
+    },
+  ],
+  simulation: { duration: 1, step: 0.02, gravity: [0, 0, -10], friction: 0.3 },
+};
+
+describe.skipIf(!canLook)("the page of a run", () => {
+  let browser: Browser;
+  let made: MadeRun;
+  const folder = new Folder();
+  const complaints: string[] = [];
+  const open: Page[] = [];
+
+  const show = async (hash = "", options: BrowserContextOptions = {}) => {
+    const viewport = { width: 1100, height: 720 };
+    const context = await browser.newContext({ reducedMotion: "reduce", viewport, ...options });
+    const page = await context.newPage();
+    page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    open.push(page);
+    await page.goto(made.url + hash);
+    await page.waitForFunction(() => "firstcontact" in window);
+    return page;
+  };
+  const timeOf = (page: Page) => page.evaluate(() => window.firstcontact.player.t.value);
+  const matrixOf = (page: Page, body: number, t: number) =>
+    page.evaluate(
+      ([index, moment]) => {
+        window.firstcontact.player.seek(moment!);
+        return [...window.firstcontact.view.bodies[index!]!.group.matrix.elements];
+      },
+      [body, t],
+    );
+  const text = (page: Page, name: string) =>
+    page.getByRole("region", { name, exact: true }).textContent();
+
+  beforeAll(async () => {
+    made = await folder.simulate("drop", drop);
+    browser = await launch();
+  });
+
+  afterEach(async () => {
+    await Promise.all(open.splice(0).map((page) => page.context().close()));
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+
+  test("has bodies where the record says, within steps too", async () => {
+    const page = await show();
+    for (const index of [0, 7, 18, 19, 20, 33, 49]) {
+      const step = made.steps[index]!;
+      const begin = step.time - step.lasted;
+      for (const { body, pieces } of step.bodies) {
+        const [to, px, py, pz, qw, qx, qy, qz, tx, ty, tz, rx, ry, rz] = pieces[0] as number[];
+        for (const share of [0.25, 0.5, 1]) {
+          const t = Math.min(begin + share * to!, 1);
+          const c = body === 0 ? centre : ([0, 0, 0] as const);
+          const from: QuaternionWxyz = [qw!, qx!, qy!, qz!];
+          const turned: Vector3 = [rx!, ry!, rz!];
+          const rotation = compose(turn(unit(turned), share * length(turned)), from);
+          const middle = add(add([px!, py!, pz!], rotate(from, c)), scale(share, [tx!, ty!, tz!]));
+          const wanted = subtract(middle, rotate(rotation, c));
+          const m = await matrixOf(page, body, t);
+          expect(distance(m.slice(12, 15) as unknown as Vector3, wanted)).toBeLessThan(1e-6);
+          const across = rotate(rotation, [1, 0, 0]);
+          expect(distance(m.slice(0, 3) as unknown as Vector3, across)).toBeLessThan(1e-6);
+        }
+      }
+    }
+  });
+
+  test("says what the run and its steps amount to", async () => {
+    const page = await show();
+    expect(await text(page, "Run")).toMatch(/drop.*Simulated.*Steps50, 1\ss.*Bodies3, 1 free/);
+    const index = made.steps.findIndex(({ contacts }) =>
+      contacts.some(({ impulse }) => length(impulse) > 0),
+    );
+    const { time, lasted, contacts } = made.steps[index]!;
+    await page.evaluate((t) => window.firstcontact.player.seek(t), time - 0.5 * lasted);
+    expect(await text(page, "Step")).toMatch(
+      new RegExp(`Step ${index + 1} of 50.*Contacts${contacts.length}Apart≥`),
+    );
+    expect(await text(page, "Contacts")).toMatch(/crate · floor[\d.]+\s(kN|N), [\d.]+\sµm apart/);
+    const most = Math.max(...contacts.map(({ impulse }) => length(impulse))) / lasted;
+    const shown = /Greatest force([\d.]+)\s(kN|N)/.exec((await text(page, "Step"))!)!;
+    expect((Number(shown[1]) * (shown[2] === "kN" ? 1000 : 1)) / most).toBeCloseTo(1, 2);
+  });
+
+  test("draws contacts with their forces, and hides them", async () => {
+    const page = await show("#t=0.99");
+    const shown = () =>
+      page.evaluate(() => {
+        const { dots, arrows } = window.firstcontact.view.forces!;
+        return { dots: dots.visible, arrows: arrows.visible, count: arrows.count };
+      });
+    const { count } = await shown();
+    expect(count).toBe(made.steps.at(-1)!.contacts.length);
+    // Gravity acts on the crate, the floor carries it: upwards.
+    const up = await page.evaluate(() =>
+      window.firstcontact.view.forces!.arrows.instanceMatrix.array.slice(8, 11),
+    );
+    expect(up[2]).toBeGreaterThan(0);
+    await page.keyboard.press("a");
+    expect(await shown()).toMatchObject({ dots: true, arrows: false });
+    await page.getByRole("button", { name: "Contact points" }).click();
+    expect(await shown()).toMatchObject({ dots: false, arrows: false });
+    await page.evaluate(() => window.firstcontact.player.seek(0));
+    expect((await shown()).count).toBe(0);
+  });
+
+  test("goes from step to step, in real time", async () => {
+    const page = await show();
+    expect(await page.getByRole("combobox", { name: "Speed" }).inputValue()).toBe("1");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("ArrowRight");
+    expect(await timeOf(page)).toBeCloseTo(made.steps[1]!.time, 12);
+    await page.keyboard.press("ArrowLeft");
+    expect(await timeOf(page)).toBeCloseTo(made.steps[0]!.time, 12);
+    await page.getByRole("button", { name: "Play" }).click();
+    await page.waitForFunction(() => window.firstcontact.player.t.value === 1);
+  });
+
+  test("draws what is said of steps over time", async () => {
+    const page = await show();
+    const title = page.locator(".chart-title");
+    expect(await title.textContent()).toBe("energy [kJ]totalkinetic");
+    const chart = page.getByRole("region", { name: "Over time" });
+    for (const [name, shown] of [
+      ["contacts", "contacts"],
+      ["greatest contact force", "greatest contact force [kN]"],
+      ["impacts", "impacts"],
+      ["apart by at least", "apart by at least [µm]"],
+      ["time lost", "time lost [s]"],
+      ["kinetic energy", "energy [kJ]totalkinetic"],
+    ] as const) {
+      await chart.getByRole("button", { name }).click();
+      expect(await title.textContent()).toBe(shown);
+    }
+    await page.evaluate(() => window.firstcontact.player.seek(1));
+    expect(await chart.textContent()).toMatch(/contacts[1-9]/);
+  });
+
+  test("saves the animation with a key at each step", async () => {
+    const page = await show();
+    const [glb] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name: "Save the animation (GLB)" }).click(),
+    ]);
+    const stream = await glb.createReadStream();
+    const chunks: Buffer[] = [];
+    for await (const chunk of stream) {
+      chunks.push(chunk as Buffer);
+    }
+    const bytes = Buffer.concat(chunks);
+    const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()) as {
+      animations: { channels: unknown[]; samplers: { input: number }[] }[];
+      accessors: { count: number }[];
+    };
+    expect(json.animations[0]!.channels.length).toBe(4); // Crate and pusher.
+    expect(json.accessors[json.animations[0]!.samplers[0]!.input]!.count).toBe(51);
+  });
+
+  test("fits into the window of a phone", async () => {
+    const page = await show("", { viewport: { width: 390, height: 780 }, hasTouch: true });
+    expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(
+      390,
+    );
+    await page.getByRole("button", { name: "Side panel" }).tap();
+    expect(await page.getByRole("region", { name: "Step" }).isVisible()).toBe(true);
+  });
+
+  test("complained about nothing", () => {
+    expect(complaints).toEqual([]);
+  });
+});
