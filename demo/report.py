@@ -1,9 +1,10 @@
 """Shows the results of the demo: a table on the terminal, and a page beside the results.
 
-    report.py FOLDER NAME...
+    report.py FOLDER NAME... [--simulations NAME...]
 
 FOLDER has NAME.json (the result), NAME.svg (the gap over time), NAME.html (the page that plays it)
-and NAME.txt (what the tool said).
+and NAME.txt (what the tool said). Of a simulation there are NAME.jsonl (the run), NAME.txt and, where pages
+were asked for, NAME.html.
 """
 
 import html
@@ -40,6 +41,11 @@ SECTION = """<h2 id="{name}">{title}</h2>
 <img src="{name}.svg" alt="The gap over time. {title}: {verdict}">
 <pre>{text}</pre>
 <p><a href="{name}.html">Play it</a> · <a href="{name}.json">{name}.json</a></p>
+"""
+
+SIMULATION = """<h2 id="{name}">{title}</h2>
+<pre>{text}</pre>
+<p>{links}</p>
 """
 
 COLUMNS = ("scene", "answer", "time", "triangles", "normal", "least gap")
@@ -95,7 +101,16 @@ def section(folder: pathlib.Path, name: str, result: dict) -> str:
                           text=html.escape(text.strip()))
 
 
-def main(folder: pathlib.Path, names: list) -> int:
+def simulation_section(folder: pathlib.Path, name: str) -> str:
+    with open(folder / f"{name}.jsonl", encoding="utf-8") as run:
+        title = json.loads(run.readline())["scene"]["id"]
+    text = (folder / f"{name}.txt").read_text(encoding="utf-8")
+    page = f'<a href="{name}.html">Play it</a> · ' if (folder / f"{name}.html").exists() else ""
+    return SIMULATION.format(name=name, title=html.escape(title), text=html.escape(text.strip()),
+                             links=f'{page}<a href="{name}.jsonl">{name}.jsonl</a>')
+
+
+def main(folder: pathlib.Path, names: list, simulations: list) -> int:
     names = [name for name in names if (folder / f"{name}.json").exists()]
     results = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in names]
     rows = [row(result) for result in results]
@@ -104,10 +119,15 @@ def main(folder: pathlib.Path, names: list) -> int:
         if "sampling" in result:
             print(sampling_note(result))
     sections = "".join(section(folder, name, result) for name, result in zip(names, results))
+    sections += "".join(simulation_section(folder, name) for name in simulations
+                        if (folder / f"{name}.jsonl").exists())
     (folder / "index.html").write_text(PAGE.format(table=html_table(names, rows), sections=sections),
                                        encoding="utf-8")
     print(f"\nPlots and results: {folder / 'index.html'}")
     return 0
 
 
-sys.exit(main(pathlib.Path(sys.argv[1]), sys.argv[2:]))
+if __name__ == "__main__":
+    asked = sys.argv[2:]
+    split = asked.index("--simulations") if "--simulations" in asked else len(asked)
+    sys.exit(main(pathlib.Path(sys.argv[1]), asked[:split], asked[split + 1:]))
