@@ -100,6 +100,69 @@ class CommandLine(ToolTest):
             self.assertIn(words, result.stdout)
 
 
+class Simulate(ToolTest):
+    """A ball that falls on a floor."""
+
+    BALL = {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, 0.3]}, "dynamics": {}}
+    FLOOR = {"name": "floor", "shape": {"box": {"size": [9, 9, 0.2]}}, "pose": {"position": [0, 0, -0.1]}}
+    SCENE = {"firstcontact": 1, "simulation": {"duration": 0.5, "step": 0.01}, "bodies": [BALL, FLOOR]}
+
+    def scene(self, scene: dict) -> str:
+        path = (self.folder / "scene.json")
+        path.write_text(json.dumps(scene), encoding="utf-8")
+        return str(path)
+
+    def test_records_a_run_that_verifies(self):
+        run = str((self.folder / "run.jsonl"))
+        done = self.run_tool("simulate", self.scene(self.SCENE), "-o", run)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("50 of 50", done.stdout)
+        self.assertIn("time lost  none", done.stdout)
+        verified = self.run_tool("verify", run)
+        self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
+
+    def test_goes_on_bit_for_bit_where_it_was_cut_off(self):
+        whole, cut = (self.folder / "whole.jsonl"), (self.folder / "cut.jsonl")
+        scene = self.scene(self.SCENE)
+        self.run_tool("simulate", scene, "-o", str(whole))
+        text = whole.read_bytes()
+        for size in (len(text), len(text) // 2, len(text.split(b"\n")[0]) + 1):
+            cut.write_bytes(text[:size])
+            done = self.run_tool("simulate", scene, "-o", str(cut), "--resume")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(cut.read_bytes(), text)
+
+    def test_refuses_to_go_on_with_another_run(self):
+        run = (self.folder / "run.jsonl")
+        scene = self.scene(self.SCENE)
+        self.run_tool("simulate", scene, "-o", str(run))
+        before = run.read_bytes()
+        done = self.run_tool("simulate", scene, "-o", str(run), "--resume", "--step", "0.02")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--resume", done.stderr)
+        self.assertEqual(run.read_bytes(), before)
+
+    def test_says_what_is_wrong(self):
+        inside = dict(self.BALL, pose={"position": [0, 0, 0.05]})
+        for bodies, expected in (([inside, self.FLOOR], "meet at the start"), ([self.FLOOR], "dynamics")):
+            scene = {"firstcontact": 1, "bodies": bodies}
+            run = (self.folder / "none.jsonl")
+            done = self.run_tool("simulate", self.scene(scene), "-o", str(run))
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("scene.json", done.stderr)
+            self.assertIn(expected, done.stderr)
+            self.assertFalse(run.exists())
+
+    def test_lost_time_is_status_3(self):
+        press = {"name": "press", "shape": {"box": {"size": [1, 1, 0.1]}},
+                 "motion": {"type": "waypoints", "times": [0, 0.2],
+                            "poses": [{"position": [0, 0, 0.5]}, {"position": [0, 0, 0.1]}]}}
+        scene = {"firstcontact": 1, "simulation": {"duration": 0.2, "step": 0.02, "events": 5},
+                 "bodies": [dict(self.BALL, pose={"position": [0, 0, 0.11]}), self.FLOOR, press]}
+        done = self.run_tool("simulate", self.scene(scene))
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+
+
 class Verify(ToolTest):
     """A ball that falls towards a floor at 1 m/s and comes to rest at a height of 0.1 m over it."""
 

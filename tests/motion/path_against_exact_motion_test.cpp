@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -59,6 +61,68 @@ TEST(ConstantRatePath, StaysWithinItsErrorsOfTheExactMotion) {
       }
     }
   }
+}
+
+Pose pose(const PoseInput& p) {
+  return {{p.position.x, p.position.y, p.position.z},
+          {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z}};
+}
+
+Eigen::Vector3d plain(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
+
+/// The exact motion of P while the body turns about Q, which the translation moves.
+MotionPiece about_pivot(const MotionInput& input, const Vector3<double>& p_BQ,
+                        const Vector3<double>& p_BP, double t_begin, double t_end) {
+  const MotionPiece of_pivot = motion_pieces(input, p_BQ).at(0);
+  MotionPiece piece = motion_pieces(input, p_BP).at(0);
+  piece.pivot = piece.pivot + of_pivot.lever;
+  piece.lever = piece.lever - of_pivot.lever;
+  piece.t_begin = t_begin;
+  piece.t_end = t_end;
+  return piece;
+}
+
+TEST(ConstantRatePath, TurnsAboutAnyPointOfTheBody) {
+  std::size_t tested = 0;
+  for (int f = 0; f < kFamilyCount; ++f) {
+    for (std::uint64_t i = 0; i < 50; ++i) {
+      const GeneratedCase c = generate(static_cast<Family>(f), i);
+      if (c.A.motion.kind != MotionKind::constant_velocity ||
+          c.B.motion.kind != MotionKind::constant_velocity) {
+        continue;
+      }
+      ++tested;
+      const Vector3<double>& p_BQ = c.A.vertices[1];
+      const Vector3<double>& p_BP = c.A.vertices[0];
+      const auto piece = [](const MotionInput& m, double t_end) {
+        return ConstantRatePiece{t_end, pose(m.poses[0]), plain(m.translation),
+                                 plain(m.rotation_vector)};
+      };
+      const std::vector<ConstantRatePiece> pieces{piece(c.A.motion, 0.3), piece(c.B.motion, 1.0)};
+      const Motion motion = Motion::constant_rates(pieces, plain(p_BQ));
+      for (const double t : {0.0, 0.1, 0.3}) {
+        expect_agreement(about_pivot(c.A.motion, p_BQ, p_BP, 0.0, 0.3), motion.path(0, plain(p_BP)),
+                         t);
+      }
+      for (const double t : {0.3, 0.7, 1.0}) {
+        expect_agreement(about_pivot(c.B.motion, p_BQ, p_BP, 0.3, 1.0), motion.path(1, plain(p_BP)),
+                         t);
+      }
+    }
+  }
+  EXPECT_GT(tested, 50u);
+}
+
+TEST(Motion, RefusesPiecesThatDoNotFollowEachOther) {
+  const auto until = [](double t_end) { return ConstantRatePiece{t_end, {}}; };
+  const auto make = [](const std::vector<ConstantRatePiece>& pieces) {
+    return Motion::constant_rates(pieces);
+  };
+  EXPECT_THROW(make({}), std::invalid_argument);
+  EXPECT_THROW(make({until(0.5)}), std::invalid_argument);
+  EXPECT_THROW(make({until(0.5), until(0.5), until(1.0)}), std::invalid_argument);
+  EXPECT_THROW(make({{1.0, {}, {0.0, std::nan(""), 0.0}}}), std::invalid_argument);
+  EXPECT_NO_THROW(make({until(0.5), until(1.0)}));
 }
 
 /// Else an error of infinity would pass.

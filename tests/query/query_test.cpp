@@ -1,11 +1,13 @@
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/query/close_features.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
@@ -50,6 +52,36 @@ TEST(FirstContact, TimeIsInverselyProportionalToTheSpeed) {
   const double fast = time_at_speed(8.0);
   EXPECT_GT(fast, 0.2);
   EXPECT_NEAR(time_at_speed(4.0), 2.0 * fast, 1e-6);
+}
+
+// What is near at the time of the first contact is what the first contact lists.
+TEST(CloseFeatures, AreThoseOfTheFirstContact) {
+  const Shape A = waves(24, 0.1);
+  const Shape B = waves(20, 0.2);
+  const Motion rest = Motion::fixed();
+  const Motion fall = Motion::constant_velocity(at(2.0), {0.0, 0.0, -4.0}, {0.1, 0.2, 0.3});
+  Workspace workspace;
+  FirstContactOptions options;
+  options.contact_band = 0.01;
+  const FirstContactResult first = first_contact({A, rest}, {B, fall}, workspace, options);
+  ASSERT_EQ(first.verdict, Verdict::contact);
+  std::vector<Contact> close(3);
+  const double band = options.tolerance + options.contact_band;
+  close_features({A, rest}, {B, fall}, first.t, band, workspace, close);
+  ASSERT_EQ(close.size(), first.contacts.size());
+  ASSERT_GT(close.size(), 1u);
+  for (std::size_t k = 0; k < close.size(); ++k) {
+    EXPECT_EQ(close[k].feature_A, first.contacts[k].feature_A);
+    EXPECT_EQ(close[k].feature_B, first.contacts[k].feature_B);
+    EXPECT_LE(close[k].distance, band * (1.0 + 1e-9));
+  }
+  std::vector<Contact> swapped;
+  close_features({B, fall}, {A, rest}, first.t, band, workspace, swapped);
+  EXPECT_EQ(swapped.size(), close.size());
+  EXPECT_THROW(close_features({A, rest}, {B, fall}, 1.5, band, workspace, close),
+               std::invalid_argument);
+  EXPECT_THROW(close_features({A, rest}, {B, fall}, 0.5, std::nan(""), workspace, close),
+               std::invalid_argument);
 }
 
 // Splitting the step at a waypoint changes nothing but the tolerance's share.
