@@ -9,8 +9,8 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -63,11 +63,18 @@ void open(const std::string& page) {
   }
 }
 
-/// As write_run_header begins it.
-bool is_run(const std::string& text) { return text.starts_with("{\"firstcontact_run\""); }
+/// Whether a file begins as write_run_header does.
+bool is_run(const std::string& path) {
+  constexpr std::string_view kBegin = "{\"firstcontact_run\"";
+  std::string begin(kBegin.size(), ' ');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin == kBegin;
+}
 
-std::string page_of_run(const std::string& page, const std::string& text, const std::string& path) {
-  std::istringstream stream(text);
+/// Holds one line of the run at a time: it may be as large as a disk allows.
+std::string page_of_run(const std::string& page, const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
   RunReader run(stream, path);
   RunPage collected(run.header());
   while (const std::optional<RunStep> step = run.next()) {
@@ -80,8 +87,8 @@ std::string page_of_run(const std::string& page, const std::string& text, const 
   return collected.write(page, load_scene(run.header().scene, cache));
 }
 
-std::string page_of_result(const std::string& page, const std::string& text,
-                           const std::string& path) {
+std::string page_of_result(const std::string& page, const std::string& path) {
+  const std::string text = read_text(path);
   StoredResult stored = read_result(text, path);
   const Interrupt interrupt;
   ShapeCache cache;
@@ -97,7 +104,6 @@ std::string page_of_result(const std::string& page, const std::string& text,
 void view(const Arguments& arguments) {
   const std::string page = viewer_page();
   const std::string& path = arguments.result;
-  const std::string text = read_text(path);
   const std::string output = arguments.output.empty()
                                  ? std::filesystem::path(path).replace_extension(".html").string()
                                  : arguments.output;
@@ -105,8 +111,7 @@ void view(const Arguments& arguments) {
   if (std::filesystem::equivalent(path, output, missing)) {
     throw std::invalid_argument(output + ": this would overwrite the result");
   }
-  write_file(output,
-             is_run(text) ? page_of_run(page, text, path) : page_of_result(page, text, path));
+  write_file(output, is_run(path) ? page_of_run(page, path) : page_of_result(page, path));
   fmt::print("{}\n", output);
   if (!arguments.no_open) {
     open(output);
