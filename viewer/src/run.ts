@@ -2,7 +2,7 @@
 
 import type { Vector3 } from "./data/result";
 import type { RunContactsData, RunData, StepData } from "./data/run_data";
-import { length, scale } from "./motion/vector";
+import { scale } from "./motion/vector";
 import { firstNotLess } from "./motion/way";
 
 export interface RunContact {
@@ -35,9 +35,7 @@ export class Run {
     this.asked = header.scene.simulation.duration;
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
-    this.greatestForces = steps.map((_, step) =>
-      this.contactsOf(step).reduce((most, { force }) => Math.max(most, length(force)), 0),
-    );
+    this.greatestForces = steps.map((_, step) => this.greatestForce(step));
   }
 
   get duration(): number {
@@ -78,6 +76,17 @@ export class Run {
       force: scale(lasted > 0 ? 1 / lasted : 0, row(impulses, k)),
       distance: distances[k]!,
     }));
+  }
+
+  private greatestForce(step: number): number {
+    const { impulses, until } = this.all;
+    let most = 0; // [(N s)²]
+    for (let k = 3 * this.firstContact(step); k < 3 * until[step]!; k += 3) {
+      const [x, y, z] = [impulses[k]!, impulses[k + 1]!, impulses[k + 2]!];
+      most = Math.max(most, x * x + y * y + z * z);
+    }
+    const { lasted } = this.steps[step]!;
+    return lasted > 0 ? Math.sqrt(most) / lasted : 0;
   }
 
   private firstContact(step: number): number {

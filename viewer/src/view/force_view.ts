@@ -20,9 +20,10 @@ import type { Run, RunContact } from "../run";
 import { overlay, roundDot } from "./contact_view";
 
 const dotSize = 8; // [px]
-const typicalShare = 0.9; // Of the steps with a force: no greater is their greatest one.
-const typicalLength = 0.2; // Of the radius of what is seen: an arrow of such a force.
-const greatestLength = 0.7;
+const many = 100; // Contacts of a step; from here on their dots are small.
+const typicalShare = 0.5; // Of the steps with a force: no greater is their greatest one.
+const typicalLength = 1; // An arrow of such a force, by the size of bodies.
+const greatestLength = 5;
 
 /// Along z, from 0 to 1.
 function arrowGeometry(): BufferGeometry {
@@ -51,20 +52,20 @@ export class ForceMarkers {
   private step = -1;
 
   /// @param middle  of what is seen: relative to it, single precision is enough
-  /// @param radius  [m] of what is seen
+  /// @param size    [m] radius of a body, to which arrows compare
   constructor(
     private readonly run: Run,
     private readonly middle: Vector3,
-    private readonly radius: number,
+    private readonly size: number,
   ) {
     const most = run.mostContacts;
-    this.perNewton = (typicalLength * radius) / typicalForce(run);
+    this.perNewton = (typicalLength * size) / typicalForce(run);
     this.places = new BufferAttribute(new Float32Array(3 * most), 3).setUsage(DynamicDrawUsage);
     this.dots = new Points(
       new BufferGeometry().setAttribute("position", this.places),
       new PointsMaterial({
         map: roundDot(),
-        size: dotSize,
+        size: most < many ? dotSize : 0.5 * dotSize,
         sizeAttenuation: false,
         transparent: true,
         depthTest: false,
@@ -107,7 +108,7 @@ export class ForceMarkers {
   }
 
   private arrowMatrix(place: Vector3, force: Triple): Matrix4 {
-    const size = Math.min(this.perNewton * length(force), greatestLength * this.radius);
+    const size = Math.min(this.perNewton * length(force), greatestLength * this.size);
     const turn = new Quaternion();
     if (size > 0) {
       turn.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...force).normalize());

@@ -87,7 +87,7 @@ export class SceneView {
     this.grid = new Grid(this.sweep, this.camera.up);
     this.bodies = this.makeBodies();
     this.ghosts = new Ghosts(this.bodies);
-    this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.home.radius);
+    this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.bodySize());
     this.scene.add(
       ...this.bodies.map(({ group }) => group),
       this.ghosts.group,
@@ -249,6 +249,15 @@ export class SceneView {
     return this.bodies
       .filter(({ group }) => group.visible)
       .flatMap(({ shownPieces }) => shownPieces.map(({ surface }) => surface));
+  }
+
+  /// [m] The median radius of the bodies that move.
+  private bodySize(): number {
+    const radii = this.model.bodies
+      .filter(({ atRest }) => !atRest)
+      .map((body) => this.bounds.bodiesAt([body], 0).radius)
+      .sort((a, b) => a - b);
+    return radii[Math.floor(radii.length / 2)] ?? this.home.radius;
   }
 
   private makeBodies(): BodyView[] {
