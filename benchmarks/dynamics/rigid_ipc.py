@@ -4,19 +4,18 @@
     benchmarks/dynamics/rigid_ipc.py [TOOL]
 
 TOOL is build/release/apps/firstcontact by default; FIRSTCONTACT_DATA_DIR has the fixtures. Each scene is
-simulated for its own duration, at most MOST_STEPS steps, without a file; times are the tool's own.
+simulated for its own duration, at most MOST_STEPS steps, without a file; times are those of the processor.
 """
 
 import json
 import os
 import pathlib
-import re
+import resource
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 MOST_STEPS = 500
-UNITS = {"s": 1e3, "ms": 1.0, "µs": 1e-3, "ns": 1e-6}
 
 # Milliseconds a step of Rigid IPC on a machine of this kind, and how many times faster we aim to be.
 SCENES = {
@@ -28,15 +27,23 @@ SCENES = {
 }
 
 
-def milliseconds_a_step(tool: str, fixture: pathlib.Path) -> float:
-    scene = json.loads(fixture.read_text(encoding="utf-8"))
-    duration = min(scene.get("max_time", 5.0), MOST_STEPS * scene["timestep"])
-    done = subprocess.run([tool, "simulate", str(fixture), "--duration", str(duration)],
+def processor_seconds(tool: str, fixture: pathlib.Path, duration: float) -> float:
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    done = subprocess.run([tool, "simulate", str(fixture), "--duration", repr(duration)],
                           capture_output=True, text=True, check=False)
-    match = re.search(r"took +\S+ \S+, (\S+) (\S+) a step", done.stdout)
-    if match is None or done.returncode != 0:
+    if done.returncode != 0:
         sys.exit(f"error: {fixture}: {done.stderr or done.stdout}")
-    return float(match[1]) * UNITS[match[2]]
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def milliseconds_a_step(tool: str, fixture: pathlib.Path) -> float:
+    """What one step takes of the rest of them: loading the scene is not of interest."""
+    scene = json.loads(fixture.read_text(encoding="utf-8"))
+    step = scene["timestep"]
+    steps = min(round(scene.get("max_time", 5.0) / step), MOST_STEPS)
+    loading = min(processor_seconds(tool, fixture, step) for _ in range(3))
+    return 1e3 * (processor_seconds(tool, fixture, steps * step) - loading) / (steps - 1)
 
 
 def main() -> None:

@@ -441,6 +441,9 @@ class Island {
         found == manifolds_.end() ? std::numeric_limits<double>::infinity() : found->second.gap;
     const HeldDistance held = held_distance(world_.distances, margin, gap);
     clearance_ = std::min(clearance_, held.margin);
+    if (cannot_reach(pair, std::min(gap, world_.distances.band) + margin - held.margin, moves)) {
+      return;
+    }
     FirstContactOptions options;
     options.margin = held.margin;
     options.tolerance = held.tolerance;
@@ -452,6 +455,21 @@ class Island {
       return;
     }
     hits.push_back(hit_of(pair, margin, {A.pose(answer_.t), B.pose(answer_.t)}, moves));
+  }
+
+  /// Whether no point of two bodies gets far enough to close a distance: what rests is not
+  /// searched.
+  [[nodiscard]] bool cannot_reach(const BodyPair& pair, double distance,
+                                  const std::vector<Move>& moves) const {
+    double way = 0.0;
+    double size = 0.0;
+    for (const std::size_t b : pair) {
+      const double reach = world_.bodies[b].reach;
+      way += moves[b].translation.norm() + reach * moves[b].rotation_vector.norm();
+      size += poses_[b].position.norm() + reach;
+    }
+    constexpr double kRounding = 0x1p-44;  // Of the distance and of the way, with room.
+    return way + kRounding * size < distance;
   }
 
   /// The contact that was just found, as a constraint on the rest of the step.
