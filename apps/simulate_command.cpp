@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -115,11 +114,7 @@ class Run {
   }
 
   ExitStatus run() {
-    const Scene& scene = simulator_.header().scene;
-    const double step = scene.simulation->step;
-    const double duration = scene.simulation->duration;
-    // A duration of whole steps takes no other one for its rounding.
-    const auto count = static_cast<std::size_t>(std::ceil(duration / step * (1.0 - 1e-12)));
+    const std::size_t count = simulation_step_count(*simulator_.header().scene.simulation);
     resumed_ = simulator_.step_count();
     while (simulator_.step_count() < count) {
       const auto begin = Clock::now();

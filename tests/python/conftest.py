@@ -92,3 +92,12 @@ def long_query() -> tuple:
     spin = fc.Motion.constant_velocity(fc.Pose(), (0, 0, 0), rotation_vector=(0, 500, 300))
     turn = fc.Motion.constant_velocity(fc.Pose(), (0, 0, 0), rotation_vector=(400, 0, 900))
     return (sphere(1.0, 150), spin), (sphere(1.001, 150), turn)
+
+
+def resting_balls(count: int) -> dict:
+    """Balls that spin on a floor, simulated for days."""
+    ball = {"shape": {"sphere": {"radius": 0.5}}}
+    return {"firstcontact": 1, "simulation": {"duration": 1e6, "step": 0.01}, "bodies": [
+        {"name": "floor", "shape": {"box": {"size": [99, 99, 1]}}},
+        *({**ball, "name": f"ball {k}", "pose": {"position": [1.1 * (k % 8), 1.1 * (k // 8), 1.01]},
+           "dynamics": {"angular_velocity": [k, 0, 1]}} for k in range(count))]}

@@ -18,8 +18,8 @@ def run(name: str, *arguments) -> str:
     return done.stdout
 
 
-def test_there_are_six():
-    assert len(list(FOLDER.glob("*.py"))) == 6
+def test_there_are_seven():
+    assert len(list(FOLDER.glob("*.py"))) == 7
 
 
 def test_tumbling_box():
@@ -75,3 +75,12 @@ def test_puma_and_post():
     assert ends > 0 and 0.5 < first < 1.5 and 0 < lift < 1.5
     assert min(enter for enter, _ in spans) == pytest.approx(first, abs=1e-3)
     assert all(enter < leave < 2 for enter, leave in spans)
+
+
+def test_pushed_crate(tmp_path):
+    told = run("pushed_crate", tmp_path / "run.jsonl")
+    mass, place, nearest, force = (float(re.search(pattern, told).group(1)) for pattern in (
+        r"has ([0-9.]+) kg", r"is at ([0-9.]+) m", r"than ([0-9.]+) µm", r"with ([0-9.]+) N"))
+    assert mass == pytest.approx(200 * 0.4**3) and place == pytest.approx(0.5, abs=0.02)
+    assert nearest > 0 and force == pytest.approx(9.81 * mass, rel=1e-3)
+    assert told.splitlines()[-1] == "The run is proven"

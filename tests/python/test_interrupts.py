@@ -13,7 +13,7 @@ import os, signal, sys, threading, time
 signal.signal(signal.SIGINT, signal.default_int_handler)  # A shell's background jobs ignore it.
 sys.path.insert(0, {str(ROOT / "tests/python")!r})
 import firstcontact as fc
-from conftest import long_query
+from conftest import long_query, resting_balls
 A, B = long_query()
 deadline = 120  # [s]  Beyond the patience of the test.
 
@@ -77,6 +77,60 @@ def test_handler_that_raises_nothing_changes_no_answer():
         answers = fc.answer_each_pair(bodies, progress=progress)
         print(len(seen) > 0, [a.__getstate__() for a in answers] == expected)
     """).split() == ["True", "True"]
+
+
+def test_interrupt_ends_a_simulation_and_keeps_its_record(tmp_path):
+    done, counted = run(f"""
+        path = {str(tmp_path / "run.jsonl")!r}
+        told = []
+        interrupt_soon()
+        try:
+            fc.simulate(resting_balls(64), record=path, progress=told.append)
+        except KeyboardInterrupt:
+            print(len(told), len(list(fc.RunReader(path))))
+    """).split()
+    assert int(done) > 0 and int(counted) - int(done) in (0, 1)
+
+
+def test_handler_that_raises_nothing_changes_no_step():
+    assert run("""
+        expected = [step.to_json() for step in fc.simulate(resting_balls(16), 0.4)]
+        seen = []
+        signal.signal(signal.SIGINT, lambda *_: seen.append(1))
+        simulator = fc.Simulator(resting_balls(16))
+        over = threading.Event()
+        def act():
+            while not over.wait(0.002):
+                os.kill(os.getpid(), signal.SIGINT)
+        thread = threading.Thread(target=act)
+        thread.start()
+        steps = [simulator.step().to_json() for _ in range(40)]
+        over.set()
+        thread.join()
+        print(len(seen) > 0, steps == expected)
+    """).split() == ["True", "True"]
+
+
+def test_step_lets_other_threads_run_and_keeps_them_away():
+    assert run("""
+        simulator = fc.Simulator(resting_balls(64))
+        refused = []
+        over = threading.Event()
+        def look():
+            while not over.is_set():
+                try:
+                    simulator.time
+                except RuntimeError as error:
+                    refused.append(str(error))
+                time.sleep(0.0005)
+        thread = threading.Thread(target=look)
+        thread.start()
+        while not refused:
+            simulator.step()
+        over.set()
+        thread.join()
+        print(refused[0].split(":")[0])
+    """).split() == ["Simulator"]
 
 
 def test_new_handler_is_obeyed():

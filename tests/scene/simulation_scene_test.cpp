@@ -140,6 +140,13 @@ TEST(SimulationScene, KeepsRatesForAnotherDuration) {
   EXPECT_EQ(normalised_motion(longer.bodies[1].motion, 6.0).pose(1.0).position.x(), 1.0);
 }
 
+TEST(SimulationScene, TakesStepsForItsWholeDuration) {
+  EXPECT_EQ(simulation_step_count({.duration = 0.3, .step = 0.1}), 3u);    // 0.3 / 0.1 < 3.
+  EXPECT_EQ(simulation_step_count({.duration = 0.07, .step = 0.01}), 7u);  // 0.07 / 0.01 > 7.
+  EXPECT_EQ(simulation_step_count({.duration = 0.31, .step = 0.1}), 4u);
+  EXPECT_EQ(simulation_step_count({.duration = 0.01, .step = 0.1}), 1u);
+}
+
 TEST(SimulationScene, NumbersPairsAnewWithTheirBodies) {
   Scene read = parse_scene(simulated(R"("pairs": [{"bodies": ["b", "a"], "friction": 1}])"), "s");
   EXPECT_EQ(read.simulation.value().pairs[0].bodies, (BodyPair{0, 1}));

@@ -19,22 +19,23 @@ from ._check import Answer, Pair, SceneLike, check, check_many, load_scene
 from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, ElementaryContact,
                     Feature, FirstContactResult, LinearContact, ManyBodiesResult,
                     ManyBodiesWorkspace, MeshDefects, Motion, PairAnswer, PairRules, Pose, Result,
-                    RobotModel, RobotScene, Scene, SceneClosest, SceneContact, ScenePair, Shape,
-                    ShapeCache, StopSource, Trajectory, WorkCount, Workspace, __version__,
-                    answer_each_pair, closest_approach, convex_hull, distance, edge_edge_contact,
-                    first_contact, inspect, linear_edge_edge_contact, linear_vertex_face_contact,
-                    make_box, make_capsule, make_cone, make_convex_hull, make_cylinder,
-                    make_height_map, make_point_cloud, make_sphere, move_vertices, parse_obj,
-                    parse_off, parse_pcd, parse_ply, parse_ply_points, parse_scene, parse_stl,
-                    parse_xyz, read_heights, read_mesh, read_points, read_request, read_srdf,
-                    read_trajectory, read_urdf, sample_gap, vertex_face_contact, weld,
-                    why_not_solid)
+                    RobotModel, RobotScene, RunReader, RunStep, Scene, SceneClosest, SceneContact,
+                    ScenePair, Shape, ShapeCache, Simulator, StopSource, Trajectory, WorkCount,
+                    Workspace, __version__, answer_each_pair, closest_approach, convex_hull,
+                    distance, edge_edge_contact, first_contact, inspect, linear_edge_edge_contact,
+                    linear_vertex_face_contact, make_box, make_capsule, make_cone, make_convex_hull,
+                    make_cylinder, make_height_map, make_point_cloud, make_sphere, move_vertices,
+                    parse_obj, parse_off, parse_pcd, parse_ply, parse_ply_points, parse_scene,
+                    parse_stl, parse_xyz, read_heights, read_mesh, read_points, read_request,
+                    read_simulation_scene, read_srdf, read_trajectory, read_urdf, sample_gap,
+                    verify_run, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
+from ._simulate import simulate
 from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
-                      RobotSemantics)
+                      RobotSemantics, RunContacts, RunMoment, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
-                     JointType, StartContacts, UndecidedReason, Verdict)
+                     JointType, RunVerdict, StartContacts, UndecidedReason, Verdict)
 
 __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactInterval",
@@ -43,17 +44,18 @@ __all__ = [
     "HeightMap", "Joint", "JointLimit", "JointType", "LimitViolation", "LinearContact",
     "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairRules", "ParseError", "PlanningRequest", "Pose",
-    "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Scene", "SceneClosest",
-    "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "StartContacts", "StopSource",
-    "Trajectory", "UndecidedReason", "Verdict", "WorkCount", "Workspace", "__version__",
-    "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull", "distance",
-    "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",
+    "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
+    "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene", "SceneClosest",
+    "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator", "StartContacts",
+    "StopSource", "Trajectory", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
+    "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
+    "distance", "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",
     "linear_vertex_face_contact", "load_scene", "make_box", "make_capsule", "make_cone",
     "make_convex_hull", "make_cylinder", "make_height_map", "make_point_cloud", "make_sphere",
     "move_vertices", "parse_obj", "parse_off", "parse_pcd", "parse_ply", "parse_ply_points",
     "parse_scene", "parse_stl", "parse_xyz", "read_heights", "read_mesh", "read_points",
-    "read_request", "read_srdf", "read_trajectory", "read_urdf", "sample_gap",
-    "vertex_face_contact", "weld", "why_not_solid",
+    "read_request", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
+    "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
 ]
 
 # People should see, and pickle, the names that they use.

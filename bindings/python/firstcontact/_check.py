@@ -57,6 +57,13 @@ def load_scene(scene: SceneLike, shapes: ShapeCache | None = None) -> Scene:
     return _core.read_scene(scene, shapes)
 
 
+def load_simulation_scene(scene: SceneLike) -> Scene:
+    """As load_scene, but a path may be that of a fixture of Rigid IPC."""
+    if isinstance(scene, (Scene, Mapping)):
+        return load_scene(scene)
+    return _core.read_simulation_scene(scene)
+
+
 def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
           all_pairs: bool = False, closest: bool = False, all_contacts_in_time: bool = False,
           margin: float | None = None, tolerance: float | None = None,

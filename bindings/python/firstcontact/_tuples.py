@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._words import JointLimit, JointType, UndecidedReason
+from ._words import JointLimit, JointType, RunVerdict, UndecidedReason
 
 if TYPE_CHECKING:
-    from ._core import Motion, Pose, Shape
+    from ._core import Feature, Motion, Pose, Shape
 
 
 class Mesh(NamedTuple):
@@ -162,3 +162,59 @@ class PlanningRequest(NamedTuple):
     goal: dict[str, float]
     base: "Pose"
     """Of the robot, where the start says it."""
+
+
+class RunContacts(NamedTuple):
+    """The m contacts that acted at the end of a step of a simulation, one a row."""
+
+    bodies: npt.NDArray[np.int64]
+    """m×2, numbers of the first and the second body."""
+    points: npt.NDArray[np.float64]
+    """[m]  m×3, in the world, between the two surfaces."""
+    normals: npt.NDArray[np.float64]
+    """[-]  m×3, from the first to the second body."""
+    distances: npt.NDArray[np.float64]
+    """[m]  (m,)"""
+    impulses: npt.NDArray[np.float64]
+    """[N s]  m×3, on the second body, over the step."""
+    features: "tuple[tuple[Feature, Feature], ...]"
+    """Of the first and the second body."""
+
+
+class RunMoment(NamedTuple):
+    """Two bodies at a moment of a run."""
+
+    step: int
+    """From 1."""
+    time: float
+    """[s]  Since the run began."""
+    bodies: tuple[str, str]
+    """Their names."""
+    distance: float
+    """[m]  At most so far apart."""
+
+
+class RunVerification(NamedTuple):
+    """What is proven of a recorded run."""
+
+    verdict: RunVerdict
+    problem: str
+    """One sentence; empty where the run is proven."""
+    problem_at: RunMoment | None
+    """Of ``closer`` and ``not_proven``, where there is one."""
+    steps: int
+    """Verified; those up to the problem where there is one."""
+    time: float
+    """[s]  At the end of these."""
+    time_lost: float
+    """[s]  In all of them."""
+    least_distance: float
+    """[m]  Proven of these steps; infinite where no pair can touch."""
+    closest: RunMoment | None
+    """Where bodies come about as close as that."""
+    greatest_jump: float
+    """[m]  From the end of a piece to the begin of the next."""
+    scripted_deviation: float
+    """[m]  The greatest of a scripted body from its motion in the scene."""
+    is_cut_off: bool
+    """Whether the file ends in the middle of a line, which was left out."""

@@ -101,3 +101,16 @@ class JointType(enum.StrEnum):
     planar = "planar"
     floating = "floating"
     ball = "ball"
+
+
+class RunVerdict(enum.StrEnum):
+    """What is proven of a recorded run."""
+
+    proven = "proven"
+    """Every pair stayed apart all the time, by what each step promised."""
+    closer = "closer"
+    """Proven: a pair came closer than promised, or into each other."""
+    broken = "broken"
+    """The record contradicts itself or its scene, such as by a body that jumps."""
+    not_proven = "not_proven"
+    """Neither; nothing is known of the moment that is named."""

@@ -19,5 +19,8 @@ void bind_check_jobs(pybind11::module_& m);
 void bind_robot_model(pybind11::module_& m);
 void bind_trajectory(pybind11::module_& m);
 void bind_robot_scene(pybind11::module_& m);
+void bind_run(pybind11::module_& m);
+void bind_simulator(pybind11::module_& m);
+void bind_verify_run(pybind11::module_& m);
 
 }  // namespace firstcontact::python

@@ -18,6 +18,9 @@ PYBIND11_MODULE(_core, m) {
   bind_robot_model(m);
   bind_trajectory(m);
   bind_robot_scene(m);
+  bind_run(m);
+  bind_simulator(m);
+  bind_verify_run(m);
 }
 
 }  // namespace firstcontact::python

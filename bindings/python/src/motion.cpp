@@ -20,12 +20,6 @@ namespace firstcontact::python {
 namespace py = pybind11;
 using Eigen::Vector3d;
 
-namespace {
-
-py::tuple plain(const Vector3d& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
-
-py::tuple plain(const Eigen::Quaterniond& q) { return py::make_tuple(q.w(), q.x(), q.y(), q.z()); }
-
 Eigen::Quaterniond quaternion_from(py::handle value) {
   const std::vector<double> wxyz = numbers_from(value, "quaternion_wxyz");
   if (wxyz.size() != 4) {
@@ -34,6 +28,12 @@ Eigen::Quaterniond quaternion_from(py::handle value) {
   }
   return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
 }
+
+namespace {
+
+py::tuple plain(const Vector3d& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
+
+py::tuple plain(const Eigen::Quaterniond& q) { return py::make_tuple(q.w(), q.x(), q.y(), q.z()); }
 
 Pose make_pose(const py::object& position, const py::object& quaternion_wxyz, const py::object& rpy,
                const py::object& rotation_vector) {

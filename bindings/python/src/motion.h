@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pybind11/pybind11.h>
+#include <Eigen/Geometry>
 
 #include <firstcontact/motion/motion.h>
 
@@ -15,5 +16,10 @@ struct RecordedMotion {
   const char* factory;
   pybind11::tuple arguments;
 };
+
+/// Four numbers w, x, y, z; of any length.
+///
+/// @throws pybind11::type_error, pybind11::value_error
+Eigen::Quaterniond quaternion_from(pybind11::handle value);
 
 }  // namespace firstcontact::python

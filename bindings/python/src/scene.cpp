@@ -11,6 +11,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_scene.h>
 
@@ -36,6 +37,10 @@ const LoadedScene& HeldScene::loaded() const {
   return *loaded_;
 }
 
+std::shared_ptr<HeldScene> HeldScene::sharing(Scene scene) const {
+  return std::make_shared<HeldScene>(std::move(scene), shapes_);
+}
+
 std::shared_ptr<HeldScene> HeldScene::with(const OtherOptions& options) const {
   if (options.deadline && !(*options.deadline > 0.0)) {
     throw std::invalid_argument("deadline must be > 0, got " + std::to_string(*options.deadline));
@@ -44,7 +49,7 @@ std::shared_ptr<HeldScene> HeldScene::with(const OtherOptions& options) const {
   scene.options.margin = options.margin.value_or(scene.options.margin);
   scene.options.tolerance = options.tolerance.value_or(scene.options.tolerance);
   scene.options.deadline = options.deadline ? options.deadline : scene.options.deadline;
-  return std::make_shared<HeldScene>(std::move(scene), shapes_);
+  return sharing(std::move(scene));
 }
 
 const LoadedScene& loaded_without_gil(const HeldScene& scene) {
@@ -67,6 +72,12 @@ std::shared_ptr<HeldScene> read(const path& file, const SharedCache& shapes) {
   require_file(file);
   const py::gil_scoped_release release;
   return hold(read_scene(file), shapes);
+}
+
+std::shared_ptr<HeldScene> read_simulation(const path& file, const SharedCache& shapes) {
+  require_file(file);
+  const py::gil_scoped_release release;
+  return hold(read_simulation_scene(file), shapes);
 }
 
 std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
@@ -142,6 +153,10 @@ the working directory where they were so, and reads them again when they are nee
           }));
   m.def("read_scene", &read, py::arg("path"), py::arg("shapes") = py::none(),
         "Reads a scene file and its meshes.");
+  m.def("read_simulation_scene", &read_simulation, py::arg("path"), py::arg("shapes") = py::none(),
+        R"(Reads a scene to simulate and its meshes: of this library, or a fixture of Rigid IPC.
+
+shapes: a ShapeCache to share meshes with other scenes. Errors as load_scene.)");
   m.def("parse_scene", &parse, py::arg("text"), py::arg("source") = "scene",
         py::arg("shapes") = py::none(), R"(Reads a scene from text, one JSON object, and its meshes.
 

@@ -38,6 +38,9 @@ class HeldScene {
   /// Without the GIL, as other threads may be loading. Throws as load_scene.
   [[nodiscard]] const LoadedScene& loaded() const;
 
+  /// Another scene that shares the meshes of files with this one.
+  [[nodiscard]] std::shared_ptr<HeldScene> sharing(Scene scene) const;
+
   /// The same with other options; shares the meshes of files.
   ///
   /// @throws std::invalid_argument on a deadline outside its range

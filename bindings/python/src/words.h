@@ -12,6 +12,7 @@
 
 #include <firstcontact/articulated/limit_report.h>
 #include <firstcontact/articulated/robot_description.h>
+#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
@@ -94,6 +95,12 @@ struct Words<JointLimit> {
   static constexpr std::array kWords{"lower_position", "upper_position", "velocity"};
 };
 
+template <>
+struct Words<RunVerdict> {
+  static constexpr const char* kName = "RunVerdict";
+  static constexpr std::array kWords{"proven", "closer", "broken", "not_proven"};
+};
+
 /// A member of a class of firstcontact/_words.py, kept for good.
 pybind11::handle member(const char* enumeration, const char* word);
 
@@ -171,5 +178,8 @@ class type_caster<firstcontact::JointType>
 template <>
 class type_caster<firstcontact::JointLimit>
     : public firstcontact::python::WordCaster<firstcontact::JointLimit> {};
+template <>
+class type_caster<firstcontact::RunVerdict>
+    : public firstcontact::python::WordCaster<firstcontact::RunVerdict> {};
 
 }  // namespace pybind11::detail

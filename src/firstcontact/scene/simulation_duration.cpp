@@ -1,5 +1,6 @@
 #include <firstcontact/scene/simulation_duration.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <variant>
 
@@ -50,6 +51,12 @@ void set_simulation_duration(Scene& scene, double duration) {
     body.motion = std::visit(LongerMotion{scene.duration, duration}, body.motion);
   }
   scene.duration = duration;
+}
+
+std::size_t simulation_step_count(const Simulation& simulation) {
+  constexpr double kRounding = 1e-12;  // [-]  Of a quotient of whole steps, generously.
+  return static_cast<std::size_t>(
+      std::ceil(simulation.duration / simulation.step * (1.0 - kRounding)));
 }
 
 }  // namespace firstcontact

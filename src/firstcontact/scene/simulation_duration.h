@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/scene.h>
 
@@ -16,5 +18,9 @@ namespace firstcontact {
 /// @throws std::invalid_argument if there is no simulation, the duration is not > 0, or a body
 ///         would deform for longer than it is told
 FIRSTCONTACT_API void set_simulation_duration(Scene& scene, double duration);
+
+/// Steps that the duration takes, the last one rounded up; a duration of whole steps takes no other
+/// one for its rounding.
+[[nodiscard]] FIRSTCONTACT_API std::size_t simulation_step_count(const Simulation& simulation);
 
 }  // namespace firstcontact

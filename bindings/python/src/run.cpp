@@ -1,0 +1,237 @@
+#include "run.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl/filesystem.h>
+
+#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/dynamics/write_run.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "errors.h"
+#include "scene.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+using Eigen::Vector3d;
+
+py::tuple names_of(const RunHeader& header) {
+  py::list names;
+  for (const Body& body : header.scene.bodies) {
+    names.append(body.name);
+  }
+  return py::tuple(names);
+}
+
+std::string without_line_feed(std::string line) {
+  line.pop_back();
+  return line;
+}
+
+namespace {
+
+/// n×columns.
+template <typename Number>
+py::array table(const std::vector<Number>& numbers, py::ssize_t columns) {
+  return py::array_t<Number>({static_cast<py::ssize_t>(numbers.size()) / columns, columns},
+                             numbers.data());
+}
+
+/// A row of each.
+template <typename T>
+py::array rows(const std::vector<T>& all, Vector3d T::*what) {
+  std::vector<Vector3d> found;
+  for (const T& one : all) {
+    found.push_back(one.*what);
+  }
+  return owning(std::move(found));
+}
+
+py::array numbers_of_bodies(const RunStep& step) {
+  std::vector<std::int64_t> numbers;
+  for (const RunBody& body : step.bodies) {
+    numbers.push_back(static_cast<std::int64_t>(body.body));
+  }
+  return py::array_t<std::int64_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+py::array positions(const RunStep& step) {
+  std::vector<Vector3d> found;
+  for (const RunBody& body : step.bodies) {
+    found.push_back(body.X_WB.position);
+  }
+  return owning(std::move(found));
+}
+
+py::array quaternions(const RunStep& step) {
+  std::vector<double> wxyz;
+  for (const RunBody& body : step.bodies) {
+    const Eigen::Quaterniond& q = body.X_WB.rotation;
+    wxyz.insert(wxyz.end(), {q.w(), q.x(), q.y(), q.z()});
+  }
+  return table(wxyz, 4);
+}
+
+py::array pieces(const RunStep& step, std::size_t number) {
+  std::vector<double> row_by_row;
+  for (const RunBody& body : step.bodies) {
+    if (body.body != number) {
+      continue;
+    }
+    for (const RunPiece& piece : body.pieces) {
+      const Vector3d& p = piece.X_WB.position;
+      const Eigen::Quaterniond& q = piece.X_WB.rotation;
+      const Vector3d& t = piece.translation;
+      const Vector3d& r = piece.rotation_vector;
+      row_by_row.insert(row_by_row.end(), {piece.to, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                                           q.z(), t.x(), t.y(), t.z(), r.x(), r.y(), r.z()});
+    }
+  }
+  return table(row_by_row, 14);
+}
+
+py::object contacts(const RunStep& step) {
+  std::vector<std::int64_t> bodies;
+  std::vector<double> distances;
+  py::list features;
+  for (const RunContact& contact : step.contacts) {
+    bodies.push_back(static_cast<std::int64_t>(contact.bodies[0]));
+    bodies.push_back(static_cast<std::int64_t>(contact.bodies[1]));
+    distances.push_back(contact.distance);
+    features.append(py::make_tuple(contact.feature_A, contact.feature_B));
+  }
+  return py::module_::import("firstcontact._tuples")
+      .attr("RunContacts")(table(bodies, 2), rows(step.contacts, &RunContact::point),
+                           rows(step.contacts, &RunContact::normal), owning(std::move(distances)),
+                           rows(step.contacts, &RunContact::impulse), py::tuple(features));
+}
+
+std::string describe(const RunStep& step) {
+  return "<RunStep " + std::to_string(step.index) + " to " +
+         std::string(py::repr(py::float_(step.time))) +
+         " s: " + std::to_string(step.contacts.size()) + " contacts>";
+}
+
+void bind_step(py::module_& m) {
+  py::class_<RunStep>(m, "RunStep", R"(What happened in one step of a simulation; never changes.
+
+Energies and momenta are those of the free bodies at its end. Arrays are new ones at each look; the
+rows of positions, quaternions_wxyz, linear_velocities and angular_velocities are those of bodies.)")
+      .def_readonly("index", &RunStep::index, "From 1.")
+      .def_readonly("time", &RunStep::time, "[s] Simulated until its end.")
+      .def_readonly("lasted", &RunStep::lasted, "[s] The step asked for, but for what is lost.")
+      .def_readonly("time_lost", &RunStep::time_lost, "[s] In this step, its events spent.")
+      .def_readonly("clearance", &RunStep::clearance,
+                    "[m] Proven: no pair came closer at any time of the step; infinite where there "
+                    "is no pair.")
+      .def_readonly("kinetic_energy", &RunStep::kinetic_energy, "[J]")
+      .def_readonly("potential_energy", &RunStep::potential_energy,
+                    "[J] In the field of gravity; 0 at the world's origin.")
+      .def_property_readonly(
+          "linear_momentum", [](const RunStep& s) { return copied(s.linear_momentum); },
+          "[kg m/s] (3,)")
+      .def_property_readonly(
+          "angular_momentum", [](const RunStep& s) { return copied(s.angular_momentum); },
+          "[kg m²/s] (3,), about the world's origin.")
+      .def_readonly("residual", &RunStep::residual,
+                    "[m/s] The greatest of the step's contact problems.")
+      .def_readonly("events", &RunStep::events,
+                    "Times within the step at which contacts were projected.")
+      .def_property_readonly("bodies", &numbers_of_bodies,
+                             "(k,) Numbers of the bodies that move; all others rest.")
+      .def_property_readonly("positions", &positions,
+                             "[m] k×3, of the body frames' origins in the world.")
+      .def_property_readonly("quaternions_wxyz", &quaternions, "[-] k×4, of the body frames.")
+      .def_property_readonly(
+          "linear_velocities",
+          [](const RunStep& s) { return rows(s.bodies, &RunBody::linear_velocity); },
+          "[m/s] k×3, of the centres of mass, world axes.")
+      .def_property_readonly(
+          "angular_velocities",
+          [](const RunStep& s) { return rows(s.bodies, &RunBody::angular_velocity); },
+          "[rad/s] k×3, world axes.")
+      .def_property_readonly("contacts", &contacts, "What acted at the end, as RunContacts.")
+      .def("pieces", &pieces, py::arg("body"),
+           R"(How a body got through the step: p×14, one piece a row, none where it rests.
+
+Columns: [s] until when since the step began; [m, -] position (3) and quaternion_wxyz (4) of the
+body frame where the piece begins; [m] translation (3) of the centre of mass and [rad] rotation
+vector (3) about it, both at a constant rate.)")
+      .def(
+          "to_json", [](const RunStep& s) { return without_line_feed(write_run_step(s)); },
+          "Its line in the file of a run, without the line feed.")
+      .def("__repr__", &describe);
+}
+
+/// A file and its reader.
+class HeldRun {
+ public:
+  explicit HeldRun(const std::filesystem::path& path)
+      : stream_((require_file(path), path), std::ios::binary), reader_(stream_, path.string()) {}
+
+  [[nodiscard]] const RunReader& reader() const { return reader_; }
+  RunReader& reader() { return reader_; }
+
+ private:
+  std::ifstream stream_;
+  RunReader reader_;
+};
+
+RunStep next_of(HeldRun& run) {
+  std::optional<RunStep> step = run.reader().next();
+  if (!step) {
+    throw py::stop_iteration();
+  }
+  return std::move(*step);
+}
+
+void bind_reader(py::module_& m) {
+  py::class_<HeldRun>(m, "RunReader", R"(Reads a run back: iterate over it for its steps, once.
+
+Holds one step at a time. Numbers are those that were written, bit for bit. ParseError, one line
+that names file and line, where the file is no run.)")
+      .def(py::init<const std::filesystem::path&>(), py::arg("path"))
+      .def_property_readonly(
+          "names", [](const HeldRun& r) { return names_of(r.reader().header()); },
+          "Of the bodies, in order.")
+      .def_property_readonly(
+          "masses",
+          [](const HeldRun& r) { return owning(std::vector(r.reader().header().masses)); },
+          "[kg] (n,), 0 of bodies that are not free.")
+      .def_property_readonly(
+          "centres_of_mass",
+          [](const HeldRun& r) { return owning(std::vector(r.reader().header().centres_of_mass)); },
+          "[m] n×3, body frames.")
+      .def_property_readonly(
+          "scene",
+          [](const HeldRun& r) { return std::make_shared<HeldScene>(r.reader().header().scene); },
+          "The resolved Scene.")
+      .def_property_readonly(
+          "header_json",
+          [](const HeldRun& r) { return without_line_feed(write_run_header(r.reader().header())); },
+          "The first line, without the line feed.")
+      .def_property_readonly(
+          "is_cut_off", [](const HeldRun& r) { return r.reader().is_cut_off(); },
+          "Whether the file ends in the middle of a line, as a killed simulation leaves it. Known "
+          "at the end of the iteration.")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", &next_of);
+}
+
+}  // namespace
+
+void bind_run(py::module_& m) {
+  bind_step(m);
+  bind_reader(m);
+}
+
+}  // namespace firstcontact::python
