@@ -33,6 +33,7 @@ import { SceneView } from "./view/scene_view";
 import { triad } from "./view/triad";
 
 const narrow = "(max-width: 760px)";
+const shortRun = 0.5; // [s] In real time nothing would be seen of it.
 const coarseStep = 1 / 100;
 const fineStep = 1 / 1000;
 const clickSlack = 4; // [px] A press that moves farther turns the view.
@@ -59,7 +60,7 @@ function start(model: Model): void {
   const theme = new Theme();
   const display = new Display();
   const player = new Player(model.duration, model.contactTime, momentOf(location.hash) ?? 0);
-  if (model.run) {
+  if (model.run && model.duration > shortRun) {
     player.speed.value = 1; // Real time.
   }
   const panelOpen = new Signal(!matchMedia(narrow).matches);
