@@ -21,10 +21,10 @@ using Eigen::Vector3d;
 constexpr int kRounds = 4;
 
 /// A contact ahead is slight if the bodies approach by less than this part of the smaller one's
-/// radius over the rest of the step, and would not bounce.
+/// radius over the span of the plan, and would not bounce.
 constexpr double kSlightApproach = 0.1;
 
-/// Half of what is missing to the rest distance is made up for in a step.
+/// Half of what is missing to the rest distance is made up for in a plan.
 constexpr double kPush = 0.5;
 
 /// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
@@ -38,6 +38,9 @@ constexpr double kLeastTolerance = 1e-9;  // [m/s]
 constexpr std::size_t kMostStalls = 10;
 constexpr double kStall = 1e-9;  // [-]  Of the step.
 
+/// A plan that was stopped is followed by one of at least this part of its span.
+constexpr double kLeastShare = 0.1;
+
 /// Pairs nearer than this part of their distance of rest are hardly let nearer.
 constexpr double kJammed = 1e-3;
 
@@ -48,7 +51,7 @@ struct TouchAhead {
   double least = 0.0;    // [m/s]  Normal velocity that keeps the pair apart until the end.
 };
 
-/// What the bodies do over the rest of the step.
+/// What the bodies do over its span: the rest of the step, or less.
 struct Plan {
   std::vector<Move> moves = {};     // Of each member.
   std::vector<ContactBody> at_end;  // Velocities of each member.
@@ -59,7 +62,7 @@ struct Plan {
 /// A pair that the plan brings into contact.
 struct Hit {
   BodyPair bodies;
-  double t = 0.0;  // [-]  Of the rest of the step.
+  double t = 0.0;  // [-]  Of the span.
   bool is_slight = false;
   std::vector<TouchAhead> ahead = {};
 };
@@ -68,7 +71,7 @@ class Island {
  public:
   Island(const World& world, const StepStart& start, std::vector<std::size_t> members,
          const std::vector<Touch>& guesses, Workspace& workspace)
-      : world_(world), start_(start), guesses_(guesses), workspace_(workspace) {
+      : world_(world), start_(start), guesses_(guesses), workspace_(workspace), span_(start.h) {
     track_.members = std::move(members);
     track_.pieces.resize(track_.members.size());
     track_.clearance = std::numeric_limits<double>::infinity();
@@ -93,18 +96,21 @@ class Island {
         break;
       }
       const double reached = track_.reached;
+      const double planned = span();
       const double t = advance();
       if (t < 1.0) {
         ++track_.events;
         impact();
       }
+      choose_span(planned, t);
       stalls = track_.reached - reached > kStall * start_.h ? 0 : stalls + 1;
     }
     return std::move(track_);
   }
 
  private:
-  [[nodiscard]] double rest() const { return start_.h - track_.reached; }
+  /// [s]  Of the next plan.
+  [[nodiscard]] double span() const { return std::min(span_, start_.h - track_.reached); }
   [[nodiscard]] std::size_t size() const { return track_.members.size(); }
   [[nodiscard]] const SimBody& member(std::size_t k) const {
     return world_.bodies[track_.members[k]];
@@ -126,8 +132,24 @@ class Island {
     }
   }
 
+  /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
+  /// than the distance of rest, to half of what is left with each impact, in less and less time.
+  /// Then plans are as short as it took, so that what pushes apart gets there within them.
+  void choose_span(double planned, double t) {
+    if (t < 1.0) {
+      span_ = is_too_near() ? std::max(t, kLeastShare) * planned : start_.h;
+    } else {
+      span_ = 2.0 * planned;
+    }
+  }
+
+  [[nodiscard]] bool is_too_near() const {
+    return std::ranges::any_of(
+        manifolds_, [&](const auto& entry) { return entry.second.gap < world_.distances.pushed; });
+  }
+
   [[nodiscard]] Move scripted_move(std::size_t body) const {
-    return start_.scripted[body].part(rest() / start_.h);
+    return start_.scripted[body].part(span() / start_.h);
   }
 
   /// Pairs of a member and any other body of the island or around it whose boxes overlap.
@@ -209,7 +231,7 @@ class Island {
   // --- Between impacts -------------------------------------------------------------------------
 
   /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
-  /// step. Returns how far, in parts of the rest.
+  /// plan. Returns how far, in parts of its span.
   double advance() {
     std::vector<Hit> constraints;
     Plan plan;
@@ -248,14 +270,14 @@ class Island {
       Vector3d torque = Vector3d::Zero();
       const double from = start_.time + track_.reached;
       for (const TimedForce& timed : body.forces) {
-        // The mean over the rest of the step.
+        // The mean over the span.
         const double share =
-            std::max(0.0, std::min(timed.to, from + rest()) - std::max(timed.from, from)) / rest();
+            std::max(0.0, std::min(timed.to, from + span()) - std::max(timed.from, from)) / span();
         force += share * timed.force;
         torque += share * timed.torque;
       }
-      flight.at_end[k].v += rest() * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
-      const FreeTurn turn = free_turn(body.inertia, states_[k], torque, rest());
+      flight.at_end[k].v += span() * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
+      const FreeTurn turn = free_turn(body.inertia, states_[k], torque, span());
       flight.at_end[k].w = turn.w_WB;
       flight.rotation_vectors.push_back(turn.rotation_vector);
     }
@@ -275,7 +297,7 @@ class Island {
     };
     for (const auto& [pair, manifold] : manifolds_) {
       for (const Touch& touch : manifold.touches) {
-        const ContactPoint& contact = add(touch, -world_.distances.way_to_rest(touch.gap) / rest());
+        const ContactPoint& contact = add(touch, -world_.distances.way_to_rest(touch.gap) / span());
         // What will bounce has to arrive first.
         if (bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
           problem.contacts.pop_back();
@@ -375,8 +397,8 @@ class Island {
       const Vector3d& w = solution.bodies[k].w;
       const Vector3d turn =
           by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
-      plan.moves.push_back({rest() * (by_end[k] ? solution.bodies[k].v : mean[k].v),
-                            flight.rotation_vectors[k] + rest() * turn});
+      plan.moves.push_back({span() * (by_end[k] ? solution.bodies[k].v : mean[k].v),
+                            flight.rotation_vectors[k] + span() * turn});
     }
   }
 
@@ -384,9 +406,7 @@ class Island {
   /// metric, and without velocity, so that they add no energy of motion.
   void push_apart(Plan& plan) {
     const ContactDistances& distances = world_.distances;
-    const bool is_needed = std::ranges::any_of(
-        manifolds_, [&](const auto& entry) { return entry.second.gap < distances.pushed; });
-    if (!is_needed) {
+    if (!is_too_near()) {
       return;
     }
     ProblemBodies bodies = problem_bodies();
@@ -472,26 +492,26 @@ class Island {
     return way + kRounding * size < distance;
   }
 
-  /// The contact that was just found, as a constraint on the rest of the step.
+  /// The contact that was just found, as a constraint on the span.
   [[nodiscard]] Hit hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
                            const std::vector<Move>& moves) {
     Hit hit{.bodies = pair, .t = answer_.t};
     ProblemBodies bodies(world_.bodies.size());
     for (int side = 0; side < 2; ++side) {
       const Move& move = moves[pair[side]];
-      bodies.add(pair[side], {{}, move.translation / rest(), move.rotation_vector / rest()},
+      bodies.add(pair[side], {{}, move.translation / span(), move.rotation_vector / span()},
                  centre_of_mass(world_.bodies[pair[side]].inertia, poses[side]));
     }
     double closing = 0.0;
     for (Touch& touch : touches_among(world_, pair, poses, margin, answer_.contacts)) {
       TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
       const double u_n = normal_velocity(ahead.contact, bodies.bodies());
-      ahead.least = std::min(0.0, (world_.distances.least - touch.gap) / rest() + hit.t * u_n);
+      ahead.least = std::min(0.0, (world_.distances.least - touch.gap) / span() + hit.t * u_n);
       closing = std::max(closing, -u_n);
       hit.ahead.push_back(std::move(ahead));
     }
     hit.is_slight = !hit.ahead.empty() && !bounces(pair, closing) &&
-                    closing * rest() <= kSlightApproach * smaller_reach(pair);
+                    closing * span() <= kSlightApproach * smaller_reach(pair);
     return hit;
   }
 
@@ -512,7 +532,8 @@ class Island {
 
   /// Makes the plan's motions real until t, and looks around there.
   void move_to(const Plan& plan, double t) {
-    const double to = t < 1.0 ? track_.reached + t * rest() : start_.h;
+    const bool is_last = span() >= start_.h - track_.reached;
+    const double to = t == 1.0 && is_last ? start_.h : track_.reached + t * span();
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState begin = states_[k];
       RigidState& end = states_[k];
@@ -529,7 +550,7 @@ class Island {
     track_.touches = plan.touches;
     track_.residual = std::max(track_.residual, plan.residual);
     track_.clearance = std::min(track_.clearance, clearance_);
-    if (t < 1.0) {
+    if (to < start_.h) {
       place();
       find_manifolds();
     }
@@ -575,8 +596,9 @@ class Island {
       return;
     }
     problem.bodies = bodies.bodies();
-    const Impact impact = project_impact(world_, track_.members, states_, std::move(problem),
-                                         restitution, projection_options());
+    Impact impact =
+        project_impact(world_, track_.members, states_, problem, restitution, projection_options());
+    limit_energy(problem, impact.solution.bodies);
     for (std::size_t k = 0; k < size(); ++k) {
       states_[k].v_WC = impact.solution.bodies[k].v;
       states_[k].w_WB = impact.solution.bodies[k].w;
@@ -595,6 +617,7 @@ class Island {
   std::map<BodyPair, Manifold> manifolds_;
   FirstContactResult answer_;
   double clearance_ = 0.0;  // [m]  Of the motion asked last.
+  double span_;             // [s]  Longest of a plan, for now.
 };
 
 }  // namespace

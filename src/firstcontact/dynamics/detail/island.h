@@ -37,7 +37,8 @@ struct IslandTrack {
 /// Until the step is over: velocities are what gravity, forces and the contacts within the band
 /// make of them (Gauss' principle); the in-between motion over the rest of the step is asked for
 /// its first contact. Where it is slight, it becomes a constraint of the same span; else all move
-/// until it, and the impact is projected there.
+/// until it, and the impact is projected there. Where that brings a pair nearer than where it
+/// rests, less than the rest of the step is planned at a time.
 ///
 /// @param guesses  touches of the step before, sorted; their impulses start the solver
 [[nodiscard]] IslandTrack advance_island(const World& world, const StepStart& start,
