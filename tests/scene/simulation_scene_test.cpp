@@ -141,10 +141,16 @@ TEST(SimulationScene, KeepsRatesForAnotherDuration) {
 }
 
 TEST(SimulationScene, TakesStepsForItsWholeDuration) {
-  EXPECT_EQ(simulation_step_count({.duration = 0.3, .step = 0.1}), 3u);    // 0.3 / 0.1 < 3.
-  EXPECT_EQ(simulation_step_count({.duration = 0.07, .step = 0.01}), 7u);  // 0.07 / 0.01 > 7.
-  EXPECT_EQ(simulation_step_count({.duration = 0.31, .step = 0.1}), 4u);
-  EXPECT_EQ(simulation_step_count({.duration = 0.01, .step = 0.1}), 1u);
+  const auto steps = [](double duration, double step) {
+    Simulation simulation;
+    simulation.duration = duration;
+    simulation.step = step;
+    return simulation_step_count(simulation);
+  };
+  EXPECT_EQ(steps(0.3, 0.1), 3u);    // 0.3 / 0.1 < 3.
+  EXPECT_EQ(steps(0.07, 0.01), 7u);  // 0.07 / 0.01 > 7.
+  EXPECT_EQ(steps(0.31, 0.1), 4u);
+  EXPECT_EQ(steps(0.01, 0.1), 1u);
 }
 
 TEST(SimulationScene, NumbersPairsAnewWithTheirBodies) {
