@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 
@@ -37,7 +38,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// is at x = 1, a ring of four edges, four points.
 class RigidIpc : public testing::Test {
  protected:
-  RigidIpc() : folder_(fs::path(testing::TempDir()) / "read_rigid_ipc_test") {
+  RigidIpc()
+      : folder_(fs::path(testing::TempDir()) /
+                ("read_rigid_ipc_test." + std::to_string(getpid()))) {
     fs::create_directories(folder_ / "meshes");
     fs::create_directories(folder_ / "fixtures" / "deep");
     const std::string cube = cube_at(0.0);
