@@ -111,11 +111,11 @@ TEST(ProjectOnContacts, IsTheSameInBothSpacesWithoutFriction) {
 // Gauss: nothing that the contacts allow is nearer to the free velocities.
 TEST(ProjectOnContacts, IsTheNearestAllowedMotion) {
   std::mt19937 rng(2);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const ContactProblem problem = random_heap(rng, 0.0);
     const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
     const double least = constraint(problem, solution.bodies);
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < 20; ++k) {
       // Another allowed motion: the answer to other free velocities.
       ContactProblem other = problem;
       for (std::size_t b = 1; b < other.bodies.size(); ++b) {
