@@ -34,6 +34,9 @@ constexpr double kStepsWithoutBounce = 2.0;
 constexpr double kTolerance = 1e-6;
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
+/// A residual of as many tolerances tells that a problem has no solution, or none that was found.
+constexpr double kUnsolved = 1e4;
+
 /// After as many impacts in a row that hardly let time pass, the island is jammed.
 constexpr std::size_t kMostStalls = 10;
 constexpr double kStall = 1e-9;  // [-]  Of the step.
@@ -318,7 +321,7 @@ class Island {
     solution.bodies = problem.bodies;
     if (!problem.contacts.empty()) {
       solution = project_on_contacts(problem, projection_options());
-      limit_energy(problem, solution.bodies);
+      limit_energy(problem, solution);
     }
     for (std::size_t k = 0; k < touches.size(); ++k) {
       touches[k].impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
@@ -338,8 +341,10 @@ class Island {
   /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
   /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
   /// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
-  /// answer is anything: it is shortened to that length.
-  void limit_energy(const ContactProblem& problem, std::vector<ContactBody>& bodies) const {
+  /// answer is anything: it is shortened to what there was before, or to what moves with the
+  /// script.
+  void limit_energy(const ContactProblem& problem, ContactSolution& solution) const {
+    std::vector<ContactBody>& bodies = solution.bodies;
     double before = 0.0;
     double after = 0.0;
     double mass = 0.0;
@@ -360,7 +365,10 @@ class Island {
         }
       }
     }
-    const double allowed = std::sqrt(before) + 2.0 * speed * std::sqrt(0.5 * mass);
+    const double along = speed * std::sqrt(0.5 * mass);
+    const bool is_solved = solution.residual <= kUnsolved * projection_options().tolerance;
+    const double allowed =
+        is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
     if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
       return;
     }
@@ -598,7 +606,7 @@ class Island {
     problem.bodies = bodies.bodies();
     Impact impact =
         project_impact(world_, track_.members, states_, problem, restitution, projection_options());
-    limit_energy(problem, impact.solution.bodies);
+    limit_energy(problem, impact.solution);
     for (std::size_t k = 0; k < size(); ++k) {
       states_[k].v_WC = impact.solution.bodies[k].v;
       states_[k].w_WB = impact.solution.bodies[k].w;
