@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/detail/disjoint_sets.h>
+#include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/weld.h>
 #include <firstcontact/math/float_environment.h>
 
@@ -98,7 +98,7 @@ std::array<Vector3d, 3> corners(const Mesh& mesh, const Triangle& t, const Vecto
 
 /// Of each component of the mesh, at the number of its least vertex.
 std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& origin,
-                                          detail::DisjointSets& components) {
+                                          DisjointSets& components) {
   std::vector<SixVolumes> volumes(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     const auto [a, b, c] = corners(mesh, t, origin);
@@ -116,7 +116,7 @@ std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& orig
 
 /// How often other components wind around a vertex, by their solid angles (A. Van Oosterom,
 /// J. Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30, 1983).
-double winding_of_others(const Mesh& mesh, std::uint32_t vertex, detail::DisjointSets& components) {
+double winding_of_others(const Mesh& mesh, std::uint32_t vertex, DisjointSets& components) {
   double half_angle = 0.0;
   for (const Triangle& t : mesh.triangles) {
     if (components.root(t[0]) == vertex) {
@@ -132,7 +132,7 @@ double winding_of_others(const Mesh& mesh, std::uint32_t vertex, detail::Disjoin
 
 /// +1 where the triangles face outwards, -1 where they face inwards.
 double facing(const Mesh& mesh, const Vector3d& origin) {
-  detail::DisjointSets components = detail::vertex_components(mesh);
+  DisjointSets components = detail::vertex_components(mesh);
   const std::vector<SixVolumes> volumes = component_volumes(mesh, origin, components);
   SixVolumes total;
   for (const SixVolumes& volume : volumes) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/geometry/detail/disjoint_sets.h>
+#include <firstcontact/geometry/detail/vertex_components.h>
 
 namespace firstcontact {
 namespace {
@@ -117,7 +117,7 @@ std::size_t count_doubled(const Mesh& mesh) {
 
 void count_vertices(const Mesh& mesh, MeshDefects& defects) {
   std::vector<bool> used(mesh.vertices.size(), false);
-  detail::DisjointSets components = detail::vertex_components(mesh);
+  DisjointSets components = detail::vertex_components(mesh);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) {
       used[v] = true;

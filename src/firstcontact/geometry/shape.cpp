@@ -11,14 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/geometry/detail/disjoint_sets.h>
+#include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/math/double_double.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::DisjointSets;
 using detail::vertex_components;
 
 void require_length(const char* what, double length) {

@@ -472,6 +472,11 @@ class Island {
     if (cannot_reach(pair, std::min(gap, world_.distances.band) + margin - held.margin, moves)) {
       return;
     }
+    if (!(held.tolerance > 0.0)) {
+      hits.push_back(
+          {.bodies = pair});  // Rounding left no gap that could be halved: no time passes.
+      return;
+    }
     FirstContactOptions options;
     options.margin = held.margin;
     options.tolerance = held.tolerance;
@@ -604,14 +609,14 @@ class Island {
       return;
     }
     problem.bodies = bodies.bodies();
-    Impact impact =
+    ContactSolution solution =
         project_impact(world_, track_.members, states_, problem, restitution, projection_options());
-    limit_energy(problem, impact.solution);
+    limit_energy(problem, solution);
     for (std::size_t k = 0; k < size(); ++k) {
-      states_[k].v_WC = impact.solution.bodies[k].v;
-      states_[k].w_WB = impact.solution.bodies[k].w;
+      states_[k].v_WC = solution.bodies[k].v;
+      states_[k].w_WB = solution.bodies[k].w;
     }
-    track_.residual = std::max(track_.residual, impact.solution.residual);
+    track_.residual = std::max(track_.residual, solution.residual);
   }
 
   const World& world_;

@@ -1,10 +1,11 @@
 #include <firstcontact/dynamics/detail/islands.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
-#include <numeric>
 
 #include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
@@ -12,29 +13,6 @@ namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-/// Sets of bodies, each named after its least member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t k) {
-    while (parent_[k] != k) {
-      parent_[k] = parent_[parent_[k]];
-      k = parent_[k];
-    }
-    return k;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 class Islands {
  public:
@@ -72,6 +50,13 @@ class Islands {
   }
 
  private:
+  [[nodiscard]] std::size_t set_of(std::size_t body) {
+    return sets_.root(static_cast<std::uint32_t>(body));
+  }
+  void join(std::size_t a, std::size_t b) {
+    sets_.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  }
+
   [[nodiscard]] bool may_touch(std::size_t a, std::size_t b) const {
     return world_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
   }
@@ -90,7 +75,7 @@ class Islands {
     }
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
       if (may_touch(free_[i], free_[k])) {
-        sets_.join(free_[i], free_[k]);
+        join(free_[i], free_[k]);
       }
     }
   }
@@ -99,7 +84,7 @@ class Islands {
   bool advance_changed(const std::stop_token& stop) {
     std::vector<std::vector<std::size_t>> members(world_.bodies.size());
     for (const std::size_t b : free_) {
-      members[sets_.find(b)].push_back(b);
+      members[set_of(b)].push_back(b);
     }
     tracks_.resize(world_.bodies.size());
     is_new_.assign(world_.bodies.size(), false);
@@ -122,7 +107,7 @@ class Islands {
 
   /// The index in its island's track.
   [[nodiscard]] const std::vector<TrackPiece>& pieces_of(std::size_t body) {
-    const IslandTrack& track = *tracks_[sets_.find(body)];
+    const IslandTrack& track = *tracks_[set_of(body)];
     const auto found = std::ranges::lower_bound(track.members, body);
     return track.pieces[static_cast<std::size_t>(found - track.members.begin())];
   }
@@ -177,14 +162,14 @@ class Islands {
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
       const std::size_t a = free_[i];
       const std::size_t b = free_[k];
-      const std::size_t set_a = sets_.find(a);
-      const std::size_t set_b = sets_.find(b);
+      const std::size_t set_a = set_of(a);
+      const std::size_t set_b = set_of(b);
       if (set_a != set_b && (is_new_[set_a] || is_new_[set_b]) && may_touch(a, b) && meet(a, b)) {
         meeting.push_back({a, b});
       }
     }
     for (const auto& [a, b] : meeting) {
-      sets_.join(a, b);
+      join(a, b);
     }
     return !meeting.empty();
   }
@@ -193,7 +178,7 @@ class Islands {
   const StepStart& start_;
   const std::vector<Touch>& guesses_;
   Workspace& workspace_;
-  DisjointSets sets_;
+  DisjointSets sets_;  // Of bodies; an island is named after its least member.
   std::vector<std::size_t> free_;
   std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
   std::vector<bool> is_new_;                        // Of each set.

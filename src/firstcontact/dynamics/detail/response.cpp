@@ -84,9 +84,10 @@ double normal_velocity(const ContactPoint& contact, const std::vector<ContactBod
   return contact.frame.row(0).dot(u);
 }
 
-Impact project_impact(const World& world, const std::vector<std::size_t>& members,
-                      const std::vector<RigidState>& states, ContactProblem problem,
-                      const std::vector<double>& restitution, const ProjectionOptions& options) {
+ContactSolution project_impact(const World& world, const std::vector<std::size_t>& members,
+                               const std::vector<RigidState>& states, ContactProblem problem,
+                               const std::vector<double>& restitution,
+                               const ProjectionOptions& options) {
   bool bounces = false;
   std::vector<double> rebound(problem.contacts.size());
   for (std::size_t k = 0; k < rebound.size(); ++k) {
@@ -96,24 +97,23 @@ Impact project_impact(const World& world, const std::vector<std::size_t>& member
     problem.contacts[k].least_normal_velocity = 0.0;
   }
   const double before = energy_of(world, members, states, problem.bodies);
-  Impact impact{project_on_contacts(problem, options)};
+  const ContactSolution plastic = project_on_contacts(problem, options);
   if (!bounces) {
-    return impact;
+    return plastic;
   }
-  const ContactSolution plastic = impact.solution;
   for (std::size_t k = 0; k < rebound.size(); ++k) {
     problem.contacts[k].least_normal_velocity = rebound[k];
   }
-  impact.solution = project_on_contacts(problem, options);
+  const ContactSolution bounced = project_on_contacts(problem, options);
   if (touches_scripted(problem, members.size())) {
-    return impact;  // A body that nothing stops may add energy.
+    return bounced;  // A body that nothing stops may add energy.
   }
   const auto energy_at = [&](double share) {
-    return energy_of(world, members, states, between(plastic, impact.solution, share).bodies);
+    return energy_of(world, members, states, between(plastic, bounced, share).bodies);
   };
   const double allowed = before * (1.0 + 1e-12);
   if (energy_at(1.0) <= allowed) {
-    return impact;
+    return bounced;
   }
   double low = 0.0;
   double high = 1.0;
@@ -121,7 +121,7 @@ Impact project_impact(const World& world, const std::vector<std::size_t>& member
     const double middle = 0.5 * (low + high);
     (energy_at(middle) <= allowed ? low : high) = middle;
   }
-  return {between(plastic, impact.solution, low), low};
+  return between(plastic, bounced, low);
 }
 
 }  // namespace firstcontact::detail

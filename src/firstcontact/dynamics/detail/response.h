@@ -53,14 +53,11 @@ class ProblemBodies {
 /// to the one with it.
 ///
 /// @param restitution  of each contact, whose least normal velocity is replaced
-/// @param metric       kinetic energy of the problem's bodies with given velocities [J]
-struct Impact {
-  ContactSolution solution;
-  double share = 1.0;  ///< [-]  Of the restitution, that was left.
-};
-[[nodiscard]] Impact project_impact(const World& world, const std::vector<std::size_t>& members,
-                                    const std::vector<RigidState>& states, ContactProblem problem,
-                                    const std::vector<double>& restitution,
-                                    const ProjectionOptions& options);
+[[nodiscard]] ContactSolution project_impact(const World& world,
+                                             const std::vector<std::size_t>& members,
+                                             const std::vector<RigidState>& states,
+                                             ContactProblem problem,
+                                             const std::vector<double>& restitution,
+                                             const ProjectionOptions& options);
 
 }  // namespace firstcontact::detail

@@ -1,5 +1,5 @@
 /// @file
-/// Which vertices hang together.
+/// Sets that are joined until nothing more belongs together.
 
 #pragma once
 
@@ -9,9 +9,7 @@
 #include <numeric>
 #include <vector>
 
-#include <firstcontact/geometry/mesh.h>
-
-namespace firstcontact::detail {
+namespace firstcontact {
 
 /// Disjoint sets with path halving; the root of a set is its least member.
 class DisjointSets {
@@ -36,14 +34,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// The sets of vertices that triangles join.
-inline DisjointSets vertex_components(const Mesh& mesh) {
-  DisjointSets components(mesh.vertices.size());
-  for (const auto& t : mesh.triangles) {
-    components.join(t[0], t[1]);
-    components.join(t[0], t[2]);
-  }
-  return components;
-}
-
-}  // namespace firstcontact::detail
+}  // namespace firstcontact
