@@ -274,5 +274,90 @@ TEST(ProjectOnContacts, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)project_on_contacts({}, {.sweeps = 0}), std::invalid_argument);
 }
 
+/// The same problem with the bodies from the second one on as links of one mechanism, six
+/// coordinates each, mixed by a matrix that can be inverted.
+ContactProblem as_mechanism(std::mt19937& rng, const ContactProblem& problem) {
+  const auto n = static_cast<Eigen::Index>(6 * (problem.bodies.size() - 1));
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd mix = Eigen::MatrixXd::Identity(n, n);
+  mix += 0.1 * Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(rng); });
+  const Eigen::MatrixXd inverse = mix.inverse();
+  Eigen::MatrixXd inverse_mass = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd velocity(n);
+  ContactProblem linked = problem;
+  for (std::size_t b = 1; b < problem.bodies.size(); ++b) {
+    const auto at = static_cast<Eigen::Index>(6 * (b - 1));
+    const ContactBody& body = problem.bodies[b];
+    inverse_mass.block<3, 3>(at, at) = body.inverse_inertia.mass.asDiagonal();
+    inverse_mass.block<3, 3>(at + 3, at + 3) = body.inverse_inertia.rotation;
+    velocity.segment<6>(at) << body.v, body.w;
+    linked.bodies[b].link = MechanismLink{0, mix.middleRows(at, 6)};
+  }
+  linked.mechanisms.push_back({inverse * inverse_mass * inverse.transpose(), inverse * velocity});
+  return linked;
+}
+
+TEST(ProjectOnContacts, MovesLinksAsItMovesBodies) {
+  std::mt19937 rng(21);
+  for (int i = 0; i < 20; ++i) {
+    const ContactProblem problem = random_heap(rng, i % 2 == 0 ? 0.0 : 0.3);
+    const ContactProblem linked = as_mechanism(rng, problem);
+    const ContactSolution expected = solve(problem, ProjectionSpace::contact);
+    for (const ProjectionSpace space : {ProjectionSpace::contact, ProjectionSpace::motion}) {
+      const ContactSolution solution = solve(linked, space);
+      ASSERT_LE(solution.residual, i % 2 == 0 ? kTolerance : 1e-6) << i;
+      ASSERT_LE(greatest_difference(expected, solution), 1e-5) << i;
+      ASSERT_LE(contact_residual(linked, solution), solution.residual + 1e-12) << i;
+    }
+  }
+}
+
+/// A mechanism of coordinates with random inertia and velocities, each driven.
+ContactProblem random_drives(std::mt19937& rng, Eigen::Index n) {
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(rng); });
+  ContactProblem problem;
+  problem.mechanisms.push_back({root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n),
+                                Eigen::VectorXd::NullaryExpr(n, [&] { return normal(rng); })});
+  for (Eigen::Index k = 0; k < n; ++k) {
+    JointDrive drive{.coordinate = static_cast<std::size_t>(k), .target = normal(rng)};
+    drive.compliance = k % 3 == 0 ? 0.0 : std::abs(normal(rng));
+    drive.least = k % 2 == 0 ? 0.0 : -std::abs(0.3 * normal(rng));
+    drive.greatest = k % 4 == 0 ? drive.greatest : std::abs(0.3 * normal(rng));
+    problem.drives.push_back(drive);
+  }
+  return problem;
+}
+
+TEST(ProjectOnContacts, DrivesMeetTheirTargetsWithinTheirBounds) {
+  std::mt19937 rng(22);
+  for (int i = 0; i < 50; ++i) {
+    const ContactProblem problem = random_drives(rng, 8);
+    const ContactMechanism& mechanism = problem.mechanisms[0];
+    for (const ProjectionSpace space : {ProjectionSpace::contact, ProjectionSpace::motion}) {
+      const ContactSolution solution = solve(problem, space);
+      ASSERT_LE(solution.residual, kTolerance) << i;
+      Eigen::VectorXd r(8);
+      for (Eigen::Index k = 0; k < 8; ++k) {
+        const JointDrive& drive = problem.drives[static_cast<std::size_t>(k)];
+        r[k] = solution.drives[static_cast<std::size_t>(k)];
+        const double excess = solution.mechanisms[0][k] + drive.compliance * r[k] - drive.target;
+        ASSERT_GE(r[k], drive.least) << i;
+        ASSERT_LE(r[k], drive.greatest) << i;
+        if (r[k] > drive.least) {
+          ASSERT_LE(excess, 1e-8) << i;  // Beyond the target only with the least impulse.
+        }
+        if (r[k] < drive.greatest) {
+          ASSERT_GE(excess, -1e-8) << i;
+        }
+      }
+      // Impulses change velocities by the inverse mass.
+      ASSERT_LE((mechanism.velocity + mechanism.inverse_mass * r - solution.mechanisms[0]).norm(),
+                1e-9)
+          << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,17 +32,47 @@ struct ContactPoint {
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();  ///< [N s]  To start from.
 };
 
+/// That a body is a link: it moves by the coordinates of a mechanism, (v, w) = J times their rates.
+struct MechanismLink {
+  std::size_t mechanism = 0;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J;
+};
+
 /// A body of a contact problem.
 struct ContactBody {
-  InverseInertia inverse_inertia;               ///< Zero of a body that nothing moves.
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of its centre of mass.
+  InverseInertia inverse_inertia = {};          ///< Zero of a body that nothing moves. Of a link
+                                                ///< without meaning.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of its centre of mass. Of a link not
+                                                ///< read.
   Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
+  std::optional<MechanismLink> link = {};
+};
+
+/// Links that move together, by n coordinates [rad or m].
+struct ContactMechanism {
+  Eigen::MatrixXd inverse_mass;  ///< (n, n)  Of the kinetic metric; symmetric, definite.
+  Eigen::VectorXd velocity;      ///< (n)  [rad/s or m/s]
+};
+
+/// What drives, brakes or stops one coordinate of a mechanism. Its impulse r makes the coordinate's
+/// velocity u meet u + compliance r = target, as far as its bounds let it: beyond the target r is
+/// the least, short of it the greatest.
+struct JointDrive {
+  std::size_t mechanism = 0;
+  std::size_t coordinate = 0;
+  double target = 0.0;      ///< [rad/s or m/s]
+  double compliance = 0.0;  ///< [rad/s for N m s, or m/s for N s]  >= 0
+  double least = -std::numeric_limits<double>::infinity();    ///< [N m s or N s]  <= 0
+  double greatest = std::numeric_limits<double>::infinity();  ///< [N m s or N s]  >= 0
+  double guess = 0.0;                                         ///< [N m s or N s]  To start from.
 };
 
 /// Bodies with the velocities that they would have without contacts, and the contacts.
 struct ContactProblem {
-  std::vector<ContactBody> bodies;
-  std::vector<ContactPoint> contacts;
+  std::vector<ContactBody> bodies = {};
+  std::vector<ContactPoint> contacts = {};
+  std::vector<ContactMechanism> mechanisms = {};
+  std::vector<JointDrive> drives = {};
 };
 
 /// Where the problem is solved; the answer is the same.
@@ -57,8 +89,10 @@ struct ProjectionOptions {
 };
 
 struct ContactSolution {
-  std::vector<ContactBody> bodies;        ///< With the velocities that contacts allow.
-  std::vector<Eigen::Vector3d> impulses;  ///< [N s]  r of each contact, in its frame.
+  std::vector<ContactBody> bodies;          ///< With the velocities that contacts allow.
+  std::vector<Eigen::VectorXd> mechanisms;  ///< [rad/s or m/s]  Likewise, of their coordinates.
+  std::vector<Eigen::Vector3d> impulses;    ///< [N s]  r of each contact, in its frame.
+  std::vector<double> drives;               ///< [N m s or N s]  r of each drive.
   double residual = 0.0;  ///< [m/s]  See contact_residual(); above the tolerance: not converged.
   ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
   int iterations = 0;                                ///< Sweeps, or factorisations.
@@ -81,6 +115,9 @@ struct ContactSolution {
 /// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
 /// however many contacts there are, and no loss where masses differ greatly.
 ///
+/// Drives are projected along with the contacts: their impulses lie between their bounds, and the
+/// energy of their compliances adds to what is least.
+///
 /// The velocities are unique without friction, the impulses only without redundant contacts.
 ///
 /// @throws std::invalid_argument if an option is outside its range.
@@ -89,8 +126,8 @@ project_on_contacts(const ContactProblem& problem, const ProjectionOptions& opti
 
 /// [m/s]  How far a solution is from the laws above: the greatest over contacts of
 /// |r - proj_K(r - rho (u' + mu |u_t| n))| / rho, with u' = u - least_normal_velocity n and rho the
-/// inverse of the contact's greatest response to an impulse (the largest of the diagonal).
-/// 0 exactly where all laws hold.
+/// inverse of the contact's greatest response to an impulse (the largest of the diagonal); and over
+/// drives of the same, with the interval of their bounds as K. 0 exactly where all laws hold.
 [[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
                                                        const ContactSolution& solution);
 

@@ -10,52 +10,82 @@ namespace firstcontact {
 namespace {
 
 using detail::ContactRow;
+using detail::ContactRows;
+using detail::Impulses;
 using detail::Projection;
 
-/// Dense factorisations grow with the cube of the bodies.
-constexpr std::size_t kMostBodiesInMotionSpace = 24;
+/// Dense factorisations grow with the cube of the velocities.
+constexpr std::size_t kMostInMotionSpace = 144;
 
-/// Contacts for each body from where on motion space is cheaper (a sweep costs as many contacts as
-/// an assembly, of which far fewer are needed).
+/// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
+/// sweep costs as many contacts as an assembly, of which far fewer are needed).
 constexpr std::size_t kManyContacts = 12;
 
-std::size_t moving_bodies(const ContactProblem& problem) {
-  return static_cast<std::size_t>(std::ranges::count_if(problem.bodies, [](const ContactBody& b) {
-    return b.inverse_inertia.mass.any() || b.inverse_inertia.rotation.any();
-  }));
+/// Velocities that impulses change.
+std::size_t moving_velocities(const ContactProblem& problem) {
+  std::size_t count = 0;
+  for (const ContactBody& body : problem.bodies) {
+    const InverseInertia& inverse = body.inverse_inertia;
+    count += !body.link && (inverse.mass.any() || inverse.rotation.any()) ? 6 : 0;
+  }
+  for (const ContactMechanism& mechanism : problem.mechanisms) {
+    count += static_cast<std::size_t>(mechanism.velocity.size());
+  }
+  return count;
+}
+
+/// The problem's guesses, as far as the laws allow them.
+Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
+  Impulses impulses;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    const ContactRow& row = rows.contacts[k];
+    impulses.contacts.push_back(
+        row.greatest() > 0.0
+            ? detail::project_on_cone(row.own.turn() * problem.contacts[k].guess, row.friction)
+            : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  }
+  for (const JointDrive& drive : problem.drives) {
+    impulses.drives.push_back(std::clamp(drive.guess, drive.least, drive.greatest));
+  }
+  return impulses;
 }
 
 /// Starts from the guesses where they are nearer to the laws than no impulse at all.
-Projection start(const ContactProblem& problem, const std::vector<ContactRow>& rows) {
-  Projection guessed;
+Projection start(const ContactProblem& problem, const ContactRows& rows) {
+  Projection guessed{.impulses = guesses(problem, rows)};
   Projection none;
-  none.impulses.assign(rows.size(), Eigen::Vector3d::Zero());
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    guessed.impulses.push_back(
-        rows[k].greatest() > 0.0
-            ? detail::project_on_cone(rows[k].own.turn() * problem.contacts[k].guess,
-                                      rows[k].friction)
-            : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  }
+  none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
+  none.impulses.drives.assign(rows.drives.size(), 0.0);
   for (Projection* projection : {&guessed, &none}) {
-    projection->velocities = detail::velocities_after(problem, rows, projection->impulses);
+    projection->velocities = detail::velocities_after(rows, projection->impulses);
     projection->residual =
         detail::greatest_residual(rows, projection->impulses, projection->velocities);
   }
   return guessed.residual < none.residual ? guessed : none;
 }
 
-ContactSolution solution_of(const ContactProblem& problem, const std::vector<ContactRow>& rows,
+ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
                             const Projection& projection, ProjectionSpace space) {
   ContactSolution solution;
+  for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
+    solution.mechanisms.emplace_back(projection.velocities.segment(
+        rows.layout.mechanism[m], problem.mechanisms[m].velocity.size()));
+  }
   solution.bodies = problem.bodies;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
-    solution.bodies[b].v = projection.velocities[b].head<3>();
-    solution.bodies[b].w = projection.velocities[b].tail<3>();
+    ContactBody& body = solution.bodies[b];
+    const Eigen::Matrix<double, 6, 1> V =
+        body.link
+            ? Eigen::Matrix<double, 6, 1>(body.link->J * solution.mechanisms[body.link->mechanism])
+            : Eigen::Matrix<double, 6, 1>(projection.velocities.segment<6>(rows.layout.body[b]));
+    body.v = V.head<3>();
+    body.w = V.tail<3>();
   }
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    solution.impulses.push_back(rows[k].own.turn().transpose() * projection.impulses[k]);
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    solution.impulses.push_back(rows.contacts[k].own.turn().transpose() *
+                                projection.impulses.contacts[k]);
   }
+  solution.drives = projection.impulses.drives;
   solution.residual = projection.residual;
   solution.space = space;
   solution.iterations = projection.iterations;
@@ -74,15 +104,17 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
     throw std::invalid_argument("ProjectionOptions::sweeps must be > 0, got " +
                                 std::to_string(options.sweeps));
   }
-  const std::vector<ContactRow> rows = detail::contact_rows(problem);
+  const ContactRows rows(problem);
   Projection projection = start(problem, rows);
   if (projection.residual <= options.tolerance) {
     return solution_of(problem, rows, projection, ProjectionSpace::contact);
   }
-  const std::size_t moving = moving_bodies(problem);
+  const std::size_t moving = moving_velocities(problem);
   const bool automatic = options.space == ProjectionSpace::automatic;
-  const bool is_small = moving <= kMostBodiesInMotionSpace;
-  const bool has_many = rows.size() >= kManyContacts * moving;
+  const bool is_small = moving <= kMostInMotionSpace;
+  // Along a chain of links impulses would have to travel from joint to joint.
+  const bool has_many =
+      !problem.mechanisms.empty() || 6 * rows.contacts.size() >= kManyContacts * moving;
   if (options.space == ProjectionSpace::contact || (automatic && !(is_small && has_many))) {
     detail::project_in_contact_space(rows, options, projection);
     if (!automatic || projection.residual <= options.tolerance || !is_small) {
@@ -97,12 +129,17 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
 }
 
 double contact_residual(const ContactProblem& problem, const ContactSolution& solution) {
-  const std::vector<ContactRow> rows = detail::contact_rows(problem);
-  std::vector<Eigen::Vector3d> impulses;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    impulses.emplace_back(rows[k].own.turn() * solution.impulses[k]);
+  const ContactRows rows(problem);
+  Impulses impulses{.contacts = {}, .drives = solution.drives};
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    impulses.contacts.emplace_back(rows.contacts[k].own.turn() * solution.impulses[k]);
   }
-  return detail::greatest_residual(rows, impulses, detail::velocities(solution.bodies));
+  ContactProblem moving = problem;
+  moving.bodies = solution.bodies;
+  for (std::size_t m = 0; m < moving.mechanisms.size(); ++m) {
+    moving.mechanisms[m].velocity = solution.mechanisms[m];
+  }
+  return detail::greatest_residual(rows, impulses, ContactRows(moving).free_velocities);
 }
 
 }  // namespace firstcontact

@@ -1,12 +1,14 @@
 #include <firstcontact/dynamics/detail/contact_rows.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using Eigen::VectorXd;
 
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d m;
@@ -15,59 +17,96 @@ Matrix3d cross_matrix(const Vector3d& v) {
 }
 
 /// Of one of the two bodies: sign -1 for A, 1 for B.
-Jacobian jacobian(const ContactPoint& contact, int side) {
+RowSide::Jacobian jacobian(const ContactPoint& contact, int side) {
   const double sign = side == 0 ? -1.0 : 1.0;
-  Jacobian J;
+  RowSide::Jacobian J;
   J.leftCols<3>() = sign * contact.frame;
   J.rightCols<3>() =
       -sign * contact.frame * cross_matrix(side == 0 ? contact.arm_A : contact.arm_B);
   return J;
 }
 
-Eigen::Matrix<double, 6, 3> response(const InverseInertia& inverse, const Jacobian& J) {
-  Eigen::Matrix<double, 6, 3> response;
+RowSide::Response response(const InverseInertia& inverse, const RowSide::Jacobian& J) {
+  RowSide::Response response;
   response.topRows<3>() = inverse.mass.asDiagonal() * J.leftCols<3>().transpose();
   response.bottomRows<3>() = inverse.rotation * J.rightCols<3>().transpose();
   return response;
 }
 
-ContactRow make_row(const ContactProblem& problem, const ContactPoint& contact) {
-  std::array<Jacobian, 2> J;
-  std::array<Eigen::Matrix<double, 6, 3>, 2> responses;
+RowSide make_side(const ContactProblem& problem, const VelocityLayout& layout,
+                  const ContactPoint& contact, int side) {
+  const std::size_t b = contact.bodies[side];
+  const ContactBody& body = problem.bodies[b];
+  RowSide made{.at = layout.body[b]};
+  if (body.link) {
+    made.J_q = jacobian(contact, side) * body.link->J;
+  } else {
+    made.J = jacobian(contact, side);
+    made.response = response(body.inverse_inertia, made.J);
+  }
+  return made;
+}
+
+ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
+                    const ContactPoint& contact) {
+  std::array<RowSide, 2> sides{make_side(problem, layout, contact, 0),
+                               make_side(problem, layout, contact, 1)};
+  if (sides[0].is_link() && sides[1].is_link() && sides[0].at == sides[1].at) {
+    sides[0].J_q += sides[1].J_q;
+    sides[1] = {};
+  }
   Matrix3d W = Matrix3d::Zero();
-  for (int side = 0; side < 2; ++side) {
-    J[side] = jacobian(contact, side);
-    responses[side] = response(problem.bodies[contact.bodies[side]].inverse_inertia, J[side]);
-    W += J[side] * responses[side];
+  for (int s = 0; s < 2; ++s) {
+    RowSide& side = sides[s];
+    if (side.is_link()) {
+      const MechanismLink& link = *problem.bodies[contact.bodies[s]].link;
+      side.response_q = problem.mechanisms[link.mechanism].inverse_mass * side.J_q.transpose();
+      W += side.J_q * side.response_q;
+    } else {
+      W += side.J * side.response;
+    }
   }
   const ContactResponse own(W);
-  for (int side = 0; side < 2; ++side) {
-    J[side] = (own.turn() * J[side]).eval();
-    responses[side] = (responses[side] * own.turn().transpose()).eval();
+  for (RowSide& side : sides) {
+    side.J = (own.turn() * side.J).eval();
+    side.response = (side.response * own.turn().transpose()).eval();
+    side.J_q = (own.turn() * side.J_q).eval();
+    side.response_q = (side.response_q * own.turn().transpose()).eval();
   }
-  return {contact.bodies, J, responses, own, contact.friction, contact.least_normal_velocity};
+  return {std::move(sides), own, contact.friction, contact.least_normal_velocity};
 }
 
-}  // namespace
-
-std::vector<ContactRow> contact_rows(const ContactProblem& problem) {
-  std::vector<ContactRow> rows;
-  rows.reserve(problem.contacts.size());
-  for (const ContactPoint& contact : problem.contacts) {
-    rows.push_back(make_row(problem, contact));
-  }
-  return rows;
+DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
+                  const JointDrive& drive) {
+  const auto k = static_cast<Eigen::Index>(drive.coordinate);
+  const Eigen::Index at = layout.mechanism[drive.mechanism];
+  const VectorXd column = problem.mechanisms[drive.mechanism].inverse_mass.col(k);
+  return {.at = at,
+          .place = at + k,
+          .column = column,
+          .own = column[k] + drive.compliance,
+          .target = drive.target,
+          .compliance = drive.compliance,
+          .least = drive.least,
+          .greatest = drive.greatest};
 }
 
-std::vector<Velocity> velocities(const std::vector<ContactBody>& bodies) {
-  std::vector<Velocity> V(bodies.size());
-  for (std::size_t b = 0; b < V.size(); ++b) {
-    V[b] << bodies[b].v, bodies[b].w;
+VectorXd free_velocities(const ContactProblem& problem, const VelocityLayout& layout) {
+  VectorXd V(layout.size);
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    const ContactBody& body = problem.bodies[b];
+    if (!body.link) {
+      V.segment<6>(layout.body[b]) << body.v, body.w;
+    }
+  }
+  for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
+    const VectorXd& velocity = problem.mechanisms[m].velocity;
+    V.segment(layout.mechanism[m], velocity.size()) = velocity;
   }
   return V;
 }
 
-double residual_of(const ContactRow& row, const Vector3d& impulse, const std::vector<Velocity>& V) {
+double residual_of(const ContactRow& row, const Vector3d& impulse, const VectorXd& V) {
   if (!(row.greatest() > 0.0)) {
     return 0.0;  // No impulse would change anything.
   }
@@ -77,21 +116,58 @@ double residual_of(const ContactRow& row, const Vector3d& impulse, const std::ve
   return change.norm() * row.greatest();
 }
 
-double greatest_residual(const std::vector<ContactRow>& rows, const std::vector<Vector3d>& impulses,
-                         const std::vector<Velocity>& V) {
+double residual_of(const DriveRow& row, double impulse, const VectorXd& V) {
+  const double wanted = impulse - row.excess_velocity(impulse, V) / row.own;
+  return std::abs(impulse - std::clamp(wanted, row.least, row.greatest)) * row.own;
+}
+
+}  // namespace
+
+VelocityLayout::VelocityLayout(const ContactProblem& problem) {
+  for (const ContactBody& b : problem.bodies) {
+    body.push_back(size);
+    size += b.link ? 0 : 6;
+  }
+  for (const ContactMechanism& m : problem.mechanisms) {
+    mechanism.push_back(size);
+    size += m.velocity.size();
+  }
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    if (problem.bodies[b].link) {
+      body[b] = mechanism[problem.bodies[b].link->mechanism];
+    }
+  }
+}
+
+ContactRows::ContactRows(const ContactProblem& problem)
+    : layout(problem), free_velocities(detail::free_velocities(problem, layout)) {
+  contacts.reserve(problem.contacts.size());
+  for (const ContactPoint& contact : problem.contacts) {
+    contacts.push_back(make_row(problem, layout, contact));
+  }
+  for (const JointDrive& drive : problem.drives) {
+    drives.push_back(make_row(problem, layout, drive));
+  }
+}
+
+double greatest_residual(const ContactRows& rows, const Impulses& impulses, const VectorXd& V) {
   double greatest = 0.0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    greatest = std::max(greatest, residual_of(rows[k], impulses[k], V));
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    greatest = std::max(greatest, residual_of(rows.contacts[k], impulses.contacts[k], V));
+  }
+  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
+    greatest = std::max(greatest, residual_of(rows.drives[k], impulses.drives[k], V));
   }
   return greatest;
 }
 
-std::vector<Velocity> velocities_after(const ContactProblem& problem,
-                                       const std::vector<ContactRow>& rows,
-                                       const std::vector<Vector3d>& impulses) {
-  std::vector<Velocity> V = velocities(problem.bodies);
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    rows[k].apply(impulses[k], V);
+VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses) {
+  VectorXd V = rows.free_velocities;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    rows.contacts[k].apply(impulses.contacts[k], V);
+  }
+  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
+    rows.drives[k].apply(impulses.drives[k], V);
   }
   return V;
 }

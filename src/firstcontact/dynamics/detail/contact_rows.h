@@ -15,64 +15,119 @@
 
 namespace firstcontact::detail {
 
-/// Velocity (v, w) of a body.
-using Velocity = Eigen::Matrix<double, 6, 1>;
-using Jacobian = Eigen::Matrix<double, 3, 6>;
+/// Where the velocities of a problem stand in one vector: of each body that is no link (v, w), then
+/// the coordinates of each mechanism.
+struct VelocityLayout {
+  explicit VelocityLayout(const ContactProblem& problem);
 
-/// u = J_B V_B + J_A V_A, in the contact's frame with the tangents of its response.
+  std::vector<Eigen::Index> body;  // Of a link: that of its mechanism.
+  std::vector<Eigen::Index> mechanism;
+  Eigen::Index size = 0;
+};
+
+/// What one of the two bodies adds to a contact: u_s = J V, and impulses change V by M^-1 J^T.
+struct RowSide {
+  using Jacobian = Eigen::Matrix<double, 3, 6>;
+  using Response = Eigen::Matrix<double, 6, 3>;
+
+  Eigen::Index at = 0;  // In the vector of velocities.
+  Jacobian J = Jacobian::Zero();
+  Response response = Response::Zero();
+  // Of a mechanism, in place of those above.
+  Eigen::Matrix3Xd J_q = {};
+  Eigen::MatrixX3d response_q = {};
+
+  [[nodiscard]] bool is_link() const { return J_q.cols() > 0; }
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
+    return is_link() ? Eigen::Vector3d(J_q * V.segment(at, J_q.cols()))
+                     : Eigen::Vector3d(J * V.segment<6>(at));
+  }
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
+    if (is_link()) {
+      V.segment(at, J_q.cols()) += response_q * impulse;
+    } else {
+      V.segment<6>(at) += response * impulse;
+    }
+  }
+};
+
+/// u = J_A V_A + J_B V_B, in the contact's frame with the tangents of its response.
 struct ContactRow {
-  std::array<std::size_t, 2> bodies;
-  std::array<Jacobian, 2> J;
-  std::array<Eigen::Matrix<double, 6, 3>, 2> response;  // M^-1 J^T
-  ContactResponse own;                                  // To its own impulse, J M^-1 J^T.
+  std::array<RowSide, 2> sides;  // Two links of one mechanism are one side, the other one is zero.
+  ContactResponse own;           // To its own impulse, J M^-1 J^T.
   double friction;
   double least;  // [m/s]  Normal velocity.
 
   [[nodiscard]] double greatest() const { return own.greatest(); }
-  [[nodiscard]] Eigen::Vector3d velocity(const std::vector<Velocity>& V) const {
-    return J[0] * V[bodies[0]] + J[1] * V[bodies[1]];
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
+    return sides[0].velocity(V) + sides[1].velocity(V);
   }
-  void apply(const Eigen::Vector3d& impulse, std::vector<Velocity>& V) const {
-    V[bodies[0]] += response[0] * impulse;
-    V[bodies[1]] += response[1] * impulse;
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
+    sides[0].apply(impulse, V);
+    sides[1].apply(impulse, V);
   }
   /// u - least n
-  [[nodiscard]] Eigen::Vector3d excess_velocity(const std::vector<Velocity>& V) const {
+  [[nodiscard]] Eigen::Vector3d excess_velocity(const Eigen::VectorXd& V) const {
     Eigen::Vector3d u = velocity(V);
     u[0] -= least;
     return u;
   }
 };
 
-[[nodiscard]] std::vector<ContactRow> contact_rows(const ContactProblem& problem);
+/// A drive of one coordinate.
+struct DriveRow {
+  Eigen::Index at;         // Of its mechanism.
+  Eigen::Index place;      // Of its coordinate.
+  Eigen::VectorXd column;  // Of the mechanism's inverse mass.
+  double own;              // To its own impulse, with its compliance.
+  double target;
+  double compliance;
+  double least;
+  double greatest;
 
-[[nodiscard]] std::vector<Velocity> velocities(const std::vector<ContactBody>& bodies);
+  /// u + compliance r - target
+  [[nodiscard]] double excess_velocity(double impulse, const Eigen::VectorXd& V) const {
+    return V[place] + compliance * impulse - target;
+  }
+  void apply(double impulse, Eigen::VectorXd& V) const {
+    V.segment(at, column.size()) += impulse * column;
+  }
+};
 
-/// [m/s]  As contact_residual(), of one contact.
-[[nodiscard]] double residual_of(const ContactRow& row, const Eigen::Vector3d& impulse,
-                                 const std::vector<Velocity>& V);
+/// A contact problem for its solvers.
+struct ContactRows {
+  explicit ContactRows(const ContactProblem& problem);
 
-[[nodiscard]] double greatest_residual(const std::vector<ContactRow>& rows,
-                                       const std::vector<Eigen::Vector3d>& impulses,
-                                       const std::vector<Velocity>& V);
+  VelocityLayout layout;
+  Eigen::VectorXd free_velocities;
+  std::vector<ContactRow> contacts;
+  std::vector<DriveRow> drives;
+};
+
+struct Impulses {
+  std::vector<Eigen::Vector3d> contacts;  // [N s]  In the frames of the rows.
+  std::vector<double> drives;             // [N m s or N s]
+};
+
+/// [m/s]  As contact_residual().
+[[nodiscard]] double greatest_residual(const ContactRows& rows, const Impulses& impulses,
+                                       const Eigen::VectorXd& V);
 
 /// What a solver starts from and leaves behind: velocities that belong to the impulses.
 struct Projection {
-  std::vector<Velocity> velocities;
-  std::vector<Eigen::Vector3d> impulses;  // [N s]
-  double residual = 0.0;                  // [m/s]
+  Eigen::VectorXd velocities = {};
+  Impulses impulses = {};
+  double residual = 0.0;  // [m/s]
   int iterations = 0;
 };
 
 /// The free velocities changed by impulses.
-[[nodiscard]] std::vector<Velocity> velocities_after(const ContactProblem& problem,
-                                                     const std::vector<ContactRow>& rows,
-                                                     const std::vector<Eigen::Vector3d>& impulses);
+[[nodiscard]] Eigen::VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses);
 
-void project_in_contact_space(const std::vector<ContactRow>& rows, const ProjectionOptions& options,
+void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& options,
                               Projection& projection);
 
-void project_in_motion_space(const ContactProblem& problem, const std::vector<ContactRow>& rows,
+void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
                              const ProjectionOptions& options, Projection& projection);
 
 }  // namespace firstcontact::detail
