@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/dynamics/detail/overlap_tree.h>
+#include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/shape_cache.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -67,15 +70,45 @@ TEST(SweptBox, IsTheBoxOfWhatRestsOrIsShifted) {
   EXPECT_LE((box.min() - exact.min()).norm() + (box.max() - exact.max()).norm(), 1e-9);
 }
 
+std::vector<AlignedBox3d> random_boxes(std::mt19937& rng, int count) {
+  std::vector<AlignedBox3d> boxes;
+  for (int k = 0; k < count; ++k) {
+    const Vector3d centre = random_vector(rng, 3.0);
+    const Vector3d half = random_vector(rng, 1.0).cwiseAbs();
+    boxes.emplace_back(centre - half, centre + half);
+  }
+  return boxes;
+}
+
+TEST(OverlapTree, FindsAllThatOverlapOrTouch) {
+  std::mt19937 rng(3);
+  for (int i = 0; i < 50; ++i) {
+    const std::vector<AlignedBox3d> boxes = random_boxes(rng, i);
+    const OverlapTree tree(boxes);
+    std::vector<AlignedBox3d> asked = random_boxes(rng, 20);
+    for (const AlignedBox3d& box : boxes) {
+      const Vector3d corner = box.max();
+      asked.emplace_back(corner, corner + Vector3d::Ones());
+    }
+    for (const AlignedBox3d& box : asked) {
+      std::vector<std::size_t> expected;
+      for (std::size_t k = 0; k < boxes.size(); ++k) {
+        if (boxes[k].intersects(box)) {
+          expected.push_back(k);
+        }
+      }
+      std::vector<std::size_t> found;
+      tree.for_each_overlap(box, [&](std::size_t k) { found.push_back(k); });
+      std::ranges::sort(found);
+      ASSERT_EQ(found, expected) << i;
+    }
+  }
+}
+
 TEST(OverlappingPairs, AreAllThatOverlap) {
   std::mt19937 rng(3);
   for (int i = 0; i < 50; ++i) {
-    std::vector<AlignedBox3d> boxes;
-    for (int k = 0; k < 40; ++k) {
-      const Vector3d centre = random_vector(rng, 3.0);
-      const Vector3d half = random_vector(rng, 1.0).cwiseAbs();
-      boxes.emplace_back(centre - half, centre + half);
-    }
+    const std::vector<AlignedBox3d> boxes = random_boxes(rng, 40);
     std::vector<std::array<std::size_t, 2>> expected;
     for (std::size_t a = 0; a < boxes.size(); ++a) {
       for (std::size_t b = a + 1; b < boxes.size(); ++b) {
@@ -86,6 +119,35 @@ TEST(OverlappingPairs, AreAllThatOverlap) {
     }
     ASSERT_EQ(overlapping_pairs(boxes), expected) << i;
   }
+}
+
+// Neither a box over part of the step nor one at its end is left out.
+TEST(Surroundings, HoldScriptedBodiesOverTheWholeStep) {
+  ShapeCache cache;
+  const LoadedScene loaded =
+      load_scene(parse_scene(R"({"firstcontact": 1, "simulation": {}, "bodies": [
+      {"name": "rests", "shape": {"box": {"size": [1, 1, 1]}}, "pose": {"position": [0, 5, 0]}},
+      {"name": "free", "shape": {"box": {"size": [1, 1, 1]}}, "dynamics": {}},
+      {"name": "moves", "shape": {"box": {"size": [1, 1, 1]}}}]})",
+                             "test.json"),
+                 cache);
+  World world(loaded);
+  world.bodies[2].kind = BodyKind::scripted;
+  StepStart start{.h = 1.0, .states = std::vector<RigidState>(3), .scripted = {{}, {}, {}}};
+  start.states[0].X_WB.position = {0.0, 5.0, 0.0};
+  start.scripted[2].translation = {10.0, 0.0, 0.0};
+  const Surroundings around(world, start);
+  const auto near = [&](const Vector3d& point) {
+    std::vector<std::size_t> bodies;
+    around.for_each_overlap(AlignedBox3d(point, point),
+                            [&](std::size_t b) { bodies.push_back(b); });
+    return bodies;
+  };
+  EXPECT_EQ(near({0.0, 0.0, 0.0}), std::vector<std::size_t>{2});
+  EXPECT_EQ(near({5.0, 0.2, 0.0}), std::vector<std::size_t>{2});
+  EXPECT_EQ(near({10.4, 0.0, 0.0}), std::vector<std::size_t>{2});
+  EXPECT_EQ(near({0.0, 5.2, 0.0}), std::vector<std::size_t>{0});
+  EXPECT_EQ(near({0.0, 2.0, 0.0}), std::vector<std::size_t>{});
 }
 
 }  // namespace

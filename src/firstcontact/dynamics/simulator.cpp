@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <firstcontact/dynamics/detail/islands.h>
-#include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/scene/version.h>
 

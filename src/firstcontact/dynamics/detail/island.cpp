@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
 
+#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/response.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -70,25 +72,31 @@ struct Hit {
   std::vector<TouchAhead> ahead = {};
 };
 
+AlignedBox3d widened(const AlignedBox3d& box, double by) {
+  const Vector3d slack = Vector3d::Constant(by);
+  return {box.min() - slack, box.max() + slack};
+}
+
 class Island {
  public:
-  Island(const World& world, const StepStart& start, std::vector<std::size_t> members,
-         const std::vector<Touch>& guesses, Workspace& workspace)
-      : world_(world), start_(start), guesses_(guesses), workspace_(workspace), span_(start.h) {
+  Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace)
+      : world_(step.world),
+        start_(step.start),
+        around_(step.around),
+        guesses_(step.guesses),
+        workspace_(workspace),
+        span_(step.start.h) {
     track_.members = std::move(members);
-    track_.pieces.resize(track_.members.size());
+    track_.pieces.resize(size());
     track_.clearance = std::numeric_limits<double>::infinity();
-    is_member_.assign(world.bodies.size(), false);
-    for (const std::size_t body : track_.members) {
-      is_member_[body] = true;
-      states_.push_back(start.states[body]);
+    for (std::size_t k = 0; k < size(); ++k) {
+      place_[track_.members[k]] = k;
+      states_.push_back(start_.states[track_.members[k]]);
     }
-    poses_.resize(world.bodies.size());
   }
 
   IslandTrack run() {
     std::size_t stalls = 0;
-    place();
     find_manifolds();
     if (has_bounce()) {
       ++track_.events;
@@ -118,21 +126,16 @@ class Island {
   [[nodiscard]] const SimBody& member(std::size_t k) const {
     return world_.bodies[track_.members[k]];
   }
-  [[nodiscard]] std::array<Pose, 2> poses_of(const BodyPair& pair) const {
-    return {poses_[pair[0]], poses_[pair[1]]};
-  }
-
-  /// Where everything is now.
-  void place() {
-    const double share = track_.reached / start_.h;
-    for (std::size_t b = 0; b < poses_.size(); ++b) {
-      if (world_.bodies[b].kind != BodyKind::free) {
-        poses_[b] = scripted_pose(world_, start_, b, share);
-      }
+  /// Where a member is now, or a body around the island.
+  [[nodiscard]] const Pose& pose_of(std::size_t body) {
+    if (world_.bodies[body].kind == BodyKind::free) {
+      return states_[place_.at(body)].X_WB;
     }
-    for (std::size_t k = 0; k < size(); ++k) {
-      poses_[track_.members[k]] = states_[k].X_WB;
+    const auto [found, is_new] = poses_around_.try_emplace(body);
+    if (is_new) {
+      found->second = scripted_pose(world_, start_, body, track_.reached / start_.h);
     }
+    return found->second;
   }
 
   /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
@@ -151,37 +154,38 @@ class Island {
         manifolds_, [&](const auto& entry) { return entry.second.gap < world_.distances.pushed; });
   }
 
-  [[nodiscard]] Move scripted_move(std::size_t body) const {
-    return start_.scripted[body].part(span() / start_.h);
+  /// Of a member, or of a body around the island, over the span.
+  [[nodiscard]] Move move_of(std::size_t body, const std::vector<Move>& moves) const {
+    return world_.bodies[body].kind == BodyKind::free
+               ? moves[place_.at(body)]
+               : start_.scripted[body].part(span() / start_.h);
   }
 
-  /// Pairs of a member and any other body of the island or around it whose boxes overlap.
+  /// Pairs of a member and any other body of the island or around it that the moves may bring as
+  /// near as `reach` beyond their margin. Moves are those of the members and, where the island
+  /// lets time pass, of what is around it.
   template <class Use>
-  void for_each_pair(const std::vector<AlignedBox3d>& member_boxes,
-                     const std::vector<Move>& moves_of_others, double reach, const Use& use) {
-    const Vector3d slack = Vector3d::Constant(reach);
-    std::vector<std::pair<std::size_t, AlignedBox3d>> others;
-    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
-      if (world_.bodies[b].kind != BodyKind::free) {
-        others.emplace_back(b, swept_box(world_.bodies[b], poses_[b], moves_of_others[b]));
+  void for_each_pair(const std::vector<AlignedBox3d>& boxes, double reach, bool is_still,
+                     const Use& use) {
+    const double most = reach + world_.laws.greatest_margin();
+    const auto use_near = [&](std::size_t a, const AlignedBox3d& box_a, std::size_t b,
+                              const AlignedBox3d& box_b) {
+      const BodyPair pair{std::min(a, b), std::max(a, b)};
+      const std::optional<double> margin = world_.laws.margin(pair);
+      if (margin && widened(box_a, reach).exteriorDistance(box_b) <= *margin) {
+        use(pair, *margin);
       }
-    }
+    };
+    std::vector<AlignedBox3d> halfway;
     for (std::size_t k = 0; k < size(); ++k) {
-      others.emplace_back(track_.members[k], member_boxes[k]);
+      around_.for_each_overlap(widened(boxes[k], most), [&](std::size_t b) {
+        const Move move = is_still ? Move() : move_of(b, {});
+        use_near(track_.members[k], boxes[k], b, swept_box(world_.bodies[b], pose_of(b), move));
+      });
+      halfway.push_back(widened(boxes[k], 0.5 * most));
     }
-    for (std::size_t k = 0; k < size(); ++k) {
-      const std::size_t a = track_.members[k];
-      const AlignedBox3d box(member_boxes[k].min() - slack, member_boxes[k].max() + slack);
-      for (const auto& [b, other] : others) {
-        if (a == b || (is_member_[b] && b < a)) {
-          continue;
-        }
-        const BodyPair pair{std::min(a, b), std::max(a, b)};
-        const std::optional<double> margin = world_.laws.margin(pair);
-        if (margin && box.exteriorDistance(other) <= *margin) {
-          use(pair, *margin);
-        }
-      }
+    for (const auto& [i, k] : overlapping_pairs(halfway)) {
+      use_near(track_.members[i], boxes[i], track_.members[k], boxes[k]);
     }
   }
 
@@ -191,9 +195,9 @@ class Island {
     for (std::size_t k = 0; k < size(); ++k) {
       boxes.push_back(swept_box(member(k), states_[k].X_WB, {}));
     }
-    const std::vector<Move> still(world_.bodies.size());
-    for_each_pair(boxes, still, world_.distances.band, [&](const BodyPair& pair, double margin) {
-      Manifold manifold = find_manifold(world_, pair, poses_of(pair), margin, workspace_);
+    for_each_pair(boxes, world_.distances.band, true, [&](const BodyPair& pair, double margin) {
+      Manifold manifold =
+          find_manifold(world_, pair, {pose_of(pair[0]), pose_of(pair[1])}, margin, workspace_);
       if (manifold.gap <= world_.distances.band) {
         for (Touch& touch : manifold.touches) {
           touch.impulse = guess_of(touch);
@@ -211,7 +215,7 @@ class Island {
 
   /// The members as they move now, and what they touch.
   [[nodiscard]] ProblemBodies problem_bodies() const {
-    ProblemBodies bodies(world_.bodies.size());
+    ProblemBodies bodies;
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState& state = states_[k];
       bodies.add(track_.members[k],
@@ -221,12 +225,12 @@ class Island {
     return bodies;
   }
 
-  void add_others(const BodyPair& pair, ProblemBodies& bodies) const {
+  void add_others(const BodyPair& pair, ProblemBodies& bodies) {
     for (const std::size_t b : pair) {
       if (!bodies.has(b)) {
         const Move& move = start_.scripted[b];
         bodies.add(b, {{}, move.translation / start_.h, move.rotation_vector / start_.h},
-                   centre_of_mass(world_.bodies[b].inertia, poses_[b]));
+                   centre_of_mass(world_.bodies[b].inertia, pose_of(b)));
       }
     }
   }
@@ -445,24 +449,20 @@ class Island {
 
   /// Asks all pairs that the plan may bring near each other.
   [[nodiscard]] std::vector<Hit> find_hits(const Plan& plan) {
-    std::vector<Move> moves(world_.bodies.size());
-    for (std::size_t b = 0; b < moves.size(); ++b) {
-      moves[b] = scripted_move(b);
-    }
     std::vector<AlignedBox3d> boxes;
     for (std::size_t k = 0; k < size(); ++k) {
-      moves[track_.members[k]] = plan.moves[k];
       boxes.push_back(swept_box(member(k), states_[k].X_WB, plan.moves[k]));
     }
     std::vector<Hit> hits;
     const double reach = world_.distances.least + world_.distances.tolerance;
     clearance_ = world_.distances.least;
-    for_each_pair(boxes, moves, reach,
-                  [&](const BodyPair& pair, double margin) { ask(pair, margin, moves, hits); });
+    for_each_pair(boxes, reach, false, [&](const BodyPair& pair, double margin) {
+      ask(pair, margin, {move_of(pair[0], plan.moves), move_of(pair[1], plan.moves)}, hits);
+    });
     return hits;
   }
 
-  void ask(const BodyPair& pair, double margin, const std::vector<Move>& moves,
+  void ask(const BodyPair& pair, double margin, const std::array<Move, 2>& moves,
            std::vector<Hit>& hits) {
     const auto found = manifolds_.find(pair);
     const double gap =
@@ -480,8 +480,8 @@ class Island {
     FirstContactOptions options;
     options.margin = held.margin;
     options.tolerance = held.tolerance;
-    const Motion A = motion_of(world_.bodies[pair[0]], poses_[pair[0]], moves[pair[0]]);
-    const Motion B = motion_of(world_.bodies[pair[1]], poses_[pair[1]], moves[pair[1]]);
+    const Motion A = motion_of(world_.bodies[pair[0]], pose_of(pair[0]), moves[0]);
+    const Motion B = motion_of(world_.bodies[pair[1]], pose_of(pair[1]), moves[1]);
     first_contact({world_.bodies[pair[0]].shape, A}, {world_.bodies[pair[1]].shape, B}, workspace_,
                   options, answer_);
     if (answer_.verdict == Verdict::free) {
@@ -493,13 +493,13 @@ class Island {
   /// Whether no point of two bodies gets far enough to close a distance: what rests is not
   /// searched.
   [[nodiscard]] bool cannot_reach(const BodyPair& pair, double distance,
-                                  const std::vector<Move>& moves) const {
+                                  const std::array<Move, 2>& moves) {
     double way = 0.0;
     double size = 0.0;
-    for (const std::size_t b : pair) {
-      const double reach = world_.bodies[b].reach;
-      way += moves[b].translation.norm() + reach * moves[b].rotation_vector.norm();
-      size += poses_[b].position.norm() + reach;
+    for (int side = 0; side < 2; ++side) {
+      const double reach = world_.bodies[pair[side]].reach;
+      way += moves[side].translation.norm() + reach * moves[side].rotation_vector.norm();
+      size += pose_of(pair[side]).position.norm() + reach;
     }
     constexpr double kRounding = 0x1p-44;  // Of the distance and of the way, with room.
     return way + kRounding * size < distance;
@@ -507,11 +507,11 @@ class Island {
 
   /// The contact that was just found, as a constraint on the span.
   [[nodiscard]] Hit hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
-                           const std::vector<Move>& moves) {
+                           const std::array<Move, 2>& moves) {
     Hit hit{.bodies = pair, .t = answer_.t};
-    ProblemBodies bodies(world_.bodies.size());
+    ProblemBodies bodies;
     for (int side = 0; side < 2; ++side) {
-      const Move& move = moves[pair[side]];
+      const Move& move = moves[side];
       bodies.add(pair[side], {{}, move.translation / span(), move.rotation_vector / span()},
                  centre_of_mass(world_.bodies[pair[side]].inertia, poses[side]));
     }
@@ -563,8 +563,8 @@ class Island {
     track_.touches = plan.touches;
     track_.residual = std::max(track_.residual, plan.residual);
     track_.clearance = std::min(track_.clearance, clearance_);
+    poses_around_.clear();
     if (to < start_.h) {
-      place();
       find_manifolds();
     }
   }
@@ -572,7 +572,7 @@ class Island {
   // --- Impacts ---------------------------------------------------------------------------------
 
   /// Whether anything touches that approaches fast enough to bounce.
-  [[nodiscard]] bool has_bounce() const {
+  [[nodiscard]] bool has_bounce() {
     ProblemBodies bodies = problem_bodies();
     for (const auto& [pair, manifold] : manifolds_) {
       add_others(pair, bodies);
@@ -621,12 +621,13 @@ class Island {
 
   const World& world_;
   const StepStart& start_;
+  const Surroundings& around_;
   const std::vector<Touch>& guesses_;
   Workspace& workspace_;
   IslandTrack track_;
-  std::vector<bool> is_member_;     // Of each body.
-  std::vector<RigidState> states_;  // Of each member, now.
-  std::vector<Pose> poses_;         // Of each body, now; not of free bodies elsewhere.
+  std::unordered_map<std::size_t, std::size_t> place_;  // Of each member.
+  std::vector<RigidState> states_;                      // Of each member, now.
+  std::unordered_map<std::size_t, Pose> poses_around_;  // Of those asked for, now.
   std::map<BodyPair, Manifold> manifolds_;
   FirstContactResult answer_;
   double clearance_ = 0.0;  // [m]  Of the motion asked last.
@@ -652,10 +653,9 @@ bool comes_before(const Touch& x, const Touch& y) {
   return key(x) < key(y);
 }
 
-IslandTrack advance_island(const World& world, const StepStart& start,
-                           std::vector<std::size_t> members, const std::vector<Touch>& guesses,
+IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
                            Workspace& workspace) {
-  return Island(world, start, std::move(members), guesses, workspace).run();
+  return Island(step, std::move(members), workspace).run();
 }
 
 }  // namespace firstcontact::detail

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/touch.h>
 #include <firstcontact/dynamics/detail/world.h>
 
@@ -31,6 +32,15 @@ struct IslandTrack {
   std::size_t events = 0;
 };
 
+/// What the islands of a step share.
+struct StepContext {
+  const World& world;
+  const StepStart& start;
+  const Surroundings& around;
+  const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
+                                      ///< the solver.
+};
+
 /// Advances the free bodies `members`, with all fixed and scripted bodies around them, and without
 /// any other.
 ///
@@ -39,11 +49,8 @@ struct IslandTrack {
 /// its first contact. Where it is slight, it becomes a constraint of the same span; else all move
 /// until it, and the impact is projected there. Where that brings a pair nearer than where it
 /// rests, less than the rest of the step is planned at a time.
-///
-/// @param guesses  touches of the step before, sorted; their impulses start the solver
-[[nodiscard]] IslandTrack advance_island(const World& world, const StepStart& start,
-                                         std::vector<std::size_t> members,
-                                         const std::vector<Touch>& guesses, Workspace& workspace);
+[[nodiscard]] IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
+                                         Workspace& workspace);
 
 /// Whether the features of one touch come before those of the other.
 [[nodiscard]] bool comes_before(const Touch& x, const Touch& y);

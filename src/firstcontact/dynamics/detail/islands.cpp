@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <firstcontact/dynamics/detail/sweep_pairs.h>
+#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -20,7 +20,8 @@ class Islands {
           Workspace& workspace)
       : world_(world),
         start_(start),
-        guesses_(guesses),
+        around_(world, start),
+        step_{world, start, around_, guesses},
         workspace_(workspace),
         sets_(world.bodies.size()) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -100,7 +101,7 @@ class Islands {
         return false;
       }
       is_new_[s] = true;
-      tracks_[s] = advance_island(world_, start_, std::move(members[s]), guesses_, workspace_);
+      tracks_[s] = advance_island(step_, std::move(members[s]), workspace_);
     }
     return true;
   }
@@ -176,7 +177,8 @@ class Islands {
 
   const World& world_;
   const StepStart& start_;
-  const std::vector<Touch>& guesses_;
+  Surroundings around_;
+  StepContext step_;
   Workspace& workspace_;
   DisjointSets sets_;  // Of bodies; an island is named after its least member.
   std::vector<std::size_t> free_;

@@ -58,10 +58,11 @@ bool touches_scripted(const ContactProblem& problem, std::size_t members) {
 }  // namespace
 
 std::size_t ProblemBodies::add(std::size_t body, const ContactBody& with, const Vector3d& p_WC) {
-  place_[body] = bodies_.size();
+  const std::size_t place = bodies_.size();
+  place_[body] = place;
   bodies_.push_back(with);
   centres_.push_back(p_WC);
-  return place_[body];
+  return place;
 }
 
 ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies, double friction,

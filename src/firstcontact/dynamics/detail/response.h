@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,20 +19,16 @@ namespace firstcontact::detail {
 /// scripted bodies that they touch.
 class ProblemBodies {
  public:
-  /// @param count  of the world's bodies
-  explicit ProblemBodies(std::size_t count) : place_(count, kNone) {}
-
   /// @returns its place
   std::size_t add(std::size_t body, const ContactBody& with, const Eigen::Vector3d& p_WC);
 
-  [[nodiscard]] bool has(std::size_t body) const { return place_[body] != kNone; }
-  [[nodiscard]] std::size_t place(std::size_t body) const { return place_[body]; }
+  [[nodiscard]] bool has(std::size_t body) const { return place_.contains(body); }
+  [[nodiscard]] std::size_t place(std::size_t body) const { return place_.at(body); }
   [[nodiscard]] const std::vector<ContactBody>& bodies() const { return bodies_; }
   [[nodiscard]] const Eigen::Vector3d& centre(std::size_t place) const { return centres_[place]; }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> place_;  // Of each body of the world.
+  std::unordered_map<std::size_t, std::size_t> place_;
   std::vector<ContactBody> bodies_;
   std::vector<Eigen::Vector3d> centres_;  // [m]  p_WC
 };

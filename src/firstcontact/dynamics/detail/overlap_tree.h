@@ -1,0 +1,60 @@
+/// @file
+/// Boxes that overlap, among many.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+
+/// A tree over boxes, halved at the median centre along the longest side.
+class OverlapTree {
+ public:
+  explicit OverlapTree(const std::vector<Eigen::AlignedBox3d>& boxes);
+
+  /// Calls use(k) for each box that overlaps or touches the given one, in an order that depends on
+  /// the tree's boxes alone.
+  template <class Use>
+  void for_each_overlap(const Eigen::AlignedBox3d& box, const Use& use) const {
+    for (std::size_t n = 0; n < nodes_.size();) {
+      const Node& node = nodes_[n];
+      if (!node.box.intersects(box)) {
+        n = node.after;
+        continue;
+      }
+      for (std::size_t i = node.begin; i < node.end; ++i) {
+        if (items_[i].box.intersects(box)) {
+          use(items_[i].index);
+        }
+      }
+      ++n;
+    }
+  }
+
+ private:
+  struct Item {
+    Eigen::AlignedBox3d box;
+    std::size_t index = 0;
+  };
+  /// Its children follow it. A leaf holds items_[begin, end), other nodes none.
+  struct Node {
+    Eigen::AlignedBox3d box;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t after = 0;  // The node that follows all that is below it.
+  };
+  void build(std::size_t begin, std::size_t end);
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;
+};
+
+/// All overlapping pairs {a, b}, a < b, by their order.
+[[nodiscard]] std::vector<std::array<std::size_t, 2>> overlapping_pairs(
+    const std::vector<Eigen::AlignedBox3d>& boxes);
+
+}  // namespace firstcontact::detail
