@@ -267,5 +267,23 @@ TEST(FeaturePairsWithin, HoldsTheClosestAndNothingBeyondTheBand) {
   });
 }
 
+// Two triangles with a common corner: nine pairs of edges and corners meet there, at distance 0.
+TEST(FeaturePairsWithin, HoldsEachPairOfFeaturesOnce) {
+  const Triangle A{Vector3d(0.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};
+  const Triangle B{Vector3d(0.0, 0.0, 0.0), Vector3d(-1.0, 0.0, 1.0), Vector3d(0.0, -1.0, 1.0)};
+  const FeaturePairs found = feature_pairs_within(A, B, 10.0);
+  std::size_t meeting = 0;
+  for (std::size_t k = 0; k < found.count; ++k) {
+    meeting += found.pairs[k].distance == 0.0 ? 1 : 0;
+    for (std::size_t j = 0; j < k; ++j) {
+      EXPECT_FALSE(found.pairs[j].feature_A == found.pairs[k].feature_A &&
+                   found.pairs[j].feature_B == found.pairs[k].feature_B)
+          << j << " " << k;
+    }
+  }
+  EXPECT_EQ(meeting, 1u);
+  EXPECT_GE(found.count, 4u);
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -152,6 +153,12 @@ void for_each_pair(const Triangle& T_A, const Triangle& T_B, const Reach& reach,
   corners_and_edges(B, A, true, reach, use);
 }
 
+/// A number below kFeatures.
+constexpr std::size_t kFeatures = 7;
+std::size_t number_of(const TriangleFeature& feature) {
+  return 3 * static_cast<std::size_t>(feature.type) + static_cast<std::size_t>(feature.index);
+}
+
 }  // namespace
 
 ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
@@ -170,7 +177,8 @@ ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
 
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band) {
   FeaturePairs within;
-  const double reach = band * band * (1.0 + 0x1p-40);  // Not less than rounding takes off.
+  std::array<std::uint8_t, kFeatures * kFeatures> place{};  // Plus 1; 0: not there yet.
+  const double reach = band * band * (1.0 + 0x1p-40);       // Not less than rounding takes off.
   for_each_pair(
       A, B, [reach] { return reach; },
       [&](double squared_distance, const auto& features) {
@@ -178,8 +186,15 @@ FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double b
           return;
         }
         const ClosestFeatures c = features();
-        if (c.distance <= band) {
+        if (!(c.distance <= band)) {
+          return;
+        }
+        std::uint8_t& found = place[kFeatures * number_of(c.feature_A) + number_of(c.feature_B)];
+        if (found == 0) {
           within.pairs[within.count++] = c;
+          found = static_cast<std::uint8_t>(within.count);
+        } else if (c.distance < within.pairs[found - 1].distance) {
+          within.pairs[found - 1] = c;
         }
       });
   return within;

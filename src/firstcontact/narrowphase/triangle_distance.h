@@ -48,7 +48,7 @@ struct FeaturePairs {
 };
 
 /// All elementary pairs within `band` [m], each with the features in whose interiors its closest
-/// points lie; the same pair of features may come more than once.
+/// points lie; of those with the same features the nearest.
 FIRSTCONTACT_API FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B,
                                                    double band);
 

@@ -93,7 +93,7 @@ void report_contacts(const ShapePair& shapes, const MovingPair& pair,
     const double band =
         options.margin + result.tolerance_used + options.contact_band + A.radius() + B.radius();
     if (found.all_remembered && options.contact_band == 0.0) {
-      detail::collect_contacts_of(workspace.opened_pairs, frame, band, result.contacts);
+      detail::collect_contacts_of(frame, band, workspace, result.contacts);
     } else {
       detail::collect_contacts(frame, band, workspace, result.contacts);
     }

@@ -89,28 +89,33 @@ Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
          rate_at(at.A, rates.A, closest.feature_A, closest.p_A);
 }
 
-auto order_key(const Contact& c) {
-  return std::tuple(c.feature_A.type, c.feature_A.index, c.feature_B.type, c.feature_B.index,
-                    c.distance, c.feature_A.triangle, c.feature_B.triangle);
+/// A feature as a number, in the order of types and indices.
+std::uint64_t number_of(const Feature& feature) {
+  return static_cast<std::uint64_t>(feature.type) << 32 | feature.index;
 }
 
-bool same_features(const Contact& x, const Contact& y) {
-  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
-         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+bool comes_before(const CloseKey& x, const CloseKey& y) {
+  if (x.feature_A != y.feature_A || x.feature_B != y.feature_B) {
+    return x.feature_A != y.feature_A ? x.feature_A < y.feature_A : x.feature_B < y.feature_B;
+  }
+  return std::tie(x.distance, x.triangle_A, x.triangle_B) <
+         std::tie(y.distance, y.triangle_A, y.triangle_B);
 }
 
-}  // namespace
+bool same_features(const CloseKey& x, const CloseKey& y) {
+  return x.feature_A == y.feature_A && x.feature_B == y.feature_B;
+}
 
-Contact make_contact(const ContactFrame& frame, const RelativeState& state,
-                     std::uint32_t triangle_A, std::uint32_t triangle_B,
-                     const ClosestFeatures& closest) {
+Contact make_contact(const ContactFrame& frame, const RelativeState& state, const ClosePair& pair) {
+  const ClosestFeatures& closest = pair.closest;
   Contact contact;
-  contact.feature_A = global_feature(frame.A, triangle_A, closest.feature_A);
-  contact.feature_B = global_feature(frame.B, triangle_B, closest.feature_B);
-  const Vector3d velocity = closest_velocity(frame.pair, state, triangle_A, triangle_B, closest);
+  contact.feature_A = pair.feature_A;
+  contact.feature_B = pair.feature_B;
+  const Vector3d velocity =
+      closest_velocity(frame.pair, state, pair.triangle_A, pair.triangle_B, closest);
   Vector3d n = closest.p_B - closest.p_A;
   if (!(closest.distance > 0.0)) {
-    n = feature_normal(frame.pair.place(state, triangle_A, triangle_B), closest);
+    n = feature_normal(frame.pair.place(state, pair.triangle_A, pair.triangle_B), closest);
     n = n.dot(velocity) > 0.0 ? Vector3d(-n) : n;
   }
   const double length = n.norm();
@@ -128,38 +133,62 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   return contact;
 }
 
-namespace {
-
-void append_contacts(const ContactFrame& frame, const RelativeState& state,
-                     std::uint32_t triangle_A, std::uint32_t triangle_B, double band,
-                     std::vector<Contact>& contacts) {
-  const TrianglePair triangles = frame.pair.place(state, triangle_A, triangle_B);
-  const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
-  for (std::size_t k = 0; k < close.count; ++k) {
-    contacts.push_back(make_contact(frame, state, triangle_A, triangle_B, close.pairs[k]));
-  }
-}
-
-/// Sorts, and keeps one of each pair of features.
-void sort_once(std::vector<Contact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& x, const Contact& y) { return order_key(x) < order_key(y); });
-  contacts.erase(std::unique(contacts.begin(), contacts.end(), same_features), contacts.end());
+ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A, std::uint32_t triangle_B,
+                     const ClosestFeatures& closest) {
+  return {global_feature(frame.A, triangle_A, closest.feature_A),
+          global_feature(frame.B, triangle_B, closest.feature_B), triangle_A, triangle_B, closest};
 }
 
 }  // namespace
 
-void collect_contacts_of(const std::vector<OpenedPair>& opened, const ContactFrame& frame,
-                         double band, std::vector<Contact>& contacts) {
+Contact make_contact(const ContactFrame& frame, const RelativeState& state,
+                     std::uint32_t triangle_A, std::uint32_t triangle_B,
+                     const ClosestFeatures& closest) {
+  return make_contact(frame, state, close_pair(frame, triangle_A, triangle_B, closest));
+}
+
+namespace {
+
+void append_pairs(const ContactFrame& frame, const RelativeState& state, std::uint32_t triangle_A,
+                  std::uint32_t triangle_B, double band, std::vector<ClosePair>& pairs) {
+  const TrianglePair triangles = frame.pair.place(state, triangle_A, triangle_B);
+  const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
+  for (std::size_t k = 0; k < close.count; ++k) {
+    pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
+  }
+}
+
+/// Appends the contacts of the pairs by their order, the nearest one of each pair of features.
+void append_once(const ContactFrame& frame, const RelativeState& state, WorkspaceData& workspace,
+                 std::vector<Contact>& contacts) {
+  std::vector<CloseKey>& keys = workspace.close_keys;
+  keys.clear();
+  for (const ClosePair& pair : workspace.close_pairs) {
+    keys.push_back({number_of(pair.feature_A), number_of(pair.feature_B), pair.closest.distance,
+                    pair.feature_A.triangle, pair.feature_B.triangle, &pair});
+  }
+  std::sort(keys.begin(), keys.end(), comes_before);
+  const auto end = std::unique(keys.begin(), keys.end(), same_features);
+  for (auto key = keys.begin(); key != end; ++key) {
+    contacts.push_back(make_contact(frame, state, *key->pair));
+  }
+}
+
+}  // namespace
+
+void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& workspace,
+                         std::vector<Contact>& contacts) {
+  std::vector<ClosePair>& close = workspace.close_pairs;
+  close.clear();
   const RelativeState state = frame.pair.motion().state(frame.t);
   const double reach = band + 2.0 * frame.pair.gap_error(state);
-  for (const OpenedPair& pair : opened) {
+  for (const OpenedPair& pair : workspace.opened_pairs) {
     const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
     if (pair.distance - travel <= reach) {
-      append_contacts(frame, state, pair.a, pair.b, band, contacts);
+      append_pairs(frame, state, pair.a, pair.b, band, close);
     }
   }
-  sort_once(contacts);
+  append_once(frame, state, workspace, contacts);
 }
 
 void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
@@ -168,13 +197,15 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
   const RelativeState state = pair.motion().state(frame.t);
   const double reach = band + pair.gap_error(state);
   const BoxesAtInstant boxes(pair, state);
+  std::vector<ClosePair>& close = workspace.close_pairs;
+  close.clear();
   auto& stack = workspace.stack;
   stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
   while (!stack.empty()) {
     const BoxPair top = stack.back();
     stack.pop_back();
     if (top.is_triangle_pair) {
-      append_contacts(frame, state, top.triangle_A, top.triangle_B, band, contacts);
+      append_pairs(frame, state, top.triangle_A, top.triangle_B, band, close);
       continue;
     }
     boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
@@ -183,7 +214,7 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
       }
     });
   }
-  sort_once(contacts);
+  append_once(frame, state, workspace, contacts);
 }
 
 }  // namespace firstcontact::detail

@@ -26,10 +26,10 @@ struct ContactFrame {
                                    std::uint32_t triangle_A, std::uint32_t triangle_B,
                                    const ClosestFeatures& closest);
 
-/// Appends every feature pair within `band` [m] (radii included) of the pairs of triangles that a
-/// search opened, sorted, each once.
-void collect_contacts_of(const std::vector<OpenedPair>& opened, const ContactFrame& frame,
-                         double band, std::vector<Contact>& contacts);
+/// Appends every feature pair within `band` [m] (radii included) of the pairs of triangles that the
+/// last search opened, sorted, each once.
+void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& workspace,
+                         std::vector<Contact>& contacts);
 
 /// The same of all triangles.
 void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/query/contact.h>
 #include <firstcontact/query/detail/box_pairs.h>
 
 namespace firstcontact::detail {
@@ -107,6 +109,25 @@ struct OpenedPair {
   double distance = 0.0;  ///< [m]
 };
 
+/// The closest features of two triangles (indices in the hierarchies' order).
+struct ClosePair {
+  Feature feature_A;
+  Feature feature_B;
+  std::uint32_t triangle_A = 0;
+  std::uint32_t triangle_B = 0;
+  ClosestFeatures closest;
+};
+
+/// What pairs of features are sorted by: their features as numbers, the nearest one first.
+struct CloseKey {
+  std::uint64_t feature_A = 0;
+  std::uint64_t feature_B = 0;
+  double distance = 0.0;
+  std::uint32_t triangle_A = 0;
+  std::uint32_t triangle_B = 0;
+  const ClosePair* pair = nullptr;
+};
+
 /// An entry of the search queue: a group or a pair of triangles, by the order of the search.
 struct QueueItem {
   double priority = 0.0;  ///< [-]  At most the least key of what it stands for.
@@ -200,6 +221,8 @@ struct WorkspaceData {
   Pool<BoxGroup> groups;
   Pool<TriangleEntry> triangle_pairs;
   std::vector<OpenedPair> opened_pairs;  ///< By the last search.
+  std::vector<ClosePair> close_pairs;
+  std::vector<CloseKey> close_keys;
   std::vector<BoxPair> stack;
   std::vector<std::pair<double, BoxPair>> nearest;
 };
