@@ -15,7 +15,7 @@ using detail::Impulses;
 using detail::Projection;
 
 /// Dense factorisations grow with the cube of the velocities.
-constexpr std::size_t kMostInMotionSpace = 144;
+constexpr std::size_t kMostInMotionSpace = 300;
 
 /// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
 /// sweep costs as many contacts as an assembly, of which far fewer are needed).
