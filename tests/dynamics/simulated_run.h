@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,26 @@ inline std::string body(const std::string& name, const std::string& shape,
 inline std::string box(const std::string& size) { return R"({"box": {"size": )" + size + "}}"; }
 inline std::string ball(const std::string& radius) {
   return R"({"sphere": {"radius": )" + radius + "}}";
+}
+
+/// A row of numbers as scenes have it.
+inline std::string numbers(const std::vector<double>& values) {
+  std::ostringstream out;
+  out.precision(17);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    out << (k == 0 ? "[" : ", ") << values[k];
+  }
+  out << "]";
+  return out.str();
+}
+
+/// The settings of a scene whose bodies rest at this distance [m].
+inline std::string settings(double step, double friction, double contact_distance) {
+  std::ostringstream out;
+  out.precision(17);
+  out << R"("step": )" << step << R"(, "friction": )" << friction << R"(, "contact_distance": )"
+      << contact_distance;
+  return out.str();
 }
 
 inline std::vector<RunStep> run(Simulator& simulator, std::size_t steps) {

@@ -1,0 +1,72 @@
+// An arch of 25 stones.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+
+#include "dynamics/drift.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector2d;
+using test::body;
+using test::box;
+using test::Drift;
+using test::drift;
+using test::numbers;
+using test::settings;
+using test::simulator;
+
+constexpr double kGap = 1e-5;  // [m]  At which stones rest; they are put there.
+
+/// The corners of a stone of half a ring of radius 1 m around y, with half a gap less at its
+/// joints.
+std::string stone(int k, int stones, double thick) {
+  std::string corners;
+  for (const int end : {0, 1}) {
+    const double angle = std::numbers::pi * (k + end) / stones;
+    const Vector2d along(-std::sin(angle), std::cos(angle));
+    for (const double radius : {1.0 - 0.5 * thick, 1.0 + 0.5 * thick}) {
+      const Vector2d p = radius * Vector2d(std::cos(angle), std::sin(angle)) +
+                         (end == 0 ? 0.5 : -0.5) * kGap * along;
+      for (const double y : {-0.05, 0.05}) {
+        corners += (corners.empty() ? "" : ", ") + numbers({p.x(), y, p.y()});
+      }
+    }
+  }
+  return R"({"convex_hull": {"vertices": [)" + corners + "]}}";
+}
+
+/// @param thick  [m]
+Simulator arch(double thick) {
+  constexpr int kStones = 25;
+  std::string bodies = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
+  for (int k = 0; k < kStones; ++k) {
+    bodies += "," + body("stone " + std::to_string(k), stone(k, kStones, thick),
+                         numbers({0.0, 0.0, 0.5 * kGap}), R"(, "dynamics": {"density": 2500})");
+  }
+  return simulator(bodies, settings(0.01, 0.9, kGap));
+}
+
+// Half a ring carries itself where it is thicker than 0.1075 of its radius, however rough its
+// joints are (M. Milankovitch, "Theorie der Druckkurven", 1907); else it folds at five joints.
+TEST(Arch, StandsWhereItIsThickEnough) {
+  Simulator s = arch(0.11);
+  const Drift found = drift(s, 1.0);
+  EXPECT_EQ(found.time_lost, 0.0);
+  EXPECT_LE(found.moved, 0.1 * kGap);
+  EXPECT_LE(found.turned, 1e-5);
+}
+
+TEST(Arch, FoldsWhereItIsTooThin) {
+  Simulator s = arch(0.1);
+  EXPECT_GE(drift(s, 0.15).moved, 1e-3);
+}
+
+}  // namespace
+}  // namespace firstcontact

@@ -1,0 +1,115 @@
+#include <array>
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/dynamics/kinetics.h>
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Vector3d random_vector(std::mt19937& rng) {
+  std::normal_distribution<double> normal;
+  return {normal(rng), normal(rng), normal(rng)};
+}
+
+Pose random_pose(std::mt19937& rng) {
+  std::normal_distribution<double> n;
+  return {random_vector(rng), Eigen::Quaterniond(n(rng), n(rng), n(rng), n(rng))};
+}
+
+/// Of a body of some points, which no axis suits.
+Inertia random_inertia(std::mt19937& rng) {
+  Inertia inertia;
+  inertia.mass = std::exp(random_vector(rng).x());
+  inertia.about_C_B.setZero();
+  for (int k = 0; k < 5; ++k) {
+    const Vector3d p = random_vector(rng);
+    inertia.about_C_B += p.squaredNorm() * Matrix3d::Identity() - p * p.transpose();
+  }
+  return inertia;
+}
+
+/// Bit k locks axis k.
+std::array<bool, 3> locks(unsigned bits) {
+  return {(bits & 1) > 0, (bits & 2) > 0, (bits & 4) > 0};
+}
+
+TEST(InverseInertia, IsTheInverseWhereNothingIsLocked) {
+  std::mt19937 rng(1);
+  for (int i = 0; i < 100; ++i) {
+    const Inertia inertia = random_inertia(rng);
+    const Pose X_WB = random_pose(rng);
+    const InverseInertia inverse = inverse_inertia(inertia, X_WB);
+    const Matrix3d one = inverse.rotation * rotational_inertia(inertia, X_WB);
+    ASSERT_LE((one - Matrix3d::Identity()).norm(), 1e-9) << i;
+    ASSERT_LE((inverse.mass * inertia.mass - Vector3d::Ones()).norm(), 1e-14) << i;
+  }
+}
+
+TEST(InverseInertia, OfLockedTranslationsIsZero) {
+  std::mt19937 rng(2);
+  Inertia inertia = random_inertia(rng);
+  for (unsigned bits = 0; bits < 8; ++bits) {
+    inertia.locked_translation = locks(bits);
+    const InverseInertia inverse = inverse_inertia(inertia, random_pose(rng));
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_EQ(inverse.mass[k], inertia.locked_translation[k] ? 0.0 : 1.0 / inertia.mass);
+    }
+  }
+}
+
+// Newton's law: a torque turns the body about no locked axis, and what holds it there is a torque
+// about locked axes alone.
+TEST(InverseInertia, AnswersTorquesAboutFreeAxesAlone) {
+  std::mt19937 rng(3);
+  for (unsigned i = 0; i < 400; ++i) {
+    Inertia inertia = random_inertia(rng);
+    inertia.locked_rotation = locks(i % 8);
+    const Pose X_WB = random_pose(rng);
+    const Vector3d torque = random_vector(rng);
+    const Vector3d turning = inverse_inertia(inertia, X_WB).rotation * torque;
+    const Vector3d holding = rotational_inertia(inertia, X_WB) * turning - torque;
+    for (int k = 0; k < 3; ++k) {
+      if (inertia.locked_rotation[k]) {
+        ASSERT_EQ(turning[k], 0.0) << i;
+      } else {
+        ASSERT_LE(std::abs(holding[k]), 1e-10 * torque.norm()) << i;
+      }
+    }
+  }
+}
+
+TEST(InverseInertia, IsSymmetricAndNeverNegative) {
+  std::mt19937 rng(4);
+  for (unsigned i = 0; i < 400; ++i) {
+    Inertia inertia = random_inertia(rng);
+    inertia.locked_rotation = locks(i % 8);
+    const Matrix3d inverse = inverse_inertia(inertia, random_pose(rng)).rotation;
+    ASSERT_LE((inverse - inverse.transpose()).norm(), 1e-15 * inverse.norm()) << i;
+    const Vector3d torque = random_vector(rng);
+    ASSERT_GE(torque.dot(inverse * torque), -1e-15 * inverse.norm()) << i;
+  }
+}
+
+TEST(InverseInertia, OfARodAboutOneFreeAxisIsThatOfItsSlantedLength) {
+  // A rod of length 2 m and 3 kg in the plane of y and z, 30 degrees from z, turns about z alone.
+  Inertia inertia;
+  inertia.mass = 3.0;
+  inertia.about_C_B = Vector3d(1.0, 1.0, 1e-12).asDiagonal();
+  inertia.locked_rotation = {true, true, false};
+  const double slant = std::acos(-1.0) / 6.0;
+  const Pose X_WB{{}, Eigen::Quaterniond(Eigen::AngleAxisd(slant, Vector3d::UnitX()))};
+  const Matrix3d inverse = inverse_inertia(inertia, X_WB).rotation;
+  EXPECT_NEAR(inverse(2, 2), 4.0, 1e-9);  // 1 / (1 kg m^2 sin^2 30 degrees)
+  EXPECT_EQ(inverse.cwiseAbs().sum(), inverse(2, 2));
+}
+
+}  // namespace
+}  // namespace firstcontact
