@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 /// How often slight contacts of the motion ahead are turned into constraints before the bodies are
 /// moved until the first of them.
-constexpr int kRounds = 4;
+constexpr int kRounds = 12;
 
 /// A contact ahead is slight if the bodies approach by less than this part of the smaller one's
 /// radius over the span of the plan, and would not bounce.
@@ -208,9 +208,10 @@ class Island {
   }
 
   [[nodiscard]] Vector3d guess_of(const Touch& touch) const {
-    const auto found = std::lower_bound(guesses_.begin(), guesses_.end(), touch, comes_before);
-    return found != guesses_.end() && !comes_before(touch, *found) ? found->impulse
-                                                                   : Vector3d(Vector3d::Zero());
+    const std::vector<Touch>& known = track_.reached > 0.0 ? acted_ : guesses_;
+    const auto found = std::ranges::lower_bound(known, touch, comes_before);
+    return found != known.end() && !comes_before(touch, *found) ? found->impulse
+                                                                : Vector3d(Vector3d::Zero());
   }
 
   /// The members as they move now, and what they touch.
@@ -291,19 +292,23 @@ class Island {
     return flight;
   }
 
-  [[nodiscard]] Plan make_plan(const std::vector<Hit>& constraints) {
+  /// Starts from the impulses of the touches, which are those of a whole step, and leaves those
+  /// that it finds there.
+  [[nodiscard]] Plan make_plan(std::vector<Hit>& constraints) {
     ProblemBodies bodies = problem_bodies();
     ContactProblem problem;
-    std::vector<Touch> touches = {};
-    const auto add = [&](const Touch& touch, double least) -> ContactPoint& {
+    std::vector<Touch*> touches;
+    const double share = span() / start_.h;
+    const auto add = [&](Touch& touch, double least) -> ContactPoint& {
       add_others(touch.bodies, bodies);
       problem.contacts.push_back(
           contact_at(touch, bodies, world_.laws.friction(touch.bodies), least));
-      touches.push_back(touch);
+      problem.contacts.back().guess *= share;
+      touches.push_back(&touch);
       return problem.contacts.back();
     };
-    for (const auto& [pair, manifold] : manifolds_) {
-      for (const Touch& touch : manifold.touches) {
+    for (auto& [pair, manifold] : manifolds_) {
+      for (Touch& touch : manifold.touches) {
         const ContactPoint& contact = add(touch, -world_.distances.way_to_rest(touch.gap) / span());
         // What will bounce has to arrive first.
         if (bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
@@ -312,8 +317,8 @@ class Island {
         }
       }
     }
-    for (const Hit& hit : constraints) {
-      for (const TouchAhead& ahead : hit.ahead) {
+    for (Hit& hit : constraints) {
+      for (TouchAhead& ahead : hit.ahead) {
         ContactPoint& contact = add(ahead.touch, ahead.least);
         contact.arm_A = ahead.contact.arm_A;
         contact.arm_B = ahead.contact.arm_B;
@@ -327,11 +332,13 @@ class Island {
       solution = project_on_contacts(problem, projection_options());
       limit_energy(problem, solution);
     }
+    Plan plan{.at_end = solution.bodies, .residual = solution.residual};
     for (std::size_t k = 0; k < touches.size(); ++k) {
-      touches[k].impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
+      Touch acting = *touches[k];
+      acting.impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
+      touches[k]->impulse = acting.impulse / share;
+      plan.touches.push_back(acting);
     }
-    Plan plan{
-        .at_end = solution.bodies, .touches = std::move(touches), .residual = solution.residual};
     plan.at_end.resize(size());
     set_moves(problem, bodies.bodies(), flight, solution, plan);
     push_apart(plan);
@@ -440,7 +447,7 @@ class Island {
     }
     // In metres in place of metres per second.
     const ContactSolution solution =
-        project_on_contacts(problem, {.tolerance = 1e-3 * distances.least, .sweeps = 50});
+        project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
     for (std::size_t k = 0; k < size(); ++k) {
       plan.moves[k].translation += solution.bodies[k].v;
       plan.moves[k].rotation_vector += solution.bodies[k].w;
@@ -545,8 +552,9 @@ class Island {
 
   /// Makes the plan's motions real until t, and looks around there.
   void move_to(const Plan& plan, double t) {
-    const bool is_last = span() >= start_.h - track_.reached;
-    const double to = t == 1.0 && is_last ? start_.h : track_.reached + t * span();
+    const double planned = span();
+    const bool is_last = planned >= start_.h - track_.reached;
+    const double to = t == 1.0 && is_last ? start_.h : track_.reached + t * planned;
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState begin = states_[k];
       RigidState& end = states_[k];
@@ -565,6 +573,11 @@ class Island {
     track_.clearance = std::min(track_.clearance, clearance_);
     poses_around_.clear();
     if (to < start_.h) {
+      acted_ = plan.touches;
+      for (Touch& touch : acted_) {
+        touch.impulse *= start_.h / planned;
+      }
+      std::ranges::stable_sort(acted_, comes_before);
       find_manifolds();
     }
   }
@@ -623,6 +636,7 @@ class Island {
   const StepStart& start_;
   const Surroundings& around_;
   const std::vector<Touch>& guesses_;
+  std::vector<Touch> acted_ = {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
   std::unordered_map<std::size_t, std::size_t> place_;  // Of each member.
