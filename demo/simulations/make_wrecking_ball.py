@@ -8,6 +8,7 @@ SCENE is written, and beside it ball_with_eye.obj: a ball joined with the ring i
 
 import json
 import math
+import os
 import pathlib
 import sys
 
@@ -56,7 +57,7 @@ def write_ball_with_eye(path):
 
 
 def main(scene, rows, columns):
-    link = {"mesh": str(pathlib.Path("../../data/rigid_ipc/link.obj")), "scale": SCALE}
+    link = {"mesh": os.path.relpath(DATA / "link.obj", scene.parent), "scale": SCALE}
     bodies = [
         {"name": "floor", "shape": {"box": {"size": [12, 12, 0.2]}}, "pose": {"position": [0, 0, -0.1]}},
         {"name": "hook", "shape": link, "pose": {"position": [0, 0, HOOK], "quaternion_wxyz": ALONG_X}},

@@ -1,0 +1,46 @@
+/// @file
+/// Boxes that fall, rest and pile up on a floor, the same for every engine, and what a step takes.
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace firstcontact::benchmarks {
+
+constexpr double kStep = 0.01;        // [s]
+constexpr double kBoxHalf = 0.1;      // [m]  Cubes.
+constexpr double kBoxMass = 8.0;      // [kg]
+constexpr double kFriction = 0.5;     // [-]
+constexpr double kFloorHalf = 500.0;  // [m]  Of the floor, whose top is at height 0.
+constexpr double kFloorThick = 1.0;   // [m]
+
+/// Boxes where they begin, at rest but for a spin.
+struct Pile {
+  std::string name;
+  std::vector<Eigen::Isometry3d> boxes;  ///< X_WB
+  std::vector<Eigen::Vector3d> spins;    ///< [rad/s]
+  int steps = 0;                         ///< To be simulated.
+};
+
+/// A pile in one engine.
+class PileWorld {
+ public:
+  virtual ~PileWorld() = default;
+  virtual void step() = 0;  ///< By kStep.
+  /// What an engine says of itself at the end, by name.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, double>> remarks() const { return {}; }
+};
+
+using LoadPile = std::function<std::unique_ptr<PileWorld>(const Pile&)>;
+
+/// Measures all piles, or those whose names contain NAME: the main function of
+/// `program [--quick] OUTPUT.json [NAME]`.
+int measure_piles(int argc, char** argv, const std::string& engine, const LoadPile& load);
+
+}  // namespace firstcontact::benchmarks
