@@ -39,7 +39,8 @@ constexpr double kLeastTolerance = 1e-9;  // [m/s]
 /// A residual of as many tolerances tells that a problem has no solution, or none that was found.
 constexpr double kUnsolved = 1e4;
 
-/// After as many impacts in a row that hardly let time pass, the island is jammed.
+/// After as many impacts in a row that hardly let time pass, the island is jammed. Nor are bodies
+/// pushed apart in less time: who looks at the motion could not divide it.
 constexpr std::size_t kMostStalls = 10;
 constexpr double kStall = 1e-9;  // [-]  Of the step.
 
@@ -143,7 +144,8 @@ class Island {
   /// Then plans are as short as it took, so that what pushes apart gets there within them.
   void choose_span(double planned, double t) {
     if (t < 1.0) {
-      span_ = is_too_near() ? std::max(t, kLeastShare) * planned : start_.h;
+      span_ = is_too_near() ? std::max(std::max(t, kLeastShare) * planned, kStall * start_.h)
+                            : start_.h;
     } else {
       span_ = 2.0 * planned;
     }
@@ -425,7 +427,7 @@ class Island {
   /// metric, and without velocity, so that they add no energy of motion.
   void push_apart(Plan& plan) {
     const ContactDistances& distances = world_.distances;
-    if (!is_too_near()) {
+    if (!is_too_near() || span() < kStall * start_.h) {
       return;
     }
     ProblemBodies bodies = problem_bodies();
@@ -550,11 +552,13 @@ class Island {
            closing > kStepsWithoutBounce * world_.gravity.norm() * start_.h;
   }
 
-  /// Makes the plan's motions real until t, and looks around there.
+  /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
+  /// little to be told from now.
   void move_to(const Plan& plan, double t) {
     const double planned = span();
     const bool is_last = planned >= start_.h - track_.reached;
     const double to = t == 1.0 && is_last ? start_.h : track_.reached + t * planned;
+    t = to > track_.reached ? t : 0.0;
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState begin = states_[k];
       RigidState& end = states_[k];
