@@ -111,5 +111,54 @@ TEST(InverseInertia, OfARodAboutOneFreeAxisIsThatOfItsSlantedLength) {
   EXPECT_EQ(inverse.cwiseAbs().sum(), inverse(2, 2));
 }
 
+/// A body that turns freely for a second, the axes that `bits` says locked.
+RigidState turned(const Inertia& inertia, RigidState state, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    const FreeTurn turn = free_turn(inertia, state, Vector3d::Zero(), 1.0 / steps);
+    const double angle = turn.rotation_vector.norm();
+    const Eigen::AngleAxisd by(angle, turn.rotation_vector.stableNormalized());
+    state.X_WB.rotation = (by * state.X_WB.rotation).normalized();
+    state.w_WB = turn.w_WB;
+  }
+  return state;
+}
+
+// Nothing turns the body but what holds the locked axis: that does no work, and leaves the momentum
+// about the others.
+TEST(FreeTurn, AboutTwoAxesKeepsEnergyAndMomentum) {
+  std::mt19937 rng(5);
+  for (int i = 0; i < 20; ++i) {
+    Inertia inertia = random_inertia(rng);
+    inertia.locked_rotation = locks(1u << (i % 3));
+    RigidState begin{.X_WB = random_pose(rng), .w_WB = random_vector(rng)};
+    begin.X_WB.rotation.normalize();
+    begin.w_WB[i % 3] = 0.0;
+    const Vector3d momentum = rotational_inertia(inertia, begin.X_WB) * begin.w_WB;
+    double before = 1e-5;
+    for (const int steps : {200, 400}) {
+      const RigidState end = turned(inertia, begin, steps);
+      const Vector3d change = rotational_inertia(inertia, end.X_WB) * end.w_WB - momentum;
+      ASSERT_EQ(end.w_WB[i % 3], 0.0) << i;
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_TRUE(k == i % 3 || std::abs(change[k]) <= 1e-11 * momentum.norm()) << i;
+      }
+      const double error =
+          std::abs(kinetic_energy(inertia, end) / kinetic_energy(inertia, begin) - 1.0);
+      ASSERT_LE(error, 0.3 * before + 1e-12) << i;  // Of second order in the step.
+      before = error;
+    }
+  }
+}
+
+TEST(FreeTurn, AboutOneAxisIsSteady) {
+  std::mt19937 rng(6);
+  Inertia inertia = random_inertia(rng);
+  inertia.locked_rotation = {true, false, true};
+  const RigidState begin{.X_WB = random_pose(rng), .w_WB = {0.0, 3.0, 0.0}};
+  const FreeTurn turn = free_turn(inertia, begin, Vector3d::Zero(), 0.5);
+  EXPECT_LE((turn.rotation_vector - Vector3d(0.0, 1.5, 0.0)).norm(), 1e-12);
+  EXPECT_LE((turn.w_WB - begin.w_WB).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -88,8 +88,7 @@ FreeTurn free_turn(const Inertia& inertia, const RigidState& state, const Vector
                    double dt) {
   const bool locked = std::ranges::any_of(inertia.locked_rotation, [](bool lock) { return lock; });
   const double angle = state.w_WB.norm() * dt;
-  if (locked || (is_isotropic(inertia.about_C_B) || angle == 0.0)) {
-    // No gyroscopic moment that an unlocked axis would feel, or none at all.
+  if (is_isotropic(inertia.about_C_B) || angle == 0.0) {  // No gyroscopic moment.
     const Vector3d change = inverse_inertia(inertia, state.X_WB).rotation * torque_W * dt;
     return {(state.w_WB + 0.5 * change) * dt, state.w_WB + change};
   }
@@ -100,8 +99,11 @@ FreeTurn free_turn(const Inertia& inertia, const RigidState& state, const Vector
   Quaterniond R = state.X_WB.rotation.normalized();
   const Quaterniond begin = R;
   Vector3d momentum = rotational_inertia(inertia, state.X_WB) * state.w_WB;
+  // What holds a locked axis changes the momentum about that axis alone, on which the velocity does
+  // not depend.
   const auto velocity_at = [&](const Quaterniond& q, const Vector3d& L) -> Vector3d {
-    return q * (inverse_B * (q.conjugate() * L));
+    return locked ? Vector3d(inverse_inertia(inertia, {Vector3d::Zero(), q}).rotation * L)
+                  : Vector3d(q * (inverse_B * (q.conjugate() * L)));
   };
   Vector3d w = state.w_WB;
   Vector3d mean = Vector3d::Zero();
@@ -114,6 +116,10 @@ FreeTurn free_turn(const Inertia& inertia, const RigidState& state, const Vector
     R = (turn(h * w) * R).normalized();
     momentum += h * torque_W;
     mean += w / count;
+  }
+  if (locked) {
+    // Turns about free axes add up to one about a locked axis, too: the mean is about none.
+    return {mean * dt, velocity_at(turn(mean * dt) * begin, momentum)};
   }
   return {nearest_turn(R * begin.conjugate(), mean * dt), velocity_at(R, momentum)};
 }

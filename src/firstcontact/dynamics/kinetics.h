@@ -57,7 +57,8 @@ struct FreeTurn {
 /// Keeps the angular momentum, but for what the torque adds, and follows the implicit midpoint rule
 /// in sub-steps of at most kSubStep rad: time-reversible, so that energy does not drift. The body
 /// gets from the first to the last orientation by one rotation at a constant rate, the one of those
-/// between the two that is nearest to the mean angular velocity.
+/// between the two that is nearest to the mean angular velocity. Where axes are locked it turns by
+/// that mean, which is about none of them.
 ///
 /// @param torque_W  [N m]  constant, about C
 /// @param dt        [s]
