@@ -62,11 +62,10 @@ TEST(Arch, StandsWhereItIsThickEnough) {
   EXPECT_LE(found.turned, 1e-5);
 }
 
-// So many that contacts are not solved to the end: steps go from impact to impact in ever less
-// time, down to none that could be told from the one before.
-TEST(Arch, IsProvenHoweverLittleTimePasses) {
+// More stones than sweeps over the contacts could ever make agree.
+TEST(Arch, OfManyStonesFoldsWithoutLosingTime) {
   Simulator s = arch(0.06, 52);
-  EXPECT_GT(drift(s, 0.03).time_lost, 0.0);
+  EXPECT_EQ(drift(s, 0.03).time_lost, 0.0);
 }
 
 TEST(Arch, FoldsWhereItIsTooThin) {

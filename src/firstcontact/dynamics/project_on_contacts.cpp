@@ -14,8 +14,11 @@ using detail::ContactRows;
 using detail::Impulses;
 using detail::Projection;
 
-/// Dense factorisations grow with the cube of the velocities.
-constexpr std::size_t kMostInMotionSpace = 300;
+/// Factorisations grow with more than the number of velocities.
+constexpr std::size_t kMostInMotionSpace = 1200;
+
+/// What sweeps do not do in so many, motion space does better.
+constexpr int kSweepsBeforeMotionSpace = 30;
 
 /// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
 /// sweep costs as many contacts as an assembly, of which far fewer are needed).
@@ -116,7 +119,11 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   const bool has_many =
       !problem.mechanisms.empty() || 6 * rows.contacts.size() >= kManyContacts * moving;
   if (options.space == ProjectionSpace::contact || (automatic && !(is_small && has_many))) {
-    detail::project_in_contact_space(rows, options, projection);
+    ProjectionOptions sweeping = options;
+    if (automatic && is_small) {
+      sweeping.sweeps = std::min(options.sweeps, kSweepsBeforeMotionSpace);
+    }
+    detail::project_in_contact_space(rows, sweeping, projection);
     if (!automatic || projection.residual <= options.tolerance || !is_small) {
       return solution_of(problem, rows, projection, ProjectionSpace::contact);
     }

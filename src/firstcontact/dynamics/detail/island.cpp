@@ -33,11 +33,11 @@ constexpr double kPush = 0.5;
 constexpr double kStepsWithoutBounce = 2.0;
 
 /// Of contact problems: of what gravity adds in a step.
-constexpr double kTolerance = 1e-6;
+constexpr double kTolerance = 3e-7;
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
 /// A residual of as many tolerances tells that a problem has no solution, or none that was found.
-constexpr double kUnsolved = 1e4;
+constexpr double kUnsolved = 3e4;
 
 /// After as many impacts in a row that hardly let time pass, the island is jammed. Nor are bodies
 /// pushed apart in less time: who looks at the motion could not divide it.
