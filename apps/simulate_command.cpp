@@ -173,6 +173,10 @@ class Run {
     const auto free =
         std::ranges::count_if(scene.bodies, [](const Body& b) { return b.free.has_value(); });
     line("bodies", fmt::format("{}, {} of them free", scene.bodies.size(), free));
+    if (!scene.robots.empty()) {
+      line("robots", fmt::format("{}, {} of them moved by forces", scene.robots.size(),
+                                 simulator_.robot_states().size()));
+    }
     const std::string resumed =
         resumed_ > 0 ? fmt::format(" (the first {} were there)", resumed_) : "";
     line("steps", fmt::format("{} of {}, {} each{}", simulator_.step_count(), count,

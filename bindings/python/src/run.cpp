@@ -13,6 +13,7 @@
 
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/scene/links_as_bodies.h>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -26,8 +27,8 @@ using Eigen::Vector3d;
 
 py::tuple names_of(const RunHeader& header) {
   py::list names;
-  for (const Body& body : header.scene.bodies) {
-    names.append(body.name);
+  for (const std::string& name : names_with_links(header.scene)) {
+    names.append(name);
   }
   return py::tuple(names);
 }

@@ -1,4 +1,5 @@
 #include <firstcontact/dynamics/simulator.h>
+#include <firstcontact/scene/links_as_bodies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,10 +137,10 @@ py::array quaternions(HeldSimulator& held) {
 
 /// The number of a body that is given by its number or its name.
 std::size_t body_from(const Simulator& simulator, const py::object& body) {
-  const std::vector<Body>& bodies = simulator.header().scene.bodies;
+  const std::vector<std::string> bodies = names_with_links(simulator.header().scene);
   if (py::isinstance<py::str>(body)) {
     const auto name = body.cast<std::string>();
-    const auto found = std::ranges::find(bodies, name, &Body::name);
+    const auto found = std::ranges::find(bodies, name);
     if (found == bodies.end()) {
       throw py::value_error("body: there is none of the name \"" + name + '"');
     }
@@ -176,6 +177,36 @@ void set_state(HeldSimulator& held, const py::object& body, const py::object& po
     state.w_WB = vector_from(angular_velocity, "angular_velocity");
   }
   held.call([&](Simulator& simulator) { simulator.set_state(number, state); });
+}
+
+/// A row of numbers of each robot.
+py::tuple robot_rows(HeldSimulator& held, Eigen::VectorXd MechanismState::*what) {
+  py::list found;
+  for (const MechanismState& state : held.idle().robot_states()) {
+    const Eigen::VectorXd& row = state.*what;
+    found.append(owning(std::vector<double>(row.begin(), row.end())));
+  }
+  return py::tuple(found);
+}
+
+Eigen::VectorXd numbers_from(const py::object& numbers, const Eigen::VectorXd& otherwise) {
+  if (numbers.is_none()) {
+    return otherwise;
+  }
+  const auto row = numbers.cast<std::vector<double>>();
+  return Eigen::Map<const Eigen::VectorXd>(row.data(), static_cast<Eigen::Index>(row.size()));
+}
+
+void set_robot_state(HeldSimulator& held, std::size_t robot, const py::object& positions,
+                     const py::object& velocities) {
+  const std::vector<MechanismState>& states = held.idle().robot_states();
+  if (robot >= states.size()) {
+    throw py::value_error("robot: expected a number below " + std::to_string(states.size()) +
+                          ", got " + std::to_string(robot));
+  }
+  const MechanismState state{numbers_from(positions, states[robot].positions),
+                             numbers_from(velocities, states[robot].velocities)};
+  held.call([&](Simulator& simulator) { simulator.set_robot_state(robot, state); });
 }
 
 /// A step that was done stays done, whatever signal came: unlike a query it is not asked again.
@@ -249,6 +280,22 @@ void bind_state(py::class_<HeldSimulator>& type) {
       .def_property_readonly(
           "angular_velocities", [](HeldSimulator& s) { return rows(s, &RigidState::w_WB); },
           "[rad/s] n×3, world axes; likewise.")
+      .def_property_readonly(
+          "robot_positions",
+          [](HeldSimulator& s) { return robot_rows(s, &MechanismState::positions); },
+          "[rad or m] A row for each robot with dynamics: its joints in the order of the URDF, a "
+          "free base before them. Of a pose: its position, then its quaternion w, x, y, z.")
+      .def_property_readonly(
+          "robot_velocities",
+          [](HeldSimulator& s) { return robot_rows(s, &MechanismState::velocities); },
+          "[rad/s or m/s] Likewise; of a pose: linear, then angular.")
+      .def(
+          "set_robot_state", &set_robot_state, py::arg("robot"), py::kw_only(),
+          py::arg("positions") = py::none(), py::arg("velocities") = py::none(),
+          R"(Puts a robot with dynamics elsewhere, or gives it other velocities; what is left out stays.
+
+robot: its number among them. positions, velocities: rows as in `robot_positions`. ValueError where
+their sizes are wrong or a link would meet something: then nothing is changed.)")
       .def("set_state", &set_state, py::arg("body"), py::kw_only(),
            py::arg("position") = py::none(), py::arg("quaternion_wxyz") = py::none(),
            py::arg("linear_velocity") = py::none(), py::arg("angular_velocity") = py::none(),
@@ -268,7 +315,7 @@ void bind_simulator(py::module_& m) {
 
 Step by step, the in-between motion of every body is known, and every pair is proven apart over all
 of it. The same on every run, and as the tool's `firstcontact simulate`. Rows of arrays are bodies
-in the scene's order; arrays are new ones at each look.)");
+in the scene's order, then the geometries of robots' links; arrays are new ones at each look.)");
   type.def(
       py::init(&make), py::arg("scene"), py::kw_only(), py::arg("duration") = py::none(),
       py::arg("step") = py::none(),

@@ -76,7 +76,30 @@ class UrdfReader {
                        {"origin", "geometry", "verbose", "contact_coefficients"});
       link.collision.push_back(geometry(*piece, options_.shapes != LoadShapes::none));
     }
+    if (const XmlElement* inertial = xml_.child(element, "inertial")) {
+      link.inertia = inertia(*inertial);
+    }
     return link;
+  }
+
+  LinkInertia inertia(const XmlElement& element) {
+    const Pose X_LC = origin(element);
+    LinkInertia inertia{.p_LC = X_LC.position};
+    if (const XmlElement* mass = xml_.child(element, "mass")) {
+      inertia.mass = xml_.number(*mass, "value");
+    }
+    if (const XmlElement* moments = xml_.child(element, "inertia")) {
+      const auto moment = [&](const char* name) {
+        return xml_.optional_number(*moments, name).value_or(0.0);
+      };
+      Eigen::Matrix3d about_C;
+      about_C << moment("ixx"), moment("ixy"), moment("ixz"),  //
+          moment("ixy"), moment("iyy"), moment("iyz"),         //
+          moment("ixz"), moment("iyz"), moment("izz");
+      const Eigen::Matrix3d R_LC = X_LC.rotation.toRotationMatrix();
+      inertia.about_C_L = R_LC * about_C * R_LC.transpose();
+    }
+    return inertia;
   }
 
   LinkGeometry geometry(const XmlElement& element, bool load) {
@@ -205,6 +228,10 @@ class UrdfReader {
     }
     joint.limits = limits(element, joint.type);
     joint.mimic = mimic(element);
+    if (const XmlElement* dynamics = xml_.child(element, "dynamics")) {
+      joint.damping = xml_.optional_number(*dynamics, "damping").value_or(0.0);
+      joint.friction = xml_.optional_number(*dynamics, "friction").value_or(0.0);
+    }
     return joint;
   }
 

@@ -16,11 +16,19 @@
 
 namespace firstcontact {
 
+/// What of a link resists motion, as its maker says; some say what no body has.
+struct LinkInertia {
+  double mass = 0.0;                                    ///< [kg]
+  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();       ///< [m]  Centre of mass.
+  Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  Axes of L; symmetric.
+};
+
 /// A rigid part of a robot, frame L.
 struct Link {
-  std::string name;
-  std::vector<LinkGeometry> visual;
-  std::vector<LinkGeometry> collision;
+  std::string name = {};
+  std::vector<LinkGeometry> visual = {};
+  std::vector<LinkGeometry> collision = {};
+  std::optional<LinkInertia> inertia = {};
 };
 
 /// How a child link may move against its parent. J is the joint frame, fixed in the parent; at
@@ -54,15 +62,17 @@ struct Mimic {
 
 /// Connects a child link to its parent. X_PL(q) = X_PJ X_JL(q).
 struct Joint {
-  std::string name;
+  std::string name = {};
   JointType type = JointType::fixed;
-  std::string parent;
-  std::string child;
+  std::string parent = {};
+  std::string child = {};
   Pose X_PJ = {};
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< [-]  In J, any length but zero.
   double pitch = 0.0;                               ///< [m/rad]  Of a screw.
   JointLimits limits = {};
   std::optional<Mimic> mimic = {};  ///< Of joints with one coordinate.
+  double damping = 0.0;             ///< [N m s/rad or N s/m]  >= 0.
+  double friction = 0.0;            ///< [N m or N]  >= 0; Coulomb's, of the joint itself.
 };
 
 /// How many numbers say where the joint is; 0 for floating and ball joints, which take a pose.
@@ -73,9 +83,9 @@ FIRSTCONTACT_API const char* to_string(JointType type);
 
 /// What a RobotModel is made of. Order is free: a joint may come before its links.
 struct RobotDescription {
-  std::string name;
-  std::vector<Link> links;
-  std::vector<Joint> joints;
+  std::string name = {};
+  std::vector<Link> links = {};
+  std::vector<Joint> joints = {};
 };
 
 /// What is wrong with a description, and where.

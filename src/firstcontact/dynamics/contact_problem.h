@@ -62,8 +62,8 @@ struct JointDrive {
   std::size_t coordinate = 0;
   double target = 0.0;      ///< [rad/s or m/s]
   double compliance = 0.0;  ///< [rad/s for N m s, or m/s for N s]  >= 0
-  double least = -std::numeric_limits<double>::infinity();    ///< [N m s or N s]  <= 0
-  double greatest = std::numeric_limits<double>::infinity();  ///< [N m s or N s]  >= 0
+  double least = -std::numeric_limits<double>::infinity();    ///< [N m s or N s]
+  double greatest = std::numeric_limits<double>::infinity();  ///< [N m s or N s]  >= least
   double guess = 0.0;                                         ///< [N m s or N s]  To start from.
 };
 
@@ -89,10 +89,11 @@ struct ProjectionOptions {
 };
 
 struct ContactSolution {
-  std::vector<ContactBody> bodies;          ///< With the velocities that contacts allow.
-  std::vector<Eigen::VectorXd> mechanisms;  ///< [rad/s or m/s]  Likewise, of their coordinates.
-  std::vector<Eigen::Vector3d> impulses;    ///< [N s]  r of each contact, in its frame.
-  std::vector<double> drives;               ///< [N m s or N s]  r of each drive.
+  std::vector<ContactBody> bodies;  ///< With the velocities that contacts allow.
+  std::vector<Eigen::VectorXd> mechanisms =
+      {};                                      ///< [rad/s or m/s]  Likewise, of their coordinates.
+  std::vector<Eigen::Vector3d> impulses = {};  ///< [N s]  r of each contact, in its frame.
+  std::vector<double> drives = {};             ///< [N m s or N s]  r of each drive.
   double residual = 0.0;  ///< [m/s]  See contact_residual(); above the tolerance: not converged.
   ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
   int iterations = 0;                                ///< Sweeps, or factorisations.

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <firstcontact/dynamics/detail/turn.h>
+
 namespace firstcontact {
 namespace {
 
+using detail::nearest_turn;
+using detail::turn;
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
@@ -19,28 +22,6 @@ constexpr double kSubStep = 0.1;  // [rad]
 constexpr int kMostSubSteps = 4096;
 
 Matrix3d rotation(const Pose& X_WB) { return X_WB.rotation.normalized().toRotationMatrix(); }
-
-Quaterniond turn(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (!(angle > 0.0)) {
-    return Quaterniond::Identity();
-  }
-  return Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
-/// The rotation vector that turns by q, of all their turns the one nearest to `expected`.
-Vector3d nearest_turn(const Quaterniond& q, const Vector3d& expected) {
-  const double sine = q.vec().norm();
-  if (!(sine > 0.0)) {
-    const double turns = std::round(expected.norm() / (2.0 * std::numbers::pi));
-    return turns > 0.0 ? Vector3d(expected.normalized() * turns * 2.0 * std::numbers::pi)
-                       : Vector3d(Vector3d::Zero());
-  }
-  const Vector3d axis = q.vec() / sine;
-  const double angle = 2.0 * std::atan2(sine, q.w());
-  const double turns = std::round((axis.dot(expected) - angle) / (2.0 * std::numbers::pi));
-  return (angle + 2.0 * std::numbers::pi * turns) * axis;
-}
 
 /// Whether every direction is a principal one: then the angular velocity is constant.
 bool is_isotropic(const Matrix3d& I) {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
 
@@ -68,8 +69,9 @@ class Line {
     throw ParseError(path_, number_, place + "expected " + expected);
   }
 
-  /// All of the keys, and no other.
-  void require_keys(const json& object, std::initializer_list<std::string_view> keys) const {
+  /// All of the keys, and no other but the one that may be there.
+  void require_keys(const json& object, std::initializer_list<std::string_view> keys,
+                    std::string_view may_be = {}) const {
     if (!object.is_object()) {
       fail(object, "an object");
     }
@@ -79,7 +81,7 @@ class Line {
       }
     }
     for (const auto& [key, member] : object.items()) {
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      if (key != may_be && std::find(keys.begin(), keys.end(), key) == keys.end()) {
         fail(member, "no such key here");
       }
     }
@@ -183,7 +185,7 @@ RunHeader read_header(const std::string& text, const std::string& path) {
   header.scene = parse_embedded_scene(text, path);
   header.version = line.string(root["version"]);
   header.input_digest = line.string(root["input_digest"]);
-  const std::size_t count = header.scene.bodies.size();
+  const std::size_t count = names_with_links(header.scene).size();
   for (const json& mass : line.array(root["masses"], count)) {
     header.masses.push_back(line.not_negative(mass));
   }
@@ -269,17 +271,44 @@ std::vector<RunBody> read_bodies(const json& array, std::size_t bodies, double l
   return result;
 }
 
-RunStep read_step(const Line& line, std::size_t bodies) {
+std::vector<double> numbers(const json& array, const Line& line) {
+  std::vector<double> result;
+  for (const json& number : line.array(array)) {
+    result.push_back(line.number(number));
+  }
+  return result;
+}
+
+std::vector<RunRobot> read_robots(const json& array, std::size_t robots, const Line& line) {
+  std::vector<RunRobot> result;
+  for (const json& element : line.array(array)) {
+    line.require_keys(element, {"robot", "positions", "velocities"});
+    result.push_back({.robot = line.index(element["robot"], robots),
+                      .positions = numbers(element["positions"], line),
+                      .velocities = numbers(element["velocities"], line)});
+    if (result.size() > 1 && result.back().robot <= result[result.size() - 2].robot) {
+      line.fail(element["robot"], "robots in the order of their numbers, each once");
+    }
+  }
+  return result;
+}
+
+RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
   const json& root = line.root();
-  line.require_keys(root, {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance",
-                           "kinetic_energy", "potential_energy", "linear_momentum",
-                           "angular_momentum", "residual", "events"});
+  line.require_keys(
+      root,
+      {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance", "kinetic_energy",
+       "potential_energy", "linear_momentum", "angular_momentum", "residual", "events"},
+      "robots");
   RunStep step;
   step.index = line.index(root["step"], kAnyCount);
   step.time = line.not_negative(root["time"]);
   step.lasted = line.not_negative(root["lasted"]);
   step.time_lost = line.not_negative(root["time_lost"]);
   step.bodies = read_bodies(root["bodies"], bodies, step.lasted, line);
+  if (root.contains("robots")) {
+    step.robots = read_robots(root["robots"], robots, line);
+  }
   for (const json& contact : line.array(root["contacts"])) {
     step.contacts.push_back(read_contact(contact, bodies, line));
   }
@@ -302,6 +331,7 @@ RunReader::RunReader(std::istream& run, std::string path) : stream_(run), path_(
     throw ParseError(path_, 1, "expected the header of a run, got no whole line");
   }
   header_ = read_header(*line, path_);
+  bodies_ = header_.masses.size();
 }
 
 std::optional<RunStep> RunReader::next() {
@@ -310,7 +340,7 @@ std::optional<RunStep> RunReader::next() {
     return std::nullopt;
   }
   const Line line(*text, path_, line_);
-  RunStep step = read_step(line, header_.scene.bodies.size());
+  RunStep step = read_step(line, bodies_, header_.scene.robots.size());
   if (step.index != steps_ + 1) {
     line.fail(line.root()["step"], std::to_string(steps_ + 1) + ", the steps in order");
   }

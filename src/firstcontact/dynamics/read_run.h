@@ -53,6 +53,7 @@ class FIRSTCONTACT_API RunReader {
   std::uint64_t size_ = 0;
   bool cut_off_ = false;
   RunHeader header_;
+  std::size_t bodies_ = 0;  // Pieces of links among them.
 };
 
 }  // namespace firstcontact

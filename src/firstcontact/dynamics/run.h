@@ -26,15 +26,23 @@ struct RunPiece {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World axes.
 };
 
-/// A body at the end of a step, and how it got there. Bodies that rest at the scene's pose for the
-/// whole run have none.
+/// A body at the end of a step, and how it got there. It is one of the scene, or behind them a
+/// piece of a link (LinksAsBodies). Bodies that rest at the scene's pose for the whole run have
+/// none.
 struct RunBody {
-  std::size_t body = 0;               ///< Its number in the scene.
+  std::size_t body = 0;
   std::vector<RunPiece> pieces = {};  ///< At least one, one after another; the last one ends with
                                       ///< the step. Where that lasted 0 s: none or of no length.
   Pose X_WB = {};
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
+};
+
+/// The coordinates of a robot at the end of a step. Its links are among the bodies.
+struct RunRobot {
+  std::size_t robot = 0;                ///< Its number in the scene.
+  std::vector<double> positions = {};   ///< As MechanismState has them.
+  std::vector<double> velocities = {};  ///< Likewise.
 };
 
 /// A contact that acted at the end of a step.
@@ -55,13 +63,14 @@ struct RunStep {
   double time_lost = 0.0;         ///< [s]  In this step, its events spent.
   double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0, infinite
                                   ///< where there is no pair.
-  double kinetic_energy = 0.0;    ///< [J]  Of the free bodies.
+  double kinetic_energy = 0.0;    ///< [J]  Of the free bodies and robots.
   double potential_energy = 0.0;  ///< [J]  In the field of gravity; 0 at the world's origin.
   Eigen::Vector3d linear_momentum = Eigen::Vector3d::Zero();   ///< [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
   double residual = 0.0;   ///< [m/s]  The greatest of the step's contact problems.
   std::size_t events = 0;  ///< Times within the step at which contacts were projected.
   std::vector<RunBody> bodies = {};
+  std::vector<RunRobot> robots = {};  ///< That forces move, in order.
   std::vector<RunContact> contacts = {};
 };
 
@@ -70,7 +79,7 @@ struct RunHeader {
   Scene scene;  ///< With its simulation, resolved: `contact_distance` is given.
   std::string version;
   std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal.
-  std::vector<double> masses = {};  ///< [kg]  Of every body; 0: not free.
+  std::vector<double> masses = {};  ///< [kg]  Of every body, pieces of links too; 0: not free.
   std::vector<Eigen::Vector3d> centres_of_mass =
       {};  ///< [m]  p_BC of every body; pivots of the pieces.
 };

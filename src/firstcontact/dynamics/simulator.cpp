@@ -35,10 +35,6 @@ void require_simulation(const LoadedScene& loaded) {
   if (!scene.simulation) {
     throw std::invalid_argument("the scene has no \"simulation\"");
   }
-  if (!scene.robots.empty()) {
-    throw std::invalid_argument("robot \"" + scene.robots.front().name +
-                                "\": robots are not simulated; leave it out");
-  }
   for (const Body& body : scene.bodies) {
     if (std::holds_alternative<VertexMotion>(body.motion)) {
       throw std::invalid_argument("body \"" + body.name +
@@ -65,24 +61,32 @@ Vector3d rotation_between(const Motion& motion, double from, double to) {
 
 class Simulator::Implementation {
  public:
-  explicit Implementation(LoadedScene loaded)
-      : loaded_((require_simulation(loaded), std::move(loaded))), world_(loaded_) {
-    Scene& scene = loaded_.scene;
-    scene.simulation->contact_distance = world_.distances.least;
-    header_ = {.scene = scene, .version = version(), .input_digest = loaded_.input_digest};
+  explicit Implementation(const LoadedScene& loaded)
+      : linked_((require_simulation(loaded), links_as_bodies(loaded))),
+        loaded_(linked_.loaded),
+        world_(loaded, linked_) {
+    const Scene& scene = loaded_.scene;
+    header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
+    header_.scene.simulation->contact_distance = world_.distances.least;
+    for (const detail::SimRobot& robot : world_.robots) {
+      robots_.push_back(robot.start);
+    }
     for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
       const SimBody& body = world_.bodies[b];
       const bool is_free = body.kind == BodyKind::free;
-      header_.masses.push_back(is_free ? body.inertia.mass : 0.0);
+      header_.masses.push_back(!is_free     ? 0.0
+                               : body.piece ? scene.bodies[b].free->mass.value()
+                                            : body.inertia.mass);
       header_.centres_of_mass.push_back(body.inertia.p_BC);
       RigidState state{.X_WB = loaded_.bodies.motion(b).pose(0.0)};
-      if (is_free) {
+      if (is_free && !body.piece) {
         state.v_WC = scene.bodies[b].free->linear_velocity;
         state.w_WB = scene.bodies[b].free->angular_velocity;
         lock(body.inertia, state);
       }
       states_.push_back(state);
     }
+    follow_robots(states_);
     require_apart(states_, [](std::size_t) { return true; });
   }
 
@@ -94,6 +98,10 @@ class Simulator::Implementation {
   void set_state(std::size_t body, const RigidState& state) {
     if (body >= states_.size() || world_.bodies[body].kind != BodyKind::free) {
       throw std::invalid_argument("set_state: body " + std::to_string(body) + " is not free");
+    }
+    if (world_.bodies[body].piece) {
+      throw std::invalid_argument("set_state: body " + std::to_string(body) +
+                                  " is a link; move its robot");
     }
     if (!state.X_WB.position.allFinite() || !state.X_WB.rotation.coeffs().allFinite() ||
         !(state.X_WB.rotation.norm() > 0.0) || !state.v_WC.allFinite() || !state.w_WB.allFinite()) {
@@ -107,7 +115,39 @@ class Simulator::Implementation {
     states_ = std::move(states);
   }
 
+  const std::vector<MechanismState>& robot_states() const { return robots_; }
+
+  void set_robot_state(std::size_t robot, const MechanismState& state) {
+    if (robot >= robots_.size()) {
+      throw std::invalid_argument("set_robot_state: there is no robot " + std::to_string(robot) +
+                                  " with dynamics");
+    }
+    const Mechanism& mechanism = world_.robots[robot].mechanism;
+    if (state.positions.size() != mechanism.position_count() ||
+        state.velocities.size() != mechanism.size() || !state.positions.allFinite() ||
+        !state.velocities.allFinite()) {
+      throw std::invalid_argument("set_robot_state: expected " +
+                                  std::to_string(mechanism.position_count()) + " positions and " +
+                                  std::to_string(mechanism.size()) + " velocities, all finite");
+    }
+    std::vector<MechanismState> robots = robots_;
+    robots[robot] = state;
+    std::swap(robots, robots_);
+    std::vector<RigidState> states = states_;
+    try {
+      follow_robots(states);
+      require_apart(states, [&](std::size_t b) {
+        return world_.bodies[b].piece && world_.bodies[b].piece->robot == robot;
+      });
+    } catch (...) {
+      robots_ = std::move(robots);
+      throw;
+    }
+    states_ = std::move(states);
+  }
+
   void resume(const RunStep& step) {
+    std::vector<MechanismState> robots = robots_of(step);
     std::vector<RigidState> states = states_;
     std::size_t moving = 0;
     for (const RunBody& body : step.bodies) {
@@ -124,6 +164,7 @@ class Simulator::Implementation {
                                   std::to_string(moving_bodies()));
     }
     states_ = std::move(states);
+    robots_ = std::move(robots);
     time_ = step.time;
     count_ = step.index;
     touches_.clear();
@@ -170,6 +211,46 @@ class Simulator::Implementation {
     }
   }
 
+  /// Of a step of a run of this scene.
+  [[nodiscard]] std::vector<MechanismState> robots_of(const RunStep& step) const {
+    std::vector<MechanismState> robots;
+    for (std::size_t k = 0; k < world_.robots.size() && k < step.robots.size(); ++k) {
+      const RunRobot& recorded = step.robots[k];
+      robots.push_back(
+          {Eigen::Map<const Eigen::VectorXd>(recorded.positions.data(),
+                                             static_cast<Eigen::Index>(recorded.positions.size())),
+           Eigen::Map<const Eigen::VectorXd>(
+               recorded.velocities.data(), static_cast<Eigen::Index>(recorded.velocities.size()))});
+      const Mechanism& mechanism = world_.robots[k].mechanism;
+      if (recorded.robot != world_.robots[k].number ||
+          robots.back().positions.size() != mechanism.position_count() ||
+          robots.back().velocities.size() != mechanism.size()) {
+        throw std::invalid_argument("the step is of another scene: its robots have other joints");
+      }
+    }
+    if (step.robots.size() != world_.robots.size()) {
+      throw std::invalid_argument("the step is of another scene: it moves " +
+                                  std::to_string(step.robots.size()) + " robots, not " +
+                                  std::to_string(world_.robots.size()));
+    }
+    return robots;
+  }
+
+  /// Puts the pieces of links where their joints have them.
+  void follow_robots(std::vector<RigidState>& states) const {
+    std::vector<std::size_t> pieces;
+    for (std::size_t b = 0; b < states.size(); ++b) {
+      if (world_.bodies[b].piece) {
+        pieces.push_back(b);
+      }
+    }
+    const StepStart start{.robots = robots_};
+    const detail::IslandRobots robots(world_, start, pieces);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      states[pieces[k]] = robots.state(k);
+    }
+  }
+
   [[nodiscard]] std::size_t moving_bodies() const {
     return static_cast<std::size_t>(std::ranges::count_if(
         world_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
@@ -206,7 +287,7 @@ class Simulator::Implementation {
 
   [[nodiscard]] StepStart step_start() {
     const Simulation& simulation = *loaded_.scene.simulation;
-    StepStart start{.time = time_, .h = simulation.step, .states = states_};
+    StepStart start{.time = time_, .h = simulation.step, .states = states_, .robots = robots_};
     start.scripted.resize(states_.size());
     for (std::size_t b = 0; b < states_.size(); ++b) {
       if (world_.bodies[b].kind != BodyKind::scripted) {
@@ -272,6 +353,26 @@ class Simulator::Implementation {
     return body;
   }
 
+  /// Moves the state of a robot to where it is at `lasted`.
+  void follow(const detail::RobotTrack& track, double lasted) {
+    MechanismState& state = robots_[track.robot];
+    double from = 0.0;
+    for (const detail::RobotTrackPiece& piece : track.pieces) {
+      if (piece.to <= lasted) {
+        state = piece.end;
+      } else {
+        const double share = std::max(0.0, (lasted - from) / (piece.to - from));
+        const Mechanism& mechanism = world_.robots[track.robot].mechanism;
+        state = {mechanism.between(piece.begin.positions, piece.end.positions, share),
+                 piece.begin.velocities + share * (piece.end.velocities - piece.begin.velocities)};
+      }
+      from = piece.to;
+      if (from >= lasted) {
+        break;
+      }
+    }
+  }
+
   RunStep record(const StepStart& start, const std::vector<IslandTrack>& tracks, double lasted) {
     RunStep step{.index = count_ + 1,
                  .time = time_ + lasted,
@@ -286,6 +387,15 @@ class Simulator::Implementation {
       for (std::size_t k = 0; k < track.members.size(); ++k) {
         step.bodies.push_back(recorded(track.members[k], track.pieces[k], lasted));
       }
+      for (const detail::RobotTrack& robot : track.robots) {
+        follow(robot, lasted);
+      }
+    }
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      const auto& [positions, velocities] = robots_[r];
+      step.robots.push_back({.robot = world_.robots[r].number,
+                             .positions = {positions.begin(), positions.end()},
+                             .velocities = {velocities.begin(), velocities.end()}});
     }
     for (std::size_t b = 0; b < states_.size(); ++b) {
       if (world_.bodies[b].kind == BodyKind::scripted) {
@@ -306,9 +416,17 @@ class Simulator::Implementation {
   }
 
   void add_mechanics(RunStep& step) const {
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      const MechanismMechanics robot =
+          world_.robots[r].mechanism.mechanics(robots_[r], world_.gravity);
+      step.kinetic_energy += robot.kinetic_energy;
+      step.potential_energy += robot.potential_energy;
+      step.linear_momentum += robot.linear_momentum;
+      step.angular_momentum += robot.angular_momentum;
+    }
     for (std::size_t b = 0; b < states_.size(); ++b) {
       const SimBody& body = world_.bodies[b];
-      if (body.kind != BodyKind::free) {
+      if (body.kind != BodyKind::free || body.piece) {
         continue;
       }
       const RigidState& state = states_[b];
@@ -322,18 +440,20 @@ class Simulator::Implementation {
     }
   }
 
-  LoadedScene loaded_;
+  LinksAsBodies linked_;
+  const LoadedScene& loaded_;  // With links as bodies.
   World world_;
   RunHeader header_;
   std::vector<RigidState> states_;
+  std::vector<MechanismState> robots_;
   std::vector<Touch> touches_;  // Of the last step, sorted.
   double time_ = 0.0;           // [s]
   std::size_t count_ = 0;
   Workspace workspace_;
 };
 
-Simulator::Simulator(LoadedScene loaded)
-    : implementation_(std::make_unique<Implementation>(std::move(loaded))) {}
+Simulator::Simulator(const LoadedScene& loaded)
+    : implementation_(std::make_unique<Implementation>(loaded)) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
@@ -342,6 +462,12 @@ const RunHeader& Simulator::header() const { return implementation_->header(); }
 double Simulator::time() const { return implementation_->time(); }
 std::size_t Simulator::step_count() const { return implementation_->step_count(); }
 const std::vector<RigidState>& Simulator::states() const { return implementation_->states(); }
+const std::vector<MechanismState>& Simulator::robot_states() const {
+  return implementation_->robot_states();
+}
+void Simulator::set_robot_state(std::size_t robot, const MechanismState& state) {
+  implementation_->set_robot_state(robot, state);
+}
 void Simulator::set_state(std::size_t body, const RigidState& state) {
   implementation_->set_state(body, state);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/dynamics/mechanism.h>
 #include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/loaded_scene.h>
@@ -28,9 +29,11 @@ namespace firstcontact {
 class FIRSTCONTACT_API Simulator {
  public:
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
-  /// @throws std::invalid_argument if there is no simulation, there are robots or deforming bodies,
-  ///         two bodies meet at the start (names them), or a body's mass cannot be found
-  explicit Simulator(LoadedScene loaded);
+  /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
+  /// bodies
+  ///         meet at the start (names them), a body's mass cannot be found, or a robot cannot be
+  ///         simulated (says why)
+  explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
@@ -39,14 +42,25 @@ class FIRSTCONTACT_API Simulator {
   [[nodiscard]] double time() const;             ///< [s]  Simulated so far.
   [[nodiscard]] std::size_t step_count() const;  ///< Steps taken.
 
-  /// Of every body of the scene; of fixed and scripted ones velocities are those of the last step.
+  /// Of every body of the scene, then of the pieces of links (LinksAsBodies); of fixed and scripted
+  /// ones velocities are those of the last step.
   [[nodiscard]] const std::vector<RigidState>& states() const;
 
   /// Moves a free body elsewhere, or gives it other velocities.
   ///
-  /// @throws std::invalid_argument if the body is not free, a number is not finite, or the body
+  /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, or
+  /// the body
   ///         would meet another one: then nothing is changed
   void set_state(std::size_t body, const RigidState& state);
+
+  /// Of every robot that has dynamics.
+  [[nodiscard]] const std::vector<MechanismState>& robot_states() const;
+
+  /// Puts a robot elsewhere, or gives it other velocities.
+  ///
+  /// @param robot  among those that have dynamics
+  /// @throws std::invalid_argument as set_state; then nothing is changed
+  void set_robot_state(std::size_t robot, const MechanismState& state);
 
   /// Goes on after a step of a run with the same header, bit for bit as the run did.
   ///

@@ -19,6 +19,7 @@
 #include <firstcontact/dynamics/detail/run_follower.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/parallel_for.h>
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
@@ -39,9 +40,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kChunk = 16;
 
 void require_plain(const Scene& scene) {
-  if (!scene.robots.empty()) {
-    throw std::invalid_argument("expected a run without robots: they cannot be verified yet");
-  }
   for (const Body& body : scene.bodies) {
     if (std::holds_alternative<VertexMotion>(body.motion)) {
       throw std::invalid_argument("expected rigid bodies: the vertices of \"" + body.name +
@@ -52,8 +50,8 @@ void require_plain(const Scene& scene) {
 
 std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& loaded) {
   std::vector<RunMember> members;
-  for (std::size_t b = 0; b < header.scene.bodies.size(); ++b) {
-    const Body& body = header.scene.bodies[b];
+  for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
+    const Body& body = loaded.scene.bodies[b];
     const Shape& shape = loaded.bodies.shape(b);
     const Motion& motion = loaded.bodies.motion(b);
     const Eigen::Vector3d& p_BC = header.centres_of_mass.at(b);
@@ -72,7 +70,7 @@ std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& 
 LoadedScene load(const RunHeader& header) {
   require_plain(header.scene);
   ShapeCache cache;
-  return load_scene(header.scene, cache);
+  return links_as_bodies(load_scene(header.scene, cache)).loaded;
 }
 
 class Verification {

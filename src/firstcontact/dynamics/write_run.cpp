@@ -57,6 +57,12 @@ Json to_json(const RunBody& body) {
           {"angular_velocity", to_json(body.angular_velocity)}};
 }
 
+Json to_json(const RunRobot& robot) {
+  return {{"robot", robot.robot},
+          {"positions", to_json(robot.positions)},
+          {"velocities", to_json(robot.velocities)}};
+}
+
 Json to_json(const Feature& feature) {
   return {{"type", word(feature.type)}, {"index", feature.index}};
 }
@@ -98,19 +104,22 @@ std::string write_run_header(const RunHeader& header) {
 }
 
 std::string write_run_step(const RunStep& step) {
-  const Json line = {{"step", step.index},
-                     {"time", to_json(step.time)},
-                     {"lasted", to_json(step.lasted)},
-                     {"time_lost", to_json(step.time_lost)},
-                     {"bodies", to_json(step.bodies)},
-                     {"contacts", to_json(step.contacts)},
-                     {"clearance", clearance_json(step.clearance)},
-                     {"kinetic_energy", to_json(step.kinetic_energy)},
-                     {"potential_energy", to_json(step.potential_energy)},
-                     {"linear_momentum", to_json(step.linear_momentum)},
-                     {"angular_momentum", to_json(step.angular_momentum)},
-                     {"residual", to_json(step.residual)},
-                     {"events", step.events}};
+  Json line = {{"step", step.index},
+               {"time", to_json(step.time)},
+               {"lasted", to_json(step.lasted)},
+               {"time_lost", to_json(step.time_lost)},
+               {"bodies", to_json(step.bodies)},
+               {"contacts", to_json(step.contacts)},
+               {"clearance", clearance_json(step.clearance)},
+               {"kinetic_energy", to_json(step.kinetic_energy)},
+               {"potential_energy", to_json(step.potential_energy)},
+               {"linear_momentum", to_json(step.linear_momentum)},
+               {"angular_momentum", to_json(step.angular_momentum)},
+               {"residual", to_json(step.residual)},
+               {"events", step.events}};
+  if (!step.robots.empty()) {
+    line["robots"] = to_json(step.robots);
+  }
   return line.dump() + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/write_page.h>
 
 namespace firstcontact {
@@ -22,7 +23,7 @@ void add_single(PageNumbers& row, const Eigen::Vector3d& v) {
 RunPage::RunPage(const RunHeader& header)
     : header_(write_run_header(header)),
       centres_of_mass_(header.centres_of_mass),
-      ways_(header.scene.bodies.size()) {}
+      ways_(header.centres_of_mass.size()) {}
 
 void RunPage::add(const RunStep& step) {
   for (const RunBody& moved : step.bodies) {
@@ -110,7 +111,7 @@ std::string RunPage::write(std::string_view page_template, const LoadedScene& lo
   }
   const std::string run = "{\"header\":" + header_ + ",\"steps\":[" + steps_ +
                           "],\"ways\":" + ways_json() + ",\"contacts\":" + contacts_json() + "}";
-  return write_page(page_template, loaded, {.name = "run", .json = run});
+  return write_page(page_template, links_as_bodies(loaded).loaded, {.name = "run", .json = run});
 }
 
 }  // namespace firstcontact

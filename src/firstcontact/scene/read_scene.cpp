@@ -236,8 +236,11 @@ void read_members(const JsonValue& root, const JsonObject& object, const SceneFo
   }
 }
 
-bool has_free_body(const Scene& scene) {
-  return std::ranges::any_of(scene.bodies, [](const Body& body) { return body.free.has_value(); });
+bool has_dynamics(const Scene& scene) {
+  return std::ranges::any_of(scene.bodies,
+                             [](const Body& body) { return body.free.has_value(); }) ||
+         std::ranges::any_of(scene.robots,
+                             [](const SceneRobot& robot) { return robot.dynamics.has_value(); });
 }
 
 /// What a scene says of its simulation, or the defaults where bodies need one. Returns its duration
@@ -247,7 +250,7 @@ const JsonValue* take_simulation(const JsonObject& object, Scene& scene, const J
     scene.simulation = detail::read_simulation(*simulation, scene, read);
     return find(std::get<JsonObject>(simulation->value), "duration");
   }
-  if (has_free_body(scene)) {
+  if (has_dynamics(scene)) {
     scene.simulation.emplace();
   }
   return nullptr;

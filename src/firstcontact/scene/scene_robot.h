@@ -15,6 +15,7 @@
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact {
@@ -53,6 +54,8 @@ struct SceneRobot {
   std::vector<SceneAttachment> attached = {};
   std::map<std::size_t, double> padding = {};                ///< [m]  By link; >= 0.
   std::map<std::size_t, TrackingError> tracking_error = {};  ///< By joint.
+  /// In a simulation it moves under forces; else as its trajectory says.
+  std::optional<RobotDynamics> dynamics = {};
   std::string files_digest = {};  ///< SHA-256 of the SRDF and the trajectory file; may be empty.
 };
 

@@ -5,7 +5,9 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -41,6 +43,38 @@ struct FreeBody {
 struct Surface {
   std::optional<double> friction;     ///< [-]  Coulomb's coefficient, >= 0.
   std::optional<double> restitution;  ///< [-]  Newton's, in [0, 1].
+};
+
+struct TimedNumber {
+  double time = 0.0;  ///< [s]
+  double number = 0.0;
+};
+
+/// What drives a joint, at most with its effort.
+struct JointMotor {
+  enum class Kind {
+    position,  ///< Towards a position; a spring and a damper where a stiffness is given.
+    velocity,  ///< Towards a velocity.
+    torque,    ///< By a torque, or a force along a slide.
+  };
+  Kind kind = Kind::position;
+  /// [rad, rad/s, N m; or m, m/s, N]  Linear between its times, which increase, constant before and
+  /// after. Empty for positions: those of the robot's trajectory.
+  std::vector<TimedNumber> target = {};
+  std::optional<double> stiffness = {};  ///< [N m/rad or N/m]  > 0; none: there within a step.
+  double damping = 0.0;                  ///< [N m s/rad or N s/m]  >= 0; with a stiffness.
+  std::optional<double> effort = {};     ///< [N m or N]  >= 0; else the model's limit, or none.
+};
+
+/// A robot that forces and contacts move. It starts at its `state`, where its base is.
+struct RobotDynamics {
+  bool has_free_base = false;  ///< Else the root link is held where it is.
+  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of a free base's origin.
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
+  std::map<std::string, double, std::less<>> velocities = {};  ///< [rad/s or m/s]  By coordinate.
+  std::map<std::size_t, JointMotor> motors = {};               ///< By joint; of one coordinate.
+  std::optional<double> density = {};  ///< [kg/m^3]  > 0; of links that the model gives no mass.
+  Surface surface = {};                ///< Of all links.
 };
 
 /// Of one pair of bodies, in place of what their surfaces give.

@@ -295,6 +295,9 @@ JsonValue robot_to_json(const SceneRobot& robot, const Scene& scene) {
   }
   object.push_back({"padding", {.value = std::move(padding)}});
   object.push_back({"tracking_error", {.value = tracking_errors(robot)}});
+  if (robot.dynamics) {
+    object.push_back({"dynamics", detail::robot_dynamics_to_json(robot)});
+  }
   return {.value = std::move(object)};
 }
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include <firstcontact/dynamics/detail/island_robots.h>
 #include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/response.h>
 #include <firstcontact/query/first_contact.h>
@@ -61,6 +62,7 @@ struct TouchAhead {
 struct Plan {
   std::vector<Move> moves = {};     // Of each member.
   std::vector<ContactBody> at_end;  // Velocities of each member.
+  std::vector<RobotPlan> robots = {};
   std::vector<Touch> touches = {};  // With their impulses.
   double residual = 0.0;            // [m/s]
 };
@@ -86,6 +88,7 @@ class Island {
         around_(step.around),
         guesses_(step.guesses),
         workspace_(workspace),
+        robots_(step.world, step.start, members),
         span_(step.start.h) {
     track_.members = std::move(members);
     track_.pieces.resize(size());
@@ -117,6 +120,7 @@ class Island {
       choose_span(planned, t);
       stalls = track_.reached - reached > kStall * start_.h ? 0 : stalls + 1;
     }
+    track_.robots = robots_.take_tracks();
     return std::move(track_);
   }
 
@@ -222,7 +226,9 @@ class Island {
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState& state = states_[k];
       bodies.add(track_.members[k],
-                 {inverse_inertia(member(k).inertia, state.X_WB), state.v_WC, state.w_WB},
+                 member(k).piece ? robots_.body(k)
+                                 : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
+                                               state.v_WC, state.w_WB},
                  centre_of_mass(member(k).inertia, state.X_WB));
     }
     return bodies;
@@ -276,6 +282,10 @@ class Island {
     flight.at_end = bodies;
     for (std::size_t k = 0; k < size(); ++k) {
       const SimBody& body = member(k);
+      if (body.piece) {
+        flight.rotation_vectors.emplace_back(Vector3d::Zero());
+        continue;  // Flies with its robot.
+      }
       Vector3d force = body.inertia.mass * world_.gravity;
       Vector3d torque = Vector3d::Zero();
       const double from = start_.time + track_.reached;
@@ -305,9 +315,11 @@ class Island {
       add_others(touch.bodies, bodies);
       problem.contacts.push_back(
           contact_at(touch, bodies, world_.laws.friction(touch.bodies), least));
-      problem.contacts.back().guess *= share;
       touches.push_back(&touch);
-      return problem.contacts.back();
+      ContactPoint& contact = problem.contacts.back();
+      contact.guess *= share;
+      contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span();
+      return contact;
     };
     for (auto& [pair, manifold] : manifolds_) {
       for (Touch& touch : manifold.touches) {
@@ -328,12 +340,8 @@ class Island {
     }
     const FreeFlight flight = free_flight(bodies.bodies());
     problem.bodies = flight.at_end;
-    ContactSolution solution;
-    solution.bodies = problem.bodies;
-    if (!problem.contacts.empty()) {
-      solution = project_on_contacts(problem, projection_options());
-      limit_energy(problem, solution);
-    }
+    const std::vector<RobotPlan> free = robots_.fly(problem, start_.time + track_.reached, span());
+    const ContactSolution solution = project(problem);
     Plan plan{.at_end = solution.bodies, .residual = solution.residual};
     for (std::size_t k = 0; k < touches.size(); ++k) {
       Touch acting = *touches[k];
@@ -342,9 +350,37 @@ class Island {
       plan.touches.push_back(acting);
     }
     plan.at_end.resize(size());
-    set_moves(problem, bodies.bodies(), flight, solution, plan);
+    const std::vector<bool> by_end = led_by_end(problem, bodies.bodies(), solution);
+    set_moves(bodies.bodies(), flight, solution, by_end, plan);
+    plan.robots = robots_.plan(problem, solution, free, by_end, span());
     push_apart(plan);
+    robots_.set_moves(plan.robots, states_, span(), plan.moves);
     return plan;
+  }
+
+  /// [m]  What the drift of links adds to the way along a contact's normal.
+  [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const {
+    double way = 0.0;
+    for (int side = 0; side < 2; ++side) {
+      if (world_.bodies[pair[side]].piece) {
+        const std::size_t k = place_.at(pair[side]);
+        const Move drift = robots_.drift(k, states_[k].X_WB);
+        const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
+        const Vector3d at_contact = drift.translation + drift.rotation_vector.cross(arm);
+        way += (side == 0 ? -1.0 : 1.0) * contact.frame.row(0).dot(at_contact);
+      }
+    }
+    return way;
+  }
+
+  /// The free velocities as contacts and drives allow them.
+  [[nodiscard]] ContactSolution project(const ContactProblem& problem) const {
+    if (problem.contacts.empty() && problem.drives.empty()) {
+      return unchanged(problem);
+    }
+    ContactSolution solution = project_on_contacts(problem, projection_options());
+    limit_energy(problem, solution);
+    return solution;
   }
 
   [[nodiscard]] ProjectionOptions projection_options() const {
@@ -356,17 +392,17 @@ class Island {
   /// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
   /// answer is anything: it is shortened to what there was before, or to what moves with the
   /// script.
+  /// Motors add what they want, as long as there is a solution.
   void limit_energy(const ContactProblem& problem, ContactSolution& solution) const {
-    std::vector<ContactBody>& bodies = solution.bodies;
-    double before = 0.0;
-    double after = 0.0;
+    const bool is_solved = solution.residual <= kUnsolved * projection_options().tolerance;
+    if (is_solved && robots_.has_motors()) {
+      return;
+    }
+    const double before = energy_of(problem.bodies, velocities_of(problem.mechanisms));
+    const double after = energy_of(solution.bodies, solution.mechanisms);
     double mass = 0.0;
     for (std::size_t k = 0; k < size(); ++k) {
-      const Inertia& inertia = member(k).inertia;
-      const Pose& X_WB = states_[k].X_WB;
-      before += kinetic_energy(inertia, {X_WB, problem.bodies[k].v, problem.bodies[k].w});
-      after += kinetic_energy(inertia, {X_WB, bodies[k].v, bodies[k].w});
-      mass += inertia.mass;
+      mass += member(k).inertia.mass;
     }
     double speed = 0.0;
     for (const ContactPoint& contact : problem.contacts) {
@@ -379,7 +415,6 @@ class Island {
       }
     }
     const double along = speed * std::sqrt(0.5 * mass);
-    const bool is_solved = solution.residual <= kUnsolved * projection_options().tolerance;
     const double allowed =
         is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
     if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
@@ -387,15 +422,31 @@ class Island {
     }
     const double share = allowed / std::sqrt(after);
     for (std::size_t k = 0; k < size(); ++k) {
-      bodies[k].v *= share;
-      bodies[k].w *= share;
+      solution.bodies[k].v *= share;
+      solution.bodies[k].w *= share;
     }
+    for (Eigen::VectorXd& velocities : solution.mechanisms) {
+      velocities *= share;
+    }
+  }
+
+  /// [J]  Of the members and their robots.
+  [[nodiscard]] double energy_of(const std::vector<ContactBody>& bodies,
+                                 const std::vector<Eigen::VectorXd>& mechanisms) const {
+    double sum = robots_.kinetic_energy(mechanisms);
+    for (std::size_t k = 0; k < size(); ++k) {
+      if (!member(k).piece) {
+        sum += kinetic_energy(member(k).inertia, {states_[k].X_WB, bodies[k].v, bodies[k].w});
+      }
+    }
+    return sum;
   }
 
   /// The mean of the velocities at both ends is exact under constant forces; where it would break a
   /// constraint, as at one that only begins to act, those at the end lead the bodies in contact.
-  void set_moves(const ContactProblem& problem, const std::vector<ContactBody>& before,
-                 const FreeFlight& flight, const ContactSolution& solution, Plan& plan) const {
+  [[nodiscard]] std::vector<bool> led_by_end(const ContactProblem& problem,
+                                             const std::vector<ContactBody>& before,
+                                             const ContactSolution& solution) const {
     std::vector<ContactBody> mean = solution.bodies;
     for (std::size_t b = 0; b < mean.size(); ++b) {
       mean[b].v = 0.5 * (before[b].v + solution.bodies[b].v);
@@ -413,12 +464,20 @@ class Island {
         by_end[contact.bodies[1]] = true;
       }
     }
+    return by_end;
+  }
+
+  /// Those of pieces of links are their robots' matter.
+  void set_moves(const std::vector<ContactBody>& before, const FreeFlight& flight,
+                 const ContactSolution& solution, const std::vector<bool>& by_end,
+                 Plan& plan) const {
     for (std::size_t k = 0; k < size(); ++k) {
       const Vector3d& w_free = flight.at_end[k].w;
       const Vector3d& w = solution.bodies[k].w;
       const Vector3d turn =
           by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
-      plan.moves.push_back({span() * (by_end[k] ? solution.bodies[k].v : mean[k].v),
+      const Vector3d& v = solution.bodies[k].v;
+      plan.moves.push_back({span() * (by_end[k] ? v : Vector3d(0.5 * (before[k].v + v))),
                             flight.rotation_vectors[k] + span() * turn});
     }
   }
@@ -447,9 +506,14 @@ class Island {
       body.v.setZero();
       body.w.setZero();
     }
+    robots_.add_mechanisms(problem);
+    for (ContactMechanism& mechanism : problem.mechanisms) {
+      mechanism.velocity.setZero();
+    }
     // In metres in place of metres per second.
     const ContactSolution solution =
         project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
+    robots_.displace(solution.mechanisms, plan.robots);
     for (std::size_t k = 0; k < size(); ++k) {
       plan.moves[k].translation += solution.bodies[k].v;
       plan.moves[k].rotation_vector += solution.bodies[k].w;
@@ -559,6 +623,7 @@ class Island {
     const bool is_last = planned >= start_.h - track_.reached;
     const double to = t == 1.0 && is_last ? start_.h : track_.reached + t * planned;
     t = to > track_.reached ? t : 0.0;
+    robots_.move_to(plan.robots, t, to);
     for (std::size_t k = 0; k < size(); ++k) {
       const RigidState begin = states_[k];
       RigidState& end = states_[k];
@@ -566,6 +631,11 @@ class Island {
       end.X_WB.rotation.normalize();
       end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
       end.w_WB = begin.w_WB + t * (plan.at_end[k].w - begin.w_WB);
+      if (member(k).piece) {
+        const ContactBody body = robots_.body(k);
+        end.v_WC = body.v;
+        end.w_WB = body.w;
+      }
       if (t > 0.0) {
         const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
         track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
@@ -626,9 +696,16 @@ class Island {
       return;
     }
     problem.bodies = bodies.bodies();
-    ContactSolution solution =
-        project_impact(world_, track_.members, states_, problem, restitution, projection_options());
+    robots_.add_mechanisms(problem);
+    robots_.add_drives_at_impact(problem);
+    ContactSolution solution = project_impact(
+        problem, restitution, size(),
+        [this](const auto& moving, const auto& mechanisms) {
+          return energy_of(moving, mechanisms);
+        },
+        projection_options());
     limit_energy(problem, solution);
+    robots_.take_velocities(solution);
     for (std::size_t k = 0; k < size(); ++k) {
       states_[k].v_WC = solution.bodies[k].v;
       states_[k].w_WB = solution.bodies[k].w;
@@ -643,6 +720,7 @@ class Island {
   std::vector<Touch> acted_ = {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
+  IslandRobots robots_;
   std::unordered_map<std::size_t, std::size_t> place_;  // Of each member.
   std::vector<RigidState> states_;                      // Of each member, now.
   std::unordered_map<std::size_t, Pose> poses_around_;  // Of those asked for, now.

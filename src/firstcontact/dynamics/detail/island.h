@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/dynamics/detail/island_robots.h>
 #include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/touch.h>
 #include <firstcontact/dynamics/detail/world.h>
@@ -25,6 +26,7 @@ struct TrackPiece {
 struct IslandTrack {
   std::vector<std::size_t> members;             ///< Free bodies.
   std::vector<std::vector<TrackPiece>> pieces;  ///< Of each member.
+  std::vector<RobotTrack> robots = {};          ///< Whose links are members.
   std::vector<Touch> touches = {};              ///< That acted last, with their impulses.
   double reached = 0.0;                         ///< [s]
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
@@ -41,8 +43,8 @@ struct StepContext {
                                       ///< the solver.
 };
 
-/// Advances the free bodies `members`, with all fixed and scripted bodies around them, and without
-/// any other.
+/// Advances the free bodies `members`, of a robot all its links or none, with all fixed and
+/// scripted bodies around them, and without any other.
 ///
 /// Until the step is over: velocities are what gravity, forces and the contacts within the band
 /// make of them (Gauss' principle); the in-between motion over the rest of the step is asked for

@@ -32,6 +32,7 @@ class Islands {
   }
 
   std::optional<std::vector<IslandTrack>> run(const std::stop_token& stop) {
+    join_links();
     join_near();
     while (true) {
       if (!advance_changed(stop)) {
@@ -66,6 +67,17 @@ class Islands {
   [[nodiscard]] AlignedBox3d widened(const AlignedBox3d& box, double by) const {
     const Vector3d slack = Vector3d::Constant(0.5 * (by + world_.laws.greatest_margin()));
     return {box.min() - slack, box.max() + slack};
+  }
+
+  void join_links() {
+    std::vector<std::size_t> first(world_.robots.size(), kNone);
+    for (const std::size_t b : free_) {
+      if (const auto& piece = world_.bodies[b].piece) {
+        std::size_t& one = first[piece->robot];
+        one = one == kNone ? b : one;
+        join(one, b);
+      }
+    }
   }
 
   void join_near() {
@@ -174,6 +186,8 @@ class Islands {
     }
     return !meeting.empty();
   }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   const World& world_;
   const StepStart& start_;

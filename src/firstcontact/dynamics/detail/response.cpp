@@ -23,22 +23,18 @@ Matrix3d frame_of(const Vector3d& normal) {
   return frame;
 }
 
-double energy_of(const World& world, const std::vector<std::size_t>& members,
-                 const std::vector<RigidState>& states, const std::vector<ContactBody>& bodies) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    sum += kinetic_energy(world.bodies[members[k]].inertia,
-                          {states[k].X_WB, bodies[k].v, bodies[k].w});
-  }
-  return sum;
-}
-
 /// The velocities and impulses between two solutions.
 ContactSolution between(const ContactSolution& from, const ContactSolution& to, double share) {
   ContactSolution mixed = to;
   for (std::size_t b = 0; b < mixed.bodies.size(); ++b) {
     mixed.bodies[b].v = (1.0 - share) * from.bodies[b].v + share * to.bodies[b].v;
     mixed.bodies[b].w = (1.0 - share) * from.bodies[b].w + share * to.bodies[b].w;
+  }
+  for (std::size_t m = 0; m < mixed.mechanisms.size(); ++m) {
+    mixed.mechanisms[m] = (1.0 - share) * from.mechanisms[m] + share * to.mechanisms[m];
+  }
+  for (std::size_t k = 0; k < mixed.drives.size(); ++k) {
+    mixed.drives[k] = (1.0 - share) * from.drives[k] + share * to.drives[k];
   }
   for (std::size_t k = 0; k < mixed.impulses.size(); ++k) {
     mixed.impulses[k] = (1.0 - share) * from.impulses[k] + share * to.impulses[k];
@@ -85,10 +81,11 @@ double normal_velocity(const ContactPoint& contact, const std::vector<ContactBod
   return contact.frame.row(0).dot(u);
 }
 
-ContactSolution project_impact(const World& world, const std::vector<std::size_t>& members,
-                               const std::vector<RigidState>& states, ContactProblem problem,
-                               const std::vector<double>& restitution,
-                               const ProjectionOptions& options) {
+ContactSolution project_impact(
+    ContactProblem problem, const std::vector<double>& restitution, std::size_t members,
+    const std::function<double(const std::vector<ContactBody>&,
+                               const std::vector<Eigen::VectorXd>&)>& energy,
+    const ProjectionOptions& options) {
   bool bounces = false;
   std::vector<double> rebound(problem.contacts.size());
   for (std::size_t k = 0; k < rebound.size(); ++k) {
@@ -97,7 +94,7 @@ ContactSolution project_impact(const World& world, const std::vector<std::size_t
     bounces = bounces || rebound[k] > 0.0;
     problem.contacts[k].least_normal_velocity = 0.0;
   }
-  const double before = energy_of(world, members, states, problem.bodies);
+  const double before = energy(problem.bodies, velocities_of(problem.mechanisms));
   const ContactSolution plastic = project_on_contacts(problem, options);
   if (!bounces) {
     return plastic;
@@ -106,11 +103,12 @@ ContactSolution project_impact(const World& world, const std::vector<std::size_t
     problem.contacts[k].least_normal_velocity = rebound[k];
   }
   const ContactSolution bounced = project_on_contacts(problem, options);
-  if (touches_scripted(problem, members.size())) {
+  if (touches_scripted(problem, members)) {
     return bounced;  // A body that nothing stops may add energy.
   }
   const auto energy_at = [&](double share) {
-    return energy_of(world, members, states, between(plastic, bounced, share).bodies);
+    const ContactSolution mixed = between(plastic, bounced, share);
+    return energy(mixed.bodies, mixed.mechanisms);
   };
   const double allowed = before * (1.0 + 1e-12);
   if (energy_at(1.0) <= allowed) {
@@ -123,6 +121,21 @@ ContactSolution project_impact(const World& world, const std::vector<std::size_t
     (energy_at(middle) <= allowed ? low : high) = middle;
   }
   return between(plastic, bounced, low);
+}
+
+ContactSolution unchanged(const ContactProblem& problem) {
+  return {.bodies = problem.bodies,
+          .mechanisms = velocities_of(problem.mechanisms),
+          .impulses = std::vector<Vector3d>(problem.contacts.size(), Vector3d::Zero()),
+          .drives = std::vector<double>(problem.drives.size(), 0.0)};
+}
+
+std::vector<Eigen::VectorXd> velocities_of(const std::vector<ContactMechanism>& mechanisms) {
+  std::vector<Eigen::VectorXd> velocities;
+  for (const ContactMechanism& mechanism : mechanisms) {
+    velocities.push_back(mechanism.velocity);
+  }
+  return velocities;
 }
 
 }  // namespace firstcontact::detail

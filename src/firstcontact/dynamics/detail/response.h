@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -50,11 +51,18 @@ class ProblemBodies {
 /// to the one with it.
 ///
 /// @param restitution  of each contact, whose least normal velocity is replaced
-[[nodiscard]] ContactSolution project_impact(const World& world,
-                                             const std::vector<std::size_t>& members,
-                                             const std::vector<RigidState>& states,
-                                             ContactProblem problem,
-                                             const std::vector<double>& restitution,
-                                             const ProjectionOptions& options);
+/// @param members      how many of the bodies, the first ones, the energy is of
+/// @param energy       [J]  of velocities of bodies and mechanisms
+[[nodiscard]] ContactSolution project_impact(
+    ContactProblem problem, const std::vector<double>& restitution, std::size_t members,
+    const std::function<double(const std::vector<ContactBody>&,
+                               const std::vector<Eigen::VectorXd>&)>& energy,
+    const ProjectionOptions& options);
+
+/// Velocities that nothing changes.
+[[nodiscard]] ContactSolution unchanged(const ContactProblem& problem);
+
+[[nodiscard]] std::vector<Eigen::VectorXd> velocities_of(
+    const std::vector<ContactMechanism>& mechanisms);
 
 }  // namespace firstcontact::detail

@@ -51,18 +51,32 @@ void find_reach(SimBody& body) {
   body.box_B = Eigen::AlignedBox3d(body.box_B.min() - thickness, body.box_B.max() + thickness);
 }
 
+/// The number of a robot of the scene among those with dynamics.
+std::size_t number_in_world(const Scene& scene, std::size_t robot) {
+  return static_cast<std::size_t>(
+      std::count_if(scene.robots.begin(), scene.robots.begin() + static_cast<std::ptrdiff_t>(robot),
+                    [](const SceneRobot& other) { return other.dynamics.has_value(); }));
+}
+
 std::uint64_t key(const BodyPair& pair) {
   return (static_cast<std::uint64_t>(pair[0]) << 32) | pair[1];
 }
 
 }  // namespace
 
-std::vector<SimBody> make_sim_bodies(const LoadedScene& loaded) {
+std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked) {
+  const LoadedScene& loaded = linked.loaded;
+  const std::size_t first_piece = loaded.scene.bodies.size() - linked.pieces.size();
   std::vector<SimBody> bodies;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
     const Body& described = loaded.scene.bodies[b];
     SimBody body{.shape = loaded.bodies.shape(b)};
-    if (described.free) {
+    if (described.free && b >= first_piece) {
+      const LinkPiece& piece = linked.pieces[b - first_piece];
+      body.kind = BodyKind::free;
+      body.piece = RobotPiece{number_in_world(scene, piece.robot), piece.link, piece.X_LG};
+      body.inertia.p_BC = described.free->centre_of_mass.value();
+    } else if (described.free) {
       body.kind = BodyKind::free;
       body.forces = described.free->forces;
       try {
@@ -84,11 +98,14 @@ double contact_distance_of(const Simulation& simulation, const std::vector<SimBo
     return *simulation.contact_distance;
   }
   double smallest = std::numeric_limits<double>::infinity();
+  double smallest_link = smallest;
   for (const SimBody& body : bodies) {
     if (body.kind == BodyKind::free) {
-      smallest = std::min(smallest, body.reach);
+      double& least = body.piece ? smallest_link : smallest;
+      least = std::min(least, body.reach);
     }
   }
+  smallest = std::isfinite(smallest) ? smallest : smallest_link;
   return std::isfinite(smallest) ? kRelativeDistance * smallest : kRelativeDistance;
 }
 

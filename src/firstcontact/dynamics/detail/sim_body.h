@@ -14,6 +14,7 @@
 #include <firstcontact/dynamics/kinetics.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/query/pair_rules.h>
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/simulation.h>
 
@@ -22,24 +23,35 @@ namespace firstcontact::detail {
 enum class BodyKind {
   fixed,     ///< Rests where the scene puts it.
   scripted,  ///< Moves as the scene says.
-  free,      ///< Moves under forces and contacts.
+  free,      ///< Moves under forces and contacts, by itself or as a link of a robot.
+};
+
+/// A body that is a piece of a link.
+struct RobotPiece {
+  std::size_t robot = 0;  ///< Of the world.
+  std::size_t link = 0;
+  Pose X_LB = {};
 };
 
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
-  Inertia inertia = {};  ///< Of a body that is not free only p_BC, its pivot: the frame's origin.
-  double reach = 0.0;    ///< [m]  From C to the farthest point of the thickened surface.
+  /// Of a body that is not free, or a piece of a link, only p_BC, its pivot.
+  Inertia inertia = {};
+  std::optional<RobotPiece> piece = {};
+  double reach = 0.0;              ///< [m]  From C to the farthest point of the thickened surface.
   Eigen::AlignedBox3d box_B = {};  ///< [m]  Around it, in the body frame.
   std::vector<TimedForce> forces = {};
 };
 
-/// The bodies of a scene that has a simulation.
+/// The bodies of a scene that has a simulation, those of its links among them.
 ///
+/// @param scene  the one of which `linked` was made
 /// @throws std::invalid_argument  names the body whose mass cannot be found, and the mend
-[[nodiscard]] std::vector<SimBody> make_sim_bodies(const LoadedScene& loaded);
+[[nodiscard]] std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked);
 
-/// [m]  What the scene says, or 1e-4 of the radius of the smallest free body.
+/// [m]  What the scene says, or 1e-4 of the radius of the smallest free body; where there are links
+/// only, of the smallest of them.
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
 

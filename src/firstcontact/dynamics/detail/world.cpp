@@ -30,10 +30,11 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
 
 }  // namespace
 
-World::World(const LoadedScene& loaded)
-    : bodies(make_sim_bodies(loaded)),
+World::World(const LoadedScene& loaded, const LinksAsBodies& linked)
+    : bodies(make_sim_bodies(loaded.scene, linked)),
+      robots(make_sim_robots(loaded, linked)),
       neighbours(neighbours_of(bodies)),
-      laws(loaded),
+      laws(linked.loaded),
       distances(contact_distance_of(*loaded.scene.simulation, bodies)),
       gravity(loaded.scene.simulation->gravity),
       events(loaded.scene.simulation->events) {}

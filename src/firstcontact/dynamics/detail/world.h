@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/dynamics/detail/sim_body.h>
+#include <firstcontact/dynamics/detail/sim_robot.h>
 #include <firstcontact/dynamics/detail/surface_neighbours.h>
 #include <firstcontact/motion/motion.h>
 
@@ -43,9 +44,11 @@ struct ContactDistances {
 };
 
 struct World {
-  explicit World(const LoadedScene& loaded);
+  /// @param loaded  the scene of which `linked` was made
+  World(const LoadedScene& loaded, const LinksAsBodies& linked);
 
   std::vector<SimBody> bodies;
+  std::vector<SimRobot> robots;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
   PairLaws laws;
   ContactDistances distances;
@@ -72,10 +75,11 @@ struct Move {
 
 /// What a step of a simulation begins with, for every body.
 struct StepStart {
-  double time = 0.0;                ///< [s]  Since the simulation began.
-  double h = 0.0;                   ///< [s]  How long the step is to last.
-  std::vector<RigidState> states;   ///< Velocities of free bodies.
-  std::vector<Move> scripted = {};  ///< Over the step; zero but for scripted bodies.
+  double time = 0.0;                    ///< [s]  Since the simulation began.
+  double h = 0.0;                       ///< [s]  How long the step is to last.
+  std::vector<RigidState> states = {};  ///< Velocities of free bodies.
+  std::vector<Move> scripted = {};      ///< Over the step; zero but for scripted bodies.
+  std::vector<MechanismState> robots = {};
 };
 
 /// Where a scripted or fixed body is, a share of the step after its begin.

@@ -15,6 +15,7 @@
 #include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pose.h>
+#include <firstcontact/scene/detail/read_robot_dynamics.h>
 #include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_trajectory.h>
@@ -31,7 +32,7 @@ class RobotReader {
   SceneRobot robot(const JsonValue& value) const {
     const JsonObject& object = read_.object(
         value, {{"name", "urdf", "srdf", "package_roots", "surface", "base", "base_motion",
-                 "trajectory", "state", "attached", "padding", "tracking_error"}});
+                 "trajectory", "state", "attached", "padding", "tracking_error", "dynamics"}});
     const RobotFile urdf = file(value, object);
     SceneRobot robot{.name = read_.string(read_.member(value, "name"), "a name"),
                      .file = urdf,
@@ -54,6 +55,12 @@ class RobotReader {
     }
     if (const JsonValue* error = find(object, "tracking_error")) {
       robot.tracking_error = tracking_error(*error, robot);
+    }
+    if (const JsonValue* dynamics = find(object, "dynamics")) {
+      if (const JsonValue* motion = find(object, "base_motion")) {
+        read_.fail(*motion, "expected \"base\" beside \"dynamics\": where the robot starts from");
+      }
+      robot.dynamics = read_robot_dynamics(*dynamics, robot, read_);
     }
     return robot;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -67,7 +68,49 @@ JsonObject dynamics(const FreeBody& free, const Surface& surface) {
   return object;
 }
 
+JsonValue target_json(const std::vector<TimedNumber>& target) {
+  JsonArray rows;
+  for (const TimedNumber& row : target) {
+    rows.push_back({.value = JsonArray{to_json(row.time), to_json(row.number)}});
+  }
+  return {.value = std::move(rows)};
+}
+
+JsonValue motor_json(const JointMotor& motor) {
+  constexpr std::array kKeys{"position", "velocity", "torque"};
+  JsonObject object{{kKeys.at(static_cast<std::size_t>(motor.kind)),
+                     motor.target.empty() ? to_json("trajectory") : target_json(motor.target)}};
+  add_given("stiffness", motor.stiffness, object);
+  if (motor.stiffness) {
+    object.push_back({"damping", to_json(motor.damping)});
+  }
+  add_given("effort", motor.effort, object);
+  return {.value = std::move(object)};
+}
+
 }  // namespace
+
+JsonValue robot_dynamics_to_json(const SceneRobot& robot) {
+  const RobotDynamics& dynamics = *robot.dynamics;
+  JsonObject object{{"base", to_json(dynamics.has_free_base ? "free" : "fixed")}};
+  if (dynamics.has_free_base) {
+    object.push_back({"linear_velocity", to_json(dynamics.linear_velocity)});
+    object.push_back({"angular_velocity", to_json(dynamics.angular_velocity)});
+  }
+  JsonObject velocities;
+  for (const auto& [name, velocity] : dynamics.velocities) {
+    velocities.push_back({name, to_json(velocity)});
+  }
+  object.push_back({"velocities", {.value = std::move(velocities)}});
+  JsonObject motors;
+  for (const auto& [joint, motor] : dynamics.motors) {
+    motors.push_back({robot.model.joints()[joint].name, motor_json(motor)});
+  }
+  object.push_back({"motors", {.value = std::move(motors)}});
+  add_given("density", dynamics.density, object);
+  add_surface(dynamics.surface, object);
+  return {.value = std::move(object)};
+}
 
 void add_dynamics(const Body& body, JsonObject& object) {
   if (body.free) {

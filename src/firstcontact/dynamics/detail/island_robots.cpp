@@ -1,0 +1,219 @@
+#include <firstcontact/dynamics/detail/island_robots.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <firstcontact/dynamics/detail/turn.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+Pose piece_pose(const SimBody& body, const MechanismInstant& instant) {
+  const Pose& X_WL = instant.X_WL[body.piece->link];
+  const Pose& X_LB = body.piece->X_LB;
+  return {X_WL.position + X_WL.rotation * X_LB.position,
+          (X_WL.rotation * X_LB.rotation.normalized()).normalized()};
+}
+
+/// The move from one pose to another, of all turns the one nearest to `expected`.
+Move move_between(const SimBody& body, const Pose& from, const Pose& to, const Vector3d& expected) {
+  return {centre_of_mass(body.inertia, to) - centre_of_mass(body.inertia, from),
+          nearest_turn(to.rotation * from.rotation.normalized().conjugate(), expected)};
+}
+
+}  // namespace
+
+IslandRobots::IslandRobots(const World& world, const StepStart& start,
+                           const std::vector<std::size_t>& members)
+    : world_(world), place_(members.size(), {kNone, kNone}) {
+  std::vector<std::size_t> numbers;  // Of the world, of each robot here.
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const SimBody& body = world.bodies[members[k]];
+    if (!body.piece) {
+      continue;
+    }
+    const std::size_t number = body.piece->robot;
+    const auto found = std::ranges::find(numbers, number);
+    const auto r = static_cast<std::size_t>(found - numbers.begin());
+    if (found == numbers.end()) {
+      numbers.push_back(number);
+      robots_.push_back({.robot = &world.robots[number], .state = start.robots[number]});
+      robots_.back().track.robot = number;
+    }
+    place_[k] = {r, robots_[r].pieces.size()};
+    robots_[r].pieces.push_back({.member = k, .body = &body});
+  }
+  for (Robot& robot : robots_) {
+    look_around(robot);
+  }
+}
+
+void IslandRobots::look_around(Robot& robot) const {
+  const Mechanism& mechanism = robot.robot->mechanism;
+  const MechanismInstant instant = mechanism.at(robot.state);
+  robot.mass = mechanism.mass_matrix(instant);
+  const auto n = mechanism.size();
+  robot.inverse_mass = robot.mass.llt().solve(MatrixXd::Identity(n, n));
+  robot.bias_forces = mechanism.bias_forces(instant, world_.gravity);
+  for (Piece& piece : robot.pieces) {
+    piece.X_WB = piece_pose(*piece.body, instant);
+    const Jacobian& J = instant.J[piece.body->piece->link];
+    const Vector3d arm = centre_of_mass(piece.body->inertia, piece.X_WB) - instant.reference;
+    piece.J = J;
+    for (Eigen::Index k = 0; k < J.cols(); ++k) {
+      piece.J.col(k).head<3>() += Vector3d(J.col(k).tail<3>()).cross(arm);
+    }
+  }
+}
+
+bool IslandRobots::has_motors() const {
+  return std::ranges::any_of(robots_, [](const Robot& robot) { return robot.robot->has_motors(); });
+}
+
+const IslandRobots::Piece& IslandRobots::piece_of(std::size_t member) const {
+  const auto& [robot, piece] = place_[member];
+  return robots_[robot].pieces[piece];
+}
+
+ContactBody IslandRobots::body(std::size_t member) const {
+  const std::size_t r = place_[member][0];
+  const Piece& piece = piece_of(member);
+  const Eigen::Matrix<double, 6, 1> V = piece.J * robots_[r].state.velocities;
+  return {.v = V.head<3>(), .w = V.tail<3>(), .link = MechanismLink{r, piece.J}};
+}
+
+RigidState IslandRobots::state(std::size_t member) const {
+  const ContactBody moving = body(member);
+  return {piece_of(member).X_WB, moving.v, moving.w};
+}
+
+Move IslandRobots::drift(std::size_t member, const Pose& X_WB) const {
+  const Piece& piece = piece_of(member);
+  return move_between(*piece.body, X_WB, piece.X_WB, Vector3d::Zero());
+}
+
+void IslandRobots::add_mechanisms(ContactProblem& problem) const {
+  for (const Robot& robot : robots_) {
+    problem.mechanisms.push_back({robot.inverse_mass, robot.state.velocities});
+  }
+}
+
+std::vector<RobotPlan> IslandRobots::fly(ContactProblem& problem, double from, double span) const {
+  std::vector<RobotPlan> free;
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Robot& robot = robots_[r];
+    const Mechanism& mechanism = robot.robot->mechanism;
+    const std::vector<JointDrive> drives = robot.robot->drives(robot.state, r, from, span);
+    // What is driven does not go where it would fall: the forces are those where it is.
+    free.push_back(drives.empty() ? mechanism.after_free_motion(robot.state, world_.gravity, span)
+                                  : RobotPlan{robot.state.positions,
+                                              robot.state.velocities -
+                                                  span * robot.inverse_mass * robot.bias_forces});
+    problem.mechanisms.push_back({robot.inverse_mass, free.back().velocities});
+    for (const Piece& piece : robot.pieces) {
+      const Eigen::Matrix<double, 6, 1> V = piece.J * free.back().velocities;
+      problem.bodies[piece.member].v = V.head<3>();
+      problem.bodies[piece.member].w = V.tail<3>();
+    }
+    std::ranges::copy(drives, std::back_inserter(problem.drives));
+  }
+  return free;
+}
+
+void IslandRobots::add_drives_at_impact(ContactProblem& problem) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    std::ranges::copy(robots_[r].robot->drives_at_impact(robots_[r].state, r),
+                      std::back_inserter(problem.drives));
+  }
+}
+
+std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
+                                          const ContactSolution& solution,
+                                          const std::vector<RobotPlan>& free,
+                                          const std::vector<bool>& by_end, double span) const {
+  std::vector<RobotPlan> plans;
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Robot& robot = robots_[r];
+    const Mechanism& mechanism = robot.robot->mechanism;
+    const VectorXd& v = solution.mechanisms[r];
+    const bool is_driven = std::ranges::any_of(
+        problem.drives, [r](const JointDrive& drive) { return drive.mechanism == r; });
+    const bool end_leads = is_driven || std::ranges::any_of(robot.pieces, [&](const Piece& piece) {
+                             return by_end[piece.member];
+                           });
+    const VectorXd positions =
+        end_leads ? mechanism.moved(robot.state.positions, span * v)
+                  : mechanism.moved(free[r].positions, 0.5 * span * (v - free[r].velocities));
+    plans.push_back({positions, v});
+  }
+  return plans;
+}
+
+void IslandRobots::displace(const std::vector<VectorXd>& by, std::vector<RobotPlan>& plans) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    plans[r].positions = robots_[r].robot->mechanism.moved(plans[r].positions, by[r]);
+  }
+}
+
+void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
+                             const std::vector<RigidState>& states, double span,
+                             std::vector<Move>& moves) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Robot& robot = robots_[r];
+    const MechanismInstant there = robot.robot->mechanism.at(plans[r]);
+    const VectorXd mean = 0.5 * (robot.state.velocities + plans[r].velocities);
+    for (const Piece& piece : robot.pieces) {
+      const Vector3d w = (piece.J * mean).tail<3>();
+      moves[piece.member] = move_between(*piece.body, states[piece.member].X_WB,
+                                         piece_pose(*piece.body, there), span * w);
+    }
+  }
+}
+
+void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, double to) {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    Robot& robot = robots_[r];
+    const MechanismState begin = robot.state;
+    robot.state =
+        share == 1.0
+            ? plans[r]
+            : MechanismState{
+                  robot.robot->mechanism.between(begin.positions, plans[r].positions, share),
+                  begin.velocities + share * (plans[r].velocities - begin.velocities)};
+    if (share > 0.0) {
+      robot.track.pieces.push_back({to, begin, robot.state});
+    }
+    look_around(robot);
+  }
+}
+
+void IslandRobots::take_velocities(const ContactSolution& solution) {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    robots_[r].state.velocities = solution.mechanisms[r];
+  }
+}
+
+double IslandRobots::kinetic_energy(const std::vector<VectorXd>& velocities) const {
+  double sum = 0.0;
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    sum += 0.5 * velocities[r].dot(robots_[r].mass * velocities[r]);
+  }
+  return sum;
+}
+
+std::vector<RobotTrack> IslandRobots::take_tracks() {
+  std::vector<RobotTrack> tracks;
+  for (Robot& robot : robots_) {
+    tracks.push_back(std::move(robot.track));
+  }
+  return tracks;
+}
+
+}  // namespace firstcontact::detail

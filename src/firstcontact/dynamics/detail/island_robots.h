@@ -1,0 +1,122 @@
+/// @file
+/// The robots of an island: what their joints add to its contact problems, and where links go.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/dynamics/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// A part of a step of a robot without impacts.
+struct RobotTrackPiece {
+  double to = 0.0;  ///< [s]  Since the step began.
+  MechanismState begin;
+  MechanismState end;
+};
+
+/// How a robot moves over a step, or over as much of it as could be proven free.
+struct RobotTrack {
+  std::size_t robot = 0;  ///< Of the world.
+  std::vector<RobotTrackPiece> pieces = {};
+};
+
+/// Where a plan leads a robot, and how fast it is there.
+using RobotPlan = MechanismState;
+
+/// Robots whose links are members of one island.
+///
+/// Within a plan every piece of a link moves at constant rates from where it is to where the
+/// joints have it at the plan's end. Between the ends joints come apart by the sagitta of an arc, a
+/// quantity of second order in the plan's time. Where a plan is cut short, pieces stay off by as
+/// much, and the next plan makes up for it.
+class IslandRobots {
+ public:
+  /// @param members  of the island; all pieces of a robot's links, or none
+  IslandRobots(const World& world, const StepStart& start, const std::vector<std::size_t>& members);
+
+  [[nodiscard]] bool empty() const { return robots_.empty(); }
+  [[nodiscard]] bool has_motors() const;
+
+  /// How a member that is a piece of a link takes part in a contact problem; velocities are those
+  /// of its robot now.
+  [[nodiscard]] ContactBody body(std::size_t member) const;
+
+  /// Where the joints have a member, and how it moves.
+  [[nodiscard]] RigidState state(std::size_t member) const;
+
+  /// [m, rad]  From where a piece is to where its joints have it now.
+  [[nodiscard]] Move drift(std::size_t member, const Pose& X_WB) const;
+
+  /// Adds the mechanisms as they move now.
+  void add_mechanisms(ContactProblem& problem) const;
+
+  /// Free motion over a span: velocities of mechanisms and of their links, and what drives joints.
+  ///
+  /// @param from  [s]  since the simulation began
+  /// @returns  where each robot would be
+  [[nodiscard]] std::vector<RobotPlan> fly(ContactProblem& problem, double from, double span) const;
+
+  void add_drives_at_impact(ContactProblem& problem) const;
+
+  /// Where each robot gets. As of bodies the mean of the velocities at both ends leads it, on top
+  /// of what free motion did; or those at the end, wherever anything drives a joint.
+  ///
+  /// @param by_end  of the problem's bodies: velocities at the end lead them
+  [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
+                                            const ContactSolution& solution,
+                                            const std::vector<RobotPlan>& free,
+                                            const std::vector<bool>& by_end, double span) const;
+
+  /// Adds displacements of coordinates, in order of robots.
+  void displace(const std::vector<Eigen::VectorXd>& by, std::vector<RobotPlan>& plans) const;
+
+  /// What leads the members that are pieces of links to where a plan has them.
+  void set_moves(const std::vector<RobotPlan>& plans, const std::vector<RigidState>& states,
+                 double span, std::vector<Move>& moves) const;
+
+  /// Goes a share of the way to a plan. `to` is the time since the step began.
+  void move_to(const std::vector<RobotPlan>& plans, double share, double to);
+
+  /// Takes the velocities of a solution.
+  void take_velocities(const ContactSolution& solution);
+
+  /// [J]  1/2 v^T M v of all, with these velocities of theirs.
+  [[nodiscard]] double kinetic_energy(const std::vector<Eigen::VectorXd>& velocities) const;
+
+  [[nodiscard]] std::vector<RobotTrack> take_tracks();
+
+ private:
+  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  struct Piece {
+    std::size_t member;
+    const SimBody* body;
+    Pose X_WB = {};   // As the joints have it.
+    Jacobian J = {};  // Of (v_WC, w_WB).
+  };
+  struct Robot {
+    const SimRobot* robot;
+    MechanismState state;
+    std::vector<Piece> pieces = {};
+    Eigen::MatrixXd mass = {};
+    Eigen::MatrixXd inverse_mass = {};
+    Eigen::VectorXd bias_forces = {};
+    RobotTrack track = {};
+  };
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  void look_around(Robot& robot) const;
+  [[nodiscard]] const Piece& piece_of(std::size_t member) const;
+
+  const World& world_;
+  std::vector<Robot> robots_;
+  std::vector<std::array<std::size_t, 2>> place_;  // Of each member: robot and piece.
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,16 @@
+/// @file
+/// Reads what moves a robot in a simulation.
+
+#pragma once
+
+#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/scene/scene_robot.h>
+
+namespace firstcontact::detail {
+
+/// @param robot  with its model and its trajectory
+/// @throws ParseError
+[[nodiscard]] RobotDynamics read_robot_dynamics(const JsonValue& value, const SceneRobot& robot,
+                                                const JsonReader& read);
+
+}  // namespace firstcontact::detail

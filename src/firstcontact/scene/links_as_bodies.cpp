@@ -1,0 +1,308 @@
+#include <firstcontact/scene/links_as_bodies.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/geometry/mass_properties.h>
+#include <firstcontact/scene/detail/load_robots.h>
+#include <firstcontact/scene/detail/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+const std::vector<LinkGeometry>& surface_of(const SceneRobot& robot, const Link& link) {
+  return robot.file.surface == RobotSurface::visual ? link.visual : link.collision;
+}
+
+std::string piece_name(const SceneRobot& robot, const Link& link, std::size_t geometry) {
+  return robot.name + "/" + link.name + (geometry == 0 ? "" : "#" + std::to_string(geometry + 1));
+}
+
+void require_simulated(const SceneRobot& robot) {
+  const std::string name = "robot " + detail::in_quotes(robot.name);
+  if (!robot.attached.empty()) {
+    throw std::invalid_argument(name +
+                                ": attached bodies are not simulated; make the body a link of the "
+                                "robot, or a body with \"dynamics\"");
+  }
+  if (!robot.tracking_error.empty()) {
+    throw std::invalid_argument(name +
+                                ": a simulation knows where the robot is; leave out "
+                                "\"tracking_error\"");
+  }
+}
+
+/// About another point, of the same mass.
+Matrix3d moved_moments(const Matrix3d& about_C, double mass, const Vector3d& by) {
+  return about_C + mass * (by.squaredNorm() * Matrix3d::Identity() - by * by.transpose());
+}
+
+/// Of all pieces of a link, as solids of a density.
+LinkInertia inertia_of_solids(std::span<const MemberGeometry> geometries, double density) {
+  LinkInertia sum;
+  std::vector<std::pair<double, Vector3d>> centres;
+  std::vector<Matrix3d> moments;
+  for (const MemberGeometry& geometry : geometries) {
+    const MassProperties solid = mass_properties(geometry.shape);
+    const double mass = density * solid.volume;
+    const Matrix3d R = geometry.X_MG.rotation.normalized().toRotationMatrix();
+    centres.emplace_back(mass, geometry.X_MG.position + R * solid.p_BC);
+    moments.emplace_back(R * (density * solid.about_C) * R.transpose());
+    sum.mass += mass;
+    sum.p_LC += mass * centres.back().second;
+  }
+  if (sum.mass > 0.0) {
+    sum.p_LC /= sum.mass;
+  }
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    sum.about_C_L += moved_moments(moments[k], centres[k].first, centres[k].second - sum.p_LC);
+  }
+  return sum;
+}
+
+class Links {
+ public:
+  explicit Links(const LoadedScene& loaded)
+      : given_(loaded), robots_(*loaded.robots), bodies_of_(robots_.size()) {}
+
+  LinksAsBodies run() {
+    LinksAsBodies result;
+    scene_ = given_.scene;
+    scene_.robots.clear();
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      bodies_of_[b] = {b};
+    }
+    for (std::size_t r = 0; r < given_.scene.robots.size(); ++r) {
+      require_simulated(given_.scene.robots[r]);
+      result.models.push_back(model_with_masses(r));
+      for (std::size_t l = 0; l < result.models.back().links().size(); ++l) {
+        add_link(r, l, result.models.back().links()[l]);
+      }
+    }
+    take_rules();
+    result.loaded = load();
+    result.pieces = std::move(pieces_);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] RobotModel model_with_masses(std::size_t robot) const {
+    const SceneRobot& described = given_.scene.robots[robot];
+    const RobotModel& model = described.model;
+    RobotDescription description{.name = model.name(),
+                                 .links = {model.links().begin(), model.links().end()},
+                                 .joints = {model.joints().begin(), model.joints().end()}};
+    if (!described.dynamics || !described.dynamics->density) {
+      return model;
+    }
+    for (std::size_t l = 0; l < description.links.size(); ++l) {
+      Link& link = description.links[l];
+      const auto geometries = robots_.geometries(robots_.first_member(robot) + l);
+      if (!link.inertia && !geometries.empty()) {
+        try {
+          link.inertia = inertia_of_solids(geometries, *described.dynamics->density);
+        } catch (const std::invalid_argument& error) {
+          throw std::invalid_argument(
+              "link " + detail::in_quotes(described.name + "/" + link.name) + ": " + error.what());
+        }
+      }
+    }
+    return RobotModel(std::move(description));
+  }
+
+  void add_link(std::size_t robot, std::size_t link, const Link& model) {
+    const SceneRobot& described = given_.scene.robots[robot];
+    const std::size_t member = robots_.first_member(robot) + link;
+    const auto geometries = robots_.geometries(member);
+    for (std::size_t g = 0; g < geometries.size(); ++g) {
+      const MemberGeometry& geometry = geometries[g];
+      Body body{
+          .name = described.name + "/" + model.name + (g == 0 ? "" : "#" + std::to_string(g + 1)),
+          .shape = {},
+          .motion = motion(robot, member, geometry.X_MG)};
+      body.shape.source = geometry.shape;
+      body.shape.radius = geometry.shape.radius();
+      if (described.dynamics) {
+        body.surface = described.dynamics->surface;
+        body.free = share_of(model, geometry.X_MG, geometries.size());
+      }
+      bodies_of_[member].push_back(scene_.bodies.size());
+      scene_.bodies.push_back(std::move(body));
+      pieces_.push_back({robot, link, geometry.X_MG});
+    }
+  }
+
+  /// What a run tells of a piece; the simulation moves it with its robot.
+  static FreeBody share_of(const Link& link, const Pose& X_LG, std::size_t pieces) {
+    const LinkInertia inertia = link.inertia.value_or(LinkInertia{});
+    const Matrix3d R_GL = X_LG.rotation.normalized().toRotationMatrix().transpose();
+    FreeBody free{.density = {},
+                  .mass = inertia.mass / static_cast<double>(pieces),
+                  .centre_of_mass = R_GL * (inertia.p_LC - X_LG.position),
+                  .inertia = {},
+                  .forces = {}};
+    free.inertia = R_GL * inertia.about_C_L * R_GL.transpose() / static_cast<double>(pieces);
+    return free;
+  }
+
+  [[nodiscard]] Pose pose(std::size_t member, const Pose& X_MG, double t) const {
+    const Pose X_WM = robots_.pose(member, t);
+    const Eigen::Quaterniond R = X_WM.rotation.normalized();
+    return {X_WM.position + R * X_MG.position, (R * X_MG.rotation.normalized()).normalized()};
+  }
+
+  [[nodiscard]] BodyMotion motion(std::size_t robot, std::size_t member, const Pose& X_MG) const {
+    const SceneRobot& described = given_.scene.robots[robot];
+    const bool moves = described.trajectory.points.size() > 1 ||
+                       !std::holds_alternative<FixedMotion>(described.base);
+    if (described.dynamics || !moves) {
+      return FixedMotion{pose(member, X_MG, 0.0)};
+    }
+    const double step = given_.scene.simulation->step;
+    const double duration = given_.scene.duration;
+    WaypointMotion waypoints;
+    for (std::size_t k = 0; waypoints.times.empty() || waypoints.times.back() < duration; ++k) {
+      const double time = std::min(duration, static_cast<double>(k) * step);
+      waypoints.times.push_back(time);
+      waypoints.poses.push_back(pose(member, X_MG, time / duration));
+    }
+    return waypoints;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> bodies_of(const std::vector<std::size_t>& members) const {
+    std::vector<std::size_t> bodies;
+    for (const std::size_t member : members) {
+      bodies.insert(bodies.end(), bodies_of_[member].begin(), bodies_of_[member].end());
+    }
+    return bodies;
+  }
+
+  /// All pairs of the pieces of two members.
+  template <class Use>
+  void for_each_pair(const BodyPair& members, const Use& use) const {
+    for (const std::size_t a : bodies_of_[members[0]]) {
+      for (const std::size_t b : bodies_of_[members[1]]) {
+        if (a != b) {
+          use(BodyPair{std::min(a, b), std::max(a, b)});
+        }
+      }
+    }
+  }
+
+  void take_rules() {
+    const Scene& given = given_.scene;
+    for (BodyGroup& group : scene_.groups) {
+      group.bodies = bodies_of(group.bodies);
+    }
+    scene_.ignored_pairs.clear();
+    scene_.pair_margins.clear();
+    scene_.simulation->pairs.clear();
+    const auto ignore = [this](const BodyPair& pair) { scene_.ignored_pairs.push_back(pair); };
+    for (const BodyPair& pair : given.ignored_pairs) {
+      for_each_pair(pair, ignore);
+    }
+    for (const PairMargin& pair : given.pair_margins) {
+      for_each_pair(pair.bodies, [&](const BodyPair& bodies) {
+        scene_.pair_margins.push_back({bodies, pair.margin});
+      });
+    }
+    for (const PairSurface& pair : given.simulation->pairs) {
+      for_each_pair(pair.bodies, [&](const BodyPair& bodies) {
+        scene_.simulation->pairs.push_back({bodies, pair.surface});
+      });
+    }
+    for (std::size_t r = 0; r < given.robots.size(); ++r) {
+      ignore_within(r, ignore);
+      take_padding(r);
+    }
+  }
+
+  template <class Ignore>
+  void ignore_within(std::size_t robot, const Ignore& ignore) {
+    const std::size_t first = robots_.first_member(robot);
+    const std::size_t count = given_.scene.robots[robot].model.links().size();
+    for (std::size_t a = first; a < first + count; ++a) {
+      for (std::size_t i = 0; i < bodies_of_[a].size(); ++i) {
+        for (std::size_t k = i + 1; k < bodies_of_[a].size(); ++k) {
+          ignore({bodies_of_[a][i], bodies_of_[a][k]});
+        }
+      }
+      for (std::size_t b = a + 1; b < first + count; ++b) {
+        if (!robots_.margin({a, b})) {
+          for_each_pair({a, b}, ignore);
+        }
+      }
+    }
+  }
+
+  void take_padding(std::size_t robot) {
+    for (const auto& [link, padding] : given_.scene.robots[robot].padding) {
+      const std::size_t a = robots_.first_member(robot) + link;
+      for (std::size_t b = 0; b < robots_.size() && padding > 0.0; ++b) {
+        const std::optional<double> margin =
+            a == b ? std::nullopt : robots_.margin({std::min(a, b), std::max(a, b)});
+        if (margin) {
+          for_each_pair({a, b}, [&](const BodyPair& bodies) {
+            scene_.pair_margins.push_back({bodies, *margin});
+          });
+        }
+      }
+    }
+  }
+
+  LoadedScene load() {
+    LoadedScene loaded{.scene = {},
+                       .bodies = BodySet(detail::rules_of(scene_)),
+                       .input_digest = given_.input_digest,
+                       .robots = {},
+                       .limits = given_.limits,
+                       .warnings = given_.warnings};
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const bool is_piece = b >= given_.scene.bodies.size();
+      loaded.bodies.add(is_piece ? std::get<Shape>(scene_.bodies[b].shape.source)
+                                 : robots_.geometries(b).front().shape,
+                        normalised_motion(scene_.bodies[b].motion, scene_.duration));
+    }
+    loaded.scene = std::move(scene_);
+    return loaded;
+  }
+
+  const LoadedScene& given_;
+  const RobotScene& robots_;
+  std::vector<std::vector<std::size_t>> bodies_of_;  // Of each member of the given scene.
+  Scene scene_;
+  std::vector<LinkPiece> pieces_;
+};
+
+}  // namespace
+
+LinksAsBodies links_as_bodies(const LoadedScene& loaded) {
+  if (!loaded.robots) {
+    return {.loaded = loaded, .pieces = {}, .models = {}};
+  }
+  return Links(loaded).run();
+}
+
+std::vector<std::string> names_with_links(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) {
+    names.push_back(body.name);
+  }
+  for (const SceneRobot& robot : scene.robots) {
+    for (const Link& link : robot.model.links()) {
+      for (std::size_t g = 0; g < surface_of(robot, link).size(); ++g) {
+        names.push_back(piece_name(robot, link, g));
+      }
+    }
+  }
+  return names;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,46 @@
+/// @file
+/// The links of a scene's robots as bodies of their own: what a simulation moves.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/loaded_scene.h>
+
+namespace firstcontact {
+
+/// A geometry of a link, in its own frame G.
+struct LinkPiece {
+  std::size_t robot = 0;  ///< Of the scene.
+  std::size_t link = 0;   ///< Of its model.
+  Pose X_LG = {};
+};
+
+/// A scene without robots that has the pieces of their links behind its bodies, in the order of
+/// robots, links and geometries.
+///
+/// A piece is called "robot/link", all but the first of a link "robot/link#2" and so on. Of a robot
+/// with dynamics it is a free body, with its share of the link's mass; of another one it rests or
+/// has waypoints at every step of the simulation. Pairs that a robot leaves out are ignored, rules
+/// for links hold for all of their pieces, and margins contain the padding.
+struct LinksAsBodies {
+  LoadedScene loaded;
+  std::vector<LinkPiece> pieces = {};  ///< Of the bodies behind those of the scene.
+  std::vector<RobotModel> models =
+      {};  ///< Of each robot; links have the mass that a density gives.
+};
+
+/// @param loaded  with a simulation
+/// @throws std::invalid_argument  names the robot: it carries a body or has a tracking error, or
+///         links to which a density is given are not closed
+[[nodiscard]] FIRSTCONTACT_API LinksAsBodies links_as_bodies(const LoadedScene& loaded);
+
+/// What the bodies of a scene are called then.
+[[nodiscard]] FIRSTCONTACT_API std::vector<std::string> names_with_links(const Scene& scene);
+
+}  // namespace firstcontact
