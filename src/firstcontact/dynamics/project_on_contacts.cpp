@@ -14,8 +14,9 @@ using detail::ContactRows;
 using detail::Impulses;
 using detail::Projection;
 
-/// Factorisations grow with more than the number of velocities.
-constexpr std::size_t kMostInMotionSpace = 1200;
+/// Factorisations grow with more than the number of velocities; sweeps of larger problems hardly
+/// get anywhere, but take less memory.
+constexpr std::size_t kMostInMotionSpace = 6000;
 
 /// What sweeps do not do in so many, motion space does better.
 constexpr int kSweepsBeforeMotionSpace = 30;
