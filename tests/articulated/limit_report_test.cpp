@@ -19,7 +19,7 @@
 namespace firstcontact::test {
 namespace {
 
-constexpr std::array<double, 2> kTimes = {0.0, 1.0};
+constexpr std::array<double, 2> kBothEnds = {0.0, 1.0};
 
 RobotMotion hinge(const CoordinatePath& path, const JointLimits& limits,
                   JointType type = JointType::revolute) {
@@ -30,14 +30,14 @@ RobotMotion hinge(const CoordinatePath& path, const JointLimits& limits,
       {{"j", path}}};
 }
 
-CoordinatePath ramp(double from, double to) {
+CoordinatePath straight(double from, double to) {
   const std::array<double, 2> q = {from, to};
-  return CoordinatePath::linear(kTimes, q);
+  return CoordinatePath::linear(kBothEnds, q);
 }
 
 TEST(LimitReport, FindsWhereARampLeavesALimit) {
   const JointLimits limits{.lower = -1.0, .upper = 0.5, .velocity = 0.25};
-  const auto report = limit_report(hinge(ramp(0.0, 2.0), limits), 10.0);
+  const auto report = limit_report(hinge(straight(0.0, 2.0), limits), 10.0);
   ASSERT_EQ(report.size(), 1u);  // 2 rad in 10 s are slower than 0.25 rad/s.
   EXPECT_EQ(report[0].joint, 0u);
   EXPECT_EQ(report[0].what, JointLimit::upper_position);
@@ -49,7 +49,7 @@ TEST(LimitReport, FindsWhereARampLeavesALimit) {
   EXPECT_GE(report[0].intervals[0].begin, 0.25 - 1e-14);
   EXPECT_EQ(report[0].intervals[0].end, 1.0);
   // In 4 s it is twice as fast as allowed, all the time.
-  const auto fast = limit_report(hinge(ramp(0.0, -2.0), limits), 4.0);
+  const auto fast = limit_report(hinge(straight(0.0, -2.0), limits), 4.0);
   ASSERT_EQ(fast.size(), 2u);
   EXPECT_EQ(fast[0].what, JointLimit::lower_position);
   EXPECT_EQ(fast[1].what, JointLimit::velocity);
@@ -61,26 +61,26 @@ TEST(LimitReport, FindsWhereARampLeavesALimit) {
 
 TEST(LimitReport, TakesAVelocityLimitOfZeroForNone) {
   const JointLimits limits{.lower = -9.0, .upper = 9.0, .velocity = 0.0};
-  EXPECT_TRUE(limit_report(hinge(ramp(0.0, 2.0), limits), 1.0).empty());
+  EXPECT_TRUE(limit_report(hinge(straight(0.0, 2.0), limits), 1.0).empty());
 }
 
 TEST(LimitReport, ReachingALimitIsNotLeavingIt) {
   const JointLimits limits{.lower = -0.3, .upper = 0.7, .velocity = 1.0};
-  EXPECT_TRUE(limit_report(hinge(ramp(-0.3, 0.7), limits), 1.0).empty());
+  EXPECT_TRUE(limit_report(hinge(straight(-0.3, 0.7), limits), 1.0).empty());
   EXPECT_TRUE(limit_report(hinge(CoordinatePath::constant(0.7), limits), 1.0).empty());
   // A cubic at rest on the limit in the middle.
   const std::array<double, 3> t = {0.0, 0.37, 1.0};
   const std::array<double, 3> q = {0.1, 0.7, 0.2};
   const std::array<double, 3> v = {0.0, 0.0, 0.0};
   EXPECT_TRUE(limit_report(hinge(CoordinatePath::cubic(t, q, v), limits), 10.0).empty());
-  EXPECT_EQ(limit_report(hinge(ramp(-0.3, 0.7 + 1e-8), limits), 1.1).size(), 1u);
+  EXPECT_EQ(limit_report(hinge(straight(-0.3, 0.7 + 1e-8), limits), 1.1).size(), 1u);
 }
 
 /// t (1 - t) is greatest, 1/4, in the middle, and 3/16 at both quarters.
 TEST(LimitReport, APolynomialLeavesInItsMiddleOnly) {
   const std::vector<std::vector<double>> parabola = {{0.0, 1.0, -1.0}};
   const RobotMotion motion =
-      hinge(CoordinatePath::polynomials(kTimes, parabola), {.upper = 0.1875, .velocity = 0.8});
+      hinge(CoordinatePath::polynomials(kBothEnds, parabola), {.upper = 0.1875, .velocity = 0.8});
   const auto report = limit_report(motion, 1.0);
   ASSERT_EQ(report.size(), 2u);
   ASSERT_EQ(report[0].intervals.size(), 1u);
@@ -99,7 +99,7 @@ TEST(LimitReport, APolynomialLeavesInItsMiddleOnly) {
 
 TEST(LimitReport, ContinuousJointsHaveNoEnds) {
   const JointLimits limits{.lower = -1.0, .upper = 1.0, .velocity = 100.0};
-  EXPECT_TRUE(limit_report(hinge(ramp(0.0, 50.0), limits, JointType::continuous), 1.0).empty());
+  EXPECT_TRUE(limit_report(hinge(straight(0.0, 50.0), limits, JointType::continuous), 1.0).empty());
 }
 
 TEST(LimitReport, AMimicJointHasLimitsOfItsOwn) {
@@ -110,7 +110,7 @@ TEST(LimitReport, AMimicJointHasLimitsOfItsOwn) {
   const RobotMotion motion(RobotModel({.name = "hand",
                                        .links = {{"palm", {}, {}}, {"l", {}, {}}, {"r", {}, {}}},
                                        .joints = {left, right}}),
-                           {{"left", ramp(0.0, 0.04)}});
+                           {{"left", straight(0.0, 0.04)}});
   const auto report = limit_report(motion, 1.0);
   ASSERT_EQ(report.size(), 1u);
   EXPECT_EQ(report[0].joint, 1u);
@@ -178,7 +178,7 @@ TEST(LimitReport, AgreesWithDenseSamples) {
 }
 
 TEST(LimitReport, RefusesWhatIsNoDuration) {
-  const RobotMotion motion = hinge(ramp(0.0, 1.0), {});
+  const RobotMotion motion = hinge(straight(0.0, 1.0), {});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, nan, infinity}) {

@@ -115,7 +115,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 template <class Read>
-std::string error_of(const Read& read) {
+std::string capture_error(const Read& read) {
   try {
     read();
   } catch (const ParseError& error) {
@@ -125,14 +125,14 @@ std::string error_of(const Read& read) {
 }
 
 std::string bvh_error(const std::string& text) {
-  return error_of([&] { (void)parse_bvh(text, "f.bvh"); });
+  return capture_error([&] { (void)parse_bvh(text, "f.bvh"); });
 }
 std::string asf_error(const std::string& text) {
-  return error_of([&] { (void)parse_asf(text, "f.asf"); });
+  return capture_error([&] { (void)parse_asf(text, "f.asf"); });
 }
 std::string amc_error(const std::string& text) {
   const AsfSkeleton skeleton = parse_asf(kAsf, "f.asf");
-  return error_of([&] { (void)parse_amc(text, "f.amc", skeleton); });
+  return capture_error([&] { (void)parse_amc(text, "f.amc", skeleton); });
 }
 
 /// A point of a bone, in the world.

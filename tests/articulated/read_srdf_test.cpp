@@ -17,7 +17,7 @@ namespace firstcontact {
 namespace {
 
 /// base -ja- a -jb- b, base -jc- c.
-RobotModel fork() {
+RobotModel forked_robot() {
   const auto turning = [](const char* name, const char* parent, const char* child) {
     return Joint{.name = name, .type = JointType::continuous, .parent = parent, .child = child};
   };
@@ -28,10 +28,10 @@ RobotModel fork() {
 }
 
 RobotSemantics parse(const std::string& inside) {
-  return parse_srdf("<robot name='fork'>\n" + inside + "\n</robot>", "f.srdf", fork());
+  return parse_srdf("<robot name='fork'>\n" + inside + "\n</robot>", "f.srdf", forked_robot());
 }
 
-std::string error_of(const std::string& inside) {
+std::string srdf_error(const std::string& inside) {
   try {
     (void)parse(inside);
   } catch (const ParseError& error) {
@@ -81,19 +81,19 @@ TEST(ReadSrdf, CollectsGroups) {
 }
 
 TEST(ReadSrdf, NamesFileElementAndMend) {
-  EXPECT_EQ(error_of("<group name='g'><group name='g'/></group>"),
+  EXPECT_EQ(srdf_error("<group name='g'><group name='g'/></group>"),
             "f.srdf:2: <group name='g'>: the group contains itself");
-  EXPECT_EQ(error_of("<group name='g'/><group name='g'/>"),
+  EXPECT_EQ(srdf_error("<group name='g'/><group name='g'/>"),
             "f.srdf:2: <group name='g'>: a second group of this name; rename one of them");
-  EXPECT_EQ(error_of("<group name='g'><chain base_link='b' tip_link='a'/></group>"),
+  EXPECT_EQ(srdf_error("<group name='g'><chain base_link='b' tip_link='a'/></group>"),
             "f.srdf:2: <chain>: the tip link does not hang on the base link");
-  EXPECT_EQ(error_of("<disable_collisions link1='a' link2='a'/>"),
+  EXPECT_EQ(srdf_error("<disable_collisions link1='a' link2='a'/>"),
             "f.srdf:2: <disable_collisions>: expected two different links, got 'a' twice");
-  EXPECT_EQ(error_of("<group name='g'/><group_state name='s' group='g'>\n"
-                     "<joint name='ja' value='1 2'/></group_state>"),
+  EXPECT_EQ(srdf_error("<group name='g'/><group_state name='s' group='g'>\n"
+                       "<joint name='ja' value='1 2'/></group_state>"),
             "f.srdf:3: <joint name='ja'>: expected as many numbers in 'value' as the joint has "
             "coordinates, 1, got 2");
-  EXPECT_EQ(error_of("<disable_collisions link1='a'/>"),
+  EXPECT_EQ(srdf_error("<disable_collisions link1='a'/>"),
             "f.srdf:2: <disable_collisions>: expected an attribute 'link2' that is not empty");
 }
 

@@ -29,7 +29,7 @@ std::string joint_text(const std::string& inside, const std::string& type = "rev
          "</joint>";
 }
 
-std::string error_of(const std::string& text) {
+std::string urdf_error(const std::string& text) {
   try {
     (void)parse_urdf(text, "r.urdf", kNoShapes);
   } catch (const ParseError& error) {
@@ -124,51 +124,51 @@ TEST(ReadUrdf, MakesPrimitives) {
 }
 
 TEST(ReadUrdf, NamesFileElementAndMend) {
-  EXPECT_EQ(error_of("<robot name='r'>\n<link name='a'>\n</robot>"),
+  EXPECT_EQ(urdf_error("<robot name='r'>\n<link name='a'>\n</robot>"),
             "r.urdf:2: expected XML, got XML_ERROR_MISMATCHED_ELEMENT");
-  EXPECT_EQ(error_of("<sdf/>"), "r.urdf:1: <sdf>: expected <robot> as the outermost element");
-  EXPECT_EQ(error_of("<robot/>"),
+  EXPECT_EQ(urdf_error("<sdf/>"), "r.urdf:1: <sdf>: expected <robot> as the outermost element");
+  EXPECT_EQ(urdf_error("<robot/>"),
             "r.urdf:1: <robot>: expected an attribute 'name' that is not empty");
-  EXPECT_EQ(error_of(robot_text(joint_text("", "hinge"))),
+  EXPECT_EQ(urdf_error(robot_text(joint_text("", "hinge"))),
             "r.urdf:5: <joint name='j'>: unknown joint type 'hinge'; known are: fixed, revolute, "
             "continuous, prismatic, planar, floating, screw, ball, spherical");
-  EXPECT_EQ(error_of(robot_text(joint_text("<axis xyz='0 0'/>", "continuous"))),
+  EXPECT_EQ(urdf_error(robot_text(joint_text("<axis xyz='0 0'/>", "continuous"))),
             "r.urdf:5: <axis>: expected three numbers in 'xyz', got 2");
   EXPECT_EQ(
-      error_of(robot_text(joint_text("<axis xyz='0 0 nan'/>", "continuous"))),
+      urdf_error(robot_text(joint_text("<axis xyz='0 0 nan'/>", "continuous"))),
       "r.urdf:5: <axis>: expected finite numbers of at most 1e60 in size in 'xyz', got 'nan'");
   EXPECT_EQ(
-      error_of(robot_text(joint_text("<axis xyz='0 0 1,5'/>", "continuous"))),
+      urdf_error(robot_text(joint_text("<axis xyz='0 0 1,5'/>", "continuous"))),
       "r.urdf:5: <axis>: expected finite numbers of at most 1e60 in size in 'xyz', got '1,5'");
-  EXPECT_EQ(error_of(robot_text(joint_text("<axis xyz='0 0 0'/>", "continuous"))),
+  EXPECT_EQ(urdf_error(robot_text(joint_text("<axis xyz='0 0 0'/>", "continuous"))),
             "r.urdf:5: <joint name='j'>: joint 'j': its axis must be finite and not zero");
   EXPECT_EQ(
-      error_of(robot_text(joint_text(""))),
+      urdf_error(robot_text(joint_text(""))),
       "r.urdf:5: <joint name='j'>: expected an element <limit> inside: the joint is revolute");
-  EXPECT_EQ(error_of(robot_text("<joint name='j' type='fixed'><parent link='base'/></joint>")),
+  EXPECT_EQ(urdf_error(robot_text("<joint name='j' type='fixed'><parent link='base'/></joint>")),
             "r.urdf:5: <joint name='j'>: expected an element <child> inside");
-  EXPECT_EQ(error_of(robot_text("")),
+  EXPECT_EQ(urdf_error(robot_text("")),
             "r.urdf:4: <link name='arm'>: links 'base' and 'arm' both have no parent; connect them "
             "by a joint");
-  EXPECT_EQ(error_of("<robot name='r'><link name='a'/></robot><robot name='s'/>"),
+  EXPECT_EQ(urdf_error("<robot name='r'><link name='a'/></robot><robot name='s'/>"),
             "r.urdf:1: expected one outermost element, <robot>, and nothing else");
 }
 
 /// A misspelt name must not mean "cannot collide".
 TEST(ReadUrdf, RefusesWhatItDoesNotKnowInsideOfALink) {
   EXPECT_EQ(
-      error_of(robot_text(joint_text("", "fixed"), "<link name='arm'><colision/></link>")),
+      urdf_error(robot_text(joint_text("", "fixed"), "<link name='arm'><colision/></link>")),
       "r.urdf:4: <colision>: not known inside <link name='arm'>; known are: inertial, visual, "
       "collision, material, verbose, contact, sensor, collision_checking, self_collision_checking");
   EXPECT_EQ(
-      error_of(robot_text(joint_text("", "fixed"),
-                          "<link name='arm'><collision><geometry><ball radius='1'/>"
-                          "</geometry></collision></link>")),
+      urdf_error(robot_text(joint_text("", "fixed"),
+                            "<link name='arm'><collision><geometry><ball radius='1'/>"
+                            "</geometry></collision></link>")),
       "r.urdf:4: <ball>: not known inside <geometry>; known are: mesh, box, sphere, cylinder, "
       "capsule");
-  EXPECT_EQ(error_of(robot_text(joint_text("<origin xzy='1 0 0'/>", "fixed"))),
+  EXPECT_EQ(urdf_error(robot_text(joint_text("<origin xzy='1 0 0'/>", "fixed"))),
             "r.urdf:5: <origin>: unknown attribute 'xzy'; known are: xyz, rpy");
-  EXPECT_EQ(error_of(robot_text(joint_text("<origin xyz='1 0 0' xyz='2 0 0'/>", "fixed"))),
+  EXPECT_EQ(urdf_error(robot_text(joint_text("<origin xyz='1 0 0' xyz='2 0 0'/>", "fixed"))),
             "r.urdf:5: expected XML, got XML_ERROR_PARSING_ATTRIBUTE");
 }
 

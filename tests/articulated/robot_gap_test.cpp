@@ -21,9 +21,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kBall = 0.1;  // [m]
+constexpr double kBallRadius = 0.1;  // [m]
 
-Motion at(const Vector2d& place) {
+Motion flat_at(const Vector2d& place) {
   return Motion::fixed({{place.x(), place.y(), 0.0}, Eigen::Quaterniond::Identity()});
 }
 
@@ -38,7 +38,7 @@ RobotScene folding(const PairRules& rules = PairRules()) {
   }
   RobotScene scene(rules);
   scene.add_robot("arm", planar_motion(paths));
-  scene.add_body("ball", make_sphere(kBall), at(kPlace));
+  scene.add_body("ball", make_sphere(kBallRadius), flat_at(kPlace));
   return scene;
 }
 
@@ -51,7 +51,7 @@ double expected_gap(double t) {
   const std::vector<Vector2d> p = hinges(angles);
   double least = segments_distance(p[0], p[1], p[2], p[3]) - 2.0 * kBarRadius;
   for (std::size_t k = 0; k < 3; ++k) {
-    least = std::min(least, segment_distance(kPlace, p[k], p[k + 1]) - kBarRadius - kBall);
+    least = std::min(least, segment_distance(kPlace, p[k], p[k + 1]) - kBarRadius - kBallRadius);
   }
   return std::max(least, 0.0);
 }
@@ -111,7 +111,7 @@ TEST(RobotGap, LeavesOutALinkAndWhatItCarries) {
   RobotScene scene;
   scene.add_robot("arm", planar_motion({ramp(0.0, 1.0)}));
   const std::size_t ball =
-      scene.add_body("ball", make_sphere(kBall), at({0.5, kBarRadius + kBall}));
+      scene.add_body("ball", make_sphere(kBallRadius), flat_at({0.5, kBarRadius + kBallRadius}));
   scene.attach({.body = ball, .link = *scene.find_member("arm/l0"), .t_from = 0.5});
   const std::vector<RobotGap> gaps = robot_gaps(scene, std::vector{0.0, 0.75});
   EXPECT_LT(gaps[0].distance, 0.1);

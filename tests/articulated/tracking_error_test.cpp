@@ -23,7 +23,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-Motion at(const Vector3d& place) { return Motion::fixed({place, Eigen::Quaterniond::Identity()}); }
+Motion placed(const Vector3d& place) {
+  return Motion::fixed({place, Eigen::Quaterniond::Identity()});
+}
 
 /// An arm at rest along x with a ball above the tip, `gap` from its bar.
 RobotScene straight_arm(std::size_t bars, double gap, const Vector3d& offset = Vector3d::Zero()) {
@@ -31,7 +33,8 @@ RobotScene straight_arm(std::size_t bars, double gap, const Vector3d& offset = V
   scene.add_robot("arm",
                   planar_motion(std::vector<CoordinatePath>(bars, CoordinatePath::constant(0.0))));
   const double x = static_cast<double>(bars);
-  scene.add_body("ball", make_sphere(0.1), at(Vector3d(x, kBarRadius + 0.1 + gap, 0.0) + offset));
+  scene.add_body("ball", make_sphere(0.1),
+                 placed(Vector3d(x, kBarRadius + 0.1 + gap, 0.0) + offset));
   return scene;
 }
 
@@ -101,7 +104,7 @@ TEST(TrackingError, HoldsForABodyThatWasPutDown) {
   const auto check = [](double gap, double error) {
     RobotScene scene;
     scene.add_robot("arm", planar_motion({CoordinatePath::constant(0.0)}));
-    const std::size_t tool = scene.add_body("tool", make_sphere(0.1), at({5.0, 0.0, 1.0}));
+    const std::size_t tool = scene.add_body("tool", make_sphere(0.1), placed({5.0, 0.0, 1.0}));
     // Comes near after the tool was put down.
     scene.add_body("drone", make_sphere(0.1),
                    Motion::constant_velocity({{5.0, 10.0, 1.0}, Eigen::Quaterniond::Identity()},
@@ -131,7 +134,7 @@ TEST(TrackingError, OfAPoseIsThatOfTheChildsFrame) {
     const auto check = [&](double gap) {
       RobotScene scene;
       scene.add_robot("d", {RobotModel(drone), {{"j", motion}}});
-      scene.add_body("ball", make_sphere(0.1), at({1.0, kBarRadius + 0.1 + gap, 0.0}));
+      scene.add_body("ball", make_sphere(0.1), placed({1.0, kBarRadius + 0.1 + gap, 0.0}));
       scene.set_tracking_error(0, "j", {.angle = 0.01});
       return check_robots(scene).verdict;
     };
@@ -170,7 +173,7 @@ TEST(TrackingError, EveryMotionInTheTubeIsFree) {
     };
     const Vector3d place(random.uniform(1, 4), random.uniform(-3, 3), 0.0);
     const auto with_ball = [&](RobotScene scene) {
-      scene.add_body("ball", make_sphere(0.1), at(place));
+      scene.add_body("ball", make_sphere(0.1), placed(place));
       return scene;
     };
     RobotScene nominal = with_ball(scene_of([] { return 0.0; }));
@@ -215,7 +218,7 @@ TEST(TrackingError, TheBoundOfABentArmIsReached) {
       greatest += kError * (p[3] - p[k]).norm();
     }
     const Eigen::Vector2d beyond = p[3] + (kBarRadius + 0.1 + 1e-4) * (p[3] - p[2]);
-    scene.add_body("ball", make_sphere(0.1), at({beyond.x(), beyond.y(), 0.0}));
+    scene.add_body("ball", make_sphere(0.1), placed({beyond.x(), beyond.y(), 0.0}));
     set_errors(scene, 3, kError);
     const RobotCheckResult result = check_robots(scene);
     ASSERT_EQ(result.verdict, Verdict::contact_at_start) << seed;

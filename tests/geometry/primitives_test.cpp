@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -12,8 +13,6 @@
 
 namespace firstcontact {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 TEST(Sphere, IsAPointWithARadius) {
   const Shape sphere = make_sphere(0.5);
@@ -102,7 +101,7 @@ TEST(Cylinder, IsClosedAndFacesOutwards) {
   const MeshDefects found = inspect(cylinder.mesh());
   EXPECT_TRUE(found.closed);
   ASSERT_TRUE(found.signed_volume);
-  EXPECT_NEAR(*found.signed_volume, kPi * 0.25 * 2.0, 1e-3);
+  EXPECT_NEAR(*found.signed_volume, std::numbers::pi * 0.25 * 2.0, 1e-3);
   EXPECT_LE(cylinder.enclosure_error(), 0.5e-4);
 }
 
@@ -111,7 +110,7 @@ TEST(Cone, IsClosedAndFacesOutwards) {
   const MeshDefects found = inspect(cone.mesh());
   EXPECT_TRUE(found.closed);
   ASSERT_TRUE(found.signed_volume);
-  EXPECT_NEAR(*found.signed_volume, kPi * 0.25 * 2.0 / 3.0, 1e-3);
+  EXPECT_NEAR(*found.signed_volume, std::numbers::pi * 0.25 * 2.0 / 3.0, 1e-3);
 }
 
 TEST(Primitive, RefusesLengthsOutOfRange) {

@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 
 const Vector3<double> kPoint{0.3, -0.2, 0.5};
 
-Vector3d plain(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
+Vector3d to_eigen(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
 
 double distance(const Vector3d& p, const Vector3<Wide>& exact_point) {
   return norm(exact(Vector3<double>{p.x(), p.y(), p.z()}) - exact_point).upper();
@@ -87,7 +87,7 @@ TEST(MotionContract, InterpolatesTheGivenPoses) {
       const Pose pose = motion.pose(t);
       const Eigen::Quaterniond q(given.rotation.w, given.rotation.x, given.rotation.y,
                                  given.rotation.z);
-      EXPECT_LE((pose.position - plain(given.position)).norm(), 1e-15 * reach) << t;
+      EXPECT_LE((pose.position - to_eigen(given.position)).norm(), 1e-15 * reach) << t;
       EXPECT_LE((pose.rotation.toRotationMatrix() - q.normalized().toRotationMatrix()).norm(),
                 1e-14)
           << t;
@@ -101,8 +101,8 @@ TEST(MotionContract, IsContinuousWhereItsPiecesMeet) {
     const Motion motion = to_motion(c.input);
     for (std::size_t k = 1; k + 1 < motion.breaks().size(); ++k) {
       const double t = motion.breaks()[k];
-      const ConstantRatePath before = motion.path(k - 1, plain(kPoint));
-      const ConstantRatePath after = motion.path(k, plain(kPoint));
+      const ConstantRatePath before = motion.path(k - 1, to_eigen(kPoint));
+      const ConstantRatePath after = motion.path(k, to_eigen(kPoint));
       const DoubleDoubleVector3 gap =
           before.pivot(t) + before.precise_lever(t) - after.pivot(t) - after.precise_lever(t);
       const double sizes = before.pivot(t).value().norm() + after.pivot(t).value().norm() +
@@ -124,7 +124,7 @@ TEST(MotionContract, IsRigid) {
       EXPECT_GT(R.determinant(), 0.0);
     }
     for (std::size_t k = 0; k + 1 < motion.breaks().size(); ++k) {
-      const ConstantRatePath path = motion.path(k, plain(kPoint));
+      const ConstantRatePath path = motion.path(k, to_eigen(kPoint));
       const Eigen::Matrix3d R = path.state(0.5 * (path.t_begin() + path.t_end())).R_WB;
       EXPECT_LE((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-14);
     }
@@ -167,7 +167,7 @@ TEST(MotionContract, BoundsHowAPointMovesAlongADirection) {
     const Motion motion = to_motion(c.input);
     const std::vector<MotionPiece> pieces = motion_pieces(c.input, kPoint);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const ConstantRatePath path = motion.path(k, plain(kPoint));
+      const ConstantRatePath path = motion.path(k, to_eigen(kPoint));
       const double rounding =
           1e-14 * (path.rate() * path.lever_length() + path.pivot_velocity().value().norm()) *
               (path.t_end() - path.t_begin()) +
@@ -190,7 +190,7 @@ TEST(MotionContract, BoundsTightly) {
     const Motion motion = to_motion(c.input);
     const std::vector<MotionPiece> pieces = motion_pieces(c.input, kPoint);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-      const ConstantRatePath path = motion.path(k, plain(kPoint));
+      const ConstantRatePath path = motion.path(k, to_eigen(kPoint));
       const double turn = path.rate() * (path.t_end() - path.t_begin());
       // Below that, the rounding of the velocity hides the second order.
       if (turn < 0.01 || path.lever_length() * turn < 1e-6 * path.pivot_velocity().value().norm()) {

@@ -168,8 +168,8 @@ TEST_P(LinearContactTest, IsNeverMissedLateOrFalse) {
   const auto family = static_cast<Family>(GetParam());
   std::array<int, 3> verdicts{};
   double steps = 0.0;
-  constexpr int kCases = 600;
-  for (int i = 0; i < kCases; ++i) {
+  constexpr int kMotions = 600;
+  for (int i = 0; i < kMotions; ++i) {
     Rng rng(static_cast<std::uint64_t>(i) * 100 + static_cast<std::uint64_t>(GetParam()));
     Question q = random_question(rng, family, i % 4 == 0);
     const LinearContact answer = ask(q);
@@ -180,9 +180,9 @@ TEST_P(LinearContactTest, IsNeverMissedLateOrFalse) {
     q.t_contact = -1.0;
     ASSERT_EQ(complaint(q, ask(q)), "") << i << " with a margin";
   }
-  EXPECT_GT(verdicts[0], kCases / 20);
-  EXPECT_GT(verdicts[1], kCases / 2);
-  EXPECT_LT(steps / kCases, 40.0);
+  EXPECT_GT(verdicts[0], kMotions / 20);
+  EXPECT_GT(verdicts[1], kMotions / 2);
+  EXPECT_LT(steps / kMotions, 40.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, LinearContactTest, testing::Range(0, kFamilies));

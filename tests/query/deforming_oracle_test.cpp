@@ -11,12 +11,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "query/shape_cases.h"
+#include "support/from_environment.h"
 #include "support/library_case.h"
 
 namespace firstcontact::oracle {
@@ -50,14 +50,14 @@ const char* name(Kind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-double uniform(Rng& rng, double low, double high) {
+double uniform_in(Rng& rng, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
 /// Of a size of about 1; with few bits, so that much of it coincides exactly.
 Vec random_vector(Rng& rng, Kind kind) {
   const auto coordinate = [&] {
-    const double x = uniform(rng, -1.0, 1.0);
+    const double x = uniform_in(rng, -1.0, 1.0);
     return rng() % 2 == 0 ? x : std::round(8.0 * x) / 8.0;
   };
   Vec v{coordinate(), coordinate(), coordinate()};
@@ -86,7 +86,7 @@ Vec place_at_end(Rng& rng, Kind kind, const Vec& from, const Vec& travel, const 
     case Kind::swinging:
       return travel + Vec{-from.y, from.x, from.z};
     default:
-      return from + travel + uniform(rng, 0.0, 1.0) * random_vector(rng, kind);
+      return from + travel + uniform_in(rng, 0.0, 1.0) * random_vector(rng, kind);
   }
 }
 
@@ -112,17 +112,17 @@ MovingSoup deforming_soup(Rng& rng, Kind kind, const Vec& start, const Vec& trav
 /// A corner above a face that tilts; it keeps its height over it at both ends, or sinks into it.
 GeneratedCase sliding(Rng& rng) {
   GeneratedCase c;
-  const double tilt = uniform(rng, -1.0, 1.0);
+  const double tilt = uniform_in(rng, -1.0, 1.0);
   const double height = std::pow(10.0, -static_cast<double>(1 + rng() % 4));
   add_triangle(c.A, {-1.0, -1.0, 0.0}, {2.0, -1.0, 0.0}, {-1.0, 2.0, 0.0});
   const auto tilted = [&](const Vec& v) { return Vec{v.x, v.y, v.z + tilt * v.x}; };
   for (const Vec& v : c.A.vertices) {
     c.A.to.push_back(tilted(v));
   }
-  const Vec from{uniform(rng, -0.5, 0.5), uniform(rng, -0.5, 0.5), height};
-  const Vec end{from.x + uniform(rng, -0.2, 0.2), from.y, height};
+  const Vec from{uniform_in(rng, -0.5, 0.5), uniform_in(rng, -0.5, 0.5), height};
+  const Vec end{from.x + uniform_in(rng, -0.2, 0.2), from.y, height};
   add_triangle(c.B, from, from + Vec{0.1, 0.0, 1.0}, from + Vec{0.0, 0.1, 1.0});
-  const double sinking = rng() % 2 == 0 ? 0.0 : uniform(rng, 0.0, 3.0) * height;
+  const double sinking = rng() % 2 == 0 ? 0.0 : uniform_in(rng, 0.0, 3.0) * height;
   const Vec to = tilted(end) - Vec{0.0, 0.0, sinking};
   c.B.to = {to, to + Vec{0.1, 0.0, 1.0}, to + Vec{0.0, 0.1, 1.0}};
   return c;
@@ -144,7 +144,7 @@ GeneratedCase random_case(Rng& rng, Kind kind) {
   Vec start = 1.5 * random_vector(rng, shape);
   Vec travel = -1.2 * start + 0.5 * random_vector(rng, shape);
   if (kind == Kind::collinear) {
-    travel = uniform(rng, -1.2, 0.5) * start;  // On a line nothing passes by.
+    travel = uniform_in(rng, -1.2, 0.5) * start;  // On a line nothing passes by.
   }
   if (kind == Kind::parallel) {
     start.z = rng() % 2 == 0 ? 1.0 : 0.0078125;
@@ -166,22 +166,17 @@ GeneratedCase random_case(Rng& rng, Kind kind) {
     shift(c.B, kind == Kind::far ? away : Vec{}, away);
   }
   c.tolerance = std::pow(10.0, -3.0 - static_cast<double>(rng() % 6));
-  c.margin = rng() % 3 == 0 ? uniform(rng, 0.0, 0.2) : 0.0;
-  c.A.radius = rng() % 4 == 0 ? uniform(rng, 0.0, 0.1) : 0.0;
-  c.B.radius = rng() % 4 == 0 ? uniform(rng, 0.0, 0.1) : 0.0;
+  c.margin = rng() % 3 == 0 ? uniform_in(rng, 0.0, 0.2) : 0.0;
+  c.A.radius = rng() % 4 == 0 ? uniform_in(rng, 0.0, 0.1) : 0.0;
+  c.B.radius = rng() % 4 == 0 ? uniform_in(rng, 0.0, 0.1) : 0.0;
   if (rng() % 2 == 0) {
     std::swap(c.A, c.B);
   }
   return c;
 }
 
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
-}
-
 std::uint64_t seed() {
-  static const std::uint64_t seed = from_environment(
+  static const std::uint64_t seed = test::from_environment(
       "FIRSTCONTACT_ORACLE_SEED",
       static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
   return seed;
@@ -191,7 +186,7 @@ class DeformingTest : public testing::TestWithParam<int> {};
 
 TEST_P(DeformingTest, MeetsTheOracle) {
   const auto kind = static_cast<Kind>(GetParam());
-  const std::uint64_t count = from_environment("FIRSTCONTACT_ORACLE_CASES", 1'200) / kKinds;
+  const std::uint64_t count = test::from_environment("FIRSTCONTACT_ORACLE_CASES", 1'200) / kKinds;
   std::printf("FIRSTCONTACT_ORACLE_SEED=%llu\n", static_cast<unsigned long long>(seed()));
   Workspace workspace;
   std::uint64_t gave_up = 0;

@@ -3,7 +3,7 @@
 //
 // FIRSTCONTACT_ORACLE_CASES (default 1500) and FIRSTCONTACT_ORACLE_SEED (default: the clock) choose
 // the fresh sample. A million cases take about 10 hours of one core:
-//   FIRSTCONTACT_ORACLE_CASES=1000000 build/ci/tests/query/first_contact_oracle_test
+//   FIRSTCONTACT_ORACLE_CASES=1000000 build/ci/tests/query/query_slow_test
 //     --gtest_filter='*Fresh*'
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/from_environment.h"
 #include "support/library_case.h"
 #include "support/truth_file.h"
 
@@ -62,14 +62,9 @@ INSTANTIATE_TEST_SUITE_P(Families, StoredTruthTest, testing::Range(0, kFamilyCou
                            return name(static_cast<Family>(parameter.param));
                          });
 
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
-}
-
 TEST(FreshTruth, IsMet) {
-  const std::uint64_t count = from_environment("FIRSTCONTACT_ORACLE_CASES", 1'500);
-  const std::uint64_t seed = from_environment(
+  const std::uint64_t count = test::from_environment("FIRSTCONTACT_ORACLE_CASES", 1'500);
+  const std::uint64_t seed = test::from_environment(
       "FIRSTCONTACT_ORACLE_SEED",
       static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
   std::printf("FIRSTCONTACT_ORACLE_SEED=%llu FIRSTCONTACT_ORACLE_CASES=%llu\n",

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <random>
 #include <string>
@@ -20,6 +19,7 @@
 
 #include "query/shape_cases.h"
 #include "support/exact_state.h"
+#include "support/from_environment.h"
 #include "support/library_case.h"
 
 namespace firstcontact::oracle {
@@ -200,11 +200,6 @@ std::string oracle_complaint(const Question& q, const FirstContactResult& answer
   return complaint(c, answer, FirstContactOracle(c.A, c.B, c.margin).first_contact());
 }
 
-std::uint64_t from_environment(const char* variable, std::uint64_t otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
-}
-
 /// Counts of answers: a sample of one verdict alone would test little.
 struct Tally {
   int free = 0;
@@ -220,7 +215,7 @@ struct Tally {
 
 template <class Complain>
 void run(int kinds, std::uint64_t count, const Complain& complain) {
-  const std::uint64_t seed = from_environment(
+  const std::uint64_t seed = test::from_environment(
       "FIRSTCONTACT_ORACLE_SEED",
       static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
   std::printf("FIRSTCONTACT_ORACLE_SEED=%llu\n", static_cast<unsigned long long>(seed));
@@ -239,11 +234,11 @@ void run(int kinds, std::uint64_t count, const Complain& complain) {
 }
 
 TEST(Shapes, OfSimplicesMeetTheOracle) {
-  run(kExactKinds, from_environment("FIRSTCONTACT_ORACLE_CASES", 600) / 2, oracle_complaint);
+  run(kExactKinds, test::from_environment("FIRSTCONTACT_ORACLE_CASES", 600) / 2, oracle_complaint);
 }
 
 TEST(Shapes, MeetTheDistanceOfExactBodies) {
-  run(kAllKinds, from_environment("FIRSTCONTACT_ORACLE_CASES", 600) / 2,
+  run(kAllKinds, test::from_environment("FIRSTCONTACT_ORACLE_CASES", 600) / 2,
       [](const Question& q, const FirstContactResult& answer) { return complaint(q, answer); });
 }
 

@@ -102,7 +102,7 @@ class RigidIpc : public testing::Test {
   fs::path folder_;
 };
 
-Pose pose_of(const Body& body) { return std::get<FixedMotion>(body.motion).pose; }
+Pose fixed_pose(const Body& body) { return std::get<FixedMotion>(body.motion).pose; }
 
 TEST_F(RigidIpc, TakesDefaultsOfItsOwn) {
   const Scene scene = read(R"({"mesh": "cube.obj"})");
@@ -155,7 +155,7 @@ TEST_F(RigidIpc, TakesTheSimulation) {
 TEST_F(RigidIpc, TurnsAboutFixedAxesInDegrees) {
   const Scene scene =
       read(R"({"mesh": "cube.obj", "position": [1, 2, 3], "rotation": [90, 0, 90]})");
-  const Pose X_WB = pose_of(scene.bodies.at(0));
+  const Pose X_WB = fixed_pose(scene.bodies.at(0));
   EXPECT_EQ(X_WB.position, Vector3d(1, 2, 3));
   // x stays under the turn about x, and goes to y about z; z goes to -y, and that to x.
   EXPECT_LE((X_WB.rotation * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-15);
@@ -276,7 +276,7 @@ TEST_F(RigidIpc, SplitsComponents) {
   const MassProperties second = mass_properties(cache.load(scene.bodies[1].shape).shape);
   EXPECT_NEAR(second.volume, 8.0, 1e-14);
   EXPECT_LE((second.p_BC - Vector3d(10, 0, 0)).norm(), 1e-14);
-  EXPECT_EQ(pose_of(scene.bodies[1]).position, Vector3d(1, 0, 0));
+  EXPECT_EQ(fixed_pose(scene.bodies[1]).position, Vector3d(1, 0, 0));
 }
 
 TEST_F(RigidIpc, NamesAndGroupsBodies) {
@@ -458,7 +458,7 @@ TEST(RigidIpcFixtures, LeverArmTurnsAboutOneAxis) {
   EXPECT_NEAR(beam.about_C(2, 2), 15.0 * (225.0 + 1.0) / 12.0, 1e-9);
   const Body& weight = scene.bodies.at(1);
   EXPECT_EQ(weight.free.value().density, 7680.0);
-  EXPECT_EQ(pose_of(weight).position, Vector3d(7, 6, 0));
+  EXPECT_EQ(fixed_pose(weight).position, Vector3d(7, 6, 0));
   EXPECT_NEAR(mass_properties(cache.load(weight.shape).shape).volume, 27.0, 1e-12);
 }
 
@@ -472,7 +472,7 @@ TEST(RigidIpcFixtures, BatLiesAlongTheZAxis) {
   ShapeCache cache;
   Eigen::AlignedBox3d bounds;
   for (const Vector3d& v : cache.load(bat.shape).shape.mesh().vertices) {
-    bounds.extend(pose_of(bat).rotation * v);
+    bounds.extend(fixed_pose(bat).rotation * v);
   }
   EXPECT_LE((bounds.sizes() - Vector3d(0.0635, 0.0635, 0.8636)).norm(), 1e-12);
   EXPECT_LE((bat.free.value().angular_velocity - Vector3d(-500, 2000, 0) * kDegree).norm(), 1e-12);
@@ -497,7 +497,7 @@ TEST(RigidIpcFixtures, CardsHaveTheMassOfTheirArea) {
                 .norm(),
             1e-9);
   // The upper end, at +x of the mesh, after a turn of 65 degrees about z.
-  const Pose X_WB = pose_of(scene.bodies[1]);
+  const Pose X_WB = fixed_pose(scene.bodies[1]);
   const Vector3d end = X_WB.position + X_WB.rotation * Vector3d(1.25, 0, 0);
   EXPECT_NEAR(end.x(), -0.55 + 1.25 * std::cos(65.0 * kDegree), 1e-14);
   EXPECT_NEAR(end.y(), 1.20830308488593 + 1.25 * std::sin(65.0 * kDegree), 1e-14);

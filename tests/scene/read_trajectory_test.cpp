@@ -126,13 +126,13 @@ TEST(ReadTrajectory, KnowsThreeCoordinatesOfAPlanarJoint) {
   EXPECT_EQ(path[2].segments()[0].a[0].hi, 3.0);
 }
 
-struct Malformed {
+struct MalformedText {
   std::string file;
   std::string text;
   std::string message;
 };
 
-void expect_messages(const std::vector<Malformed>& cases) {
+void expect_trajectory_messages(const std::vector<MalformedText>& cases) {
   for (const auto& [file, text, message] : cases) {
     try {
       (void)parse(text, file);
@@ -144,14 +144,14 @@ void expect_messages(const std::vector<Malformed>& cases) {
 }
 
 /// Of the joint "turn", with these points.
-Malformed points(const std::string& points, const std::string& message) {
+MalformedText points(const std::string& points, const std::string& message) {
   return {"t", R"({"joint_names": ["turn"], "points": [)" + points + "]}", "t.json:1: " + message};
 }
 
 TEST(MalformedTrajectory, NamesWhatIsWrongWithNames) {
   const std::string joints =
       "\"turn\", \"lift\", \"rail/x\", \"rail/y\", \"rail/theta\", \"follow\"";
-  expect_messages({
+  expect_trajectory_messages({
       {"t.json", R"({"joint_names": ["trun"], "points": []})",
        "t.json:1: joint_names[0]: expected a joint of robot \"crane\", got \"trun\"; did you mean "
        "\"turn\"?"},
@@ -181,7 +181,7 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithNames) {
 }
 
 TEST(MalformedTrajectory, NamesWhatIsWrongWithPoints) {
-  std::vector<Malformed> cases = {
+  std::vector<MalformedText> cases = {
       points("", "points: expected at least one point, got none"),
       points(R"({"time": -1, "positions": [0]})", "points[0].time: expected a number >= 0, got -1"),
       points(R"({"time": 1, "positions": [0]}, {"time": 1, "positions": [0]})",
@@ -212,15 +212,15 @@ TEST(MalformedTrajectory, NamesWhatIsWrongWithPoints) {
              "points[1]: expected \"velocities\" in all points or in none, got them here and not "
              "in the first"),
   };
-  for (Malformed& malformed : cases) {
+  for (MalformedText& malformed : cases) {
     malformed.file = "t.json";
   }
-  expect_messages(cases);
+  expect_trajectory_messages(cases);
 }
 
 TEST(MalformedTrajectory, NamesWhatIsWrongWithYaml) {
   const std::string names = "joint_names: [turn]\npoints:\n";
-  expect_messages({
+  expect_trajectory_messages({
       {"t.yaml", "", "t.yaml:1: expected a YAML document, got none"},
       {"t.yaml", "a: 1\n---\nb: 1\n", "t.yaml:3: expected one YAML document, got a second one"},
       {"t.yaml", "a: 1\na: 2\n", "t.yaml:2: expected each key once, got \"a\" again"},
@@ -274,7 +274,7 @@ TEST(MalformedTrajectory, IsNotGrownByAliases) {
 }
 
 TEST(MalformedTrajectory, NamesWhatIsWrongWithTables) {
-  expect_messages({
+  expect_trajectory_messages({
       {"t.csv", "", "t.csv:1: expected a header such as time,joint1,joint2, got none"},
       {"t.csv", "turn\n1\n", "t.csv:1: expected a column \"time\" [s], got none"},
       {"t.csv", "time\n1\n", "t.csv:1: expected a column for at least one joint, got none"},

@@ -40,7 +40,7 @@ std::string error_of(const std::string& text) {
   return "accepted";
 }
 
-void expect_messages(const std::vector<std::pair<std::string, std::string>>& cases) {
+void expect_simulation_messages(const std::vector<std::pair<std::string, std::string>>& cases) {
   for (const auto& [text, message] : cases) {
     EXPECT_EQ(error_of(text), "s:1: " + message) << text;
   }
@@ -164,7 +164,7 @@ TEST(SimulationScene, NumbersPairsAnewWithTheirBodies) {
 
 TEST(MalformedDynamics, SaysWhatIsWrong) {
   const std::string a = "bodies[0].dynamics";
-  expect_messages({
+  expect_simulation_messages({
       {free_body(R"("densty": 1)"), a + ".densty: unknown key; did you mean \"density\"?"},
       {free_body(R"("density": 0)"), a + ".density: expected a number > 0, got 0"},
       {free_body(R"("density": 1, "mass": 1)"),
@@ -196,7 +196,7 @@ TEST(MalformedDynamics, SaysWhatIsWrong) {
 
 TEST(MalformedInertia, SaysWhatNoBodyHas) {
   const std::string a = "bodies[0].dynamics.inertia: expected ";
-  expect_messages({
+  expect_simulation_messages({
       {free_body(R"("inertia": [[1, 0, 0], [0, 1, 0]])"),
        a + "a matrix of three rows of three numbers, got an array of 2"},
       {free_body(R"("inertia": [[1, 0.1, 0], [0, 1, 0], [0, 0, 1]])"),
@@ -213,7 +213,7 @@ TEST(MalformedInertia, SaysWhatNoBodyHas) {
 }
 
 TEST(MalformedSimulation, SaysWhatIsWrong) {
-  expect_messages({
+  expect_simulation_messages({
       {simulated(R"("gravty": [0, 0, 0])"),
        "simulation.gravty: unknown key; did you mean \"gravity\"?"},
       {simulated(R"("step": 0)"), "simulation.step: expected a number > 0, got 0"},
