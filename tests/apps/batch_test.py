@@ -16,6 +16,9 @@ import unittest
 import scenes
 import tool_test
 
+# Then the tool is slow; fewer answers show as well how it comes by them.
+SANITIZED = os.environ.get("FIRSTCONTACT_SANITIZED") == "1"
+
 
 def spinning(name: str, angle: float, gap: float) -> str:
     """A tip that passes a wall once a turn; many turns take a few milliseconds."""
@@ -48,9 +51,10 @@ class BatchTest(tool_test.ToolTest):
 
 class Answers(BatchTest):
     def test_are_those_of_check_for_every_number_of_threads(self):
-        jobs = self.file("jobs.jsonl", some_jobs(60))
+        count = 20 if SANITIZED else 60
+        jobs = self.file("jobs.jsonl", some_jobs(count))
         expected = self.run_tool("check", jobs).stdout.encode()
-        self.assertEqual(len(expected.splitlines()), 60)
+        self.assertEqual(len(expected.splitlines()), count)
         for threads in ("1", "2", "8"):
             result = self.batch("--threads", threads, results=f"{threads}.jsonl")
             self.assertEqual(result.returncode, 2)

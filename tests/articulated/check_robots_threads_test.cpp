@@ -19,6 +19,7 @@
 
 #include "articulated/planar_arm.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -99,7 +100,7 @@ std::vector<std::uint64_t> bits(const RobotCheckResult& result) {
 
 TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(rounds(6, 2)); ++seed) {
     RobotScene scene = waving_arm(100, seed, 0.8);
     if (seed % 2 == 1) {
       scene.set_tracking_error(0, "j1", {.angle = 0.01});

@@ -23,6 +23,7 @@
 
 #include "articulated/chain_case.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact::test {
 namespace {
@@ -186,7 +187,7 @@ double exact_distance(const ChainCase& c, double t, const Mesh& A, const Mesh& B
 TEST(LinkContact, ChainsAreNeverLateAndNeverFalse) {
   int contacts = 0;
   constexpr double kMargin = 0.01;
-  constexpr int kSamples = 500;
+  constexpr int kSamples = rounds(500, 50);
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     const ChainCase c = random_chain(seed, {.joints = 1 + static_cast<int>(seed % 12)});
     const LinkMotion tip = c.motion.link(c.motion.model().links().size() - 1);

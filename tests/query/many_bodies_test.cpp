@@ -12,6 +12,8 @@
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/many_bodies.h>
 
+#include "support/rounds.h"
+
 namespace firstcontact {
 namespace {
 
@@ -265,7 +267,7 @@ TEST(ManyBodies, EachPairAnswersAsIfAlone) {
 TEST(ManyBodies, NumberOfThreadsChangesNothing) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   Random random(6);
-  for (int k = 0; k < 10; ++k) {
+  for (int k = 0; k < test::rounds(10, 2); ++k) {
     const BodySet bodies = random_set(random, 200, 12.0);
     ManyBodiesWorkspace workspace;
     ManyBodiesOptions options;
