@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-const Vector3d kDown{0.0, 0.0, -9.81};
+const Vector3d kFall{0.0, 0.0, -9.81};
 
 /// The same tree of links for us and for DART; the base is fixed.
 struct Twins {
@@ -25,7 +25,7 @@ struct Twins {
   std::vector<dart::dynamics::BodyNode*> nodes{nullptr};
 
   Twins() {
-    theirs->setGravity(kDown);
+    theirs->setGravity(kFall);
     ours.links.push_back({.name = "l0"});
   }
 
@@ -105,7 +105,7 @@ TEST(MechanismAgainstDart, HasTheSameMassMatrixAndForces) {
     const Eigen::MatrixXd M = mechanism.mass_matrix(instant);
     const Eigen::MatrixXd M_theirs = order.transpose() * theirs->getMassMatrix() * order;
     ASSERT_LE((M - M_theirs).norm(), 1e-12 * M.norm()) << i;
-    const VectorXd b = mechanism.bias_forces(instant, kDown);
+    const VectorXd b = mechanism.bias_forces(instant, kFall);
     const VectorXd b_theirs = order.transpose() * theirs->getCoriolisAndGravityForces();
     ASSERT_LE((b - b_theirs).norm(), 1e-12 * (1.0 + b.norm())) << i;
   }
@@ -139,7 +139,7 @@ TEST(MechanismAgainstDart, ADoublePendulumSwingsAlike) {
   const VectorXd fine = dart_after(twins.theirs, state, 1.0, 40'000);
   const VectorXd limit = 2.0 * fine - coarse;
   for (int k = 0; k < 240; ++k) {
-    state = mechanism.after_free_motion(state, kDown, 1.0 / 240.0);
+    state = mechanism.after_free_motion(state, kFall, 1.0 / 240.0);
   }
   EXPECT_LE((state.positions - limit).norm(), 1e-6);
 }
