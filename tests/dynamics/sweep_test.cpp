@@ -9,6 +9,7 @@
 #include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 
@@ -131,7 +132,8 @@ TEST(Surroundings, HoldScriptedBodiesOverTheWholeStep) {
       {"name": "moves", "shape": {"box": {"size": [1, 1, 1]}}}]})",
                              "test.json"),
                  cache);
-  World world(loaded);
+  const LinksAsBodies linked = links_as_bodies(loaded);
+  World world(loaded, linked);
   world.bodies[2].kind = BodyKind::scripted;
   StepStart start{.h = 1.0, .states = std::vector<RigidState>(3), .scripted = {{}, {}, {}}};
   start.states[0].X_WB.position = {0.0, 5.0, 0.0};
