@@ -12,6 +12,7 @@
 #include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/dynamics/write_verification.h>
 #include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/scene/links_as_bodies.h>
 
 #include "interrupt.h"
 #include "progress.h"
@@ -79,7 +80,8 @@ class Description {
   }
 
   [[nodiscard]] std::string names(const BodyPair& bodies) const {
-    return scene_.bodies[bodies[0]].name + " and " + scene_.bodies[bodies[1]].name;
+    const std::vector<std::string> all = names_with_links(scene_);
+    return all.at(bodies[0]) + " and " + all.at(bodies[1]);
   }
 
   void problem() {

@@ -1,4 +1,5 @@
 #include <firstcontact/dynamics/verify_run.h>
+#include <firstcontact/scene/links_as_bodies.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -47,10 +48,9 @@ py::object to_tuple(const RunHeader& header, const std::optional<RunMoment>& mom
     return py::none();
   }
   const auto& [A, B] = moment->bodies;
-  return tuple_type("RunMoment")(
-      moment->step, moment->time,
-      py::make_tuple(header.scene.bodies.at(A).name, header.scene.bodies.at(B).name),
-      moment->distance);
+  const std::vector<std::string> names = names_with_links(header.scene);
+  return tuple_type("RunMoment")(moment->step, moment->time,
+                                 py::make_tuple(names.at(A), names.at(B)), moment->distance);
 }
 
 py::object verify(const std::filesystem::path& path, double scripted_tolerance, std::size_t work,

@@ -21,7 +21,7 @@ void add_single(PageNumbers& row, const Eigen::Vector3d& v) {
 }  // namespace
 
 RunPage::RunPage(const RunHeader& header)
-    : header_(write_run_header(header)),
+    : header_(header),
       centres_of_mass_(header.centres_of_mass),
       ways_(header.centres_of_mass.size()) {}
 
@@ -80,6 +80,18 @@ void RunPage::add(const RunContact& contact) {
   ++contact_count_;
 }
 
+/// Links are bodies there, and the page has their meshes elsewhere.
+std::string RunPage::header_json(const Scene& linked) const {
+  RunHeader header = header_;
+  header.scene = linked;
+  header.scene.simulation = header_.scene.simulation;
+  header.scene.simulation->pairs = linked.simulation->pairs;
+  for (std::size_t b = header_.scene.bodies.size(); b < header.scene.bodies.size(); ++b) {
+    header.scene.bodies[b].shape.source = Mesh{};
+  }
+  return write_run_header(header);
+}
+
 std::string RunPage::ways_json() const {
   nlohmann::ordered_json ways = nlohmann::ordered_json::array();
   for (std::size_t body = 0; body < ways_.size(); ++body) {
@@ -109,9 +121,10 @@ std::string RunPage::write(std::string_view page_template, const LoadedScene& lo
   if (!(time_ > 0.0)) {
     throw std::invalid_argument("expected a run of some time: there is nothing to play");
   }
-  const std::string run = "{\"header\":" + header_ + ",\"steps\":[" + steps_ +
+  const LoadedScene linked = links_as_bodies(loaded).loaded;
+  const std::string run = "{\"header\":" + header_json(linked.scene) + ",\"steps\":[" + steps_ +
                           "],\"ways\":" + ways_json() + ",\"contacts\":" + contacts_json() + "}";
-  return write_page(page_template, links_as_bodies(loaded).loaded, {.name = "run", .json = run});
+  return write_page(page_template, linked, {.name = "run", .json = run});
 }
 
 }  // namespace firstcontact

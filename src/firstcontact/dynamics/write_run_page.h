@@ -54,10 +54,11 @@ class FIRSTCONTACT_API RunPage {
   void add_place(Way& way, std::size_t body, double time, const Pose& X_WB) const;
   void add(const RunBody& moved);
   void add(const RunContact& contact);
+  [[nodiscard]] std::string header_json(const Scene& linked) const;
   [[nodiscard]] std::string ways_json() const;
   [[nodiscard]] std::string contacts_json() const;
 
-  std::string header_;
+  RunHeader header_;
   std::vector<Eigen::Vector3d> centres_of_mass_;
   double time_ = 0.0;  // [s]
   std::string steps_;

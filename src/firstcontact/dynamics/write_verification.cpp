@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/scene/links_as_bodies.h>
+
 namespace firstcontact {
 namespace {
 
@@ -15,7 +17,8 @@ Json to_json(const RunHeader& header, const std::optional<RunMoment>& moment) {
   if (!moment) {
     return {};
   }
-  const auto name = [&](std::size_t body) { return header.scene.bodies.at(body).name; };
+  const std::vector<std::string> names = names_with_links(header.scene);
+  const auto name = [&](std::size_t body) { return names.at(body); };
   return {{"step", moment->step},
           {"time", to_json(moment->time)},
           {"bodies", Json::array({name(moment->bodies[0]), name(moment->bodies[1])})},
