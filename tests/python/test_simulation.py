@@ -297,3 +297,34 @@ def test_fixture_of_rigid_ipc_as_it_comes():
     steps = fc.simulate(os.path.join(os.environ["FIRSTCONTACT_DATA_DIR"], "sim_rigid_ipc/fixtures/3D",
                                      "unit-tests/spinning-cube-over-plane.json"), 0.1)
     assert len(steps) > 1 and all(step.clearance > 0 for step in steps)
+
+
+PENDULUM = """<robot name="pendulum"><link name="base"/><link name="rod">
+<inertial><origin xyz="0 0 -0.25"/><mass value="1"/><inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial>
+<collision><origin xyz="0 0 -0.25"/><geometry><box size="0.02 0.02 0.5"/></geometry></collision></link>
+<joint name="hinge" type="continuous"><parent link="base"/><child link="rod"/><axis xyz="0 1 0"/></joint></robot>
+"""
+
+
+def test_robot_swings_and_is_moved(tmp_path):
+    (tmp_path / "pendulum.urdf").write_text(PENDULUM)
+    scene = {
+        "firstcontact": 1,
+        "robots": [{"name": "p", "urdf": str(tmp_path / "pendulum.urdf"), "state": {"hinge": 1.0},
+                    "dynamics": {"velocities": {"hinge": 0.5}}}],
+    }
+    simulator = fc.Simulator(scene, step=0.01)
+    assert simulator.names == ("p/rod",)
+    assert simulator.robot_positions[0] == pytest.approx([1.0])
+    assert simulator.robot_velocities[0] == pytest.approx([0.5])
+    simulator.step()
+    # The weight at 0.25 m over the moment about the hinge, 0.01 + 0.25^2.
+    fallen = 0.5 - 0.01 * 9.81 * 0.25 * np.sin(1.0) / 0.0725
+    assert simulator.robot_velocities[0] == pytest.approx([fallen], abs=1e-3)
+    simulator.set_robot_state(0, positions=[0.0], velocities=[0.0])
+    simulator.step()
+    assert simulator.robot_positions[0] == pytest.approx([0.0], abs=1e-12)
+    with pytest.raises(ValueError, match="1 positions"):
+        simulator.set_robot_state(0, positions=[0.0, 1.0])
+    with pytest.raises(ValueError, match="is a link"):
+        simulator.set_state("p/rod", position=[0, 0, 1])

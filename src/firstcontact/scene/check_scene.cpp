@@ -174,15 +174,22 @@ SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& opt
 }  // namespace
 
 std::vector<std::string> check_warnings(const LoadedScene& loaded) {
+  std::vector<std::string> names;
+  for (const Body& body : loaded.scene.bodies) {
+    if (body.free) {
+      names.push_back(body.name);
+    }
+  }
+  for (const SceneRobot& robot : loaded.scene.robots) {
+    if (robot.dynamics) {
+      names.push_back(robot.name);
+    }
+  }
   std::vector<std::string> warnings = loaded.warnings;
-  const std::vector<Body>& bodies = loaded.scene.bodies;
-  const auto is_free = [](const Body& body) { return body.free.has_value(); };
-  const auto first = std::ranges::find_if(bodies, is_free);
-  if (first != bodies.end()) {
-    const auto others = std::count_if(first + 1, bodies.end(), is_free);
+  if (!names.empty()) {
     warnings.push_back(
-        detail::in_quotes(first->name) +
-        (others == 0 ? "" : " and " + std::to_string(others) + " more") +
+        detail::in_quotes(names.front()) +
+        (names.size() == 1 ? "" : " and " + std::to_string(names.size() - 1) + " more") +
         " with \"dynamics\": at rest here; \"firstcontact simulate\" moves what has dynamics");
   }
   return warnings;
