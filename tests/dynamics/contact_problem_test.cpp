@@ -209,7 +209,7 @@ TEST(ProjectOnContacts, TakesAThousandRedundantContacts) {
   }
   const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
   EXPECT_EQ(solution.space, ProjectionSpace::motion);
-  EXPECT_LE(solution.residual, kTolerance);
+  EXPECT_LE(solution.residual, 1e-9);  // A sum of a thousand impulses is rounded.
   EXPECT_LE(solution.bodies[1].v.norm() + solution.bodies[1].w.norm(), 1e-9);
 }
 

@@ -205,7 +205,7 @@ const std::string kCube = body("floor", box("[2, 2, 1]"), "[0, 0, -0.65]") + ","
 
 TEST_F(SimulateRobots, AGripperLiftsACube) {
   Simulator s =
-      simulator(scene(kGripper, kGrasp, kCube, R"("step": 0.005, "contact_distance": 1e-5)"));
+      simulator(scene(kGripper, kGrasp, kCube, R"("step": 0.005, "contact_distance": 1e-4)"));
   const auto steps = run(s, 260);
   const auto& cube = steps.back().bodies.front();
   ASSERT_EQ(cube.body, 1U);
@@ -218,7 +218,7 @@ TEST_F(SimulateRobots, AGripperLiftsACube) {
 
 TEST_F(SimulateRobots, ResumesBitForBit) {
   const std::string text =
-      scene(kGripper, kGrasp, kCube, R"("step": 0.005, "contact_distance": 1e-5)");
+      scene(kGripper, kGrasp, kCube, R"("step": 0.005, "contact_distance": 1e-4)");
   Simulator whole = simulator(text);
   const auto steps = run(whole, 60);
   std::stringstream file;

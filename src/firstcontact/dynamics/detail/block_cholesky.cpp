@@ -25,7 +25,7 @@ std::vector<std::vector<std::size_t>> neighbours(
   }
   for (auto& of : all) {
     std::ranges::sort(of);
-    of.erase(std::ranges::unique(of).begin(), of.end());
+    of.erase(std::unique(of.begin(), of.end()), of.end());
   }
   return all;
 }
