@@ -269,6 +269,24 @@ TEST_F(SimulateRobots, AnArmThatIsToldWhereToGoPushesWhatIsInItsWay) {
   EXPECT_EQ(verified.verdict, RunVerdict::proven) << verified.problem;
 }
 
+// The sagitta of the arc, which docs/simulation.md promises: no more, and not much less.
+TEST_F(SimulateRobots, JointsComeApartBySagittasBetweenTheEndsOfSteps) {
+  const double h = 0.01;
+  Simulator s = simulator(
+      scene(kPendulum, R"("state": {"hinge": 1.5}, "dynamics": {})", "", R"("step": 0.01)"));
+  double rate = 0.0;
+  for (const RunStep& step : run(s, 100)) {
+    const double mean = 0.5 * (rate + step.robots[0].velocities[0]);
+    rate = step.robots[0].velocities[0];
+    ASSERT_EQ(step.bodies[0].pieces.size(), 1U);
+    const RunPiece& piece = step.bodies[0].pieces[0];
+    const double apart = 0.25 - (piece.X_WB.position + 0.5 * piece.translation).norm();
+    const double sagitta = mean * mean * h * h * 0.25 / 8.0;
+    ASSERT_LE(apart, 1.01 * sagitta + 1e-12) << step.index;
+    ASSERT_GE(apart, 0.99 * sagitta - 1e-12) << step.index;
+  }
+}
+
 TEST_F(SimulateRobots, SaysWhatIsWrong) {
   const auto complaint = [&](const std::string& robot) -> std::string {
     try {
