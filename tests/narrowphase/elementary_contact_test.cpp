@@ -387,7 +387,7 @@ void expect_brackets(std::uint64_t seed, const MeanSteps& allowed, const Ask& as
 
 TEST(VertexFaceContact, BracketsARootInsideTheFaceInFewSteps) {
   expect_brackets(
-      1, {.free = 3.5, .contact = 8.0},
+      1, {.free = 2.6, .contact = 8.0},
       [](const ElementaryMotion& motion, const RandomCase& c) {
         return vertex_face_contact(motion, c.face, c.vertex);
       },
@@ -401,7 +401,7 @@ TEST(VertexFaceContact, BracketsARootInsideTheFaceInFewSteps) {
 
 TEST(EdgeEdgeContact, BracketsARootWithinBothEdgesInFewSteps) {
   expect_brackets(
-      2, {.free = 4.5, .contact = 9.0},
+      2, {.free = 3.3, .contact = 9.0},
       [](const ElementaryMotion& motion, const RandomCase& c) {
         return edge_edge_contact(motion, c.edge_A, c.edge_B);
       },

@@ -41,6 +41,13 @@ struct Box {
   }
 };
 
+/// Cosines and sines of 15, 30, 45, 60 and 75 degrees.
+constexpr std::array<std::array<double, 2>, 5> kTurns{{{0.9659258262890683, 0.25881904510252074},
+                                                       {0.8660254037844387, 0.5},
+                                                       {0.7071067811865476, 0.7071067811865476},
+                                                       {0.5, 0.8660254037844387},
+                                                       {0.25881904510252074, 0.9659258262890683}}};
+
 constexpr std::size_t kSampledTriangles = 48;     // decide between candidate frames
 constexpr std::size_t kParallelTriangles = 8192;  // below this a subtree is built by one task
 
@@ -303,12 +310,9 @@ class Builder {
       }
     };
     consider(Matrix3d::Identity());
-    constexpr int kTurns = 5;
-    for (int k = 1; k <= kTurns; ++k) {
-      const double angle = k * (0.5 * 3.14159265358979) / (kTurns + 1);
-      consider(right_handed(
-          (std::cos(angle) * principal.row(0) + std::sin(angle) * principal.row(1)).transpose(),
-          (std::cos(angle) * principal.row(1) - std::sin(angle) * principal.row(0)).transpose()));
+    for (const auto& [cosine, sine] : kTurns) {
+      consider(right_handed((cosine * principal.row(0) + sine * principal.row(1)).transpose(),
+                            (cosine * principal.row(1) - sine * principal.row(0)).transpose()));
     }
     return bounds(items, best, 1);
   }
@@ -319,20 +323,31 @@ class Builder {
   static Eigen::Quaterniond smallest_rotation(const Box& box) {
     const int longest = box.longest();
     const std::array<int, 2> others{(longest + 1) % 3, (longest + 2) % 3};
-    Matrix3d best = Matrix3d::Identity();
+    const auto rows = [&](int order) {
+      return std::array<int, 3>{others[order], others[1 - order], longest};
+    };
+    const auto sign = [](int signs, int row) { return (signs >> row & 1) != 0 ? -1.0 : 1.0; };
+    int best_order = 0;
+    int best_signs = 0;
     double largest_trace = -4.0;
     for (int order = 0; order < 2; ++order) {
+      const std::array<int, 3> r = rows(order);
+      const Vector3d diagonal(box.axes(r[0], 0), box.axes(r[1], 1), box.axes(r[2], 2));
       for (int signs = 0; signs < 8; ++signs) {
-        const auto sign = [&](int row) { return (signs >> row & 1) != 0 ? -1.0 : 1.0; };
-        Matrix3d m;
-        m.row(0) = sign(0) * box.axes.row(others[order]);
-        m.row(1) = sign(1) * box.axes.row(others[1 - order]);
-        m.row(2) = sign(2) * box.axes.row(longest);
-        if (m.trace() > largest_trace && m.determinant() > 0.0) {
-          largest_trace = m.trace();
-          best = m;
+        // Right-handed: an even number of signs turns, odd where two rows are exchanged.
+        const bool is_right_handed = ((signs ^ signs >> 1 ^ signs >> 2) & 1) == order;
+        const double trace = sign(signs, 0) * diagonal[0] +
+                             (sign(signs, 1) * diagonal[1] + sign(signs, 2) * diagonal[2]);
+        if (is_right_handed && trace > largest_trace) {
+          largest_trace = trace;
+          best_order = order;
+          best_signs = signs;
         }
       }
+    }
+    Matrix3d best;
+    for (int k = 0; k < 3; ++k) {
+      best.row(k) = sign(best_signs, k) * box.axes.row(rows(best_order)[k]);
     }
     Eigen::Quaterniond q(best);
     q.normalize();

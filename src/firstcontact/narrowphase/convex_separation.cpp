@@ -1,9 +1,14 @@
 #include <firstcontact/narrowphase/convex_separation.h>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
+#include <cstddef>
 #include <limits>
 
 #include <Eigen/Geometry>
+
+#include <firstcontact/narrowphase/detail/farthest_corners.h>
 
 namespace firstcontact {
 namespace {
@@ -14,36 +19,7 @@ using Eigen::Vector3d;
 constexpr double kNearEnough = 0.9;
 constexpr int kRounds = 16;
 
-/// The corner that is farthest along n, from the centre, in world axes.
-Vector3d farthest(const PlacedPolytope& P, const Vector3d& n) {
-  using Four = Eigen::Array4d;
-  constexpr Eigen::Index kWidth = 4;
-  const Vector3d local = P.R.transpose() * n;
-  const Eigen::Index count = P.corners.rows();
-  const auto along = [&](Eigen::Index i) -> Four {
-    const auto block = P.corners.middleRows<kWidth>(i).array();
-    return block.col(0) * local.x() + block.col(1) * local.y() + block.col(2) * local.z();
-  };
-  Four most = Four::Constant(-std::numeric_limits<double>::infinity());
-  Four where = Four::Zero();  // First row of the four.
-  Eigen::Index i = 0;
-  for (; i + kWidth <= count; i += kWidth) {
-    const Four values = along(i);
-    where = (values > most).select(Four::Constant(static_cast<double>(i)), where);
-    most = values.max(most);
-  }
-  Eigen::Index lane = 0;
-  double best = most.maxCoeff(&lane);
-  Eigen::Index index = static_cast<Eigen::Index>(where[lane]) + lane;
-  for (; i < count; ++i) {
-    const double value = P.corners.row(i).dot(local);
-    if (value > best) {
-      best = value;
-      index = i;
-    }
-  }
-  return P.R * P.corners.row(index).transpose();
-}
+constexpr std::size_t kPlaces = detail::kDirections;
 
 /// Up to four points, of which those that hold the nearest point to the origin are kept.
 class Simplex {
@@ -163,16 +139,48 @@ class Simplex {
   int count_ = 0;
 };
 
+/// A polytope at its places, all of the same corners.
+using Places = std::span<const PlacedPolytope>;
+
+/// The point that is farthest along n, at each place, from an origin.
+std::array<Vector3d, kPlaces> farthest(Places P, const Vector3d& n, const Vector3d& origin) {
+  std::array<Vector3d, kPlaces> directions;
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    directions[k] = P[k].R.transpose() * n;
+  }
+  const PointRows& corners = P[0].corners;
+  const auto rows = detail::farthest_corners(corners, std::span(directions).first(P.size()));
+  std::array<Vector3d, kPlaces> points;
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    points[k] = (P[k].centre - origin) + P[k].R * corners.row(rows[k]).transpose();
+  }
+  return points;
+}
+
+/// The difference B - A that is least along n.
+Vector3d least_difference(Places A, Places B, const Vector3d& n) {
+  const Vector3d& origin = A[0].centre;  // Near both: large offsets cancel before they are rounded.
+  const auto on_A = farthest(A, n, origin);
+  const auto on_B = farthest(B, -n, origin);
+  Vector3d least = on_B[0] - on_A[0];
+  for (std::size_t k = 1; k < std::max(A.size(), B.size()); ++k) {
+    const Vector3d difference = on_B[B.size() == 1 ? 0 : k] - on_A[A.size() == 1 ? 0 : k];
+    if (n.dot(difference) < n.dot(least)) {
+      least = difference;
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
-Separation separate(const PlacedPolytope& A, const PlacedPolytope& B, const Vector3d& n,
-                    const GapRange& range) {
-  const Vector3d d = B.centre - A.centre;
+Separation separate(Places A, Places B, const Vector3d& n, const GapRange& range) {
+  assert((A.size() == 1 || A.size() == kPlaces) && (B.size() == 1 || B.size() == kPlaces));
   Separation best{n, -std::numeric_limits<double>::infinity()};
   Simplex simplex;  // Of the differences B - A.
   Vector3d along = n;
   for (int round = 0; round < kRounds; ++round) {
-    const Vector3d difference = d + farthest(B, -along) - farthest(A, along);
+    const Vector3d difference = least_difference(A, B, along);
     const double gap = along.dot(difference);
     if (gap > best.gap) {
       best = {along, gap};
@@ -190,6 +198,11 @@ Separation separate(const PlacedPolytope& A, const PlacedPolytope& B, const Vect
     along = nearest / distance;
   }
   return best;
+}
+
+Separation separate(const PlacedPolytope& A, const PlacedPolytope& B, const Vector3d& n,
+                    const GapRange& range) {
+  return separate(std::span(&A, 1), std::span(&B, 1), n, range);
 }
 
 }  // namespace firstcontact

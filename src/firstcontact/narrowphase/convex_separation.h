@@ -4,6 +4,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -15,7 +16,7 @@ namespace firstcontact {
 /// A convex polytope at its place, in a frame W that both share.
 struct PlacedPolytope {
   const PointRows& corners;  ///< [m]  From its centre.
-  Eigen::Matrix3d R;         ///< [-]  From its own axes to those of W.
+  Eigen::Matrix3d R;         ///< [-]  From its own axes to those of W; any matrix.
   Eigen::Vector3d centre;    ///< [m]  In W.
 };
 
@@ -40,6 +41,15 @@ struct GapRange {
 ///
 /// @param n  [-]  unit; where to begin
 [[nodiscard]] FIRSTCONTACT_API Separation separate(const PlacedPolytope& A, const PlacedPolytope& B,
+                                                   const Eigen::Vector3d& n,
+                                                   const GapRange& range = {});
+
+/// The same for A and B at three places each, of which those of the same index belong together: the
+/// gap is the least of theirs. One that has a single place keeps it.
+///
+/// @param A, B  1 or 3 places of the same corners
+[[nodiscard]] FIRSTCONTACT_API Separation separate(std::span<const PlacedPolytope> A,
+                                                   std::span<const PlacedPolytope> B,
                                                    const Eigen::Vector3d& n,
                                                    const GapRange& range = {});
 

@@ -1,6 +1,7 @@
 #include <firstcontact/narrowphase/edge_edge_contact.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,7 +18,8 @@ using detail::kUp;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double clamp_to_unit(double x) { return x > 0.0 ? std::min(x, 1.0) : 0.0; }
+/// Without a branch that could not be foreseen.
+double clamp_to_unit(double x) { return Eigen::Array2d(x, x).max(0.0).min(1.0)[0]; }
 
 /// [-]  Squared sine of the angle of two edges whose product is not worth using as a direction.
 constexpr double kParallel = 1e-12;
@@ -35,6 +37,8 @@ class TwoEdges {
         path_v_(detail::seen_vector(motion, start_v_)),
         uu_(u_.squaredNorm()),
         vv_(start_v_.squaredNorm()),
+        inverse_uu_(detail::inverse(uu_)),
+        inverse_vv_(detail::inverse(vv_)),
         reach_B_(detail::longest(edge_B[0], edge_B[1])),
         circle_B_(detail::longest(path_c_.cosine, Vector3d(path_c_.cosine + path_v_.cosine))),
         gap_(motion, detail::longest(edge_A[0], edge_A[1]), reach_B_,
@@ -127,19 +131,17 @@ class TwoEdges {
     const double ue = u_.dot(e_);
     const double ve = v_.dot(e_);
     const double determinant = uu_ * vv_ - uv * uv;
-    double s = determinant > 0.0 ? clamp_to_unit((ue * vv_ - ve * uv) / determinant) : 0.0;
-    const double r = vv_ > 0.0 ? clamp_to_unit((s * uv - ve) / vv_) : 0.0;
-    s = uu_ > 0.0 ? clamp_to_unit((r * uv + ue) / uu_) : 0.0;
+    double s = clamp_to_unit((ue * vv_ - ve * uv) / std::max(determinant, 0x1p-1000));
+    const double r = clamp_to_unit((s * uv - ve) * inverse_vv_);
+    s = clamp_to_unit((r * uv + ue) * inverse_uu_);
     const bool inside_u = s > 0.0 && s < 1.0;
     const bool inside_v = r > 0.0 && r < 1.0;
-    if (inside_u && inside_v && determinant > kParallel * uu_ * vv_) {
-      return e_.dot(normal_) < 0.0 ? Vector3d(-normal_) : normal_;
-    }
     const Vector3d d = e_ + r * v_ - s * u_;
-    if (inside_u) {
-      return d - (d.dot(u_) / uu_) * u_;
-    }
-    return inside_v ? Vector3d(d - (d.dot(v_) / vv_) * v_) : d;
+    const std::array<Vector3d, 4> directions{d, d - (d.dot(u_) * inverse_uu_) * u_,
+                                             d - (d.dot(v_) * inverse_vv_) * v_,
+                                             std::copysign(1.0, e_.dot(normal_)) * normal_};
+    const bool crossed = inside_u && inside_v && determinant > kParallel * uu_ * vv_;
+    return directions[crossed ? 3 : (inside_u ? 1 : (inside_v ? 2 : 0))];
   }
 
   const ElementaryMotion& motion_;
@@ -152,6 +154,8 @@ class TwoEdges {
 
   double uu_;
   double vv_;
+  double inverse_uu_;
+  double inverse_vv_;
   double reach_B_;
   double circle_B_;
   detail::GapBounds gap_;

@@ -1,10 +1,12 @@
 #include <firstcontact/narrowphase/triangle_distance.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -70,6 +72,54 @@ void edge_edge(const Prepared& A, int i, const Prepared& B, int j, const Use& us
   use((p_B - p_A).squaredNorm(), [&] {
     return ClosestFeatures{(p_B - p_A).norm(), p_A, p_B, edge_or_end(i, s), edge_or_end(j, t)};
   });
+}
+
+/// One for each edge of a triangle, or for the corner where it begins; the last is idle.
+using Lanes = Eigen::Array4d;
+using LaneVectors = std::array<Lanes, 3>;
+
+LaneVectors in_lanes(const std::array<Vector3d, 3>& v) {
+  return {Lanes(v[0].x(), v[1].x(), v[2].x(), 0.0), Lanes(v[0].y(), v[1].y(), v[2].y(), 0.0),
+          Lanes(v[0].z(), v[1].z(), v[2].z(), 0.0)};
+}
+
+Lanes dot(const LaneVectors& a, const Vector3d& b) {
+  return a[0] * b.x() + (a[1] * b.y() + a[2] * b.z());
+}
+
+/// The two edges that edge_edge() finds nearest to each other, but for rounding. It does the same
+/// for three edges of B at once, and without branches: which features are nearest cannot be
+/// foreseen.
+std::pair<int, int> nearest_edges(const Prepared& A, const Prepared& B) {
+  constexpr double kTiny = 0x1p-1000;
+  const LaneVectors corners = in_lanes(B.corners);
+  const LaneVectors v = in_lanes(B.edges);
+  const Lanes vv(B.square[0], B.square[1], B.square[2], 0.0);
+  const Lanes inverse_vv(B.inverse_square[0], B.inverse_square[1], B.inverse_square[2], 0.0);
+  std::array<double, 12> square{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3d& u = A.edges[i];
+    const LaneVectors r{corners[0] - A.corners[i].x(), corners[1] - A.corners[i].y(),
+                        corners[2] - A.corners[i].z()};
+    const Lanes uv = dot(v, u);
+    const Lanes ur = dot(r, u);
+    const Lanes vr = v[0] * r[0] + (v[1] * r[1] + v[2] * r[2]);
+    const Lanes determinant = A.square[i] * vv - uv * uv;
+    // Parallel edges begin with s = 0.
+    const Lanes crossed = (determinant * (1.0 / kTiny)).max(0.0).min(1.0);
+    Lanes s = ((ur * vv - vr * uv) * crossed / determinant.max(kTiny)).max(0.0).min(1.0);
+    const Lanes t = ((s * uv - vr) * inverse_vv).max(0.0).min(1.0);
+    s = ((t * uv + ur) * A.inverse_square[i]).max(0.0).min(1.0);
+    const Lanes x = r[0] + t * v[0] - s * u.x();
+    const Lanes y = r[1] + t * v[1] - s * u.y();
+    const Lanes z = r[2] + t * v[2] - s * u.z();
+    Lanes::Map(square.data() + 4 * i) = x * x + (y * y + z * z);
+  }
+  std::size_t nearest = 0;
+  for (const std::size_t k : {1, 2, 4, 5, 6, 8, 9, 10}) {
+    nearest = square[k] < square[nearest] ? k : nearest;
+  }
+  return {static_cast<int>(nearest / 4), static_cast<int>(nearest % 4)};
 }
 
 /// The foot of a point on the plane of a triangle, where it lies inside.
@@ -161,17 +211,22 @@ std::size_t number_of(const TriangleFeature& feature) {
 
 }  // namespace
 
-ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
+ClosestFeatures triangle_distance(const Triangle& T_A, const Triangle& T_B) {
+  const Prepared A(T_A);
+  const Prepared B(T_B);
+  const auto [i, j] = nearest_edges(A, B);
   ClosestFeatures best;
   double least = std::numeric_limits<double>::infinity();
-  for_each_pair(
-      A, B, [&least] { return least; },
-      [&](double squared_distance, const auto& features) {
-        if (squared_distance < least) {
-          least = squared_distance;
-          best = features();
-        }
-      });
+  const auto use = [&](double squared_distance, const auto& features) {
+    if (squared_distance < least) {
+      least = squared_distance;
+      best = features();
+    }
+  };
+  const auto reach = [&least] { return least; };
+  edge_edge(A, i, B, j, use);
+  corners_and_edges(A, B, false, reach, use);
+  corners_and_edges(B, A, true, reach, use);
   return best;
 }
 

@@ -34,13 +34,23 @@ class VertexAndFace {
         corners_{corner_, corner_ + edge_1_, corner_ + edge_2_},
         edges_{edge_1_, edge_2_ - edge_1_, -edge_2_},
         normal_(edge_1_.cross(edge_2_)),
+        inward_{normal_.cross(edges_[0]), normal_.cross(edges_[1]), normal_.cross(edges_[2])},
+        inverse_(detail::inverse(edges_[0].squaredNorm()), detail::inverse(edges_[1].squaredNorm()),
+                 detail::inverse(edges_[2].squaredNorm()), 0.0),
         normal_length_(normal_.norm()),
         edges_product_(std::sqrt(edge_1_.squaredNorm() * edge_2_.squaredNorm())),
         flat_(!(normal_length_ > kNeedle * edges_product_)),
         gap_(motion, detail::longest(face_A[0], face_A[1], face_A[2]), vertex_B.norm(),
              detail::longest(Vector2d(corners_[0].head<2>()), Vector2d(corners_[1].head<2>()),
                              Vector2d(corners_[2].head<2>())),
-             circle_B_) {}
+             circle_B_),
+        inside_penalty_(flat_ ? 0.0 : 0x1p1000) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      corner_lanes_[i] = Lanes(corners_[0][i], corners_[1][i], corners_[2][i], 0.0);
+      edge_lanes_[i] = Lanes(edges_[0][i], edges_[1][i], edges_[2][i], 0.0);
+      inward_lanes_[i] = Lanes(inward_[0][i], inward_[1][i], inward_[2][i], 0.0);
+    }
+  }
 
   void move_to(double t) {
     const detail::Turns turns(motion_, t);
@@ -101,36 +111,46 @@ class VertexAndFace {
     const double tilt = 0x1p-49 + motion_.rounding * edges_product_ / normal_length_;
     bool inside = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d inward = normal_.cross(edges_[k]);
       const Vector3d r = p_ - corners_[k];
       const double margin = way + tilt * (r.norm() + way);
-      inside = inside && inward.dot(r) > margin * inward.norm() * kUp;
+      inside = inside && inward_[k].dot(r) > margin * inward_[k].norm() * kUp;
     }
     return inside;
   }
 
  private:
+  using Lanes = Eigen::Array4d;  // One for each edge, or for the corner where it begins.
+
   /// From the face's nearest feature: along its normal, or across an edge that p is outside of, or
-  /// from a corner; of any length. Stays accurate where p touches.
+  /// from a corner; of any length. Stays accurate where p touches. All edges at once, without
+  /// branches: which one is nearest cannot be foreseen.
   [[nodiscard]] Vector3d from_nearest_point() const {
-    Vector3d d = normal_.dot(p_ - corner_) < 0.0 ? Vector3d(-normal_) : normal_;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d& edge = edges_[k];
-      const Vector3d r = p_ - corners_[k];
-      if (!flat_ && normal_.dot(edge.cross(r)) >= 0.0) {
-        continue;
-      }
-      const double length2 = edge.squaredNorm();
-      const double s = length2 > 0.0 ? edge.dot(r) / length2 : 0.0;
-      const Vector3d across = r - std::clamp(s, 0.0, 1.0) * edge;
-      if (const double d2 = across.squaredNorm(); d2 < least) {
-        least = d2;
-        const bool within = s > 0.0 && s < 1.0;
-        d = within ? Vector3d(across - (across.dot(edge) / length2) * edge) : across;
-      }
-    }
-    return d;
+    const Lanes x = p_.x() - corner_lanes_[0];
+    const Lanes y = p_.y() - corner_lanes_[1];
+    const Lanes z = p_.z() - corner_lanes_[2];
+    const Lanes s = (x * edge_lanes_[0] + y * edge_lanes_[1] + z * edge_lanes_[2]) * inverse_;
+    const Lanes on_edge = s.max(0.0).min(1.0);
+    Lanes d_x = x - on_edge * edge_lanes_[0];
+    Lanes d_y = y - on_edge * edge_lanes_[1];
+    Lanes d_z = z - on_edge * edge_lanes_[2];
+    const Lanes inside = x * inward_lanes_[0] + y * inward_lanes_[1] + z * inward_lanes_[2];
+    const Lanes square = d_x * d_x + d_y * d_y + d_z * d_z + inside.max(0.0) * inside_penalty_;
+    // What rounding has left along the edge.
+    const Lanes left =
+        (d_x * edge_lanes_[0] + d_y * edge_lanes_[1] + d_z * edge_lanes_[2]) * inverse_ -
+        (s - on_edge);
+    d_x -= left * edge_lanes_[0];
+    d_y -= left * edge_lanes_[1];
+    d_z -= left * edge_lanes_[2];
+    // The last lane is the normal's.
+    const Vector3d normal = std::copysign(1.0, normal_.dot(p_ - corner_)) * normal_;
+    d_x[3] = normal.x();
+    d_y[3] = normal.y();
+    d_z[3] = normal.z();
+    std::size_t nearest = square[1] < square[0] ? 1 : 0;
+    nearest = square[2] < square[nearest] ? 2 : nearest;
+    nearest = square[nearest] < 0x1p500 ? nearest : 3;
+    return {d_x[nearest], d_y[nearest], d_z[nearest]};
   }
 
   const ElementaryMotion& motion_;
@@ -142,10 +162,16 @@ class VertexAndFace {
   std::array<Vector3d, 3> corners_;
   std::array<Vector3d, 3> edges_;
   Vector3d normal_;
+  std::array<Vector3d, 3> inward_;  // Across the edges, of any length.
+  Lanes inverse_;                   // Of the squared lengths of edges.
   double normal_length_;
   double edges_product_;
   bool flat_;
   detail::GapBounds gap_;
+  double inside_penalty_;  // Keeps edges that p is inside of from being the nearest.
+  std::array<Lanes, 3> corner_lanes_;
+  std::array<Lanes, 3> edge_lanes_;
+  std::array<Lanes, 3> inward_lanes_;
   double speed_bound_ = 0.0;  // From coplanarity_bounds().
 
   detail::SeenVector::State seen_;

@@ -16,33 +16,42 @@
 
 namespace firstcontact::detail {
 
+/// For how long a gap provably stays open, and has been.
+struct OpenTimes {
+  double ahead = 0.0;
+  double since = 0.0;
+};
+
 /// Gaps of pairs of corners along one direction, at one time.
 template <std::size_t N>
 struct Gaps {
   std::array<ValueAndRate, N> corners;
   CurvatureBound bounds;
 
-  /// For how long all provably stay open.
-  [[nodiscard]] double time_open() const {
-    double time = time_positive(corners[0], bounds);
-    for (std::size_t k = 1; k < N; ++k) {
-      if (!positive_for(corners[k], bounds, time)) {
-        time = std::min(time, time_positive(corners[k], bounds));
-      }
+  /// Of all of them. time_positive() forth and back, without branches and with one root for both:
+  /// that of the greater speed. NaN takes the safe side.
+  [[nodiscard]] OpenTimes open_times() const {
+    constexpr double kLeast = 0x1p-1000;  // Keeps 0 / 0 away.
+    OpenTimes open{std::numeric_limits<double>::infinity(),
+                   std::numeric_limits<double>::infinity()};
+    for (const ValueAndRate& gap : corners) {
+      const double clear = std::max(0.0, gap.value - bounds.value_error);
+      const double speed = std::abs(gap.rate) + bounds.rate_error;
+      const double root =
+          std::sqrt(speed * speed + 2.0 * bounds.curvature * clear) + 0x1p-50 * speed + kLeast;
+      const double enough = 2.0 * clear * (1.0 - 0x1p-44);
+      open.ahead =
+          std::min(open.ahead, std::max(0.0, enough / (root + (bounds.rate_error - gap.rate))));
+      open.since =
+          std::min(open.since, std::max(0.0, enough / (root + (bounds.rate_error + gap.rate))));
     }
-    return time;
-  }
-
-  /// Whether all provably have been open for `duration` already.
-  [[nodiscard]] bool open_since(double duration) const {
-    return std::all_of(corners.begin(), corners.end(), [&](const ValueAndRate& gap) {
-      return positive_for(gap, bounds, -duration);
-    });
+    return open;
   }
 };
 
-/// Finds where the features of `Pair` first meet: goes from t to where a gap, or the sign of f, is
-/// no longer certain; near a root of f it leaps ahead, isolates the root and looks back.
+/// Finds where the features of `Pair` first meet. While much is left, looks at the middle of it for
+/// a gap; then goes from t to where a gap, or the sign of f, is no longer certain; near a root of f
+/// it leaps ahead, isolates the root and looks back.
 ///
 /// Pair offers: move_to(t), places the features; coplanarity(), of their function f there, and
 /// coplanarity_bounds(), of f over the whole piece; gaps(), along a direction that may keep them
@@ -74,15 +83,27 @@ class ElementarySearch {
   }
 
  private:
+  /// A time without contact.
+  struct Proven {
+    double begin = 0.0;
+    double end = 0.0;
+  };
+
   /// [-]  Where the gap leads as far, f would rarely lead farther.
   static constexpr double kFar = 1.0 / 32.0;
+  /// [-]  What is not yet proven is looked at from its middle where it is wider.
+  static constexpr double kWide = 1.0 / 8.0;
   /// Steps that are to gain more than the tolerance together.
   static constexpr int kPatience = 64;
 
   void step() {
+    if (const double end = open_end(); end - t_ > kWide && ahead_count_ < ahead_.size()) {
+      look_ahead(end);
+      return;
+    }
     const double t = t_;
     move_to(t);
-    const double open = pair_.gaps().time_open();
+    const double open = pair_.gaps().open_times().ahead;
     if (open >= kFar) {
       proceed_to(later(t, open));
       return;
@@ -101,6 +122,28 @@ class ElementarySearch {
     }
     if (!done_ && !(t_ > t)) {
       finish(ElementaryVerdict::degenerate, t_, t_);
+    }
+  }
+
+  /// Where what is not yet proven ends.
+  [[nodiscard]] double open_end() const {
+    return ahead_count_ > 0 ? ahead_[ahead_count_ - 1].begin : t_end_;
+  }
+
+  /// Proves what it can on both sides of the middle between t_ and `end`: a gap there leads twice
+  /// as far as one at t_, and the features are more likely near.
+  void look_ahead(double end) {
+    const double x = 0.5 * (t_ + end);
+    move_to(x);
+    const OpenTimes open = pair_.gaps().open_times();
+    const double begin = above(x - open.since);
+    const double beyond = later(x, open.ahead);
+    if (begin <= t_) {
+      proceed_to(beyond);
+    } else if (beyond >= end && ahead_count_ > 0) {
+      ahead_[ahead_count_ - 1].begin = begin;
+    } else {
+      ahead_[ahead_count_++] = {begin, beyond};
     }
   }
 
@@ -156,9 +199,9 @@ class ElementarySearch {
 
   /// If the gap at x leads from t_ beyond `to`.
   bool proceed_along_gap(double x, double to) {
-    const auto gaps = pair_.gaps();
-    const double beyond = std::max(x, later(x, gaps.time_open()));
-    if (!(beyond >= to && gaps.open_since(above(x - t_)))) {
+    const OpenTimes open = pair_.gaps().open_times();
+    const double beyond = std::max(x, later(x, open.ahead));
+    if (!(beyond >= to && above(x - open.since) <= t_)) {
       return false;
     }
     proceed_to(beyond);
@@ -210,7 +253,11 @@ class ElementarySearch {
   /// Proven: no contact up to `time`.
   void proceed_to(double time) {
     t_ = std::max(t_, time);
-    if (time >= t_end_) {
+    while (ahead_count_ > 0 && t_ >= ahead_[ahead_count_ - 1].begin) {
+      --ahead_count_;
+      t_ = std::max(t_, ahead_[ahead_count_].end);
+    }
+    if (t_ >= t_end_) {
       finish(ElementaryVerdict::free, t_end_, t_end_);
     }
   }
@@ -229,6 +276,8 @@ class ElementarySearch {
   int next_check_ = kPatience;
   int steps_ = 0;
   std::optional<CurvatureBound> coplanarity_bounds_;
+  std::array<Proven, 4> ahead_;  ///< The next one last. Each halves what is left: there are 3.
+  std::size_t ahead_count_ = 0;
   bool done_ = false;
   ElementaryContact result_;
 };

@@ -62,6 +62,9 @@ class GapBounds {
   double acceleration_B_;
 };
 
+/// 1 / x, and 0 where x = 0.
+inline double inverse(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
+
 /// The greatest length.
 template <class... Vectors>
 double longest(const Vectors&... v) {

@@ -26,6 +26,10 @@ constexpr double kNearlyCoinciding = 0x1p-40;
 /// Opened pairs of triangles; a dozen times what most queries open.
 constexpr std::size_t kMostRemembered = 256;
 
+/// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
+/// expected to be so, too.
+constexpr std::uint64_t kManyFreed = 256;
+
 /// [m^2]  Of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
   return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
@@ -111,7 +115,7 @@ class Search {
   void forget_opened() {
     all_remembered_ = false;
     box_threshold_ = box_threshold();
-    state_t_ = std::numeric_limits<double>::quiet_NaN();  // The frame holds the threshold.
+    frame_t_ = std::numeric_limits<double>::quiet_NaN();  // The frame holds the threshold.
     start(proven_free());
   }
 
@@ -275,6 +279,10 @@ class Search {
     if (!(state_t_ <= t && t < state_t_ + boxes_window_)) {
       move_to(t);
     }
+    if (frame_t_ != state_t_) {
+      frame_t_ = state_t_;
+      pair_.place(state_, box_threshold_ + error_, frame_);
+    }
     frame_.horizon = round_up(horizon() - state_t_);
     BoxBounds bounds;
     pair_.bound(frame_, group.node_a, group.node_b, bounds);
@@ -287,11 +295,46 @@ class Search {
         live &= ~(1u << k);
       }
     }
+    if (!all_remembered_ && freed_ > kManyFreed) {
+      live &= ~free_triangles(group, live, bounds);
+    }
     group.base = state_t_;
     group.larger_a = bounds.larger_a;
     group.larger_b = bounds.larger_b;
     group.far = bounds.far;
     group.set_times(bounds.time, round_down(t - state_t_), ~live);
+  }
+
+  /// Bodies that graze each other come near in many pairs of triangles, most of which one step
+  /// frees for good. It costs less to take it here, where the bodies are placed and the triangles
+  /// are at hand, than when the pair is due. Returns the lanes that are done with, and improves
+  /// the times of others.
+  unsigned free_triangles(const BoxGroup& group, unsigned live, BoxBounds& bounds) {
+    const HierarchyNode& a = pair_.A().nodes[group.node_a];
+    const HierarchyNode& b = pair_.B().nodes[group.node_b];
+    unsigned done = 0;
+    for (unsigned lanes = live & lanes_of(a.leaves(), b.leaves()); lanes != 0; lanes &= lanes - 1) {
+      const int k = std::countr_zero(lanes);
+      TriangleEntry entry;
+      entry.threshold = limits_.margin;
+      entry.a = a.child_triangle(k / HierarchyNode::kWidth);
+      entry.b = b.child_triangle(k % HierarchyNode::kWidth);
+      check_start(entry);
+      ++work_.triangle_pairs;
+      ++work_.steps;
+      const TrianglePair triangles = pair_.place(state_, entry.a, entry.b);
+      const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
+      if (closest.distance + error_ <= entry.threshold + tolerance_of(entry)) {
+        continue;  // Perhaps the contact: followed when it is due.
+      }
+      const double tau = step(entry, triangles, closest, state_t_);
+      if (covered(state_t_, tau)) {
+        done |= 1u << k;
+      } else {
+        bounds.time[k] = std::max(bounds.time[k], round_down(std::min(tau, 4.0)));
+      }
+    }
+    return done;
   }
 
   /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
@@ -328,7 +371,6 @@ class Search {
     state_t_ = t;
     state_ = pair_.motion().state(t);
     error_ = pair_.gap_error(state_);
-    pair_.place(state_, box_threshold_ + error_, frame_);
   }
 
   /// Advances a pair of triangles until it is in contact, leaves the step, or another pair is due.
@@ -356,6 +398,7 @@ class Search {
       }
       const double tau = step(entry, triangles, closest, t);
       if (covered(t, tau)) {
+        ++freed_;
         return;
       }
       const double next = after(t, tau);
@@ -459,15 +502,17 @@ class Search {
   std::vector<OpenedPair>& opened_;
   WorkCount& work_;
   std::uint64_t steps_before_;
-  double state_t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next three.
+  double state_t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next two.
   RelativeState state_;
   double error_ = 0.0;
-  BoxFrame frame_;
+  double frame_t_ = std::numeric_limits<double>::quiet_NaN();
+  BoxFrame frame_;  // For boxes; pairs of triangles do without.
   double box_threshold_;
   double boxes_window_;
   double tie_window_;
   double stop_window_ = 0.0;
   std::uint64_t next_clock_ = 0;
+  std::uint64_t freed_ = 0;  // Pairs of triangles.
   bool unresolved_ = false;
   bool all_remembered_ = true;
   PieceResult best_;

@@ -149,9 +149,32 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
 
 namespace {
 
+/// Whether two triangles are farther apart than `reach` along n, of any length.
+bool apart_along(const Vector3d& n, const TrianglePair& pair, double reach) {
+  const Vector3d a(n.dot(pair.A[0]), n.dot(pair.A[1]), n.dot(pair.A[2]));
+  const Vector3d b(n.dot(pair.B[0]), n.dot(pair.B[1]), n.dot(pair.B[2]));
+  const double gap = std::max(b.minCoeff() - a.maxCoeff(), a.minCoeff() - b.maxCoeff());
+  return gap > 0.0 && gap * gap > reach * reach * n.squaredNorm();
+}
+
+/// Most pairs of triangles that were opened are, by far more than rounding.
+bool clearly_apart(const TrianglePair& pair, double reach) {
+  constexpr double kClearly = 1.0 + 0x1p-20;
+  const Vector3d between =
+      (pair.B[0] + pair.B[1] + pair.B[2]) - (pair.A[0] + pair.A[1] + pair.A[2]);
+  return apart_along(face_normal(pair.A), pair, kClearly * reach) ||
+         apart_along(face_normal(pair.B), pair, kClearly * reach) ||
+         apart_along(between, pair, kClearly * reach);
+}
+
+/// @param reach  [m]  the band, and more than positions err
 void append_pairs(const ContactFrame& frame, const RelativeState& state, std::uint32_t triangle_A,
-                  std::uint32_t triangle_B, double band, std::vector<ClosePair>& pairs) {
+                  std::uint32_t triangle_B, double band, double reach,
+                  std::vector<ClosePair>& pairs) {
   const TrianglePair triangles = frame.pair.place(state, triangle_A, triangle_B);
+  if (clearly_apart(triangles, reach)) {
+    return;
+  }
   const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
   for (std::size_t k = 0; k < close.count; ++k) {
     pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
@@ -185,7 +208,7 @@ void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& 
   for (const OpenedPair& pair : workspace.opened_pairs) {
     const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
     if (pair.distance - travel <= reach) {
-      append_pairs(frame, state, pair.a, pair.b, band, close);
+      append_pairs(frame, state, pair.a, pair.b, band, reach, close);
     }
   }
   append_once(frame, state, workspace, contacts);
@@ -205,7 +228,7 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
     const BoxPair top = stack.back();
     stack.pop_back();
     if (top.is_triangle_pair) {
-      append_pairs(frame, state, top.triangle_A, top.triangle_B, band, close);
+      append_pairs(frame, state, top.triangle_A, top.triangle_B, band, reach, close);
       continue;
     }
     boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {

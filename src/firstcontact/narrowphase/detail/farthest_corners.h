@@ -1,0 +1,28 @@
+/// @file
+/// Which corners of a polytope are farthest along a few directions.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape_bounds.h>
+
+namespace firstcontact::detail {
+
+/// As many directions are looked along at once: corners are read but once.
+inline constexpr std::size_t kDirections = 3;
+
+/// For each direction, the row whose product with it is greatest but for rounding; the first if
+/// there are several, or if it is not a number. Several corners at a time, by what the processor
+/// can do.
+///
+/// @param corners     one at least
+/// @param directions  1 or kDirections, in the corners' axes
+[[nodiscard]] std::array<Eigen::Index, kDirections> farthest_corners(
+    const PointRows& corners, std::span<const Eigen::Vector3d> directions);
+
+}  // namespace firstcontact::detail
