@@ -34,6 +34,8 @@ constexpr std::size_t kBlock = 32;
 constexpr std::size_t kFirstRound = 2;
 constexpr std::size_t kLargestRound = 32;
 
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
 void require(bool condition, const char* message) {
   if (!condition) {
     throw std::invalid_argument(std::string("RobotCheckOptions::") + message);
@@ -62,15 +64,10 @@ class RobotCheck {
       : timeline_(scene.timeline),
         candidates_(scene.candidates),
         workspaces_(scene.workspaces),
-        options_(options) {
-    for (const detail::TestedPair& pair : timeline_.pairs()) {
-      RobotPairAnswer answer;
-      answer.members = pair.members;
-      answer.threshold = pair.margin;
-      answer.verdict = Verdict::free;
-      answer.t = 1.0;
-      answer.tolerance_used = options.tolerance;
-      pairs_.push_back(std::move(answer));
+        options_(options),
+        place_of_(scene.timeline.pairs().size(), kNone) {
+    if (asks_each_pair()) {
+      answer_all();
     }
   }
 
@@ -99,6 +96,31 @@ class RobotCheck {
     return options_.all_pairs || options_.all_contact_intervals || options_.least_clearance;
   }
 
+  /// That of a tested pair, by index: free until something else is found. Most pairs never need
+  /// one.
+  RobotPairAnswer& answer_of(std::size_t pair) {
+    std::size_t& place = place_of_[pair];
+    if (place == kNone) {
+      place = pairs_.size();
+      const detail::TestedPair& tested = timeline_.pairs()[pair];
+      RobotPairAnswer answer;
+      answer.members = tested.members;
+      answer.threshold = tested.margin;
+      answer.verdict = Verdict::free;
+      answer.t = 1.0;
+      answer.tolerance_used = options_.tolerance;
+      pairs_.push_back(std::move(answer));
+    }
+    return pairs_[place];
+  }
+
+  void answer_all() {
+    pairs_.reserve(timeline_.pairs().size());
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      (void)answer_of(pair);
+    }
+  }
+
   /// Nothing after it matters.
   [[nodiscard]] double horizon() const { return asks_each_pair() ? 1.0 : first_; }
 
@@ -113,14 +135,12 @@ class RobotCheck {
   }
 
   std::vector<PartCandidate> find_candidates(std::size_t first, std::size_t last) {
-    const auto wanted = [&](std::size_t pair) {
-      return options_.all_contact_intervals || pairs_[pair].verdict == Verdict::free ||
-             !asks_each_pair();
-    };
+    std::function<bool(std::size_t)> wanted;
+    if (asks_each_pair() && !options_.all_contact_intervals) {
+      wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
+    }
     std::vector<std::vector<PartCandidate>> found(last - first);
-    for_each(found.size(), [&](std::size_t k) {
-      found[k] = candidates_.find(first + k, wanted, workspaces_.local().places);
-    });
+    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
     std::vector<PartCandidate> all;
     for (const std::vector<PartCandidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
@@ -167,7 +187,7 @@ class RobotCheck {
 
   /// A contact holds for the pair even beside an undecided search: nothing touches before it.
   void take(const PartCandidate& candidate, PartAnswer&& answer) {
-    RobotPairAnswer& pair = pairs_[candidate.pair];
+    RobotPairAnswer& pair = answer_of(candidate.pair);
     FirstContactResult& found = answer.first;
     pair.steps += answer.steps;
     pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
@@ -195,6 +215,7 @@ class RobotCheck {
 
   /// All that is free so far is known to be so before t only.
   void give_up(double t, UndecidedReason reason) {
+    answer_all();
     for (RobotPairAnswer& pair : pairs_) {
       pair.intervals.push_back({t, 1.0, reason});
       if (pair.verdict == Verdict::free) {
@@ -216,8 +237,8 @@ class RobotCheck {
             window, workspaces_.local().places));
       }
     });
-    for_each(pairs_.size(), [&](std::size_t k) {
-      pairs_[k].least_clearance =
+    for_each(timeline_.pairs().size(), [&](std::size_t k) {
+      answer_of(k).least_clearance =
           least_clearance_of(timeline_, balls, k, options_, workspaces_.local());
     });
   }
@@ -225,9 +246,15 @@ class RobotCheck {
   RobotCheckResult result() {
     RobotCheckResult result;
     result.verdict = Verdict::free;
-    result.t = pairs_.empty() ? 1.0 : first_;
     result.clearance = std::numeric_limits<double>::infinity();
+    result.t = timeline_.pairs().empty() ? 1.0 : first_;
+    if (pairs_.size() < timeline_.pairs().size()) {
+      result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
+    }
     result.tolerance_used = options_.tolerance;
+    std::sort(pairs_.begin(), pairs_.end(), [](const RobotPairAnswer& x, const RobotPairAnswer& y) {
+      return x.members < y.members;
+    });
     for (RobotPairAnswer& pair : pairs_) {
       pair.intervals = options_.all_contact_intervals
                            ? detail::joined(std::move(pair.intervals), options_.time_resolution)
@@ -276,6 +303,7 @@ class RobotCheck {
   const detail::CandidateSearch& candidates_;
   tbb::enumerable_thread_specific<detail::LinkWorkspace>& workspaces_;
   const RobotCheckOptions& options_;
+  std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
   std::vector<RobotPairAnswer> pairs_;
   double first_ = 1.0;  // Before it all pairs are proven free.
 };

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/articulated/detail/chain_bounds.h>
 #include <firstcontact/articulated/detail/chain_walk.h>
 
 namespace firstcontact {
@@ -22,13 +23,6 @@ constexpr double kRounding = 0x1p-49;
 constexpr double kUp = 1.0 + 0x1p-40;
 
 constexpr double kHalfTurn = 3.141592653589793;
-
-/// Of (x, y), rounded up: std::hypot takes a multiple of the time.
-double length_of(double x, double y) {
-  constexpr double kUnderflow = 1e-290;
-  const double square = x * x + y * y;
-  return square > kUnderflow ? std::sqrt(square) * kUp : std::abs(x) + std::abs(y);
-}
 
 Matrix3d cross_matrix(const Vector3d& w) {
   Matrix3d m;
@@ -107,32 +101,21 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   const LinkPose& pose = end.pose;
   const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
   const double reach = part.reach();
-  double beyond = part.centre.norm() + reach;  // Of any point from the origin reached.
-  double v = 0.0;
-  double a = 0.0;
-  double j = 0.0;
+  detail::ChainBounds chain(part.centre.norm() + reach, reach, T);
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
-    beyond += place.lever;
     if (joints_[k]->rest() != nullptr) {
-      beyond += place.step;
+      chain.pass_rest(place.step + place.lever);
       continue;
     }
     const JointBounds& bounds = memory.bounds(walked.nodes[at], *joints_[k], t_from, t_to);
-    const auto& [w1, w2, w3] = bounds.angle;
     const Vector3d arm = centre - place.p_OQ;
     const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
                                                          (arm.norm() + part.centre.norm());
-    const double rho = std::min(arm.cross(place.axis).norm() + error + reach + v * T, beyond) * kUp;
-    const double turning = length_of(w2, w1 * w1);
-    j = bounds.pivot.jerk + j + 3.0 * w1 * a + 3.0 * turning * v +
-        length_of(w3 + w1 * w1 * w1, 3.0 * w1 * w2) * rho;
-    a = bounds.pivot.acceleration + a + 2.0 * w1 * v + turning * rho;
-    v = bounds.pivot.rate + v + w1 * rho;
-    beyond += place.step + bounds.pivot.rate * T;
+    chain.pass(bounds, arm.cross(place.axis).norm() + error, place.step, place.lever);
   }
-  window.bounds_ = {v * kUp, a * kUp, j * kUp};
+  window.bounds_ = chain.bounds();
   return window;
 }
 

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -160,23 +159,29 @@ void require_sizes(const RobotModel& model, const std::vector<AnyMotion>& motion
   }
 }
 
-void add_breaks(std::set<double>& breaks, const CoordinatePath& path) {
+/// Times at which pieces end, in any order and as often as they are found.
+void add_ends(std::vector<double>& ends, const CoordinatePath& path) {
   for (const CoordinateSegment& segment : path.segments()) {
-    breaks.insert(segment.t_end);
+    ends.push_back(segment.t_end);
   }
 }
 
-void add_breaks(std::set<double>& breaks, const Motion& motion) {
-  breaks.insert(motion.breaks().begin(), motion.breaks().end());
+void add_ends(std::vector<double>& ends, const Motion& motion) {
+  ends.insert(ends.end(), motion.breaks().begin() + 1, motion.breaks().end());
 }
 
-void add_breaks(std::set<double>& breaks, const PlanarPath& path) {
+void add_ends(std::vector<double>& ends, const PlanarPath& path) {
   for (const CoordinatePath& coordinate_path : path) {
-    add_breaks(breaks, coordinate_path);
+    add_ends(ends, coordinate_path);
   }
 }
 
-void add_breaks(std::set<double>&, std::monostate) {}
+void add_ends(std::vector<double>& ends, std::monostate) { ends.push_back(1.0); }
+
+void sort_times(std::vector<double>& times) {
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
 
 std::vector<AnyMotion> checked_motions(const RobotModel& model,
                                        const std::map<std::string, JointMotion>& joints) {
@@ -207,39 +212,39 @@ struct Pieces {
   std::vector<double> ends;
   std::vector<std::shared_ptr<const JointPath>> paths;
 
-  void add(double t_end, JointPath path) {
-    ends.push_back(t_end);
-    paths.push_back(std::make_shared<const JointPath>(std::move(path)));
-  }
-
   /// The piece that holds t, the earlier one at a break.
   [[nodiscard]] std::size_t at(double t) const {
     return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end() - 1, t) -
                                     ends.begin());
   }
+  [[nodiscard]] const JointPath& path_at(double t) const { return *paths[at(t)]; }
 };
 
 Pieces pieces_of(const RobotModel& model, const std::vector<AnyMotion>& motions,
                  std::size_t joint) {
-  std::set<double> breaks = {0.0, 1.0};
-  if (model.joints()[joint].mimic) {
-    add_breaks(breaks, source_path(model, motions, joint));
-  } else {
-    std::visit([&](const auto& kind) { add_breaks(breaks, kind); }, motions[joint]);
-  }
   Pieces pieces;
-  for (auto begin = breaks.begin(); std::next(begin) != breaks.end(); ++begin) {
-    const double t_end = *std::next(begin);
-    pieces.add(t_end, path_of(model, motions, joint, *begin, t_end));
+  if (model.joints()[joint].mimic) {
+    add_ends(pieces.ends, source_path(model, motions, joint));
+  } else {
+    std::visit([&](const auto& kind) { add_ends(pieces.ends, kind); }, motions[joint]);
+  }
+  sort_times(pieces.ends);
+  pieces.paths.reserve(pieces.ends.size());
+  double t_begin = 0.0;
+  for (const double t_end : pieces.ends) {
+    pieces.paths.push_back(
+        std::make_shared<const JointPath>(path_of(model, motions, joint, t_begin, t_end)));
+    t_begin = t_end;
   }
   return pieces;
 }
 
 Pieces pieces_of(const Motion& motion) {
   Pieces pieces;
-  for (std::size_t k = 0; k + 1 < motion.breaks().size(); ++k) {
-    pieces.add(motion.breaks()[k + 1],
-               JointPath::of_motion({}, motion.path(k, Eigen::Vector3d::Zero())));
+  add_ends(pieces.ends, motion);
+  for (std::size_t k = 0; k < pieces.ends.size(); ++k) {
+    pieces.paths.push_back(std::make_shared<const JointPath>(
+        JointPath::of_motion({}, motion.path(k, Eigen::Vector3d::Zero()))));
   }
   return pieces;
 }
@@ -290,13 +295,16 @@ RobotMotion::RobotMotion(RobotModel model, const std::map<std::string, JointMoti
   data->motions = checked_motions(model_, joints);
   data->base = std::move(base);
   data->base_pieces = pieces_of(data->base);
-  std::set<double> breaks(data->base.breaks().begin(), data->base.breaks().end());
+  data->breaks = {0.0};
+  add_ends(data->breaks, data->base);
+  data->joint_pieces.reserve(model_.joints().size());
   for (std::size_t j = 0; j < model_.joints().size(); ++j) {
     const bool moves = model_.joints()[j].type != JointType::fixed;
     data->joint_pieces.push_back(moves ? pieces_of(model_, data->motions, j) : Pieces{});
-    breaks.insert(data->joint_pieces.back().ends.begin(), data->joint_pieces.back().ends.end());
+    const std::vector<double>& ends = data->joint_pieces.back().ends;
+    data->breaks.insert(data->breaks.end(), ends.begin(), ends.end());
   }
-  data->breaks.assign(breaks.begin(), breaks.end());
+  sort_times(data->breaks);
   data_ = std::move(data);
 }
 
@@ -347,6 +355,13 @@ LinkPath RobotMotion::path(std::size_t link, double t) const {
 LinkPath RobotMotion::path(std::size_t ancestor, std::size_t link, double t) const {
   return along(ancestor, link, t, false);
 }
+
+const JointPath* RobotMotion::joint_path(std::size_t joint, double t) const {
+  const Pieces& pieces = data_->joint_pieces[joint];
+  return pieces.paths.empty() ? nullptr : &pieces.path_at(t);
+}
+
+const JointPath& RobotMotion::base_path(double t) const { return data_->base_pieces.path_at(t); }
 
 LinkPath RobotMotion::along(std::size_t frame, std::size_t link, double t, bool from_world) const {
   double t_begin = 0.0;

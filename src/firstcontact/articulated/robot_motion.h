@@ -86,6 +86,12 @@ class FIRSTCONTACT_API RobotMotion {
   /// The same in the frame of a link on which it hangs, or of itself.
   [[nodiscard]] LinkPath path(std::size_t ancestor, std::size_t link, double t) const;
 
+  /// Of a joint, in the piece that holds t, the earlier one at a break: from the link that moves
+  /// before it. Null for one that is fixed. Valid as long as this.
+  [[nodiscard]] const JointPath* joint_path(std::size_t joint, double t) const;
+  /// The same of the base, in the world.
+  [[nodiscard]] const JointPath& base_path(double t) const;
+
   /// All times at which a piece of a joint's path, or of the base's, ends; 0 and 1 included.
   [[nodiscard]] std::span<const double> breaks() const;
 

@@ -1,17 +1,18 @@
 #include <firstcontact/articulated/detail/candidates.h>
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <utility>
+
+#include <firstcontact/articulated/detail/placed_part.h>
 
 namespace firstcontact::detail {
 namespace {
 
 constexpr double kUp = 1.0 + 0x1p-40;
-
-/// Halvings of a piece. More cost more places of links than they spare searches.
-constexpr int kDepth = 4;
 
 /// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
 constexpr double kLooseError = 0.05;
@@ -21,30 +22,34 @@ constexpr int kErrorDepth = 8;
 struct Question {
   std::size_t pair = 0;
   std::array<std::size_t, 2> parts = {};
-  std::optional<std::size_t> paths = {};         // Where they are remembered.
-  Eigen::Vector3d n = Eigen::Vector3d::UnitX();  // Between the two, found last.
-  double middle = 0.0;                           // [m]  Gap at the middle of the window.
-  bool apart = false;                            // Beyond the threshold there.
+  std::optional<std::array<std::size_t, 2>> placed = {};  // In a frame that carries both.
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();            // Between the two, found last.
+  double middle = 0.0;                                    // [m]  Gap at the middle of the window.
+  bool apart = false;                                     // Beyond the threshold there.
 };
 
 class Search {
  public:
-  Search(const RobotTimeline& timeline, std::size_t piece,
-         const std::vector<std::optional<SweptPart>>& resting, LinkScratch& scratch)
+  Search(const RobotTimeline& timeline, std::size_t piece, const std::vector<RobotTree>& trees,
+         const std::vector<std::optional<SweptPart>>& resting)
       : timeline_(timeline),
         piece_(piece),
-        scratch_(scratch),
+        grid_{timeline.piece(piece)},
+        middle_(grid_.at(TimeGrid::kMiddle)),
+        has_tracking_errors_(timeline.has_tracking_errors()),
+        trees_(trees),
         resting_(resting),
-        swept_(resting.size()),
-        paths_(resting.size()) {}
+        robots_(trees.size()),
+        in_world_(resting.size()),
+        in_frames_(resting.size()) {}
 
-  std::vector<PartCandidate> run(const std::vector<Question>& questions) {
-    narrow(timeline_.piece(piece_), questions, 0);
+  std::vector<PartCandidate> run(const std::function<bool(std::size_t)>& wanted) {
+    narrow({}, near_by_boxes(wanted));
     join_windows();
     std::vector<PartCandidate> whole;
     whole.swap(found_);
     for (PartCandidate& candidate : whole) {
-      if (timeline_.has_tracking_errors()) {
+      if (has_tracking_errors_) {
         add_thresholds(candidate, 0);
       } else {
         candidate.threshold = timeline_.pairs()[candidate.pair].margin;
@@ -56,104 +61,192 @@ class Search {
   }
 
  private:
-  const SweptPart& swept(std::size_t part, const TimeWindow& window) {
-    if (resting_[part]) {
-      return *resting_[part];
-    }
-    std::optional<SweptPart>& swept = swept_[part];
-    if (!swept) {
-      std::optional<PartPath>& path = paths_[part];
-      if (!path) {
-        path = timeline_.path(part, 0.5 * (window.begin + window.end));
+  /// Where a part is in the piece, tracking errors included.
+  struct Box {
+    Eigen::Vector3d low;
+    Eigen::Vector3d high;
+  };
+
+  /// Those of the tested parts whose boxes are not farther apart than their margins.
+  std::vector<Question> near_by_boxes(const std::function<bool(std::size_t)>& wanted) {
+    const std::vector<Box> boxes = boxes_of_piece();
+    std::vector<Question> near;
+    for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
+      const TestedPair& pair = timeline_.pairs()[k];
+      if (!timeline_.is_tested(pair, piece_) || (wanted && !wanted(k))) {
+        continue;
       }
-      swept = sweep(timeline_.parts()[part], *path, window, scratch_);
-      placed_.push_back(part);
+      const auto [first, second] = pair.members;
+      for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
+        for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
+             ++b) {
+          const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
+          if (!(gap.maxCoeff() > pair.margin * kUp)) {
+            near.push_back({.pair = k, .parts = {a, b}});
+          }
+        }
+      }
     }
-    return *swept;
+    return near;
   }
 
-  void forget_swept() {
-    for (const std::size_t part : placed_) {
-      swept_[part].reset();
+  std::vector<Box> boxes_of_piece() {
+    std::vector<Box> boxes;
+    boxes.reserve(resting_.size());
+    for (std::size_t part = 0; part < resting_.size(); ++part) {
+      const SweptPart& swept = in_world(part, {});
+      Box box{swept.low, swept.high};
+      if (has_tracking_errors_) {
+        const Eigen::Vector3d more = Eigen::Vector3d::Constant(tracking_bound(part) * kUp);
+        box.low -= more;
+        box.high += more;
+      }
+      boxes.push_back(box);
     }
-    placed_.clear();
+    return boxes;
   }
 
-  void narrow(const TimeWindow& window, std::span<const Question> questions, int depth) {
+  void narrow(const GridWindow& window, std::span<const Question> questions) {
     std::vector<Question> open;
     for (Question question : questions) {
-      if (is_far(question, window, depth)) {
+      if (is_far(question, window)) {
         continue;
       }
       // Shorter windows help where the parts are apart at the middle of this one.
-      if (depth < kDepth && question.apart) {
+      if (window.can_be_halved() && question.apart) {
         open.push_back(question);
       } else {
-        found_.push_back({window, piece_, question.pair, question.parts, 0.0,
+        found_.push_back({grid_.at(window), piece_, question.pair, question.parts, 0.0,
                           question.middle - timeline_.pairs()[question.pair].margin});
       }
     }
-    forget_swept();
     if (!open.empty()) {
-      const double middle = 0.5 * (window.begin + window.end);
-      narrow({window.begin, middle}, open, depth + 1);
-      narrow({middle, window.end}, open, depth + 1);
+      narrow(window.first_half(), open);
+      narrow(window.second_half(), open);
     }
   }
 
   /// Whether the two are proven farther apart than their threshold throughout the window.
-  bool is_far(Question& question, const TimeWindow& window, int depth) {
+  bool is_far(Question& question, const GridWindow& window) {
     const auto [first, second] = question.parts;
-    if (!timeline_.share_frame(first, second)) {
-      const SweptPart& a = swept(first, window);
-      const SweptPart& b = swept(second, window);
-      return boxes_are_far(question, a, b, window) || hulls_are_far(question, a, b, window);
+    if (!question.placed) {
+      const SweptPart& A = in_world(first, window);
+      const SweptPart& B = in_world(second, window);
+      const double threshold = threshold_of(question, window);
+      if (boxes_are_far(question, A, B, threshold)) {
+        return true;
+      }
+      const std::optional<RobotLink> frame = frame_of(first, second);
+      if (!frame) {
+        return hulls_are_far(question, A, B, threshold);
+      }
+      // In the world all pairs have their places in common. What is not far there may be so in a
+      // frame of its own, in which what moves both has cancelled.
+      question.placed = {in_frame(first, *frame), in_frame(second, *frame)};
+      question.n.setZero();
     }
-    // In the world all pairs have their places in common. What is not far there may be so in a
-    // frame of its own, in which what moves both has cancelled.
-    if (depth == 0 &&
-        boxes_are_far(question, swept(first, window), swept(second, window), window)) {
-      return true;
+    const SweptPart& A = placed_[(*question.placed)[0]].over(window);
+    const SweptPart& B = placed_[(*question.placed)[1]].over(window);
+    const double threshold = threshold_of(question, window);
+    return boxes_are_far(question, A, B, threshold) || hulls_are_far(question, A, B, threshold);
+  }
+
+  static bool boxes_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+                            double threshold) {
+    const SweptGap gap = gap_of_boxes(A, B);
+    if (question.n.isZero(0.0)) {
+      question.n = gap.n;
     }
-    const PairPaths& paths = paths_of(question, window);
-    const SweptPart a = sweep(timeline_.parts()[first], paths.A, window, scratch_);
-    const SweptPart b = sweep(timeline_.parts()[second], paths.B, window, scratch_);
-    return boxes_are_far(question, a, b, window) || hulls_are_far(question, a, b, window);
-  }
-
-  bool boxes_are_far(Question& question, const SweptPart& a, const SweptPart& b,
-                     const TimeWindow& window) const {
-    const double threshold = threshold_of(question, a, b);
-    return take(gap_of_boxes(a, b, window, threshold), threshold, question);
-  }
-
-  bool hulls_are_far(Question& question, const SweptPart& a, const SweptPart& b,
-                     const TimeWindow& window) const {
-    const double threshold = threshold_of(question, a, b);
-    return take(gap_of_hulls(a, b, window, threshold, question.n), threshold, question);
-  }
-
-  [[nodiscard]] double threshold_of(const Question& question, const SweptPart& a,
-                                    const SweptPart& b) const {
-    const double margin = timeline_.pairs()[question.pair].margin;
-    return (margin + a.tracking_error + b.tracking_error) * kUp;
-  }
-
-  static bool take(const SweptGap& gap, double threshold, Question& question) {
-    question.n = gap.n;
-    question.middle = gap.middle;
-    question.apart = gap.middle > threshold;
     return gap.bound > threshold;
   }
 
-  /// In the frame that both parts share, over the piece.
-  const PairPaths& paths_of(Question& question, const TimeWindow& window) {
-    if (!question.paths) {
-      question.paths = pair_paths_.size();
-      pair_paths_.push_back(
-          timeline_.paths(question.parts[0], question.parts[1], 0.5 * (window.begin + window.end)));
+  static bool hulls_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+                            double threshold) {
+    const SweptGap middle = gap_at_middle(A, B, threshold, question.n);
+    question.n = middle.n;
+    question.middle = middle.bound;
+    question.apart = middle.bound > threshold;
+    return question.apart && gap_throughout(A, B, threshold, middle.n).bound > threshold;
+  }
+
+  double threshold_of(const Question& question, const GridWindow& window) {
+    double threshold = timeline_.pairs()[question.pair].margin;
+    if (has_tracking_errors_) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        threshold += question.placed ? placed_[(*question.placed)[k]].tracking_bound(window)
+                                     : tracking_bound(question.parts[k], window);
+      }
     }
-    return pair_paths_[*question.paths];
+    return threshold * kUp;
+  }
+
+  double tracking_bound(std::size_t part, const GridWindow& window = {}) {
+    return resting_[part] ? 0.0 : placed_[place_in_world(part)].tracking_bound(window);
+  }
+
+  const SweptPart& in_world(std::size_t part, const GridWindow& window) {
+    return resting_[part] ? *resting_[part] : placed_[place_in_world(part)].over(window);
+  }
+
+  std::size_t place_in_world(std::size_t part) {
+    if (!in_world_[part]) {
+      in_world_[part] = place(part, std::nullopt);
+    }
+    return *in_world_[part];
+  }
+
+  std::size_t in_frame(std::size_t part, const RobotLink& frame) {
+    for (const auto& [known, index] : in_frames_[part]) {
+      if (known == frame) {
+        return index;
+      }
+    }
+    in_frames_[part].emplace_back(frame, place(part, frame));
+    return in_frames_[part].back().second;
+  }
+
+  /// The last link that carries both, where it moves.
+  std::optional<RobotLink> frame_of(std::size_t a, std::size_t b) {
+    const std::optional<RobotLink> link = timeline_.seat_of(a, middle_).link;
+    const std::optional<RobotLink> other = timeline_.seat_of(b, middle_).link;
+    if (!link || !other || link->robot != other->robot) {
+      return std::nullopt;
+    }
+    const RobotModel& model = timeline_.scene().robot_motion(link->robot).model();
+    const std::size_t frame = model.rigid_root(model.last_common_ancestor(link->link, other->link));
+    const bool rests = robot(link->robot).rests(trees_[link->robot].node_of_link[frame]);
+    return rests ? std::nullopt : std::optional(RobotLink{link->robot, frame});
+  }
+
+  TreeCourse& robot(std::size_t index) {
+    std::optional<TreeCourse>& course = robots_[index];
+    if (!course) {
+      const RobotMotion& motion = timeline_.scene().robot_motion(index);
+      std::vector<TreeCourse::Node> nodes = {{TreeCourse::kWorld, &motion.base_path(middle_)}};
+      for (const auto& [parent, joint] : std::span(trees_[index].nodes).subspan(1)) {
+        nodes.push_back({parent, motion.joint_path(joint, middle_)});
+      }
+      course.emplace(std::move(nodes), grid_);
+    }
+    return *course;
+  }
+
+  PartMount mount(std::size_t part) {
+    const auto [link, path] = timeline_.seat_of(part, middle_);
+    if (link) {
+      return {timeline_.parts()[part], robot(link->robot),
+              trees_[link->robot].node_of_link[link->link], *path};
+    }
+    bodies_.emplace_back(std::vector<TreeCourse::Node>{{TreeCourse::kWorld, path}}, grid_);
+    return {timeline_.parts()[part], bodies_.back()};
+  }
+
+  std::size_t place(std::size_t part, const std::optional<RobotLink>& frame) {
+    placed_.emplace_back(
+        timeline_.parts()[part], mount(part),
+        frame ? trees_[frame->robot].node_of_link[frame->link] : TreeCourse::kWorld, grid_,
+        has_tracking_errors_ ? std::optional(timeline_.path(part, middle_, frame)) : std::nullopt);
+    return placed_.size() - 1;
   }
 
   void join_windows() {
@@ -198,45 +291,57 @@ class Search {
 
   const RobotTimeline& timeline_;
   std::size_t piece_;
-  LinkScratch& scratch_;
+  TimeGrid grid_;
+  double middle_;  // Time.
+  bool has_tracking_errors_;
+  const std::vector<RobotTree>& trees_;
   const std::vector<std::optional<SweptPart>>& resting_;
-  std::vector<std::optional<SweptPart>> swept_;
-  std::vector<std::optional<PartPath>> paths_;  // Of the piece.
-  std::vector<PairPaths> pair_paths_;           // Of the piece.
-  std::vector<std::size_t> placed_;
+  std::vector<std::optional<TreeCourse>> robots_;
+  std::deque<TreeCourse> bodies_;
+  std::deque<PlacedPart> placed_;
+  std::vector<std::optional<std::size_t>> in_world_;  // Of each part, where placed.
+  std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
   std::vector<PartCandidate> found_;
 };
 
 }  // namespace
 
-CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
-    : timeline_(timeline), resting_(timeline.parts().size()) {
-  LinkScratch scratch;
-  for (std::size_t part = 0; part < resting_.size(); ++part) {
-    if (timeline.parts()[part].rests) {
-      resting_[part] = sweep(timeline.parts()[part], timeline.path(part, 0.5), {0.0, 1.0}, scratch);
+RobotTree::RobotTree(const RobotModel& model) : nodes{{}}, node_of_link(model.links().size()) {
+  std::vector<std::size_t> open = {model.root()};
+  while (!open.empty()) {
+    const std::size_t link = open.back();
+    open.pop_back();
+    for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
+      if (model.parent_link(joint) != link) {
+        continue;
+      }
+      open.push_back(model.child_link(joint));
+      if (model.joints()[joint].type != JointType::fixed) {
+        node_of_link[model.child_link(joint)] = nodes.size();
+        nodes.push_back({node_of_link[model.rigid_root(link)], joint});
+      }
     }
   }
 }
 
-std::vector<PartCandidate> CandidateSearch::find(std::size_t piece,
-                                                 const std::function<bool(std::size_t)>& wanted,
-                                                 LinkScratch& scratch) const {
-  std::vector<Question> questions;
-  for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
-    const TestedPair& pair = timeline_.pairs()[k];
-    if (!wanted(k) || !timeline_.is_tested(pair, piece)) {
-      continue;
-    }
-    const auto [first, second] = pair.members;
-    for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
-      for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
-           ++b) {
-        questions.push_back({.pair = k, .parts = {a, b}});
-      }
+CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
+    : timeline_(timeline), resting_(timeline.parts().size()) {
+  for (std::size_t robot = 0; robot < timeline.scene().robot_count(); ++robot) {
+    trees_.emplace_back(timeline.scene().robot_motion(robot).model());
+  }
+  const TimeGrid step{{0.0, 1.0}};
+  for (std::size_t k = 0; k < resting_.size(); ++k) {
+    const Part& part = timeline.parts()[k];
+    if (part.rests) {
+      TreeCourse course({{TreeCourse::kWorld, timeline.seat_of(k, 0.5).path}}, step);
+      resting_[k] = PartTrack(part, PartMount(part, course), TreeCourse::kWorld).rest();
     }
   }
-  return Search(timeline_, piece, resting_, scratch).run(questions);
+}
+
+std::vector<PartCandidate> CandidateSearch::find(
+    std::size_t piece, const std::function<bool(std::size_t)>& wanted) const {
+  return Search(timeline_, piece, trees_, resting_).run(wanted);
 }
 
 }  // namespace firstcontact::detail

@@ -36,6 +36,18 @@ struct PartCandidate {
   }
 };
 
+/// The links of a robot that joints move, each after the one that carries it.
+struct RobotTree {
+  struct Node {
+    std::size_t parent = 0;  ///< Of no meaning for the first.
+    std::size_t joint = 0;   ///< That moves it; so, too.
+  };
+  std::vector<Node> nodes;
+  std::vector<std::size_t> node_of_link;  ///< Of a link that is its own rigid_root().
+
+  explicit RobotTree(const RobotModel& model);
+};
+
 /// Finds the parts that may touch, piece by piece. Thread-safe.
 class CandidateSearch {
  public:
@@ -44,14 +56,14 @@ class CandidateSearch {
   /// In order; outside of their windows all pairs that are tested in the piece are farther apart
   /// than their thresholds. Of one pair of parts the windows do not overlap.
   ///
-  /// @param wanted  whether a tested pair is of interest, by index
-  [[nodiscard]] std::vector<PartCandidate> find(std::size_t piece,
-                                                const std::function<bool(std::size_t)>& wanted,
-                                                LinkScratch& scratch) const;
+  /// @param wanted  whether a tested pair is of interest, by index; empty where all are
+  [[nodiscard]] std::vector<PartCandidate> find(
+      std::size_t piece, const std::function<bool(std::size_t)>& wanted) const;
 
  private:
   const RobotTimeline& timeline_;
-  std::vector<std::optional<SweptPart>> resting_;  // Of each part that rests.
+  std::vector<RobotTree> trees_;                   // Of each robot.
+  std::vector<std::optional<SweptPart>> resting_;  // Of each part that rests over the step.
 };
 
 }  // namespace firstcontact::detail

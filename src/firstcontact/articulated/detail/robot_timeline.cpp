@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 namespace firstcontact::detail {
@@ -63,6 +62,9 @@ RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
   }
   first_part_.push_back(parts_.size());
   add_pairs();
+  for (const TestedPair& pair : pairs_) {
+    least_margin_ = std::min(least_margin_, pair.margin);
+  }
   find_breaks();
 }
 
@@ -172,18 +174,25 @@ void RobotTimeline::add_pairs() {
 }
 
 void RobotTimeline::find_breaks() {
-  std::set<double> breaks = {0.0, 1.0};
+  breaks_ = {0.0};
+  const auto add = [&](std::span<const double> times) {
+    for (const double t : times) {
+      if (t != breaks_.back()) {  // Most are the same.
+        breaks_.push_back(t);
+      }
+    }
+  };
   for (std::size_t robot = 0; robot < scene_.robot_count(); ++robot) {
-    const auto of_robot = scene_.robot_motion(robot).breaks();
-    breaks.insert(of_robot.begin(), of_robot.end());
+    add(scene_.robot_motion(robot).breaks());
   }
   for (const std::vector<Seat>& seats : seats_) {
     for (const Seat& seat : seats) {
-      breaks.insert(seat.t_end);
-      breaks.insert(seat.ends.begin(), seat.ends.end());
+      add(seat.ends);
+      add({&seat.t_end, 1});
     }
   }
-  breaks_.assign(breaks.begin(), breaks.end());
+  std::sort(breaks_.begin(), breaks_.end());
+  breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
 }
 
 bool RobotTimeline::has_tracking_errors() const {
@@ -192,10 +201,17 @@ bool RobotTimeline::has_tracking_errors() const {
 }
 
 bool RobotTimeline::is_tested(const TestedPair& pair, std::size_t piece) const {
+  if (pair.pauses.empty()) {
+    return true;
+  }
   const double middle = 0.5 * (breaks_[piece] + breaks_[piece + 1]);
   return std::none_of(pair.pauses.begin(), pair.pauses.end(), [&](const TimeWindow& pause) {
     return pause.begin <= middle && middle <= pause.end;
   });
+}
+
+std::size_t RobotTimeline::Seat::piece(double t) const {
+  return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end() - 1, t) - ends.begin());
 }
 
 const RobotTimeline::Seat& RobotTimeline::seat(std::size_t part, double t) const {
@@ -219,8 +235,7 @@ std::vector<TrackingError> RobotTimeline::errors_along(const RobotLink& link,
 
 PartPath RobotTimeline::path(const Seat& seat, double t, std::optional<std::size_t> frame) const {
   if (!seat.link) {
-    const auto next = std::lower_bound(seat.ends.begin(), seat.ends.end() - 1, t);
-    const auto k = static_cast<std::size_t>(next - seat.ends.begin());
+    const std::size_t k = seat.piece(t);
     const double t_begin = k == 0 ? 0.0 : seat.ends[k - 1];
     return {{t_begin, seat.ends[k], {seat.pieces[k]}}, {}, seat.rest_error};
   }
@@ -242,11 +257,14 @@ PartPath RobotTimeline::path(std::size_t part, double t) const {
   return path(seat(part, t), t, std::nullopt);
 }
 
-bool RobotTimeline::share_frame(std::size_t a, std::size_t b) const {
-  const std::optional<RobotLink>& link = seats_[a].front().link;
-  const std::optional<RobotLink>& other = seats_[b].front().link;
-  return seats_[a].size() == 1 && seats_[b].size() == 1 && link && other &&
-         link->robot == other->robot;
+PartPath RobotTimeline::path(std::size_t part, double t,
+                             const std::optional<RobotLink>& frame) const {
+  return path(seat(part, t), t, frame ? std::optional(frame->link) : std::nullopt);
+}
+
+PartSeat RobotTimeline::seat_of(std::size_t part, double t) const {
+  const Seat& at = seat(part, t);
+  return {at.link, at.link ? at.X_LS.get() : at.pieces[at.piece(t)].get()};
 }
 
 PairPaths RobotTimeline::paths(std::size_t a, std::size_t b, double t) const {

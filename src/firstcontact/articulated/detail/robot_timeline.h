@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,6 +47,12 @@ struct PartPath {
   [[nodiscard]] double tracking_bound(const LinkPart& ball, const TimeWindow& window) const;
 };
 
+/// What a part is fixed to over a piece of time: a link, or its own path in the world.
+struct PartSeat {
+  std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
+  const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
+};
+
 /// Both parts of a pair in one frame F: the world, or a link that carries both.
 struct PairPaths {
   PartPath A;
@@ -67,6 +74,8 @@ class RobotTimeline {
   /// The parts of a member are first_part(member), ... below first_part(member + 1).
   [[nodiscard]] std::size_t first_part(std::size_t member) const { return first_part_[member]; }
   [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }  ///< In order.
+  /// [m]  Of all pairs; infinite where there are none.
+  [[nodiscard]] double least_margin() const { return least_margin_; }
 
   /// Whether any threshold depends on time.
   [[nodiscard]] bool has_tracking_errors() const;
@@ -80,8 +89,12 @@ class RobotTimeline {
   /// In the world, over the piece around t.
   [[nodiscard]] PartPath path(std::size_t part, double t) const;
 
-  /// Whether both hang on one robot throughout.
-  [[nodiscard]] bool share_frame(std::size_t a, std::size_t b) const;
+  /// In a link that carries the part, or in the world where there is none.
+  [[nodiscard]] PartPath path(std::size_t part, double t,
+                              const std::optional<RobotLink>& frame) const;
+
+  /// Over the piece around t; valid as long as this, and the motions.
+  [[nodiscard]] PartSeat seat_of(std::size_t part, double t) const;
 
   /// @param a, b  parts
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;
@@ -96,6 +109,9 @@ class RobotTimeline {
     std::vector<double> ends;               // Of a body's pieces.
     std::vector<std::shared_ptr<const JointPath>> pieces;
     double rest_error = 0.0;
+
+    /// The piece that holds t, the earlier one at a break.
+    [[nodiscard]] std::size_t piece(double t) const;
   };
 
   void add_parts(std::size_t member);
@@ -115,6 +131,7 @@ class RobotTimeline {
   std::vector<std::vector<Seat>> seats_;  // Of each part, in order of time.
   std::vector<std::size_t> first_part_;
   std::vector<TestedPair> pairs_;
+  double least_margin_ = std::numeric_limits<double>::infinity();
   std::vector<double> breaks_;
   std::vector<std::vector<TrackingError>> joint_errors_;  // Of each robot; empty if all are zero.
 };

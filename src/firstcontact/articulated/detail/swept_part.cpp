@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
+#include <firstcontact/articulated/detail/chain_walk.h>
 #include <firstcontact/narrowphase/convex_separation.h>
 
 namespace firstcontact::detail {
@@ -17,126 +19,126 @@ constexpr double kUp = 1.0 + 0x1p-40;
 /// Products and sums of a few vectors, and of unit vectors that are so but for rounding.
 constexpr double kRounding = 0x1p-46;
 
-double middle_of(const TimeWindow& window) { return 0.5 * (window.begin + window.end); }
+/// A middle of two times, twice, that is rounded.
+constexpr double kTimeRounding = 0x1p-51;
 
-/// From the middle to the farther end; rounded up.
-double half_length(const TimeWindow& window) {
-  const double middle = middle_of(window);
-  return std::max(window.end - middle, middle - window.begin) * kUp;
-}
-
-double extent_along(const SweptPart& part, const Vector3d& n) {
-  return part.part->box.half_extents.dot((part.axes * n).cwiseAbs()) + part.part->box.radius;
-}
-
-/// The point of the box, without its thickening, next to p.
-Vector3d next_to(const SweptPart& part, const Vector3d& p) {
-  const Vector3d local = part.axes * (p - part.centre);
-  const Vector3d& h = part.part->box.half_extents;
-  return part.centre + part.axes.transpose() * local.cwiseMax(-h).cwiseMin(h);
-}
-
-/// The best of a few directions, and the gap of the boxes along it.
-class BestDirection {
- public:
-  BestDirection(const SweptPart& A, const SweptPart& B) : A_(A), B_(B), d_(B.centre - A.centre) {
-    for (int k = 0; k < 3; ++k) {
-      try_along(A.axes.row(k).transpose());
-      try_along(B.axes.row(k).transpose());
-    }
-    // Two projections lead from corner to face at once, from edge to edge nearly.
-    const Vector3d on_A = next_to(A, next_to(B, A.centre));
-    try_towards(next_to(B, on_A) - on_A);
-    try_towards(d_);
+void enclose(SweptPart& swept, std::span<const PartPlace> places) {
+  const LinkPart& box = swept.part->box;
+  swept.low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  swept.high = -swept.low;
+  for (const PartPlace& place : places) {
+    const Vector3d extent = (place.R_FS * box.axes.transpose()).cwiseAbs() * box.half_extents;
+    swept.low = swept.low.cwiseMin(place.centre - extent);
+    swept.high = swept.high.cwiseMax(place.centre + extent);
   }
-
-  [[nodiscard]] const Separation& best() const { return best_; }
-
- private:
-  void try_along(const Vector3d& n) { consider(n.dot(d_) < 0.0 ? Vector3d(-n) : n); }
-
-  void try_towards(const Vector3d& way) {
-    const double length = way.norm();
-    if (length > 0.0) {
-      consider(way / length);
-    }
-  }
-
-  void consider(const Vector3d& n) {
-    const double gap = n.dot(d_) - extent_along(A_, n) - extent_along(B_, n);
-    if (gap > best_.gap) {
-      best_ = {n, gap};
-    }
-  }
-
-  const SweptPart& A_;
-  const SweptPart& B_;
-  Vector3d d_;
-  Separation best_{Vector3d::UnitX(), -std::numeric_limits<double>::infinity()};
-};
-
-/// [m]  What A gains along n and B against it, at most, in a time T forth or back.
-double approach(const SweptPart& A, const SweptPart& B, const Vector3d& n, double T) {
-  const auto way = [T](const DirectedBound& a, const DirectedBound& b) {
-    const double bend = std::max(a.acceleration + b.acceleration, 0.0);
-    return std::max(0.0, (a.speed + b.speed) * T + 0.5 * bend * T * T);
-  };
-  const LinkPart& a = A.part->box;
-  const LinkPart& b = B.part->box;
-  return std::max(way(A.motion.displacement(a, n), B.motion.displacement(b, -n)),
-                  way(A.motion.displacement_back(a, n), B.motion.displacement_back(b, -n))) *
-         kUp;
+  const Vector3d more = Vector3d::Constant((box.radius + swept.error) * kUp);
+  swept.low -= more;
+  swept.high += more;
 }
 
-SweptGap gap_along(const SweptPart& A, const SweptPart& B, const TimeWindow& window,
-                   const Separation& found, double enough) {
-  const double middle = found.gap - (A.error + B.error) * kUp;
-  const double way =
-      middle > enough ? approach(A, B, found.n, half_length(window)) : (A.sweep + B.sweep) * kUp;
-  return {middle - way, middle, found.n};
+PlacedPolytope hull(const SweptPart& swept, const PartPlace& place) {
+  return {swept.part->shape->bounds().corners, place.R_FS, place.centre};
+}
+
+double thickness(const SweptPart& A, const SweptPart& B, double error) {
+  return (A.part->box.radius + B.part->box.radius + error) * kUp;
 }
 
 }  // namespace
 
-SweptPart sweep(const Part& part, const PartPath& path, const TimeWindow& window,
-                LinkScratch& scratch) {
-  const LinkPart& box = part.box;
+PartMount::PartMount(const Part& part, TreeCourse& given_course, std::size_t given_node,
+                     const JointPath& X_LS)
+    : course(&given_course), node(given_node) {
+  const JointState& rest = *X_LS.rest();
+  const Vector3d p_LS = rest.p_PQ.value() + rest.p_QL;
+  R_LS = rest.R_PL;
+  p_LC = p_LS + R_LS * part.box.centre;
+  far = (p_LS.norm() + part.box.centre.norm() + part.box.reach()) * kUp;
+}
+
+PartMount::PartMount(const Part& part, TreeCourse& given_course)
+    : course(&given_course),
+      p_LC(part.box.centre),
+      far((part.box.centre.norm() + part.box.reach()) * kUp) {}
+
+PartTrack::PartTrack(const Part& part, const PartMount& mount, std::size_t frame)
+    : part_(&part), mount_(mount), frame_(frame) {
+  const auto bounds = mount.course->bounds(mount.node, mount.p_LC, part.reach, frame);
+  speed_ = bounds.rate;
+  jerk_ = bounds.jerk;
+}
+
+PartPlace PartTrack::place(int k) const {
+  const FramePlace& L = mount_.course->place(mount_.node, k);
+  PartPlace place{L.R * mount_.R_LS, L.p + L.R * mount_.p_LC, 0.0};
+  place.error =
+      (L.position_error + L.rounding + (L.rotation_error + 2.0 * kRotationStep) * mount_.far +
+       part_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
+      kUp;
+  if (frame_ != TreeCourse::kWorld) {
+    const FramePlace& F = mount_.course->place(frame_, k);
+    const Vector3d arm = place.centre - F.p;
+    const double size = place.centre.norm() + F.p.norm() + mount_.far;
+    place.error =
+        (place.error + F.position_error + F.rounding + (F.rotation_error + kRounding) * size) * kUp;
+    place.centre = F.R.transpose() * arm;
+    place.R_FS = F.R.transpose() * place.R_FS;
+  }
+  return place;
+}
+
+SweptPart PartTrack::sweep(const TimeWindow& window, const PartPlace& begin,
+                           const PartPlace& middle, const PartPlace& end) const {
   SweptPart swept;
-  swept.part = &part;
-  swept.motion = path.X_FS.window(middle_of(window), window.begin, window.end, box, scratch);
-  const LinkPose& pose = swept.motion.pose();
-  swept.centre = pose.p_OL + pose.R_FL * box.centre;
-  swept.axes = box.axes * pose.R_FL.transpose();
-  const double far = box.centre.norm() + box.reach();
-  swept.error = (pose.position_error + pose.rotation_error * far + part.shape->bounds().error +
-                 kRounding * (swept.centre.norm() + far)) *
+  swept.part = part_;
+  swept.controls = {begin,
+                    {2.0 * middle.R_FS - 0.5 * (begin.R_FS + end.R_FS),
+                     2.0 * middle.centre - 0.5 * (begin.centre + end.centre)},
+                    end};
+  swept.middle = middle;
+  const double T = window.end - window.begin;
+  swept.error = (3.0 * std::max({begin.error, middle.error, end.error}) +
+                 jerk_ * T * T * T / 124.0 + kTimeRounding * speed_) *
                 kUp;
-  swept.sweep = swept.motion.bounds().rate * half_length(window) * kUp;
-  swept.tracking_error = path.tracking_bound(box, window);
+  enclose(swept, swept.controls);
   return swept;
 }
 
-SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B, const TimeWindow& window,
-                      double enough) {
-  const double apart = (B.centre - A.centre).norm() * (1.0 - kRounding) -
-                       (A.part->reach + B.part->reach + A.error + B.error) * kUp;
-  const double bound = apart - (A.sweep + B.sweep) * kUp;
-  if (bound > enough) {
-    return {bound, apart};
-  }
-  return gap_along(A, B, window, BestDirection(A, B).best(), enough);
+SweptPart PartTrack::rest() const {
+  SweptPart swept;
+  swept.part = part_;
+  swept.middle = place(TimeGrid::kMiddle);
+  swept.controls.fill(swept.middle);
+  swept.rests = true;
+  swept.error = swept.middle.error;
+  enclose(swept, std::span(swept.controls).first(1));
+  return swept;
 }
 
-SweptGap gap_of_hulls(const SweptPart& A, const SweptPart& B, const TimeWindow& window,
-                      double enough, const Vector3d& n) {
-  const auto hull = [](const SweptPart& P) {
-    return PlacedPolytope{P.part->shape->bounds().corners, P.motion.pose().R_FL, P.centre};
-  };
-  const double thickness = (A.part->box.radius + B.part->box.radius) * kUp;
-  const GapRange range{thickness + enough, thickness + enough + (A.sweep + B.sweep) * kUp};
-  Separation found = separate(hull(A), hull(B), n, range);
-  found.gap -= thickness;
-  return gap_along(A, B, window, found, enough);
+SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B) {
+  const Vector3d forth = B.low - A.high;
+  const Vector3d back = A.low - B.high;
+  Eigen::Index axis = 0;
+  const double most = forth.cwiseMax(back).maxCoeff(&axis);
+  return {most, (forth[axis] >= back[axis] ? 1.0 : -1.0) * Vector3d::Unit(axis)};
+}
+
+SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n) {
+  const double thick = thickness(A, B, A.middle.error + B.middle.error);
+  const Separation found = separate(hull(A, A.middle), hull(B, B.middle), n, {thick + enough});
+  return {found.gap - thick, found.n};
+}
+
+SweptGap gap_throughout(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n) {
+  const std::array<PlacedPolytope, 3> hulls_A = {hull(A, A.controls[0]), hull(A, A.controls[1]),
+                                                 hull(A, A.controls[2])};
+  const std::array<PlacedPolytope, 3> hulls_B = {hull(B, B.controls[0]), hull(B, B.controls[1]),
+                                                 hull(B, B.controls[2])};
+  const double thick = thickness(A, B, A.error + B.error);
+  const double needed = (thick + enough) * kUp;
+  const Separation found = separate(std::span(hulls_A).first(A.rests ? 1 : 3),
+                                    std::span(hulls_B).first(B.rests ? 1 : 3), n, {needed, needed});
+  return {found.gap - thick, found.n};
 }
 
 }  // namespace firstcontact::detail
