@@ -1,4 +1,4 @@
-// The sparse factorisation against a dense one.
+// The sparse factorisations against dense ones.
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <firstcontact/dynamics/detail/block_cholesky.h>
+#include <firstcontact/dynamics/detail/block_lu.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -35,7 +37,7 @@ System random_system(std::mt19937& rng, std::size_t count, const Pairs& pairs) {
       const MatrixXd G_a = a == i ? G.leftCols(6) : G.rightCols(6);
       const MatrixXd G_b = b == i ? G.leftCols(6) : G.rightCols(6);
       const BlockCholesky::Block block = G_a.transpose() * G_b;
-      const BlockCholesky::Place place = system.blocks.place(a, b);
+      const BlockPattern::Place place = system.blocks.place(a, b);
       system.blocks.at(place) += place.is_turned ? BlockCholesky::Block(block.transpose()) : block;
       const auto row = static_cast<Index>(6 * a);
       const auto column = static_cast<Index>(6 * b);
@@ -80,6 +82,38 @@ TEST(BlockCholesky, TakesAStarAndWhatIsAlone) {
   }
   expect_same(rng, 302, pairs);
   expect_same(rng, 3, {});
+}
+
+TEST(BlockLu, SolvesAsADenseOne) {
+  std::mt19937 rng(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 50; ++i) {
+    const std::size_t count = 2 + rng() % 20;
+    Pairs pairs;
+    for (std::size_t k = 0; k < 2 * count; ++k) {
+      const std::size_t a = rng() % count;
+      pairs.push_back({a, (a + 1 + rng() % (count - 1)) % count});
+    }
+    BlockLu blocks(count, pairs);
+    blocks.set_identity();
+    const auto size = static_cast<Index>(6 * count);
+    MatrixXd dense = MatrixXd::Identity(size, size);
+    for (const auto& [a, b] : pairs) {
+      const BlockLu::Block over = BlockLu::Block::NullaryExpr([&] { return 0.05 * normal(rng); });
+      const BlockLu::Block under = BlockLu::Block::NullaryExpr([&] { return 0.05 * normal(rng); });
+      const BlockPattern::Place place = blocks.place(a, b);
+      blocks.at(place) += over;
+      blocks.opposite(place) += under;
+      const auto row = static_cast<Index>(6 * a);
+      const auto column = static_cast<Index>(6 * b);
+      dense.block(row, column, 6, 6) += over;
+      dense.block(column, row, 6, 6) += under;
+    }
+    const VectorXd right = VectorXd::NullaryExpr(size, [&] { return normal(rng); });
+    blocks.factorise();
+    const VectorXd expected = dense.partialPivLu().solve(right);
+    EXPECT_LE((blocks.solve(right) - expected).norm(), 1e-9 * (1.0 + expected.norm())) << i;
+  }
 }
 
 }  // namespace

@@ -13,6 +13,9 @@
 
 namespace firstcontact::test {
 
+/// [m]  At which the bodies of structures rest; they are put there.
+inline constexpr double kGap = 1e-5;
+
 struct Drift {
   double moved = 0.0;      ///< [m]  The farthest that a centre of mass got.
   double turned = 0.0;     ///< [rad]
@@ -40,6 +43,13 @@ inline Drift drift(Simulator& simulator, double duration) {
   }
   EXPECT_EQ(verify(header, steps).verdict, RunVerdict::proven);
   return drift;
+}
+
+/// What stands moves by less than a tenth of its gaps.
+inline void expect_rest(const Drift& drift) {
+  EXPECT_EQ(drift.time_lost, 0.0);
+  EXPECT_LE(drift.moved, 0.1 * kGap);
+  EXPECT_LE(drift.turned, 1e-5);
 }
 
 }  // namespace firstcontact::test

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -163,6 +165,66 @@ TEST_F(SimulateRobots, ATorqueAcceleratesByTheMoment) {
   EXPECT_NEAR(run(s, 1000).back().robots[0].velocities[0], 1.0 / kMoment, 1e-6 / kMoment);
 }
 
+// --- What motors apply -------------------------------------------------------------------------
+
+TEST_F(SimulateRobots, TellsTheTorqueThatItIsGiven) {
+  Simulator s = simulator(scene(
+      kPendulum, R"("dynamics": {"motors": {"hinge": {"torque": [[0, 0], [1, 2]], "effort": 1}}})",
+      "", R"("step": 0.01)"));
+  for (const RunStep& step : run(s, 100)) {
+    const double middle = step.time - 0.005;
+    ASSERT_EQ(step.robots[0].efforts.size(), 1U);
+    ASSERT_NEAR(step.robots[0].efforts[0], std::min(1.0, 2.0 * middle), 1e-12) << step.index;
+  }
+}
+
+TEST_F(SimulateRobots, TellsWhatHoldsAWeight) {
+  const auto last = [&](const std::string& motor) {
+    Simulator s = simulator(scene(kPendulum,
+                                  R"("state": {"hinge": -1.5707963267948966}, "dynamics": )"
+                                  R"({"motors": {"hinge": )" +
+                                      motor + "}}",
+                                  "", R"("step": 0.01)"));
+    return run(s, 20).back().robots[0];
+  };
+  const std::string target = R"({"position": -1.5707963267948966)";
+  EXPECT_NEAR(last(target + "}").efforts[0], -kWeight, 1e-5);
+  EXPECT_NEAR(last(target + R"(, "effort": 2.46})").efforts[0], -kWeight, 1e-5);
+  EXPECT_NEAR(last(target + R"(, "effort": 2})").efforts[0], -2.0, 1e-12);
+  const RunRobot sprung = last(target + R"(, "stiffness": 20, "damping": 3})");
+  EXPECT_NEAR(sprung.efforts[0],
+              20.0 * (-std::numbers::pi / 2 - sprung.positions[0]) - 3.0 * sprung.velocities[0],
+              1e-5);
+  EXPECT_NE(sprung.velocities[0], 0.0);
+}
+
+// The hinge itself exerts no moment about its axis: what motors give is what the whole gets,
+// impacts in the middle of steps included, and where a step runs out of events. Links are off their
+// joints there, so arms of impulses are not quite those of the axis.
+TEST_F(SimulateRobots, EffortsAreWhatChangesTheMomentum) {
+  const std::string ball = body("ball", test::ball("0.05"), "[0.3, 0, -0.4]",
+                                R"(, "dynamics": {"mass": 0.5, "linear_velocity": [-2, 0, 0]})") +
+                           "," + body("wall", box("[0.1, 1, 1]"), "[0.6, 0, 0]");
+  for (const std::string motor : {R"({"velocity": 0.7})", R"({"velocity": 0.7, "effort": 3})",
+                                  R"({"position": 0, "stiffness": 30, "damping": 1})"}) {
+    for (const std::string events : {"1000", "2"}) {
+      Simulator s = simulator(
+          scene(kPendulum, R"("dynamics": {"motors": {"hinge": )" + motor + "}}", ball,
+                R"("step": 0.01, "gravity": [0, 0, 0], "restitution": 0.8, "events": )" + events));
+      RunStep before = s.step().value();
+      bool bounced = false;
+      for (const RunStep& step : run(s, 17)) {
+        ASSERT_NEAR(step.robots[0].efforts[0] * step.lasted,
+                    step.angular_momentum.y() - before.angular_momentum.y(), 2e-6)
+            << motor << " " << step.index;
+        bounced = bounced || step.bodies[0].linear_velocity.x() > -1.5;
+        before = step;
+      }
+      EXPECT_TRUE(bounced) << motor;
+    }
+  }
+}
+
 TEST_F(SimulateRobots, LimitsStopAndFrictionHolds) {
   const auto swing = [&](const std::string& more, const std::string& state) {
     const std::string urdf = robot_of(
@@ -238,6 +300,24 @@ TEST_F(SimulateRobots, ResumesBitForBit) {
   }
 }
 
+TEST_F(SimulateRobots, EffortsOfARunAreThoseOfItsVelocities) {
+  Simulator s = simulator(scene(kPendulum, R"("dynamics": {})", "", ""));
+  const std::string header = write_run_header(s.header());
+  RunStep step = s.step().value();
+  EXPECT_EQ(step.robots[0].efforts, std::vector<double>{0.0});
+  step.robots[0].efforts.push_back(1.0);
+  std::istringstream file(header + write_run_step(step));
+  RunReader reader(file, "run.json");
+  try {
+    (void)reader.next();
+    FAIL();
+  } catch (const ParseError& error) {
+    EXPECT_NE(std::string(error.what()).find("robots[0].efforts: expected as many as velocities"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(SimulateRobots, AFreeBaseFallsAndKeepsItsMomentum) {
   const std::string urdf =
       robot_of(link("body", 2.0, "0 0 0", "<box size=\"0.3 0.2 0.1\"/>") +
@@ -253,6 +333,91 @@ TEST_F(SimulateRobots, AFreeBaseFallsAndKeepsItsMomentum) {
                 .norm(),
             1e-3);
   EXPECT_NEAR(energy(steps.back()), energy(steps[0]), 1e-3 * steps[0].kinetic_energy);
+}
+
+TEST_F(SimulateRobots, TakesStatesFromOutside) {
+  const std::string urdf = robot_of(link("body", 2.0, "0 0 0", "<box size=\"0.3 0.2 0.1\"/>") +
+                                    link("head", 0.5, "0 0 0.3", "<box size=\"0.1 0.1 0.1\"/>") +
+                                    joint("neck", "ball", "body", "head", "0 0 1", "0 0 0.1"));
+  Simulator s = simulator(
+      scene(urdf, R"("base": {"position": [0, 0, 3]}, "dynamics": {"base": "free"})", "", ""));
+  MechanismState state = s.robot_states()[0];
+  state.positions.segment<4>(3) *= 3.0;
+  state.velocities[0] = 1.0;
+  s.set_robot_state(0, state);
+  state.positions.segment<4>(3) /= 3.0;
+  EXPECT_EQ(s.robot_states()[0].positions, state.positions);  // Unit quaternions.
+  EXPECT_EQ(s.states()[0].v_WC, Vector3d::UnitX());
+
+  const auto complaint = [&](const MechanismState& wrong, std::size_t robot = 0) -> std::string {
+    try {
+      s.set_robot_state(robot, wrong);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(s.robot_states()[0].positions, state.positions);
+      EXPECT_EQ(s.robot_states()[0].velocities, state.velocities);
+      return error.what();
+    }
+    return "";
+  };
+  // Of the base and of the ball joint; too small and too long for the squares of doubles.
+  for (const Eigen::Index at : {3, 7}) {
+    for (const double size : {0.0, 1e-200, 1e200}) {
+      MechanismState wrong = state;
+      wrong.positions.segment<4>(at) *= size;
+      EXPECT_NE(complaint(wrong).find("positions " + std::to_string(at) + " to"),
+                std::string::npos);
+    }
+  }
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    MechanismState wrong = state;
+    wrong.positions[1] = bad;
+    EXPECT_NE(complaint(wrong).find("finite"), std::string::npos);
+    wrong = state;
+    wrong.velocities[8] = bad;
+    EXPECT_NE(complaint(wrong).find("finite"), std::string::npos);
+  }
+  EXPECT_NE(complaint({state.positions.head(10), state.velocities}).find("11 positions"),
+            std::string::npos);
+  EXPECT_NE(complaint({state.positions, state.positions}).find("9 velocities"), std::string::npos);
+  EXPECT_NE(complaint(state, 1).find("no robot 1"), std::string::npos);
+  EXPECT_TRUE(s.step().has_value());
+
+  RunStep step = s.step().value();
+  std::fill_n(step.robots[0].positions.begin() + 3, 4, 0.0);
+  EXPECT_THROW(s.resume(step), std::invalid_argument);
+}
+
+/// Two rods, the second one beside the end of the first, about axes that are not parallel.
+std::string two_rods(const std::string& limits) {
+  return robot_of("<link name=\"base\"/>" +
+                  link("upper", 1.0, "0.1 0.05 0", "<sphere radius=\"0.02\"/>") +
+                  link("lower", 0.5, "0.15 0 0.1", "<sphere radius=\"0.02\"/>") +
+                  joint("shoulder", "continuous", "base", "upper", "0 0 1", "0 0 0") +
+                  joint("elbow", "revolute", "upper", "lower", "0.2 1 0.4", "0.3 0 0", limits));
+}
+
+// A joint that has limits is driven, though they do not act.
+TEST_F(SimulateRobots, FastTurnsKeepTheirEnergyWhereJointsAreDriven) {
+  Simulator s =
+      simulator(scene(two_rods(R"(<limit lower="-99" upper="99" effort="0" velocity="9"/>)"),
+                      R"("dynamics": {"velocities": {"shoulder": 25, "elbow": -30}})", "",
+                      R"("step": 0.01, "gravity": [0, 0, 0])"));
+  const auto steps = run(s, 200);
+  for (const RunStep& step : steps) {
+    ASSERT_NEAR(step.kinetic_energy, steps[0].kinetic_energy, 1e-3 * steps[0].kinetic_energy)
+        << step.index;
+  }
+}
+
+// Inertia alone would lead beyond them.
+TEST_F(SimulateRobots, LimitsHoldFastTurns) {
+  Simulator s =
+      simulator(scene(two_rods(R"(<limit lower="-1" upper="1" effort="0" velocity="9"/>)"),
+                      R"("dynamics": {"velocities": {"shoulder": 25, "elbow": -30}})", "",
+                      R"("step": 0.01, "gravity": [0, 0, 0])"));
+  for (const RunStep& step : run(s, 200)) {
+    ASSERT_LE(std::abs(step.robots[0].positions[1]), 1.0 + 1e-6) << step.index;
+  }
 }
 
 TEST_F(SimulateRobots, AnArmThatIsToldWhereToGoPushesWhatIsInItsWay) {

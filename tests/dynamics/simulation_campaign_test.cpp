@@ -1,7 +1,9 @@
 // Random scenes of solids, soups, plates, balls and capsules on floors, in bowls, in free space and
-// against scripted bodies: what every step has to keep, and the proof of every run.
+// against scripted bodies, and robots with and without motors among them: what every step has to
+// keep, and the proof of every run.
 //
-// FIRSTCONTACT_SIMULATIONS (default 20) is the number of scenes. A thousand take about ten minutes:
+// FIRSTCONTACT_SIMULATIONS (default 20, 8 with robots) is the number of scenes of each kind, from
+// FIRSTCONTACT_FIRST_SIMULATION (default 0) on. A thousand take about twenty minutes:
 //   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/dynamics/simulation_campaign_test
 
 #include <gtest/gtest.h>
@@ -12,9 +14,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
+#include "dynamics/random_robot.h"
 #include "dynamics/simulated_run.h"
 #include "support/random.h"
 
@@ -124,9 +131,16 @@ Surface bowl(double rim, double floor, double height) {
 
 struct CampaignScene {
   std::string bodies;
+  std::string robots = {};
   std::string simulation;
-  bool is_scripted = false;  ///< A body is moved through the others.
-  bool is_alone = false;     ///< Only free bodies, without gravity.
+  std::string urdf = {};   ///< Of the robot.
+  bool is_driven = false;  ///< A body is moved through the others, or joints have motors.
+  bool is_alone = false;   ///< Only free bodies, without gravity.
+
+  [[nodiscard]] std::string text() const {
+    return R"({"firstcontact": 1, "bodies": [)" + bodies + R"(], "robots": [)" + robots +
+           R"(], "simulation": {)" + simulation + "}}";
+  }
 };
 
 class Draw {
@@ -137,13 +151,13 @@ class Draw {
     CampaignScene scene;
     const double around = random_.uniform(0.0, 1.0);
     scene.is_alone = around < 0.2;
-    scene.is_scripted = around > 0.75;
+    scene.is_driven = around > 0.75;
     if (!scene.is_alone) {
       const bool has_bowl = random_.chance(0.3);
       add(scene, body("ground", has_bowl ? text(bowl(2.0, 0.3, 1.0)) : box("[20, 20, 0.1]"),
                       has_bowl ? "[0, 0, 0]" : "[0, 0, -0.05]"));
     }
-    if (scene.is_scripted) {
+    if (scene.is_driven) {
       add(scene, R"({"name": "pusher", "shape": )" + ball(text(random_.uniform(0.05, 0.3))) +
                      R"(, "motion": {"type": "waypoints", "times": [0, 1], "poses": [)"
                      R"({"position": [-3, 0.1, 0.6]}, {"position": [3, -0.1, 0.6]}]}})");
@@ -155,6 +169,21 @@ class Draw {
     const Vector3d gravity =
         scene.is_alone ? Vector3d::Zero() : Vector3d(0, 0, random_.chance(0.8) ? -9.81 : -1.0);
     scene.simulation = R"("step": )" + text(kStep) + R"(, "gravity": )" + text(gravity);
+    return scene;
+  }
+
+  /// The same with a robot beside the bodies, whose URDF is put into a file.
+  CampaignScene scene_with_robot(const std::filesystem::path& urdf) {
+    CampaignScene scene = this->scene();
+    const bool has_motors = random_.chance(0.5);
+    const RandomRobot robot(random_, has_motors);
+    scene.urdf = robot.urdf();
+    std::ofstream(urdf) << scene.urdf;
+    // Beyond the free bodies and the rim of the bowl; towards them if it is free.
+    scene.robots =
+        robot.text(urdf.string(), {0.0, 1.1, 1.8}, {0.0, random_.uniform(-3.0, 0.0), 0.0});
+    scene.is_driven = scene.is_driven || has_motors;
+    scene.is_alone = false;
     return scene;
   }
 
@@ -233,42 +262,47 @@ bool is_finite(const RunStep& step) {
     finite = finite && body.X_WB.position.allFinite() && body.X_WB.rotation.coeffs().allFinite() &&
              body.linear_velocity.allFinite() && body.angular_velocity.allFinite();
   }
+  for (const RunRobot& robot : step.robots) {
+    for (const auto* row : {&robot.positions, &robot.velocities, &robot.efforts}) {
+      finite = finite && std::ranges::all_of(*row, [](double x) { return std::isfinite(x); });
+    }
+  }
   return finite;
 }
 
 /// Holds one run to what its scene allows, and counts.
 class Campaign {
  public:
-  void check(std::uint64_t seed) {
-    const CampaignScene scene = Draw(seed).scene();
-    SCOPED_TRACE("scene " + std::to_string(seed) + R"(: {"firstcontact": 1, "bodies": [)" +
-                 scene.bodies + R"(], "simulation": {)" + scene.simulation + "}}");
-    Simulator s = simulator(scene.bodies, scene.simulation);
+  void check(std::uint64_t seed, const CampaignScene& scene) {
+    SCOPED_TRACE("scene " + std::to_string(seed) + ": " + scene.text() + "\n" + scene.urdf);
+    ShapeCache cache;
+    Simulator s(load_scene(parse_scene(scene.text(), "campaign.json"), cache));
     const std::vector<RunStep> steps = run(s, kSteps);
     double lost = 0.0;
     for (std::size_t k = 0; k < steps.size(); ++k) {
       ASSERT_TRUE(is_finite(steps[k])) << "step " << k + 1;
-      events += steps[k].events;
+      events_ += steps[k].events;
       lost += steps[k].time_lost;
-      if (k > 0 && !scene.is_scripted) {
+      if (k > 0 && !scene.is_driven) {
         hold_energy(steps[k - 1], steps[k], total(steps[0]));
       }
       if (scene.is_alone) {
         hold_momentum(s.header(), steps[0], steps[k]);
       }
     }
-    if (!scene.is_scripted) {
+    if (!scene.is_driven) {
       EXPECT_LE(lost, 0.0) << "with nothing that could crush a body";
     }
-    lost_time += lost;
+    lost_time_ += lost;
     const RunVerification proof = verify(s.header(), steps);
     EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
   }
 
-  std::size_t events = 0;
-  double lost_time = 0.0;       // [s]
-  double greatest_gain = 0.0;   // [-]
-  double greatest_drift = 0.0;  // [-]
+  void print(std::uint64_t scenes) const {
+    std::printf("%llu scenes, %zu impacts, %g s lost, energy grew by %g at most, momentum by %g\n",
+                static_cast<unsigned long long>(scenes), events_, lost_time_, greatest_gain_,
+                greatest_drift_);
+  }
 
  private:
   /// The ground is at height 0: neither energy is much below 0.
@@ -276,7 +310,7 @@ class Campaign {
 
   void hold_energy(const RunStep& before, const RunStep& after, double scale) {
     const double gain = (total(after) - total(before)) / scale;
-    greatest_gain = std::max(greatest_gain, gain);
+    greatest_gain_ = std::max(greatest_gain_, gain);
     EXPECT_LE(gain, kEnergy) << "step " << after.index;
   }
 
@@ -286,25 +320,51 @@ class Campaign {
       scale += header.masses[body.body] * body.linear_velocity.norm();
     }
     const double drift = (step.linear_momentum - first.linear_momentum).norm() / scale;
-    greatest_drift = std::max(greatest_drift, drift);
+    greatest_drift_ = std::max(greatest_drift_, drift);
     EXPECT_LE(drift, kMomentum) << "step " << step.index;
   }
+
+  std::size_t events_ = 0;
+  double lost_time_ = 0.0;       // [s]
+  double greatest_gain_ = 0.0;   // [-]
+  double greatest_drift_ = 0.0;  // [-]
 };
 
-std::uint64_t scene_count() {
-  const char* count = std::getenv("FIRSTCONTACT_SIMULATIONS");
-  return count == nullptr ? 20 : std::strtoull(count, nullptr, 10);
+std::uint64_t number_from(const char* variable, std::uint64_t by_default) {
+  const char* number = std::getenv(variable);
+  return number == nullptr ? by_default : std::strtoull(number, nullptr, 10);
 }
+
+/// Seeds of scenes.
+struct Seeds {
+  explicit Seeds(std::uint64_t count_by_default)
+      : first(number_from("FIRSTCONTACT_FIRST_SIMULATION", 0)),
+        count(number_from("FIRSTCONTACT_SIMULATIONS", count_by_default)) {}
+
+  std::uint64_t first;
+  std::uint64_t count;
+};
 
 TEST(SimulationCampaign, EveryRunKeepsTheLawsAndIsProven) {
   Campaign campaign;
-  const std::uint64_t count = scene_count();
-  for (std::uint64_t seed = 0; seed < count; ++seed) {
-    campaign.check(seed);
+  const Seeds seeds(20);
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+    campaign.check(seed, Draw(seed).scene());
   }
-  std::printf("%llu scenes, %zu impacts, %g s lost, energy grew by %g at most, momentum by %g\n",
-              static_cast<unsigned long long>(count), campaign.events, campaign.lost_time,
-              campaign.greatest_gain, campaign.greatest_drift);
+  campaign.print(seeds.count);
+}
+
+TEST(SimulationCampaign, SoDoesEveryRunWithARobot) {
+  Campaign campaign;
+  const Seeds seeds(8);
+  const std::filesystem::path urdf =
+      std::filesystem::temp_directory_path() /
+      ("firstcontact_campaign_" + std::to_string(getpid()) + ".urdf");
+  for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
+    campaign.check(seed, Draw(seed).scene_with_robot(urdf));
+  }
+  campaign.print(seeds.count);
+  std::filesystem::remove(urdf);
 }
 
 }  // namespace

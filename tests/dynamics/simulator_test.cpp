@@ -260,6 +260,11 @@ TEST(Simulator, TakesStatesFromOutside) {
   EXPECT_THROW(s.set_state(1, state), std::invalid_argument);
   state.X_WB.position.z() = std::nan("");
   EXPECT_THROW(s.set_state(1, state), std::invalid_argument);
+  state.X_WB.position.z() = 1.0;
+  for (const double w : {0.0, 1e-200, 1e200}) {  // Squares of the last two are no doubles.
+    state.X_WB.rotation = Eigen::Quaterniond(w, 0.0, 0.0, 0.0);
+    EXPECT_THROW(s.set_state(1, state), std::invalid_argument);
+  }
   EXPECT_GT(s.states()[1].X_WB.position.z(), 1.9);
 }
 
@@ -282,6 +287,22 @@ TEST(Simulator, SaysWhatIsWrongWithAScene) {
                      "[0, 0, 0]", kFree))
           .find("body \"flag\""),
       std::string::npos);
+}
+
+// Dropped bodies come to rest between the contact distance and one and a half of it.
+TEST(Simulator, RestsNearTheContactDistance) {
+  constexpr double kContactDistance = 1e-4;
+  Simulator simulator = test::simulator(
+      kFloor + "," + body("a", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.105]", R"(, "dynamics": {})"),
+      R"("step": 0.01, "contact_distance": 1e-4, "friction": 0.5)");
+  const std::vector<RunStep> steps = test::run(simulator, 30);
+  const RunStep& last = steps.back();
+  ASSERT_FALSE(last.contacts.empty());
+  EXPECT_LE(last.bodies[0].linear_velocity.norm(), 1e-6);
+  for (const RunContact& contact : last.contacts) {
+    EXPECT_GE(contact.distance, kContactDistance * (1.0 - 1e-9));
+    EXPECT_LE(contact.distance, 1.5 * kContactDistance * (1.0 + 1e-9));
+  }
 }
 
 }  // namespace

@@ -8,25 +8,10 @@
 
 #include "dynamics/drift.h"
 
-namespace firstcontact {
+namespace firstcontact::test {
 namespace {
 
-using test::body;
-using test::box;
-using test::Drift;
-using test::drift;
-using test::numbers;
-using test::settings;
-using test::simulator;
-
-constexpr double kGap = 1e-5;  // [m]  At which bodies rest; they are put there.
 const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
-
-void expect_rest(const Drift& drift) {
-  EXPECT_EQ(drift.time_lost, 0.0);
-  EXPECT_LE(drift.moved, 0.1 * kGap);
-  EXPECT_LE(drift.turned, 1e-5);
-}
 
 // --- Blocks --------------------------------------------------------------------------------------
 
@@ -107,4 +92,4 @@ TEST(Cards, HouseOfTwoStoreysStands) {
 }
 
 }  // namespace
-}  // namespace firstcontact
+}  // namespace firstcontact::test

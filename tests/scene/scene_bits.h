@@ -15,7 +15,8 @@
 
 namespace firstcontact::test {
 
-/// The numbers of a scene as their bits, and its words; without the digest of its text.
+/// The numbers of a scene as their bits, and its words; without the digest of its text. Of robots
+/// their names and dynamics.
 class SceneBits {
  public:
   explicit SceneBits(const Scene& scene) {
@@ -31,6 +32,10 @@ class SceneBits {
       std::visit([this](const auto& motion) { add(motion); }, body.motion);
       add(body.free);
       add(body.surface);
+    }
+    for (const SceneRobot& robot : scene.robots) {
+      add(robot.name);
+      add(robot.dynamics);
     }
     for (const BodyPair& pair : scene.ignored_pairs) {
       add(pair);
@@ -208,6 +213,31 @@ class SceneBits {
   void add(const Surface& surface) {
     add(surface.friction);
     add(surface.restitution);
+  }
+  void add(const JointMotor& motor) {
+    add(static_cast<double>(motor.kind));
+    for (const TimedNumber& target : motor.target) {
+      add(target.time);
+      add(target.number);
+    }
+    add(motor.stiffness);
+    add(motor.damping);
+    add(motor.effort);
+  }
+  void add(const RobotDynamics& dynamics) {
+    add(dynamics.has_free_base ? 1.0 : 0.0);
+    add(dynamics.linear_velocity);
+    add(dynamics.angular_velocity);
+    for (const auto& [coordinate, velocity] : dynamics.velocities) {
+      add(coordinate);
+      add(velocity);
+    }
+    for (const auto& [joint, motor] : dynamics.motors) {
+      add(static_cast<double>(joint));
+      add(motor);
+    }
+    add(dynamics.density);
+    add(dynamics.surface);
   }
   void add(const Simulation& simulation) {
     add(simulation.duration);

@@ -114,7 +114,9 @@ struct ContactSolution {
 /// method", Mathematical and Computer Modelling 28 (1998)). In motion space the velocities minimise
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
 /// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
-/// however many contacts there are, and no loss where masses differ greatly.
+/// however many contacts there are, and no loss where masses differ greatly. From 300 contacts on,
+/// without drives, an interior point comes before it, whose answer the automatic choice takes
+/// within fifty tolerances: multipliers would take ten times as long.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.

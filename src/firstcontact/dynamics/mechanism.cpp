@@ -267,9 +267,8 @@ void Mechanism::require_mass() const {
 MechanismState Mechanism::rest() const {
   MechanismState state{VectorXd::Zero(position_count_), VectorXd::Zero(size_)};
   for (const MechanismJoint& block : blocks_) {
-    if (block.positions != block.velocities) {  // A pose.
-      set_quaternion(Quaterniond::Identity(), block.position + block.positions - 4,
-                     state.positions);
+    if (const std::optional<Index> at = block.quaternion()) {
+      set_quaternion(Quaterniond::Identity(), *at, state.positions);
     }
   }
   if (free_base_) {
@@ -282,13 +281,12 @@ MechanismState Mechanism::rest() const {
 VectorXd Mechanism::moved(const VectorXd& positions, const VectorXd& displacement) const {
   VectorXd result = positions;
   for (const MechanismJoint& block : blocks_) {
-    const bool is_pose = block.positions != block.velocities;
-    const Index slides = is_pose ? block.velocities - 3 : block.velocities;
+    const std::optional<Index> at = block.quaternion();
+    const Index slides = at ? block.velocities - 3 : block.velocities;
     result.segment(block.position, slides) += displacement.segment(block.velocity, slides);
-    if (is_pose) {
-      const Index at = block.position + slides;
+    if (at) {
       const Vector3d turned = displacement.segment<3>(block.velocity + slides);
-      set_quaternion((turn(turned) * quaternion(positions, at)).normalized(), at, result);
+      set_quaternion((turn(turned) * quaternion(positions, *at)).normalized(), *at, result);
     }
   }
   return result;
@@ -297,9 +295,8 @@ VectorXd Mechanism::moved(const VectorXd& positions, const VectorXd& displacemen
 VectorXd Mechanism::between(const VectorXd& from, const VectorXd& to, double share) const {
   VectorXd result = from + share * (to - from);
   for (const MechanismJoint& block : blocks_) {
-    if (block.positions != block.velocities) {
-      const Index at = block.position + block.positions - 4;
-      set_quaternion(quaternion(from, at).slerp(share, quaternion(to, at)).normalized(), at,
+    if (const std::optional<Index> at = block.quaternion()) {
+      set_quaternion(quaternion(from, *at).slerp(share, quaternion(to, *at)).normalized(), *at,
                      result);
     }
   }

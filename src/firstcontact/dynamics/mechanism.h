@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,6 +28,11 @@ struct MechanismJoint {
   Eigen::Index positions = 1;
   Eigen::Index velocity = 0;  ///< and of its velocities.
   Eigen::Index velocities = 1;
+
+  /// The first of the four positions that are a quaternion, of a joint that has one: its last four.
+  [[nodiscard]] std::optional<Eigen::Index> quaternion() const {
+    return positions == velocities ? std::nullopt : std::optional(position + positions - 4);
+  }
 };
 
 /// The links of a mechanism at one instant. Spatial velocities are (v, w): of the point that moves

@@ -25,6 +25,12 @@ constexpr int kSweepsBeforeMotionSpace = 30;
 /// sweep costs as many contacts as an assembly, of which far fewer are needed).
 constexpr std::size_t kManyContacts = 12;
 
+/// From so many contacts on an interior point comes first: its factorisations hardly grow in
+/// number. What it leaves within so many tolerances is taken: multipliers would take ten times as
+/// long.
+constexpr std::size_t kManyForInteriorPoint = 300;
+constexpr double kNearEnough = 50.0;
+
 /// Velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
   std::size_t count = 0;
@@ -116,9 +122,11 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   const std::size_t moving = moving_velocities(problem);
   const bool automatic = options.space == ProjectionSpace::automatic;
   const bool is_small = moving <= kMostInMotionSpace;
+  const bool is_inner =
+      is_small && problem.drives.empty() && rows.contacts.size() >= kManyForInteriorPoint;
   // Along a chain of links impulses would have to travel from joint to joint.
   const bool has_many =
-      !problem.mechanisms.empty() || 6 * rows.contacts.size() >= kManyContacts * moving;
+      !problem.mechanisms.empty() || is_inner || 6 * rows.contacts.size() >= kManyContacts * moving;
   if (options.space == ProjectionSpace::contact || (automatic && !(is_small && has_many))) {
     ProjectionOptions sweeping = options;
     if (automatic && is_small) {
@@ -127,6 +135,12 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
     detail::project_in_contact_space(rows, sweeping, projection);
     if (!automatic || projection.residual <= options.tolerance || !is_small) {
       return solution_of(problem, rows, projection, ProjectionSpace::contact);
+    }
+  }
+  if (is_inner) {
+    detail::project_by_interior_point(problem, rows, options, projection);
+    if (projection.residual <= (automatic ? kNearEnough : 1.0) * options.tolerance) {
+      return solution_of(problem, rows, projection, ProjectionSpace::motion);
     }
   }
   const Projection before = projection;

@@ -282,10 +282,14 @@ std::vector<double> numbers(const json& array, const Line& line) {
 std::vector<RunRobot> read_robots(const json& array, std::size_t robots, const Line& line) {
   std::vector<RunRobot> result;
   for (const json& element : line.array(array)) {
-    line.require_keys(element, {"robot", "positions", "velocities"});
+    line.require_keys(element, {"robot", "positions", "velocities", "efforts"});
     result.push_back({.robot = line.index(element["robot"], robots),
                       .positions = numbers(element["positions"], line),
-                      .velocities = numbers(element["velocities"], line)});
+                      .velocities = numbers(element["velocities"], line),
+                      .efforts = numbers(element["efforts"], line)});
+    if (result.back().efforts.size() != result.back().velocities.size()) {
+      line.fail(element["efforts"], "as many as velocities");
+    }
     if (result.size() > 1 && result.back().robot <= result[result.size() - 2].robot) {
       line.fail(element["robot"], "robots in the order of their numbers, each once");
     }

@@ -43,6 +43,8 @@ struct RunRobot {
   std::size_t robot = 0;                ///< Its number in the scene.
   std::vector<double> positions = {};   ///< As MechanismState has them.
   std::vector<double> velocities = {};  ///< Likewise.
+  std::vector<double> efforts = {};     ///< [N m or N]  Of motors along each of the velocities, the
+                                        ///< mean over the step; 0 where there is none.
 };
 
 /// A contact that acted at the end of a step.

@@ -23,6 +23,7 @@ using detail::Touch;
 using detail::TrackPiece;
 using detail::World;
 using Eigen::Vector3d;
+using Eigen::VectorXd;
 
 namespace {
 
@@ -41,6 +42,27 @@ void require_simulation(const LoadedScene& loaded) {
                                   "\": a deforming body is not simulated; leave it out");
     }
   }
+}
+
+/// Whether a quaternion can be made a unit one.
+bool is_rotation(const Eigen::Vector4d& q) { return q.norm() > 0.0 && std::isfinite(q.norm()); }
+
+/// What keeps a mechanism from being in a state; empty if nothing does.
+std::string wrong_state(const Mechanism& mechanism, const MechanismState& state) {
+  if (state.positions.size() != mechanism.position_count() ||
+      state.velocities.size() != mechanism.size() || !state.positions.allFinite() ||
+      !state.velocities.allFinite()) {
+    return "expected " + std::to_string(mechanism.position_count()) + " positions and " +
+           std::to_string(mechanism.size()) + " velocities, all finite";
+  }
+  for (const MechanismJoint& joint : mechanism.joints()) {
+    const std::optional<Eigen::Index> at = joint.quaternion();
+    if (at && !is_rotation(state.positions.segment<4>(*at))) {
+      return "positions " + std::to_string(*at) + " to " + std::to_string(*at + 3) +
+             " are a quaternion, which must not be zero";
+    }
+  }
+  return {};
 }
 
 /// The rotation vector over a part of a motion: of one piece with all its turns, over several by
@@ -104,7 +126,8 @@ class Simulator::Implementation {
                                   " is a link; move its robot");
     }
     if (!state.X_WB.position.allFinite() || !state.X_WB.rotation.coeffs().allFinite() ||
-        !(state.X_WB.rotation.norm() > 0.0) || !state.v_WC.allFinite() || !state.w_WB.allFinite()) {
+        !is_rotation(state.X_WB.rotation.coeffs()) || !state.v_WC.allFinite() ||
+        !state.w_WB.allFinite()) {
       throw std::invalid_argument("set_state: numbers must be finite, and the quaternion not zero");
     }
     std::vector<RigidState> states = states_;
@@ -123,15 +146,14 @@ class Simulator::Implementation {
                                   " with dynamics");
     }
     const Mechanism& mechanism = world_.robots[robot].mechanism;
-    if (state.positions.size() != mechanism.position_count() ||
-        state.velocities.size() != mechanism.size() || !state.positions.allFinite() ||
-        !state.velocities.allFinite()) {
-      throw std::invalid_argument("set_robot_state: expected " +
-                                  std::to_string(mechanism.position_count()) + " positions and " +
-                                  std::to_string(mechanism.size()) + " velocities, all finite");
+    const std::string wrong = wrong_state(mechanism, state);
+    if (!wrong.empty()) {
+      throw std::invalid_argument("set_robot_state: " + wrong);
     }
     std::vector<MechanismState> robots = robots_;
-    robots[robot] = state;
+    // A displacement of zero makes quaternions unit ones.
+    robots[robot] = {mechanism.moved(state.positions, VectorXd::Zero(mechanism.size())),
+                     state.velocities};
     std::swap(robots, robots_);
     std::vector<RigidState> states = states_;
     try {
@@ -223,8 +245,7 @@ class Simulator::Implementation {
                recorded.velocities.data(), static_cast<Eigen::Index>(recorded.velocities.size()))});
       const Mechanism& mechanism = world_.robots[k].mechanism;
       if (recorded.robot != world_.robots[k].number ||
-          robots.back().positions.size() != mechanism.position_count() ||
-          robots.back().velocities.size() != mechanism.size()) {
+          !wrong_state(mechanism, robots.back()).empty()) {
         throw std::invalid_argument("the step is of another scene: its robots have other joints");
       }
     }
@@ -354,23 +375,29 @@ class Simulator::Implementation {
   }
 
   /// Moves the state of a robot to where it is at `lasted`.
-  void follow(const detail::RobotTrack& track, double lasted) {
+  ///
+  /// @returns  [N m s or N s]  of its motors until then, on each coordinate
+  VectorXd follow(const detail::RobotTrack& track, double lasted) {
     MechanismState& state = robots_[track.robot];
+    VectorXd impulses = VectorXd::Zero(state.velocities.size());
     double from = 0.0;
     for (const detail::RobotTrackPiece& piece : track.pieces) {
-      if (piece.to <= lasted) {
+      const double share =
+          piece.to <= lasted ? 1.0 : std::max(0.0, (lasted - from) / (piece.to - from));
+      if (share == 1.0) {
         state = piece.end;
       } else {
-        const double share = std::max(0.0, (lasted - from) / (piece.to - from));
         const Mechanism& mechanism = world_.robots[track.robot].mechanism;
         state = {mechanism.between(piece.begin.positions, piece.end.positions, share),
                  piece.begin.velocities + share * (piece.end.velocities - piece.begin.velocities)};
       }
+      impulses += piece.impact + share * piece.motors;
       from = piece.to;
       if (from >= lasted) {
         break;
       }
     }
+    return impulses;
   }
 
   RunStep record(const StepStart& start, const std::vector<IslandTrack>& tracks, double lasted) {
@@ -380,6 +407,10 @@ class Simulator::Implementation {
                  .time_lost = start.h - lasted};
     step.clearance = world_.distances.least;
     double size = 0.0;
+    std::vector<VectorXd> efforts;
+    for (const MechanismState& robot : robots_) {
+      efforts.push_back(VectorXd::Zero(robot.velocities.size()));
+    }
     for (const IslandTrack& track : tracks) {
       step.clearance = std::min(step.clearance, track.clearance);
       step.residual = std::max(step.residual, track.residual);
@@ -388,14 +419,18 @@ class Simulator::Implementation {
         step.bodies.push_back(recorded(track.members[k], track.pieces[k], lasted));
       }
       for (const detail::RobotTrack& robot : track.robots) {
-        follow(robot, lasted);
+        const VectorXd impulses = follow(robot, lasted);
+        if (lasted > 0.0) {
+          efforts[robot.robot] = impulses / lasted;
+        }
       }
     }
     for (std::size_t r = 0; r < robots_.size(); ++r) {
       const auto& [positions, velocities] = robots_[r];
       step.robots.push_back({.robot = world_.robots[r].number,
                              .positions = {positions.begin(), positions.end()},
-                             .velocities = {velocities.begin(), velocities.end()}});
+                             .velocities = {velocities.begin(), velocities.end()},
+                             .efforts = {efforts[r].begin(), efforts[r].end()}});
     }
     for (std::size_t b = 0; b < states_.size(); ++b) {
       if (world_.bodies[b].kind == BodyKind::scripted) {

@@ -30,9 +30,8 @@ class FIRSTCONTACT_API Simulator {
  public:
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
   /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
-  /// bodies
-  ///         meet at the start (names them), a body's mass cannot be found, or a robot cannot be
-  ///         simulated (says why)
+  ///         bodies meet at the start (names them), a body's mass cannot be found, or a robot
+  ///         cannot be simulated (says why)
   explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -48,9 +47,8 @@ class FIRSTCONTACT_API Simulator {
 
   /// Moves a free body elsewhere, or gives it other velocities.
   ///
-  /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, or
-  /// the body
-  ///         would meet another one: then nothing is changed
+  /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, the
+  ///         quaternion is zero, or the body would meet another one: then nothing is changed
   void set_state(std::size_t body, const RigidState& state);
 
   /// Of every robot that has dynamics.
@@ -59,7 +57,8 @@ class FIRSTCONTACT_API Simulator {
   /// Puts a robot elsewhere, or gives it other velocities.
   ///
   /// @param robot  among those that have dynamics
-  /// @throws std::invalid_argument as set_state; then nothing is changed
+  /// @throws std::invalid_argument if the sizes are not those of the robot, a number is not finite,
+  ///         a quaternion is zero, or a link would meet a body: then nothing is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
   /// Goes on after a step of a run with the same header, bit for bit as the run did.

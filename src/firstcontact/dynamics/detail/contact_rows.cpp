@@ -1,6 +1,8 @@
 #include <firstcontact/dynamics/detail/contact_rows.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace firstcontact::detail {
@@ -152,11 +154,15 @@ ContactRows::ContactRows(const ContactProblem& problem)
 
 double greatest_residual(const ContactRows& rows, const Impulses& impulses, const VectorXd& V) {
   double greatest = 0.0;
+  const auto add = [&](double residual) {
+    greatest = std::isfinite(residual) ? std::max(greatest, residual)
+                                       : std::numeric_limits<double>::infinity();
+  };
   for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-    greatest = std::max(greatest, residual_of(rows.contacts[k], impulses.contacts[k], V));
+    add(residual_of(rows.contacts[k], impulses.contacts[k], V));
   }
   for (std::size_t k = 0; k < rows.drives.size(); ++k) {
-    greatest = std::max(greatest, residual_of(rows.drives[k], impulses.drives[k], V));
+    add(residual_of(rows.drives[k], impulses.drives[k], V));
   }
   return greatest;
 }

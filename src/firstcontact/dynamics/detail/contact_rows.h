@@ -127,6 +127,17 @@ struct Projection {
 void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& options,
                               Projection& projection);
 
+/// For many contacts and no drives. Of about as many steps for each number of contacts, each the
+/// factorisation of one matrix: with P = diag(1, mu, mu) it is y = P u + mu |u_t| n and z = P^-1 r
+/// that lie in the cone of Lorentz, orthogonal to each other; Newton's steps with the scaling of
+/// Nesterov and Todd lead there from inside (S. Mehrotra, SIAM Journal on Optimization 2 (1992)),
+/// and where they stall go on with |u_t| as it was at the step before (V. Acary, P. Armand, H. M.
+/// Nguyen, O. Shpakovych, "Second-order cone programming for frictional contact mechanics using
+/// interior point algorithm", Optimization Methods and Software (2024)). Starts from nothing;
+/// leaves the projection as it is where it finds none that is nearer to the laws.
+void project_by_interior_point(const ContactProblem& problem, const ContactRows& rows,
+                               const ProjectionOptions& options, Projection& projection);
+
 void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
                              const ProjectionOptions& options, Projection& projection);
 

@@ -33,12 +33,15 @@ constexpr double kPush = 0.5;
 /// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
 constexpr double kStepsWithoutBounce = 2.0;
 
-/// Of contact problems: of what gravity adds in a step.
+/// Of contact problems: of what gravity adds in a step. Heaps are solved less exactly.
 constexpr double kTolerance = 3e-7;
+constexpr double kHeapTolerance = 1e-4;
+constexpr std::size_t kHeap = 300;        // Contacts.
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
-/// A residual of as many tolerances tells that a problem has no solution, or none that was found.
-constexpr double kUnsolved = 3e4;
+/// A residual of this part of what gravity adds tells that a problem has no solution, or none that
+/// was found.
+constexpr double kUnsolved = 1e-2;
 
 /// After as many impacts in a row that hardly let time pass, the island is jammed. Nor are bodies
 /// pushed apart in less time: who looks at the motion could not divide it.
@@ -47,6 +50,9 @@ constexpr double kStall = 1e-9;  // [-]  Of the step.
 
 /// A plan that was stopped is followed by one of at least this part of its span.
 constexpr double kLeastShare = 0.1;
+
+/// Links that turn fast make plans shorter, down to this part of the step.
+constexpr double kLeastShareOfLinks = 0.01;
 
 /// Pairs nearer than this part of their distance of rest are hardly let nearer.
 constexpr double kJammed = 1e-3;
@@ -126,7 +132,10 @@ class Island {
 
  private:
   /// [s]  Of the next plan.
-  [[nodiscard]] double span() const { return std::min(span_, start_.h - track_.reached); }
+  [[nodiscard]] double span() const {
+    const double of_links = std::max(robots_.longest_span(), kLeastShareOfLinks * start_.h);
+    return std::min({span_, start_.h - track_.reached, of_links});
+  }
   [[nodiscard]] std::size_t size() const { return track_.members.size(); }
   [[nodiscard]] const SimBody& member(std::size_t k) const {
     return world_.bodies[track_.members[k]];
@@ -378,13 +387,18 @@ class Island {
     if (problem.contacts.empty() && problem.drives.empty()) {
       return unchanged(problem);
     }
-    ContactSolution solution = project_on_contacts(problem, projection_options());
+    ContactSolution solution = project_on_contacts(problem, projection_options(problem));
     limit_energy(problem, solution);
     return solution;
   }
 
-  [[nodiscard]] ProjectionOptions projection_options() const {
-    return {.tolerance = std::max(kLeastTolerance, kTolerance * world_.gravity.norm() * start_.h)};
+  /// [m/s]  A part of what gravity adds in a step.
+  [[nodiscard]] double of_gravity(double part) const {
+    return std::max(kLeastTolerance, part * world_.gravity.norm() * start_.h);
+  }
+
+  [[nodiscard]] ProjectionOptions projection_options(const ContactProblem& problem) const {
+    return {.tolerance = of_gravity(problem.contacts.size() < kHeap ? kTolerance : kHeapTolerance)};
   }
 
   /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
@@ -394,7 +408,7 @@ class Island {
   /// script.
   /// Motors add what they want, as long as there is a solution.
   void limit_energy(const ContactProblem& problem, ContactSolution& solution) const {
-    const bool is_solved = solution.residual <= kUnsolved * projection_options().tolerance;
+    const bool is_solved = solution.residual <= of_gravity(kUnsolved);
     if (is_solved && robots_.has_motors()) {
       return;
     }
@@ -452,10 +466,10 @@ class Island {
       mean[b].v = 0.5 * (before[b].v + solution.bodies[b].v);
       mean[b].w = 0.5 * (before[b].w + solution.bodies[b].w);
     }
+    const double slack = 2.0 * projection_options(problem).tolerance;
     const bool mean_is_allowed =
         std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
-          return normal_velocity(contact, mean) >=
-                 contact.least_normal_velocity - 2.0 * projection_options().tolerance;
+          return normal_velocity(contact, mean) >= contact.least_normal_velocity - slack;
         });
     std::vector<bool> by_end(before.size(), false);
     if (!mean_is_allowed) {
@@ -592,7 +606,9 @@ class Island {
     for (Touch& touch : touches_among(world_, pair, poses, margin, answer_.contacts)) {
       TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
       const double u_n = normal_velocity(ahead.contact, bodies.bodies());
-      ahead.least = std::min(0.0, (world_.distances.least - touch.gap) / span() + hit.t * u_n);
+      // From the gap of the start, were it straight to there.
+      const double gap = touch.gap - hit.t * span() * u_n;
+      ahead.least = std::min(0.0, -world_.distances.way_to_rest(gap) / span());
       closing = std::max(closing, -u_n);
       hit.ahead.push_back(std::move(ahead));
     }
@@ -703,7 +719,7 @@ class Island {
         [this](const auto& moving, const auto& mechanisms) {
           return energy_of(moving, mechanisms);
         },
-        projection_options());
+        projection_options(problem));
     limit_energy(problem, solution);
     robots_.take_velocities(solution);
     for (std::size_t k = 0; k < size(); ++k) {

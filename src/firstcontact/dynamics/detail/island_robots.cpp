@@ -1,6 +1,7 @@
 #include <firstcontact/dynamics/detail/island_robots.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -14,6 +15,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
+
+/// [rad]  That links turn in a plan, at most.
+constexpr double kMostTurn = 0.1;
 
 Pose piece_pose(const SimBody& body, const MechanismInstant& instant) {
   const Pose& X_WL = instant.X_WL[body.piece->link];
@@ -46,6 +50,7 @@ IslandRobots::IslandRobots(const World& world, const StepStart& start,
       numbers.push_back(number);
       robots_.push_back({.robot = &world.robots[number], .state = start.robots[number]});
       robots_.back().track.robot = number;
+      robots_.back().impact = VectorXd::Zero(world.robots[number].mechanism.size());
     }
     place_[k] = {r, robots_[r].pieces.size()};
     robots_[r].pieces.push_back({.member = k, .body = &body});
@@ -61,7 +66,8 @@ void IslandRobots::look_around(Robot& robot) const {
   robot.mass = mechanism.mass_matrix(instant);
   const auto n = mechanism.size();
   robot.inverse_mass = robot.mass.llt().solve(MatrixXd::Identity(n, n));
-  robot.bias_forces = mechanism.bias_forces(instant, world_.gravity);
+  robot.gravity_forces = mechanism.bias_forces(instant, world_.gravity) -
+                         mechanism.bias_forces(instant, Vector3d::Zero());
   for (Piece& piece : robot.pieces) {
     piece.X_WB = piece_pose(*piece.body, instant);
     const Jacobian& J = instant.J[piece.body->piece->link];
@@ -74,7 +80,19 @@ void IslandRobots::look_around(Robot& robot) const {
 }
 
 bool IslandRobots::has_motors() const {
-  return std::ranges::any_of(robots_, [](const Robot& robot) { return robot.robot->has_motors(); });
+  return std::ranges::any_of(robots_,
+                             [](const Robot& robot) { return robot.robot->motor_count() > 0; });
+}
+
+double IslandRobots::longest_span() const {
+  double fastest = 0.0;  // [rad/s]
+  for (const Robot& robot : robots_) {
+    for (const Piece& piece : robot.pieces) {
+      const Vector3d w = piece.J.bottomRows<3>() * robot.state.velocities;
+      fastest = std::max(fastest, w.norm());
+    }
+  }
+  return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
 }
 
 const IslandRobots::Piece& IslandRobots::piece_of(std::size_t member) const {
@@ -110,15 +128,24 @@ std::vector<RobotPlan> IslandRobots::fly(ContactProblem& problem, double from, d
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
     const Mechanism& mechanism = robot.robot->mechanism;
-    const std::vector<JointDrive> drives = robot.robot->drives(robot.state, r, from, span);
-    // What is driven does not go where it would fall: the forces are those where it is.
-    free.push_back(drives.empty() ? mechanism.after_free_motion(robot.state, world_.gravity, span)
-                                  : RobotPlan{robot.state.positions,
-                                              robot.state.velocities -
-                                                  span * robot.inverse_mass * robot.bias_forces});
-    problem.mechanisms.push_back({robot.inverse_mass, free.back().velocities});
+    std::vector<JointDrive> drives;
+    MechanismState end;
+    VectorXd velocities;
+    if (robot.robot->is_driven()) {
+      // Inertia carries it as it moves by itself, or a fast turn would gain energy. What is driven
+      // does not fall: the forces of gravity are those where it is.
+      end = mechanism.after_free_motion(robot.state, Vector3d::Zero(), span);
+      velocities = end.velocities - span * robot.inverse_mass * robot.gravity_forces;
+      const VectorXd origin = mechanism.moved(end.positions, -span * end.velocities);
+      drives = robot.robot->drives(robot.state, origin, r, from, span);
+    } else {
+      end = mechanism.after_free_motion(robot.state, world_.gravity, span);
+      velocities = end.velocities;
+    }
+    free.push_back({end});
+    problem.mechanisms.push_back({robot.inverse_mass, velocities});
     for (const Piece& piece : robot.pieces) {
-      const Eigen::Matrix<double, 6, 1> V = piece.J * free.back().velocities;
+      const Eigen::Matrix<double, 6, 1> V = piece.J * velocities;
       problem.bodies[piece.member].v = V.head<3>();
       problem.bodies[piece.member].w = V.tail<3>();
     }
@@ -134,6 +161,20 @@ void IslandRobots::add_drives_at_impact(ContactProblem& problem) const {
   }
 }
 
+/// [N m s or N s]  What the motors of a robot, the first ones of its drives, did to each
+/// coordinate.
+VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
+                                   const ContactProblem& problem,
+                                   const ContactSolution& solution) const {
+  VectorXd impulses = VectorXd::Zero(robots_[robot].robot->mechanism.size());
+  const auto first = std::ranges::find(problem.drives, robot, &JointDrive::mechanism);
+  const auto begin = static_cast<std::size_t>(first - problem.drives.begin());
+  for (std::size_t k = begin; k < begin + motors; ++k) {
+    impulses[static_cast<Eigen::Index>(problem.drives[k].coordinate)] += solution.drives[k];
+  }
+  return impulses;
+}
+
 std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
                                           const ContactSolution& solution,
                                           const std::vector<RobotPlan>& free,
@@ -143,22 +184,23 @@ std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
     const Robot& robot = robots_[r];
     const Mechanism& mechanism = robot.robot->mechanism;
     const VectorXd& v = solution.mechanisms[r];
-    const bool is_driven = std::ranges::any_of(
-        problem.drives, [r](const JointDrive& drive) { return drive.mechanism == r; });
-    const bool end_leads = is_driven || std::ranges::any_of(robot.pieces, [&](const Piece& piece) {
-                             return by_end[piece.member];
-                           });
+    const bool end_leads =
+        std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
+    const VectorXd changed = v - free[r].end.velocities;
     const VectorXd positions =
-        end_leads ? mechanism.moved(robot.state.positions, span * v)
-                  : mechanism.moved(free[r].positions, 0.5 * span * (v - free[r].velocities));
-    plans.push_back({positions, v});
+        robot.robot->is_driven() ? mechanism.moved(free[r].end.positions, span * changed)
+        : end_leads              ? mechanism.moved(robot.state.positions, span * v)
+                                 : mechanism.moved(free[r].end.positions, 0.5 * span * changed);
+    plans.push_back(
+        {{positions, v}, impulses_of(r, robot.robot->motor_count(), problem, solution)});
   }
   return plans;
 }
 
 void IslandRobots::displace(const std::vector<VectorXd>& by, std::vector<RobotPlan>& plans) const {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
-    plans[r].positions = robots_[r].robot->mechanism.moved(plans[r].positions, by[r]);
+    VectorXd& positions = plans[r].end.positions;
+    positions = robots_[r].robot->mechanism.moved(positions, by[r]);
   }
 }
 
@@ -167,8 +209,8 @@ void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
                              std::vector<Move>& moves) const {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
-    const MechanismInstant there = robot.robot->mechanism.at(plans[r]);
-    const VectorXd mean = 0.5 * (robot.state.velocities + plans[r].velocities);
+    const MechanismInstant there = robot.robot->mechanism.at(plans[r].end);
+    const VectorXd mean = 0.5 * (robot.state.velocities + plans[r].end.velocities);
     for (const Piece& piece : robot.pieces) {
       const Vector3d w = (piece.J * mean).tail<3>();
       moves[piece.member] = move_between(*piece.body, states[piece.member].X_WB,
@@ -181,21 +223,25 @@ void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, do
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     Robot& robot = robots_[r];
     const MechanismState begin = robot.state;
+    const auto& [end, motors] = plans[r];
     robot.state =
         share == 1.0
-            ? plans[r]
-            : MechanismState{
-                  robot.robot->mechanism.between(begin.positions, plans[r].positions, share),
-                  begin.velocities + share * (plans[r].velocities - begin.velocities)};
+            ? end
+            : MechanismState{robot.robot->mechanism.between(begin.positions, end.positions, share),
+                             begin.velocities + share * (end.velocities - begin.velocities)};
     if (share > 0.0) {
-      robot.track.pieces.push_back({to, begin, robot.state});
+      robot.track.pieces.push_back({to, begin, robot.state, robot.impact, share * motors});
+      robot.impact.setZero();
     }
     look_around(robot);
   }
 }
 
 void IslandRobots::take_velocities(const ContactSolution& solution) {
+  ContactProblem solved;  // As far as drives are concerned.
+  add_drives_at_impact(solved);
   for (std::size_t r = 0; r < robots_.size(); ++r) {
+    robots_[r].impact += impulses_of(r, robots_[r].robot->rigid_motor_count(), solved, solution);
     robots_[r].state.velocities = solution.mechanisms[r];
   }
 }

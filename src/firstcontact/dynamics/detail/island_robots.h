@@ -18,6 +18,8 @@ struct RobotTrackPiece {
   double to = 0.0;  ///< [s]  Since the step began.
   MechanismState begin;
   MechanismState end;
+  Eigen::VectorXd impact;  ///< [N m s or N s]  Of motors, on each coordinate, at its begin,
+  Eigen::VectorXd motors;  ///< and over it.
 };
 
 /// How a robot moves over a step, or over as much of it as could be proven free.
@@ -27,7 +29,10 @@ struct RobotTrack {
 };
 
 /// Where a plan leads a robot, and how fast it is there.
-using RobotPlan = MechanismState;
+struct RobotPlan {
+  MechanismState end;
+  Eigen::VectorXd motors = {};  ///< [N m s or N s]  On each coordinate; empty where none acts.
+};
 
 /// Robots whose links are members of one island.
 ///
@@ -42,6 +47,9 @@ class IslandRobots {
 
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
+
+  /// [s]  Of a plan: mass matrices and Jacobians are those of its begin. Infinite at rest.
+  [[nodiscard]] double longest_span() const;
 
   /// How a member that is a piece of a link takes part in a contact problem; velocities are those
   /// of its robot now.
@@ -59,13 +67,14 @@ class IslandRobots {
   /// Free motion over a span: velocities of mechanisms and of their links, and what drives joints.
   ///
   /// @param from  [s]  since the simulation began
-  /// @returns  where each robot would be
+  /// @returns  where each robot would be, by inertia alone where anything drives a joint
   [[nodiscard]] std::vector<RobotPlan> fly(ContactProblem& problem, double from, double span) const;
 
   void add_drives_at_impact(ContactProblem& problem) const;
 
   /// Where each robot gets. As of bodies the mean of the velocities at both ends leads it, on top
-  /// of what free motion did; or those at the end, wherever anything drives a joint.
+  /// of what free motion did. Where anything drives a joint, those at the end do, on top of what
+  /// inertia alone did.
   ///
   /// @param by_end  of the problem's bodies: velocities at the end lead them
   [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
@@ -83,7 +92,7 @@ class IslandRobots {
   /// Goes a share of the way to a plan. `to` is the time since the step began.
   void move_to(const std::vector<RobotPlan>& plans, double share, double to);
 
-  /// Takes the velocities of a solution.
+  /// Takes the velocities of the impact now, and what motors did to them.
   void take_velocities(const ContactSolution& solution);
 
   /// [J]  1/2 v^T M v of all, with these velocities of theirs.
@@ -105,13 +114,17 @@ class IslandRobots {
     std::vector<Piece> pieces = {};
     Eigen::MatrixXd mass = {};
     Eigen::MatrixXd inverse_mass = {};
-    Eigen::VectorXd bias_forces = {};
+    Eigen::VectorXd gravity_forces = {};
+    Eigen::VectorXd impact = {};  // Of motors, since the last piece of the track.
     RobotTrack track = {};
   };
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   void look_around(Robot& robot) const;
+  [[nodiscard]] Eigen::VectorXd impulses_of(std::size_t robot, std::size_t motors,
+                                            const ContactProblem& problem,
+                                            const ContactSolution& solution) const;
   [[nodiscard]] const Piece& piece_of(std::size_t member) const;
 
   const World& world_;

@@ -14,6 +14,10 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
+/// Islands that meet are joined so many times one by one. Then those whose ways cross are, too: of
+/// bricks that fall together and come to rest row by row each row would meet the next one.
+constexpr int kExactRounds = 2;
+
 class Islands {
  public:
   Islands(const World& world, const StepStart& start, const std::vector<Touch>& guesses,
@@ -34,14 +38,16 @@ class Islands {
   std::optional<std::vector<IslandTrack>> run(const std::stop_token& stop) {
     join_links();
     join_near();
-    while (true) {
-      if (!advance_changed(stop)) {
-        return std::nullopt;
-      }
-      if (!join_meeting()) {
-        break;
+    for (int round = 0; advance_changed(stop); ++round) {
+      if (!join_meeting(round >= kExactRounds)) {
+        return take_tracks();
       }
     }
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<IslandTrack> take_tracks() {
     std::vector<IslandTrack> tracks;
     for (auto& track : tracks_) {
       if (track) {
@@ -51,7 +57,6 @@ class Islands {
     return tracks;
   }
 
- private:
   [[nodiscard]] std::size_t set_of(std::size_t body) {
     return sets_.root(static_cast<std::uint32_t>(body));
   }
@@ -165,26 +170,39 @@ class Islands {
                .verdict != Verdict::free;
   }
 
-  /// Joins islands of which the new motions meet. Returns whether there were any.
-  bool join_meeting() {
+  /// Joins islands of which the new motions meet, or all those of which the ways do if one meets
+  /// another. Returns whether there were any.
+  bool join_meeting(bool with_ways) {
     std::vector<AlignedBox3d> boxes;
     for (const std::size_t b : free_) {
       boxes.push_back(widened(box_of(b), world_.distances.least + world_.distances.tolerance));
     }
     std::vector<std::array<std::size_t, 2>> meeting;
+    std::vector<std::array<std::size_t, 2>> crossing;
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
       const std::size_t a = free_[i];
       const std::size_t b = free_[k];
       const std::size_t set_a = set_of(a);
       const std::size_t set_b = set_of(b);
-      if (set_a != set_b && (is_new_[set_a] || is_new_[set_b]) && may_touch(a, b) && meet(a, b)) {
-        meeting.push_back({a, b});
+      if (set_a == set_b || !may_touch(a, b)) {
+        continue;
       }
+      if ((is_new_[set_a] || is_new_[set_b]) && meet(a, b)) {
+        meeting.push_back({a, b});
+      } else if (with_ways) {
+        crossing.push_back({a, b});
+      }
+    }
+    if (meeting.empty()) {
+      return false;
     }
     for (const auto& [a, b] : meeting) {
       join(a, b);
     }
-    return !meeting.empty();
+    for (const auto& [a, b] : crossing) {
+      join(a, b);
+    }
+    return true;
   }
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

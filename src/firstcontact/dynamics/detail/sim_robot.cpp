@@ -35,6 +35,12 @@ double bound(const JointLaw& law, double span) {
   return effort * span;
 }
 
+/// Whether it holds its joint against any force, impacts too.
+bool is_rigid(const JointLaw& law) {
+  return law.motor && law.motor->kind != JointMotor::Kind::torque && !law.motor->stiffness &&
+         !std::isfinite(bound(law, 1.0));
+}
+
 JointDrive motor_drive(const JointLaw& law, double q, double from, double span) {
   const JointMotor& motor = *law.motor;
   const double to = from + span;
@@ -116,7 +122,7 @@ class RobotMaker {
       if (is_base(block)) {
         state.velocities.segment<3>(block.velocity) = dynamics_.linear_velocity;
         state.velocities.segment<3>(block.velocity + 3) = dynamics_.angular_velocity;
-      } else if (block.positions == block.velocities) {
+      } else if (!block.quaternion()) {
         set_coordinates(block, state);
       }
     }
@@ -203,34 +209,51 @@ class RobotMaker {
 
 }  // namespace
 
-bool SimRobot::has_motors() const {
-  return std::ranges::any_of(laws, [](const JointLaw& law) { return law.motor.has_value(); });
+bool SimRobot::is_driven() const {
+  return std::ranges::any_of(laws, [](const JointLaw& law) {
+    return law.motor || law.limits.lower || law.limits.upper || law.damping > 0.0 ||
+           law.friction > 0.0;
+  });
 }
 
-std::vector<JointDrive> SimRobot::drives(const MechanismState& state, std::size_t mechanism_number,
-                                         double from, double span) const {
+std::size_t SimRobot::motor_count() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(laws, [](const JointLaw& law) { return law.motor.has_value(); }));
+}
+
+std::size_t SimRobot::rigid_motor_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(laws, is_rigid));
+}
+
+std::vector<JointDrive> SimRobot::drives(const MechanismState& state, const Eigen::VectorXd& origin,
+                                         std::size_t mechanism_number, double from,
+                                         double span) const {
   std::vector<JointDrive> drives;
+  const auto add_to = [&](const JointLaw& law, JointDrive drive) {
+    drive.mechanism = mechanism_number;
+    drive.coordinate = static_cast<std::size_t>(law.velocity);
+    drives.push_back(drive);
+  };
+  for (const JointLaw& law : laws) {
+    if (law.motor) {
+      add_to(law, motor_drive(law, origin[law.position], from, span));
+    }
+  }
   for (const JointLaw& law : laws) {
     const double q = state.positions[law.position];
-    const auto add = [&](JointDrive drive) {
-      drive.mechanism = mechanism_number;
-      drive.coordinate = static_cast<std::size_t>(law.velocity);
-      drives.push_back(drive);
-    };
+    const double q_origin = origin[law.position];
+    const auto add = [&](const JointDrive& drive) { add_to(law, drive); };
     if (law.damping > 0.0) {
       add({.compliance = 1.0 / (span * law.damping)});
     }
     if (law.friction > 0.0) {
       add({.least = -law.friction * span, .greatest = law.friction * span});
     }
-    if (law.motor) {
-      add(motor_drive(law, q, from, span));
-    }
     if (law.limits.lower) {
-      add({.target = std::min(0.0, (*law.limits.lower - q) / span), .least = 0.0});
+      add({.target = (std::min(q, *law.limits.lower) - q_origin) / span, .least = 0.0});
     }
     if (law.limits.upper) {
-      add({.target = std::max(0.0, (*law.limits.upper - q) / span), .greatest = 0.0});
+      add({.target = (std::max(q, *law.limits.upper) - q_origin) / span, .greatest = 0.0});
     }
   }
   return drives;
@@ -240,15 +263,19 @@ std::vector<JointDrive> SimRobot::drives_at_impact(const MechanismState& state,
                                                    std::size_t mechanism_number) const {
   std::vector<JointDrive> drives;
   for (const JointLaw& law : laws) {
+    if (is_rigid(law)) {
+      drives.push_back({.mechanism = mechanism_number,
+                        .coordinate = static_cast<std::size_t>(law.velocity),
+                        .target = state.velocities[law.velocity]});
+    }
+  }
+  for (const JointLaw& law : laws) {
+    if (is_rigid(law)) {
+      continue;
+    }
     const double q = state.positions[law.position];
     JointDrive drive{.mechanism = mechanism_number,
                      .coordinate = static_cast<std::size_t>(law.velocity)};
-    if (law.motor && law.motor->kind != JointMotor::Kind::torque && !law.motor->stiffness &&
-        !std::isfinite(bound(law, 1.0))) {
-      drive.target = state.velocities[law.velocity];
-      drives.push_back(drive);
-      continue;
-    }
     if (law.limits.lower && q <= *law.limits.lower + kAtLimit) {
       drive.least = 0.0;
       drives.push_back(drive);

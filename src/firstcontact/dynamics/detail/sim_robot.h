@@ -32,19 +32,26 @@ struct SimRobot {
   std::vector<JointLaw> laws;
   MechanismState start;
 
-  [[nodiscard]] bool has_motors() const;
+  /// Whether any joint has a motor, limits, damping or friction.
+  [[nodiscard]] bool is_driven() const;
+
+  /// How many motors there are, and how many of them no effort bounds: they answer impacts.
+  [[nodiscard]] std::size_t motor_count() const;
+  [[nodiscard]] std::size_t rigid_motor_count() const;
 
   /// The drives of a span of time, by Euler's implicit rule: its end decides how far springs reach,
-  /// how fast dampers move, and where limits stop.
+  /// how fast dampers move, and where limits stop. Those of motors come first.
   ///
+  /// @param origin     positions from which the velocities u at the end lead to origin + span u
   /// @param mechanism  its number in the contact problem
   /// @param from       [s]  since the simulation began
   /// @param span       [s]  > 0
-  [[nodiscard]] std::vector<JointDrive> drives(const MechanismState& state, std::size_t mechanism,
+  [[nodiscard]] std::vector<JointDrive> drives(const MechanismState& state,
+                                               const Eigen::VectorXd& origin, std::size_t mechanism,
                                                double from, double span) const;
 
   /// The drives of an impact, which takes no time: what no bounded effort answers. Joints at their
-  /// limits stop there, and motors without bound keep their velocity.
+  /// limits stop there, and motors without bound keep their velocity; these come first.
   [[nodiscard]] std::vector<JointDrive> drives_at_impact(const MechanismState& state,
                                                          std::size_t mechanism) const;
 };

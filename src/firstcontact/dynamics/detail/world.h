@@ -20,8 +20,8 @@ namespace firstcontact::detail {
 /// Distances that keep bodies apart, beyond what the scene's margins ask of a pair.
 ///
 /// A pair may not come closer than `least`: first_contact is asked with that margin. Bodies rest
-/// there. A pair that is nearer already, as turning may bring it, is held to half of what it has
-/// left, and pushed back.
+/// between it and `touching`. A pair that is nearer already, as turning may bring it, is held to
+/// half of what it has left, and pushed back.
 struct ContactDistances {
   explicit ContactDistances(double contact_distance)
       : least(contact_distance),
@@ -30,10 +30,11 @@ struct ContactDistances {
         band(2.0 * contact_distance),
         pushed(0.9 * contact_distance) {}
 
-  /// [m]  How much nearer a pair may come before it rests. Where it is about to rest it does, or
-  /// every rounding of a gap would be a velocity.
+  /// [m]  How much nearer a pair may come before it rests: a little before a contact would be
+  /// found, for the way there is straight and that of a point is not. Where it is about to rest it
+  /// does, or every rounding of a gap would be a velocity.
   [[nodiscard]] double way_to_rest(double gap) const {
-    return gap > least + 0.2 * tolerance ? gap - least : 0.0;
+    return gap > touching ? gap - (least + 1.5 * tolerance) : 0.0;
   }
 
   double least;      ///< [m]

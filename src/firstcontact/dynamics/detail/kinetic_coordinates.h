@@ -1,0 +1,61 @@
+/// @file
+/// Coordinates of a contact problem in which its kinetic metric is that of Euclid.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/dynamics/detail/block_rows.h>
+#include <firstcontact/dynamics/detail/contact_rows.h>
+
+namespace firstcontact::detail {
+
+/// x with V = V_free + S x for each body and mechanism, S S^T = M^-1: |V - V_free|_M = |x|, and
+/// bodies that nothing moves fall out.
+class KineticCoordinates {
+ public:
+  /// @param rows  of the problem
+  KineticCoordinates(const ContactProblem& problem, const ContactRows& rows);
+
+  [[nodiscard]] Eigen::Index size() const { return size_; }
+  [[nodiscard]] const BlockRows<3>& contacts() const { return contacts_; }
+  [[nodiscard]] const BlockRows<1>& drives() const { return drives_; }
+
+  /// What impulses do: x with V(x) = V_free + M^-1 J^T r.
+  [[nodiscard]] Eigen::VectorXd moved_by(const Impulses& impulses) const;
+
+  /// For all matrices I + G^T D G: a BlockCholesky or, where D is not symmetric, a BlockLu.
+  template <class Matrix>
+  [[nodiscard]] Matrix factorisation() {
+    Matrix matrix(static_cast<std::size_t>(size_ / 6), connected_blocks());
+    contacts_.find_places(matrix);
+    drives_.find_places(matrix);
+    return matrix;
+  }
+
+ private:
+  /// What moves by itself.
+  struct Part {
+    Eigen::Index in_V;
+    Eigen::Index in_x;
+    Eigen::MatrixXd root;  // S
+  };
+
+  void add_part(Eigen::Index in_V, Eigen::MatrixXd root);
+  [[nodiscard]] std::vector<std::array<std::size_t, 2>> connected_blocks() const;
+  [[nodiscard]] const Part* part_of(Eigen::Index in_V) const;
+  void add_side(const RowSide& side);
+
+  std::vector<Part> parts_;
+  std::vector<std::size_t> part_at_;  // Where its velocities begin.
+  BlockRows<3> contacts_;
+  BlockRows<1> drives_;
+  Eigen::Index size_ = 0;
+};
+
+}  // namespace firstcontact::detail
