@@ -14,6 +14,7 @@
 #include <firstcontact/geometry/read_points.h>
 #include <firstcontact/geometry/weld.h>
 
+#include "info_json.h"
 #include "print_robot.h"
 #include "quantity_text.h"
 
@@ -113,40 +114,65 @@ bool is_robot(const std::string& file) {
   return extension == ".urdf" || extension == ".URDF";
 }
 
+struct InfoArguments {
+  std::vector<std::string> files;
+  std::vector<std::string> package_roots;
+  bool in_contact = false;
+  bool json = false;
+};
+
+void inform_robot(const std::string& file, const InfoArguments& arguments) {
+  UrdfOptions options;
+  options.package_roots.assign(arguments.package_roots.begin(), arguments.package_roots.end());
+  const RobotModel robot = read_urdf(file, options);
+  if (arguments.in_contact) {
+    print_always_in_contact(robot);
+  } else if (arguments.json) {
+    fmt::print("{}", robot_json(file, robot));
+  } else {
+    print_robot(file, robot);
+  }
+}
+
+void inform(const std::string& file, const InfoArguments& arguments) {
+  if (is_robot(file)) {
+    inform_robot(file, arguments);
+  } else if (arguments.in_contact) {
+    throw ParseError(file, "--always-in-contact expects a robot, a .urdf file");
+  } else if (is_cloud(file)) {
+    const std::vector<Eigen::Vector3d> points = read_points(file);
+    arguments.json ? fmt::print("{}", points_json(file, points)) : print(file, points);
+  } else {
+    const Mesh mesh = read_mesh(file);
+    const MeshDefects found = inspect(mesh);
+    arguments.json ? fmt::print("{}", mesh_json(file, mesh, found)) : print(file, mesh, found);
+  }
+}
+
 }  // namespace
 
 void add_info_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Counts, defects and bounds of meshes, point clouds and robots");
-  auto files = std::make_shared<std::vector<std::string>>();
-  auto roots = std::make_shared<std::vector<std::string>>();
+      app.add_subcommand("info", "Counts, defects, bounds and masses of meshes, clouds and robots");
+  auto arguments = std::make_shared<InfoArguments>();
   command
-      ->add_option("FILE", *files,
+      ->add_option("FILE", arguments->files,
                    "OBJ, STL, PLY, OFF, DAE, GLB or glTF mesh; PLY, PCD or XYZ cloud; URDF robot")
       ->required();
   command
-      ->add_option("--package-root", *roots,
+      ->add_option("--package-root", arguments->package_roots,
                    "Folder that holds packages which a robot names as package://; repeatable")
       ->allow_extra_args(false);
-  auto in_contact = std::make_shared<bool>(false);
-  command->add_flag("--always-in-contact", *in_contact,
-                    "Of robots only the pairs of links that touch where every coordinate is 0, or "
-                    "its limit next to it, as SRDF; look whether each may");
-  command->callback([files, roots, in_contact] {
-    for (const std::string& file : *files) {
-      if (is_robot(file)) {
-        UrdfOptions options;
-        options.package_roots.assign(roots->begin(), roots->end());
-        const RobotModel robot = read_urdf(file, options);
-        *in_contact ? print_always_in_contact(robot) : print_robot(file, robot);
-      } else if (*in_contact) {
-        throw ParseError(file, "--always-in-contact expects a robot, a .urdf file");
-      } else if (is_cloud(file)) {
-        print(file, read_points(file));
-      } else {
-        const Mesh mesh = read_mesh(file);
-        print(file, mesh, inspect(mesh));
-      }
+  command->add_flag("--json", arguments->json,
+                    "Prints JSON in place of text for people, one line for each file");
+  command
+      ->add_flag("--always-in-contact", arguments->in_contact,
+                 "Of robots only the pairs of links that touch where every coordinate is 0, or "
+                 "its limit next to it, as SRDF; look whether each may")
+      ->excludes("--json");
+  command->callback([arguments] {
+    for (const std::string& file : arguments->files) {
+      inform(file, *arguments);
     }
   });
 }

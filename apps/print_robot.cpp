@@ -45,16 +45,31 @@ std::size_t coordinates(const RobotModel& robot) {
 
 /// "link3.stl (200 triangles), sphere"
 std::string collision_text(const Link& link) {
-  constexpr std::array<const char*, 5> kKinds = {"mesh", "box", "sphere", "cylinder", "capsule"};
   std::string text;
   for (const LinkGeometry& geometry : link.collision) {
     const auto* mesh = std::get_if<MeshGeometry>(&geometry.source);
     text += text.empty() ? "" : ", ";
-    text += mesh == nullptr ? kKinds[geometry.source.index()]
+    text += mesh == nullptr ? geometry_kind(geometry)
                             : fmt::format("{} ({} triangles)", mesh->path.filename().string(),
                                           geometry.shape.value().mesh().triangles.size());
   }
   return text.empty() ? "no collision geometry" : text;
+}
+
+/// "1.5 kg"
+std::string mass_text(const Link& link) {
+  return link.inertia ? fmt::format("{:.6g} kg", link.inertia->mass) : "no mass";
+}
+
+/// "1.5 kg, of 6 of 7 links"
+std::string total_text(const RobotModel& robot) {
+  const RobotMass mass = mass_of(robot);
+  const std::size_t count = robot.links().size();
+  if (mass.missing == count) {
+    return "not given of any link";
+  }
+  return fmt::format("{:.6g} kg", mass.total) +
+         (mass.missing == 0 ? "" : fmt::format(", of {} of {} links", count - mass.missing, count));
 }
 
 /// ", -2.9 ... 2.9 rad, up to 2.2 rad/s"
@@ -91,7 +106,8 @@ void print_links(const RobotModel& robot,
       const Joint& joint = robot.joints()[*parent];
       how = fmt::format(" by {}: {}{}", joint.name, to_string(joint.type), limit_text(joint));
     }
-    fmt::print("    {:{}}{}{}; {}\n", "", 2 * at.depth, link.name, how, collision_text(link));
+    fmt::print("    {:{}}{}{}; {}; {}\n", "", 2 * at.depth, link.name, how, mass_text(link),
+               collision_text(link));
     const std::vector<std::size_t>& joints = children_joints[at.link];
     for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
       open.push_back({robot.child_link(*joint), at.depth + 1});
@@ -163,22 +179,44 @@ void add_link_remarks(const Link& link, std::set<std::string>& seen,
 
 }  // namespace
 
-void print_robot(const std::string& name, const RobotModel& robot) {
-  std::size_t colliding = 0;
+RobotMass mass_of(const RobotModel& robot) {
+  RobotMass mass;
+  for (const Link& link : robot.links()) {
+    mass.total += link.inertia ? link.inertia->mass : 0.0;
+    mass.missing += link.inertia ? 0 : 1;
+  }
+  return mass;
+}
+
+const char* geometry_kind(const LinkGeometry& geometry) {
+  constexpr std::array<const char*, 5> kKinds = {"mesh", "box", "sphere", "cylinder", "capsule"};
+  return kKinds[geometry.source.index()];
+}
+
+std::vector<std::string> robot_remarks(const RobotModel& robot) {
   std::vector<std::string> remarks;
   std::set<std::string> seen;
   for (const Link& link : robot.links()) {
-    colliding += link.collision.empty() ? 0 : 1;
     add_link_remarks(link, seen, remarks);
   }
   for (const Joint& joint : robot.joints()) {
     add_joint_remarks(joint, remarks);
   }
+  return remarks;
+}
+
+void print_robot(const std::string& name, const RobotModel& robot) {
+  std::size_t colliding = 0;
+  for (const Link& link : robot.links()) {
+    colliding += link.collision.empty() ? 0 : 1;
+  }
+  const std::vector<std::string> remarks = robot_remarks(robot);
   fmt::print("{}\n", name);
   line("robot", robot.name());
   line("links", fmt::format("{}, {} with collision geometry", robot.links().size(), colliding));
   line("joints", joint_counts(robot));
   line("coordinates", fmt::format("{}", coordinates(robot)));
+  line("mass", total_text(robot));
   print_tree(robot);
   if (!remarks.empty()) {
     fmt::print("  remarks\n");

@@ -3,13 +3,31 @@
 
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <firstcontact/articulated/robot_model.h>
 
 namespace firstcontact::app {
 
-/// Prints counts, the tree with limits and collision geometry, and what is unusual about it.
+/// What the links of a robot weigh.
+struct RobotMass {
+  double total = 0.0;       ///< [kg]  Of the links whose mass is given.
+  std::size_t missing = 0;  ///< Links without one.
+};
+[[nodiscard]] RobotMass mass_of(const RobotModel& robot);
+
+/// "mesh", "box", "sphere", "cylinder" or "capsule".
+[[nodiscard]] const char* geometry_kind(const LinkGeometry& geometry);
+
+/// What is unusual about a robot.
+///
+/// @param robot  read with its collision shapes
+[[nodiscard]] std::vector<std::string> robot_remarks(const RobotModel& robot);
+
+/// Prints counts, masses, the tree with limits and collision geometry, and what is unusual about
+/// it.
 ///
 /// @param robot  read with its collision shapes
 void print_robot(const std::string& name, const RobotModel& robot);

@@ -749,9 +749,9 @@ class Info(ToolTest):
             self.assertEqual(len(told), asks)
 
     ARM = """<robot name="arm">
-<link name="base"><collision><geometry><mesh filename="m.obj"/></geometry></collision></link>
+<link name="base"><inertial><mass value="2.5"/><inertia ixx="1" iyy="1" izz="1"/></inertial><collision><geometry><mesh filename="m.obj"/></geometry></collision></link>
 <link name="upper"><collision><geometry><sphere radius="0.5"/></geometry></collision></link>
-<link name="tip"><visual><geometry><box size="1 1 1"/></geometry></visual></link>
+<link name="tip"><inertial><origin xyz="0 0 1"/><mass value="0.25"/></inertial><visual><geometry><box size="1 1 1"/></geometry></visual></link>
 <joint name="j" type="revolute"><parent link="base"/><child link="upper"/>
 <limit lower="-1" upper="2" velocity="0" effort="1"/></joint>
 <joint name="k" type="fixed"><parent link="upper"/><child link="tip"/></joint>
@@ -764,13 +764,42 @@ class Info(ToolTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         for line in ("robot                  arm", "links                  3, 2 with collision geometry",
                      "joints                 1 fixed, 1 revolute", "coordinates            1",
-                     "    base; m.obj (1 triangles)\n"
-                     "      upper by j: revolute, -1 ... 2 rad, up to 0 rad/s; sphere\n"
-                     "        tip by k: fixed; no collision geometry\n",
+                     "mass                   2.75 kg, of 2 of 3 links\n",
+                     "    base; 2.5 kg; m.obj (1 triangles)\n"
+                     "      upper by j: revolute, -1 ... 2 rad, up to 0 rad/s; no mass; sphere\n"
+                     "        tip by k: fixed; 0.25 kg; no collision geometry\n",
                      "joint j: velocity limit 0: taken for none", "m.obj: open edges 3",
                      "link base: 300 m across; is its unit right?",
                      "link tip: is seen, but has no collision geometry"):
             self.assertIn(line, result.stdout)
+
+    def test_says_whether_masses_are_given(self):
+        for urdf, told in (
+                ("<robot name='r'><link name='a'/></robot>", "not given of any link"),
+                ("<robot name='r'><link name='a'><inertial><mass value='3'/></inertial></link></robot>", "3 kg\n")):
+            result = self.run_tool("info", self.file("r.urdf", urdf))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("mass                   " + told, result.stdout)
+
+    def test_prints_json(self):
+        mesh = self.file("m.obj", "v 0 0 0\nv 300 0 0\nv 0 1 0\nf 1 2 3\n")
+        files = [self.file("arm.urdf", self.ARM), mesh, self.file("c.xyz", "0 0 0\n1 2 3\n0 0 0\n")]
+        result = self.run_tool("info", "--json", *files)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        robot, triangle, cloud = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([robot["file"], triangle["file"], cloud["file"]], files)
+        self.assertEqual((robot["name"], robot["mass"], robot["links_without_mass"]), ("arm", 2.75, 1))
+        self.assertEqual([(link["name"], link["mass"], link["centre_of_mass"]) for link in robot["links"]],
+                         [("base", 2.5, [0, 0, 0]), ("upper", None, None), ("tip", 0.25, [0, 0, 1])])
+        self.assertEqual([shape["type"] for link in robot["links"] for shape in link["collision"]],
+                         ["mesh", "sphere"])
+        self.assertEqual([(joint["type"], joint["lower"], joint["effort"]) for joint in robot["joints"]],
+                         [("revolute", -1, 1), ("fixed", None, None)])
+        self.assertIn("m.obj: open edges 3", robot["remarks"])
+        self.assertEqual((triangle["triangles"], triangle["open_edges"], triangle["volume"]), (1, 3, None))
+        self.assertEqual(triangle["bounds"], {"lower": [0, 0, 0], "upper": [300, 1, 0]})
+        self.assertEqual((cloud["points"], cloud["points_at_one_place"]), (3, 1))
+        self.assertEqual(self.run_tool("info", "--json", "--always-in-contact", "arm.urdf").returncode, 2)
 
     def test_prints_the_pairs_that_always_touch(self):
         self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

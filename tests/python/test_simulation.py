@@ -326,5 +326,39 @@ def test_robot_swings_and_is_moved(tmp_path):
     assert simulator.robot_positions[0] == pytest.approx([0.0], abs=1e-12)
     with pytest.raises(ValueError, match="1 positions"):
         simulator.set_robot_state(0, positions=[0.0, 1.0])
+    with pytest.raises(ValueError, match="finite"):
+        simulator.set_robot_state(0, velocities=[math.nan])
+    with pytest.raises(ValueError, match=r"positions: expected an array of shape \(n,\)"):
+        simulator.set_robot_state(0, positions=[[0.0]])
+    with pytest.raises(TypeError, match="positions: expected n numbers"):
+        simulator.set_robot_state(0, positions=["0"])
+    with pytest.raises(ValueError, match="robot: expected a number below 1"):
+        simulator.set_robot_state(1)
     with pytest.raises(ValueError, match="is a link"):
         simulator.set_state("p/rod", position=[0, 0, 1])
+
+
+def test_steps_tell_what_motors_apply(tmp_path):
+    (tmp_path / "pendulum.urdf").write_text(PENDULUM)
+    scene = {"firstcontact": 1, "robots": [{
+        "name": "p", "urdf": str(tmp_path / "pendulum.urdf"), "state": {"hinge": -math.pi / 2},
+        "dynamics": {"motors": {"hinge": {"position": -math.pi / 2}}}}]}
+    steps = fc.simulate(scene, 0.1, record=tmp_path / "run.jsonl")
+    (effort,) = steps[-1].robot_efforts
+    assert effort == pytest.approx([-9.81 * 0.25], abs=1e-5)
+    assert steps[-1].robot_positions[0] == pytest.approx([-math.pi / 2])
+    assert steps[-1].robot_velocities[0] == pytest.approx([0], abs=1e-9)
+    *_, last = fc.RunReader(tmp_path / "run.jsonl")
+    assert last.robot_efforts[0] == effort
+
+
+def test_quaternion_of_a_free_base_is_not_zero(tmp_path):
+    heavy = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>'
+    (tmp_path / "pendulum.urdf").write_text(PENDULUM.replace("/>", f">{heavy}</link>", 1))
+    scene = {"firstcontact": 1, "robots": [{"name": "p", "urdf": str(tmp_path / "pendulum.urdf"),
+                                            "dynamics": {"base": "free"}}]}
+    simulator = fc.Simulator(scene)
+    with pytest.raises(ValueError, match="positions 3 to 6 are a quaternion, which must not be zero"):
+        simulator.set_robot_state(0, positions=[0.0] * 8)
+    simulator.set_robot_state(0, positions=[0, 0, 1, 0, 0, 0, 2, 0])
+    assert list(simulator.robot_positions[0]) == [0, 0, 1, 0, 0, 0, 1, 0]

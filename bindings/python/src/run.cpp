@@ -116,6 +116,15 @@ py::object contacts(const RunStep& step) {
                            rows(step.contacts, &RunContact::impulse), py::tuple(features));
 }
 
+/// A row of numbers of each robot.
+py::tuple robot_rows(const RunStep& step, std::vector<double> RunRobot::*what) {
+  py::list found;
+  for (const RunRobot& robot : step.robots) {
+    found.append(owning(std::vector(robot.*what)));
+  }
+  return py::tuple(found);
+}
+
 std::string describe(const RunStep& step) {
   return "<RunStep " + std::to_string(step.index) + " to " +
          std::string(py::repr(py::float_(step.time))) +
@@ -125,7 +134,7 @@ std::string describe(const RunStep& step) {
 void bind_step(py::module_& m) {
   py::class_<RunStep>(m, "RunStep", R"(What happened in one step of a simulation; never changes.
 
-Energies and momenta are those of the free bodies at its end. Arrays are new ones at each look; the
+Energies and momenta are those of the free bodies and robots at its end. Arrays are new ones at each look; the
 rows of positions, quaternions_wxyz, linear_velocities and angular_velocities are those of bodies.)")
       .def_readonly("index", &RunStep::index, "From 1.")
       .def_readonly("time", &RunStep::time, "[s] Simulated until its end.")
@@ -160,6 +169,16 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
           "angular_velocities",
           [](const RunStep& s) { return rows(s.bodies, &RunBody::angular_velocity); },
           "[rad/s] k×3, world axes.")
+      .def_property_readonly(
+          "robot_positions", [](const RunStep& s) { return robot_rows(s, &RunRobot::positions); },
+          "[rad or m] A row for each robot with dynamics, as `Simulator.robot_positions`.")
+      .def_property_readonly(
+          "robot_velocities", [](const RunStep& s) { return robot_rows(s, &RunRobot::velocities); },
+          "[rad/s or m/s] Likewise, as `Simulator.robot_velocities`.")
+      .def_property_readonly(
+          "robot_efforts", [](const RunStep& s) { return robot_rows(s, &RunRobot::efforts); },
+          "[N m or N] Of the motors along each of the robots' velocities, the mean over the step; "
+          "0 where there is none.")
       .def_property_readonly("contacts", &contacts, "What acted at the end, as RunContacts.")
       .def("pieces", &pieces, py::arg("body"),
            R"(How a body got through the step: p×14, one piece a row, none where it rests.

@@ -189,11 +189,12 @@ py::tuple robot_rows(HeldSimulator& held, Eigen::VectorXd MechanismState::*what)
   return py::tuple(found);
 }
 
-Eigen::VectorXd numbers_from(const py::object& numbers, const Eigen::VectorXd& otherwise) {
+Eigen::VectorXd row_from(const py::object& numbers, const char* name,
+                         const Eigen::VectorXd& otherwise) {
   if (numbers.is_none()) {
     return otherwise;
   }
-  const auto row = numbers.cast<std::vector<double>>();
+  const std::vector<double> row = numbers_from(numbers, name);
   return Eigen::Map<const Eigen::VectorXd>(row.data(), static_cast<Eigen::Index>(row.size()));
 }
 
@@ -204,8 +205,8 @@ void set_robot_state(HeldSimulator& held, std::size_t robot, const py::object& p
     throw py::value_error("robot: expected a number below " + std::to_string(states.size()) +
                           ", got " + std::to_string(robot));
   }
-  const MechanismState state{numbers_from(positions, states[robot].positions),
-                             numbers_from(velocities, states[robot].velocities)};
+  const MechanismState state{row_from(positions, "positions", states[robot].positions),
+                             row_from(velocities, "velocities", states[robot].velocities)};
   held.call([&](Simulator& simulator) { simulator.set_robot_state(robot, state); });
 }
 
@@ -295,7 +296,7 @@ void bind_state(py::class_<HeldSimulator>& type) {
           R"(Puts a robot with dynamics elsewhere, or gives it other velocities; what is left out stays.
 
 robot: its number among them. positions, velocities: rows as in `robot_positions`. ValueError where
-their sizes are wrong or a link would meet something: then nothing is changed.)")
+their sizes are wrong, a quaternion is zero or a link would meet something: then nothing is changed.)")
       .def("set_state", &set_state, py::arg("body"), py::kw_only(),
            py::arg("position") = py::none(), py::arg("quaternion_wxyz") = py::none(),
            py::arg("linear_velocity") = py::none(), py::arg("angular_velocity") = py::none(),
