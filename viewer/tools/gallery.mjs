@@ -1,4 +1,5 @@
 // Takes the pictures of the gallery: node viewer/tools/gallery.mjs TOOL, in the repository's root.
+// Simulations are run for it, which takes about ten minutes; PICTURE... names those that are wanted.
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
@@ -36,6 +37,17 @@ const all = [
   },
   { name: "joints", question: shelf, theme: "light", keys: ["v"], t: 0.9, joint: "panda_joint4" },
 ];
+const simulation = (name, ...options) => ({
+  simulation: [`demo/simulations/${name}.json`, ...options],
+  size: [1120, 700],
+});
+all.push(
+  { name: "nut_on_bolt", ...simulation("nut_on_bolt"), theme: "light", keys: ["2"], t: 0.9 },
+  { name: "rings", ...simulation("rings_over_a_bar"), theme: "light", keys: ["1"], t: 0.55 },
+  { name: "wrecking_ball", ...simulation("wrecking_ball"), theme: "dark", nearer: 3, t: 0.55 },
+  { name: "hand", ...simulation("hand_and_bunny"), theme: "dark", nearer: 1, t: 0.6 },
+  { name: "shot_plate", ...simulation("shot_plate"), theme: "light", keys: ["1"], t: 0.02 },
+);
 const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
 const folder = mkdtempSync(join(tmpdir(), "firstcontact-"));
@@ -49,8 +61,14 @@ const browser = await chromium.launch({
   ],
 });
 
-function makePage({ name, question }) {
+function makePage({ name, question, simulation }) {
   const page = join(folder, `${name}.html`);
+  if (simulation !== undefined) {
+    const run = join(folder, `${name}.jsonl`);
+    execFileSync(tool, ["simulate", ...simulation, "-o", run, "--html", page]);
+    execFileSync(tool, ["verify", run], { stdio: "inherit" });
+    return page;
+  }
   try {
     execFileSync(tool, ["check", ...question, "--html", page]);
   } catch (error) {
@@ -62,7 +80,7 @@ function makePage({ name, question }) {
 }
 
 for (const picture of pictures) {
-  const { name, theme, keys, size: [width, height] = [1280, 800], t = 0 } = picture;
+  const { name, theme, keys = [], size: [width, height] = [1280, 800], t = 0 } = picture;
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: theme });
   await page.goto(`file://${makePage(picture)}#t=${t}`);
   await page.waitForTimeout(3000);
@@ -73,6 +91,11 @@ for (const picture of pictures) {
   for (const button of [picture.pair, picture.joint].filter(Boolean)) {
     await page.getByRole("button", { name: button }).first().click();
     await page.waitForTimeout(4000);
+  }
+  await page.mouse.move((width - 325) / 2, height * 0.35); // The middle of what is drawn in 3D.
+  for (let turns = 0; turns < (picture.nearer ?? 0); ++turns) {
+    await page.mouse.wheel(0, -400);
+    await page.waitForTimeout(1500);
   }
   await page.screenshot({ path: `docs/images/${name}.jpg`, type: "jpeg", quality: 82 });
   await page.close();

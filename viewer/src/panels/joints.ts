@@ -6,6 +6,7 @@ import { number } from "../core/format";
 import type { Signal } from "../core/signal";
 import type { Coordinate, Model } from "../model";
 import type { Player } from "../player";
+import { chartButton } from "./chart_button";
 import { badTimes, rangeOf, timesOf, valueText, violationText } from "./joint_chart";
 import { layer, sketch, stretch, upright } from "./sketch";
 
@@ -40,18 +41,10 @@ function row(
   selected: Signal<Coordinate | null>,
 ): HTMLElement {
   const { name, violations, mimics, atRest } = coordinate;
-  const now = element("span.row-now");
-  const button = element(
-    "button.row-name",
-    { type: "button", title: `Show ${name} in the large chart` },
-    element("span.name", {}, name),
-    now,
-  );
-  button.addEventListener("click", () => {
-    selected.value = selected.value === coordinate ? null : coordinate;
+  const button = chartButton(name, coordinate, selected, player, {
+    textAt: (t) => valueText(coordinate.at(t), coordinate),
+    pick: () => (selected.value = selected.value === coordinate ? null : coordinate),
   });
-  selected.subscribe((value) => button.setAttribute("aria-pressed", String(value === coordinate)));
-  player.t.subscribe((t) => (now.textContent = valueText(coordinate.at(t), coordinate)));
   return element(
     "li.joint",
     { "data-bad": violations.length > 0, "data-rest": atRest },

@@ -6,6 +6,7 @@ import type { Signal } from "../core/signal";
 import type { StepData } from "../data/run_data";
 import type { Player } from "../player";
 import type { Run } from "../run";
+import { chartButton } from "./chart_button";
 import { sketch, type SketchLine } from "./sketch";
 import type { ChartContent, ChartLine } from "./time_chart";
 
@@ -146,18 +147,12 @@ function row(
   shown: Signal<RunChart | null>,
 ): HTMLElement {
   const { name, content, values, unitFor } = chart;
-  const now = element("span.row-now");
-  const button = element(
-    "button.row-name",
-    { type: "button", title: `Show ${name} in the large chart` },
-    element("span.name", {}, name),
-    now,
-  );
-  button.addEventListener("click", () => (shown.value = chart));
-  shown.subscribe((value) => button.setAttribute("aria-pressed", String(value === chart)));
-  player.t.subscribe((t) => {
-    const value = values[run.stepAt(t)] ?? null;
-    now.textContent = quantity(value, unitFor(value ?? 0), 4);
+  const button = chartButton(name, chart, shown, player, {
+    textAt: (t) => {
+      const value = values[run.stepAt(t)] ?? null;
+      return quantity(value, unitFor(value ?? 0), 4);
+    },
+    pick: () => (shown.value = chart),
   });
   const line = content.lines.at(-1)!;
   return element("li.run-chart", {}, button, sketch(sketchLine(line, content), [], [], player));
