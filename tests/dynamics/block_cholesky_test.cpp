@@ -10,7 +10,6 @@
 #include <Eigen/LU>
 
 #include <firstcontact/dynamics/detail/block_cholesky.h>
-#include <firstcontact/dynamics/detail/block_lu.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -82,38 +81,6 @@ TEST(BlockCholesky, TakesAStarAndWhatIsAlone) {
   }
   expect_same(rng, 302, pairs);
   expect_same(rng, 3, {});
-}
-
-TEST(BlockLu, SolvesAsADenseOne) {
-  std::mt19937 rng(3);
-  std::normal_distribution<double> normal;
-  for (int i = 0; i < 50; ++i) {
-    const std::size_t count = 2 + rng() % 20;
-    Pairs pairs;
-    for (std::size_t k = 0; k < 2 * count; ++k) {
-      const std::size_t a = rng() % count;
-      pairs.push_back({a, (a + 1 + rng() % (count - 1)) % count});
-    }
-    BlockLu blocks(count, pairs);
-    blocks.set_identity();
-    const auto size = static_cast<Index>(6 * count);
-    MatrixXd dense = MatrixXd::Identity(size, size);
-    for (const auto& [a, b] : pairs) {
-      const BlockLu::Block over = BlockLu::Block::NullaryExpr([&] { return 0.05 * normal(rng); });
-      const BlockLu::Block under = BlockLu::Block::NullaryExpr([&] { return 0.05 * normal(rng); });
-      const BlockPattern::Place place = blocks.place(a, b);
-      blocks.at(place) += over;
-      blocks.opposite(place) += under;
-      const auto row = static_cast<Index>(6 * a);
-      const auto column = static_cast<Index>(6 * b);
-      dense.block(row, column, 6, 6) += over;
-      dense.block(column, row, 6, 6) += under;
-    }
-    const VectorXd right = VectorXd::NullaryExpr(size, [&] { return normal(rng); });
-    blocks.factorise();
-    const VectorXd expected = dense.partialPivLu().solve(right);
-    EXPECT_LE((blocks.solve(right) - expected).norm(), 1e-9 * (1.0 + expected.norm())) << i;
-  }
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ double reach(const Shape& shape, const Vector3d& direction) {
 // On a convex body no neighbour reaches farther just where nothing else does.
 TEST(SurfaceNeighbours, OfAConvexBodyAreOutermostWhereItReachesFarthest) {
   const Shape cube = make_box({1.0, 2.0, 3.0});
-  const SurfaceNeighbours neighbours(cube);
+  const SurfaceNeighbours neighbours(cube, 0.0);
   std::mt19937 rng(1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d direction = random_direction(rng);
@@ -55,7 +55,7 @@ TEST(SurfaceNeighbours, OfAConvexBodyAreOutermostWhereItReachesFarthest) {
 
 TEST(SurfaceNeighbours, EdgesBulgeBetweenTheNormalsOfTheirFaces) {
   const Shape cube = make_box({2.0, 2.0, 2.0});
-  const SurfaceNeighbours neighbours(cube);
+  const SurfaceNeighbours neighbours(cube, 0.0);
   for (std::uint32_t e = 0; e < cube.edge_count(); ++e) {
     const auto [a, b] = cube.edge(e);
     const Vector3d middle = 0.5 * (cube.mesh().vertices[a] + cube.mesh().vertices[b]);
@@ -80,7 +80,7 @@ TEST(SurfaceNeighbours, EdgesBulgeBetweenTheNormalsOfTheirFaces) {
 // What a corner slides over touches only what is below it.
 TEST(SurfaceNeighbours, RoundingOfADirectionDoesNotHideAFlatEdge) {
   const Shape cube = make_box({2.0, 2.0, 2.0});
-  const SurfaceNeighbours neighbours(cube);
+  const SurfaceNeighbours neighbours(cube, 0.0);
   for (std::uint32_t e = 0; e < cube.edge_count(); ++e) {
     const auto [a, b] = cube.edge(e);
     const Vector3d middle = 0.5 * (cube.mesh().vertices[a] + cube.mesh().vertices[b]);
@@ -92,6 +92,35 @@ TEST(SurfaceNeighbours, RoundingOfADirectionDoesNotHideAFlatEdge) {
   }
 }
 
+// A face that lies on another one, tilted within the band of contact, touches with all its corners.
+TEST(SurfaceNeighbours, CornersOfATiltedFaceAreOutermostWithinTheSlack) {
+  const Shape cube = make_box({2.0, 2.0, 2.0});
+  constexpr double kSlack = 1e-3;
+  const SurfaceNeighbours neighbours(cube, kSlack);
+  for (const double raised : {0.9 * kSlack, 1.1 * kSlack}) {  // Of the edge at x = 1.
+    const Vector3d down = Vector3d(-raised / 2.0, 0.0, -1.0).normalized();
+    for (std::uint32_t v = 0; v < cube.mesh().vertices.size(); ++v) {
+      const Vector3d& p = cube.mesh().vertices[v];
+      const bool is_low = p.z() < 0.0 && (p.x() < 0.0 || raised < kSlack);
+      EXPECT_EQ(neighbours.is_outermost(vertex(v), down), is_low) << v << " " << raised;
+    }
+  }
+}
+
+TEST(SurfaceNeighbours, FlatAreTheDiagonalsOfABoxAlone) {
+  const Shape cube = make_box({2.0, 2.0, 2.0});
+  const SurfaceNeighbours neighbours(cube, 1e-3);
+  for (std::uint32_t e = 0; e < cube.edge_count(); ++e) {
+    const auto [a, b] = cube.edge(e);
+    const double length = (cube.mesh().vertices[b] - cube.mesh().vertices[a]).norm();
+    EXPECT_EQ(neighbours.is_flat_edge({FeatureType::edge, e, 0}), length > 2.5) << e;
+  }
+  EXPECT_FALSE(neighbours.is_flat_edge(vertex(0)));
+  EXPECT_FALSE(neighbours.is_flat_edge({FeatureType::face, 0, 0}));
+  const Shape sheet(Mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
+  EXPECT_FALSE(SurfaceNeighbours(sheet, 0.0).is_flat_edge(edge(sheet, 0, 1)));
+}
+
 /// A valley along y: two slopes of 45 degrees that meet at the bottom, edge 0-1.
 Shape valley() {
   return Shape(
@@ -101,7 +130,7 @@ Shape valley() {
 
 TEST(SurfaceNeighbours, ValleyDoesNotBulge) {
   const Shape shape = valley();
-  const SurfaceNeighbours neighbours(shape);
+  const SurfaceNeighbours neighbours(shape, 0.0);
   std::mt19937 rng(2);
   for (int i = 0; i < 1000; ++i) {
     Vector3d up = random_direction(rng);
@@ -114,7 +143,7 @@ TEST(SurfaceNeighbours, ValleyDoesNotBulge) {
 // At the border of a sheet nothing is in the way outwards, or on either side of it.
 TEST(SurfaceNeighbours, BorderOfASheetBulgesOutwardsAndSideways) {
   const Shape sheet(Mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}});
-  const SurfaceNeighbours neighbours(sheet);
+  const SurfaceNeighbours neighbours(sheet, 0.0);
   const Feature border = edge(sheet, 0, 1);
   EXPECT_TRUE(neighbours.is_outermost(border, -Vector3d::UnitY()));
   EXPECT_TRUE(neighbours.is_outermost(border, Vector3d::UnitZ()));
@@ -126,9 +155,10 @@ TEST(SurfaceNeighbours, BorderOfASheetBulgesOutwardsAndSideways) {
 
 TEST(SurfaceNeighbours, FacesAndLonePointsHaveNone) {
   const Shape ball = make_sphere(0.5);
-  EXPECT_TRUE(SurfaceNeighbours(ball).is_outermost(vertex(0), Vector3d::UnitX()));
+  EXPECT_TRUE(SurfaceNeighbours(ball, 0.0).is_outermost(vertex(0), Vector3d::UnitX()));
   const Shape cube = make_box({1.0, 1.0, 1.0});
-  EXPECT_TRUE(SurfaceNeighbours(cube).is_outermost({FeatureType::face, 0, 0}, Vector3d::UnitX()));
+  EXPECT_TRUE(
+      SurfaceNeighbours(cube, 0.0).is_outermost({FeatureType::face, 0, 0}, Vector3d::UnitX()));
 }
 
 }  // namespace

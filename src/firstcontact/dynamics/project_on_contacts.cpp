@@ -21,15 +21,16 @@ constexpr std::size_t kMostInMotionSpace = 6000;
 /// What sweeps do not do in so many, motion space does better.
 constexpr int kSweepsBeforeMotionSpace = 30;
 
+/// Then they go on to this part of the tolerance: what is left would add up from step to step.
+constexpr double kExtraSweeps = 0.1;
+
 /// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
 /// sweep costs as many contacts as an assembly, of which far fewer are needed).
 constexpr std::size_t kManyContacts = 12;
 
 /// From so many contacts on an interior point comes first: its factorisations hardly grow in
-/// number. What it leaves within so many tolerances is taken: multipliers would take ten times as
-/// long.
+/// number. Multipliers would take ten times as long.
 constexpr std::size_t kManyForInteriorPoint = 300;
-constexpr double kNearEnough = 50.0;
 
 /// Velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
@@ -114,6 +115,10 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
     throw std::invalid_argument("ProjectionOptions::sweeps must be > 0, got " +
                                 std::to_string(options.sweeps));
   }
+  if (options.rounds <= 0) {
+    throw std::invalid_argument("ProjectionOptions::rounds must be > 0, got " +
+                                std::to_string(options.rounds));
+  }
   const ContactRows rows(problem);
   Projection projection = start(problem, rows);
   if (projection.residual <= options.tolerance) {
@@ -138,10 +143,21 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
     }
   }
   if (is_inner) {
-    detail::project_by_interior_point(problem, rows, options, projection);
-    if (projection.residual <= (automatic ? kNearEnough : 1.0) * options.tolerance) {
-      return solution_of(problem, rows, projection, ProjectionSpace::motion);
+    Projection inner = projection;
+    if (automatic) {  // Where hardly anything changed since the guesses, sweeps are enough.
+      ProjectionOptions sweeping = options;
+      sweeping.sweeps = kSweepsBeforeMotionSpace;
+      sweeping.tolerance = kExtraSweeps * options.tolerance;
+      detail::project_in_contact_space(rows, sweeping, inner);
+      if (inner.residual <= options.tolerance) {
+        return solution_of(problem, rows, inner, ProjectionSpace::contact);
+      }
     }
+    detail::project_by_interior_point(problem, rows, options, inner);
+    if (automatic || inner.residual <= options.tolerance) {
+      return solution_of(problem, rows, inner, ProjectionSpace::motion);
+    }
+    projection = std::move(inner);
   }
   const Projection before = projection;
   detail::project_in_motion_space(problem, rows, options, projection);

@@ -22,17 +22,18 @@ void BlockCholesky::set_identity() {
 void BlockCholesky::factorise() {
   for (std::size_t column = 0; column < pattern_.columns(); ++column) {
     Block& diagonal = blocks_[pattern_.first[column]];
-    diagonal = Block(diagonal.llt().matrixL());
+    const Block L = diagonal.llt().matrixL();
+    diagonal.setIdentity();
+    L.triangularView<Eigen::Lower>().solveInPlace(diagonal);
     const std::size_t begin = pattern_.first[column] + 1;
     const std::size_t end = pattern_.first[column + 1];
     for (std::size_t k = begin; k < end; ++k) {
-      diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
-          blocks_[k]);
+      blocks_[k] = blocks_[k].lazyProduct(diagonal.transpose()).eval();
     }
     std::size_t update = pattern_.first_update[column];
     for (std::size_t k = begin; k < end; ++k) {
       for (std::size_t i = k; i < end; ++i) {
-        blocks_[pattern_.updated[update++]].noalias() -= blocks_[i] * blocks_[k].transpose();
+        blocks_[pattern_.updated[update++]] -= blocks_[i].lazyProduct(blocks_[k].transpose());
       }
     }
   }
@@ -48,7 +49,7 @@ VectorXd BlockCholesky::solve(const VectorXd& right) const {
   }
   for (std::size_t column = 0; column < pattern_.columns(); ++column) {
     auto own = part(x, column);
-    blocks_[pattern_.first[column]].triangularView<Eigen::Lower>().solveInPlace(own);
+    own = (blocks_[pattern_.first[column]] * own).eval();
     for (std::size_t k = pattern_.first[column] + 1; k < pattern_.first[column + 1]; ++k) {
       part(x, pattern_.row[k]) -= blocks_[k] * own;
     }
@@ -58,7 +59,7 @@ VectorXd BlockCholesky::solve(const VectorXd& right) const {
     for (std::size_t k = pattern_.first[column] + 1; k < pattern_.first[column + 1]; ++k) {
       own -= blocks_[k].transpose() * part(x, pattern_.row[k]);
     }
-    blocks_[pattern_.first[column]].triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    own = (blocks_[pattern_.first[column]].transpose() * own).eval();
   }
   VectorXd solved(right.size());
   for (std::size_t i = 0; i < pattern_.columns(); ++i) {

@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <firstcontact/dynamics/detail/block_cholesky.h>
-#include <firstcontact/dynamics/detail/block_lu.h>
 
 namespace firstcontact::detail {
 
@@ -57,8 +56,7 @@ class BlockRows {
       });
     }
   }
-  template <class Matrix>
-  void find_places(const Matrix& matrix) {
+  void find_places(const BlockCholesky& matrix) {
     for (std::size_t row = 0; row < size(); ++row) {
       first_place_.push_back(places_.size());
       for_each_pair(row, [&](const Entry& a, const Entry& b) {
@@ -77,21 +75,6 @@ class BlockRows {
           matrix.at(*place).noalias() += DG.transpose() * entries[a].G;
         } else {
           matrix.at(*place).noalias() += entries[a].G.transpose() * DG;
-        }
-      }
-    }
-  }
-  /// The same with any D.
-  void add_to(BlockLu& matrix, std::size_t row, const Square& D) const {
-    const BlockPattern::Place* place = &places_[first_place_[row]];
-    const auto entries = of(row);
-    for (std::size_t b = 0; b < entries.size(); ++b) {
-      const Eigen::Matrix<double, rows, 6> DG = D * entries[b].G;
-      const Eigen::Matrix<double, rows, 6> DG_turned = D.transpose() * entries[b].G;
-      for (std::size_t a = 0; a <= b; ++a, ++place) {
-        matrix.at(*place).noalias() += entries[a].G.transpose() * DG;
-        if (a < b) {
-          matrix.opposite(*place).noalias() += DG_turned.transpose() * entries[a].G;
         }
       }
     }

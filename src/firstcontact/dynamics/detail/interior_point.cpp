@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/detail/block_lu.h>
+#include <firstcontact/dynamics/detail/block_cholesky.h>
 #include <firstcontact/dynamics/detail/contact_rows.h>
 #include <firstcontact/dynamics/detail/kinetic_coordinates.h>
 
@@ -16,12 +16,16 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 60;
-constexpr int kPatience = 8;  // Steps without a residual of half the best one.
+constexpr int kMostRounds = 2;  // Of sliding speeds.
+constexpr int kSweeps = 20;     // After each.
+constexpr double kFall = 0.7;   // [-]  Of the residual in a round, or it is the last.
+constexpr int kMostSteps = 40;
+constexpr double kConvexTolerance = 5.0;  // Of the tolerance; sweeps follow.
+constexpr int kPatience = 5;              // Steps without a residual of half the best one.
 
-/// After as many such steps |u_t| is taken as it was at the step before: that is slower, but does
-/// not go astray where sliding turns round.
-constexpr int kPatienceWithSlope = 3;
+/// Sliding speeds are taken a little smaller than they were: where one is too small the contact
+/// opens, where it is too great the bodies would come nearer.
+constexpr double kShareOfSliding = 0.95;
 
 constexpr double kRounding = 1e-12;  // [-]  Of a discriminant.
 
@@ -108,30 +112,29 @@ struct Scaling {
 class InteriorPoint {
  public:
   InteriorPoint(const ContactProblem& problem, const ContactRows& rows)
-      : rows_(rows), coordinates_(problem, rows), matrix_(coordinates_.factorisation<BlockLu>()) {}
+      : rows_(rows), coordinates_(problem, rows), matrix_(coordinates_.factorisation()) {
+    add_contacts();
+  }
 
   void solve(const ProjectionOptions& options, Projection& projection) {
-    start(options);
-    double goal = std::numeric_limits<double>::infinity();  // What the next steps have to reach.
-    int waited = 0;
+    VectorXd V = projection.velocities;
+    double last = std::numeric_limits<double>::infinity();
     int steps = 0;
-    for (; steps < kMostSteps && waited < kPatience; ++steps) {
-      is_lagging_ = is_lagging_ || waited >= kPatienceWithSlope;
-      find_missing();
-      Impulses impulses = this->impulses();
-      VectorXd V = velocities_after(rows_, impulses);
-      const double residual = greatest_residual(rows_, impulses, V);
-      ++waited;
-      if (residual <= goal) {
-        goal = 0.5 * residual;
-        waited = 0;
-      }
+    for (int round = 0; round < options.rounds; ++round) {
+      set_sliding(V);
+      steps += solve_convex(options);
+      Projection swept{.impulses = impulses()};
+      swept.velocities = velocities_after(rows_, swept.impulses);
+      project_in_contact_space(rows_, {.tolerance = options.tolerance, .sweeps = kSweeps}, swept);
+      V = swept.velocities;
+      const double residual = swept.residual;
       if (residual < projection.residual) {
-        projection = {std::move(V), std::move(impulses), residual};
+        projection = std::move(swept);
       }
-      if (residual <= options.tolerance || !(advance() > kLeastStep)) {
+      if (residual <= options.tolerance || residual > kFall * last) {
         break;
       }
+      last = residual;
     }
     projection.iterations = steps;
   }
@@ -140,53 +143,94 @@ class InteriorPoint {
   /// P = diag(1, mu, mu) makes a cone of Coulomb that of Lorentz, which is its own dual.
   struct Contact {
     std::size_t row;
-    Vector3d u_free;  // [m/s]  At x = 0, without the least normal velocity.
-    Vector3d scale;   // P
-    Vector3d y;       // [m/s]  P u + mu |u_t| n
-    Vector3d z;       // [N s]  P^-1 r
+    Vector3d u_free;                // [m/s]  At x = 0, without the least normal velocity.
+    Vector3d scale;                 // P
+    double sliding = 0.0;           // [m/s]  mu |u_t|, as it is taken to be.
+    Vector3d y = Vector3d::Zero();  // [m/s]  P u + sliding n
+    Vector3d z = Vector3d::Zero();  // [N s]  P^-1 r
     // Of a step.
     Scaling scaling = Scaling(Vector3d::UnitX(), Vector3d::UnitX());
-    Vector3d missing = Vector3d::Zero();  // [m/s]  P u + mu |u_t| n - y
-    Matrix3d slope = Matrix3d::Zero();    // Of P u + mu |u_t| n over u.
+    Vector3d missing = Vector3d::Zero();  // [m/s]  P u + sliding n - y
     Vector3d dy = Vector3d::Zero();
     Vector3d dz = Vector3d::Zero();
   };
+
+  void add_contacts() {
+    for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
+      const ContactRow& row = rows_.contacts[k];
+      if (row.greatest() > 0.0) {
+        contacts_.push_back({.row = k,
+                             .u_free = row.excess_velocity(rows_.free_velocities),
+                             .scale = {1.0, row.friction, row.friction}});
+      }
+    }
+  }
+
+  void set_sliding(const VectorXd& V) {
+    for (Contact& contact : contacts_) {
+      const ContactRow& row = rows_.contacts[contact.row];
+      contact.sliding = kShareOfSliding * row.friction * row.excess_velocity(V).tail<2>().norm();
+    }
+  }
 
   /// In the middle of the cones.
   void start(const ProjectionOptions& options) {
     x_ = VectorXd::Zero(coordinates_.size());
     double fastest = std::numeric_limits<double>::min();
-    std::vector<Vector3d> u_free;
-    for (const ContactRow& row : rows_.contacts) {
-      u_free.push_back(row.excess_velocity(rows_.free_velocities));
-      fastest = std::max(fastest, u_free.back().cwiseAbs().maxCoeff());
-    }
     double response = std::numeric_limits<double>::min();
-    for (std::size_t k = 0; k < rows_.contacts.size(); ++k) {
-      const ContactRow& row = rows_.contacts[k];
-      response = std::max(response, row.greatest());
-      if (row.greatest() > 0.0) {
-        contacts_.push_back({.row = k,
-                             .u_free = u_free[k],
-                             .scale = {1.0, row.friction, row.friction},
-                             .y = fastest * Vector3d::UnitX(),
-                             .z = fastest / row.greatest() * Vector3d::UnitX()});
-      }
+    for (const Contact& contact : contacts_) {
+      fastest = std::max(fastest, contact.u_free.cwiseAbs().maxCoeff());
+      response = std::max(response, rows_.contacts[contact.row].greatest());
+    }
+    for (Contact& contact : contacts_) {
+      contact.y = fastest * Vector3d::UnitX();
+      contact.z = fastest / rows_.contacts[contact.row].greatest() * Vector3d::UnitX();
     }
     least_complementarity_ = kShareOfTolerance * options.tolerance * options.tolerance / response;
+  }
+
+  /// The problem with these sliding speeds. Returns the number of steps.
+  int solve_convex(const ProjectionOptions& options) {
+    start(options);
+    double goal = std::numeric_limits<double>::infinity();  // What the next steps have to reach.
+    int waited = 0;
+    int steps = 0;
+    for (; steps < kMostSteps && waited < kPatience; ++steps) {
+      find_missing();
+      const double residual = convex_residual();
+      ++waited;
+      if (residual <= goal) {
+        goal = 0.5 * residual;
+        waited = 0;
+      }
+      if (residual <= kConvexTolerance * options.tolerance || !(advance() > kLeastStep)) {
+        break;
+      }
+    }
+    return steps;
   }
 
   void find_missing() {
     for (Contact& contact : contacts_) {
       const Vector3d u = contact.u_free + coordinates_.contacts().times(contact.row, x_);
       contact.missing = contact.scale.cwiseProduct(u) - contact.y;
-      const double sliding = u.tail<2>().norm();
-      contact.missing[0] += contact.scale[1] * sliding;
-      contact.slope = contact.scale.asDiagonal();
-      if (sliding > 0.0 && !is_lagging_) {
-        contact.slope.block<1, 2>(0, 1) = contact.scale[1] / sliding * u.tail<2>().transpose();
-      }
+      contact.missing[0] += contact.sliding;
     }
+  }
+
+  /// [m/s]  As contact_residual(), with these sliding speeds.
+  [[nodiscard]] double convex_residual() const {
+    const VectorXd x = coordinates_.moved_by(impulses());
+    double greatest = 0.0;
+    for (const Contact& contact : contacts_) {
+      const ContactRow& row = rows_.contacts[contact.row];
+      Vector3d u = contact.u_free + coordinates_.contacts().times(contact.row, x);
+      u[0] += contact.sliding;
+      const Vector3d r = contact.scale.cwiseProduct(contact.z);
+      const Vector3d change = r - project_on_cone(r - u / row.greatest(), row.friction);
+      greatest = std::max(greatest, change.norm() * row.greatest());
+    }
+    return greatest;
   }
 
   [[nodiscard]] Impulses impulses() const {
@@ -219,14 +263,13 @@ class InteriorPoint {
     for (Contact& contact : contacts_) {
       contact.scaling = Scaling(contact.y, contact.z);
       const Matrix3d& W_inverse = contact.scaling.inverse;
-      coordinates_.contacts().add_to(
-          matrix_, contact.row,
-          contact.scale.asDiagonal() * W_inverse * (W_inverse * contact.slope));
+      const Matrix3d W_inverse_P = W_inverse * contact.scale.asDiagonal();
+      coordinates_.contacts().add_to(matrix_, contact.row, W_inverse_P.transpose() * W_inverse_P);
     }
     matrix_.factorise();
   }
 
-  /// Newton's step to x = G^T r, P u + mu |u_t| n = y, and W dz + W^-1 dy = wanted of each contact.
+  /// Newton's step to x = G^T r, P u + sliding n = y, and W dz + W^-1 dy = wanted of each contact.
   /// Returns dx.
   template <class Wanted>
   VectorXd find_step(const Wanted& wanted) {
@@ -240,7 +283,7 @@ class InteriorPoint {
     VectorXd dx = matrix_.solve(right);
     for (Contact& contact : contacts_) {
       const Matrix3d& W_inverse = contact.scaling.inverse;
-      const Vector3d dy = contact.slope * G.times(contact.row, dx);
+      const Vector3d dy = contact.scale.cwiseProduct(G.times(contact.row, dx));
       contact.dy = dy + contact.missing;
       contact.dz -= W_inverse * (W_inverse * dy);
     }
@@ -289,8 +332,7 @@ class InteriorPoint {
 
   const ContactRows& rows_;
   KineticCoordinates coordinates_;
-  BlockLu matrix_;
-  bool is_lagging_ = false;             // |u_t| is that of the step before.
+  BlockCholesky matrix_;
   double least_complementarity_ = 0.0;  // [J]
   VectorXd x_;
   std::vector<Contact> contacts_;

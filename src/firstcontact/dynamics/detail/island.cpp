@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <unordered_map>
 
 #include <firstcontact/dynamics/detail/island_robots.h>
@@ -33,10 +32,12 @@ constexpr double kPush = 0.5;
 /// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
 constexpr double kStepsWithoutBounce = 2.0;
 
-/// Of contact problems: of what gravity adds in a step. Heaps are solved less exactly.
+/// Of contact problems: of what gravity adds in a step. Heaps are solved less exactly, and where
+/// they slide even less.
 constexpr double kTolerance = 3e-7;
-constexpr double kHeapTolerance = 1e-4;
-constexpr std::size_t kHeap = 300;        // Contacts.
+constexpr double kHeapTolerance = 1e-3;
+constexpr std::size_t kHeap = 300;  // Contacts.
+constexpr int kHeapRounds = 2;
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
 /// A residual of this part of what gravity adds tells that a problem has no solution, or none that
@@ -214,19 +215,10 @@ class Island {
       Manifold manifold =
           find_manifold(world_, pair, {pose_of(pair[0]), pose_of(pair[1])}, margin, workspace_);
       if (manifold.gap <= world_.distances.band) {
-        for (Touch& touch : manifold.touches) {
-          touch.impulse = guess_of(touch);
-        }
+        carry_impulses(world_, track_.reached > 0.0 ? acted_ : guesses_, manifold);
         manifolds_.emplace(pair, std::move(manifold));
       }
     });
-  }
-
-  [[nodiscard]] Vector3d guess_of(const Touch& touch) const {
-    const std::vector<Touch>& known = track_.reached > 0.0 ? acted_ : guesses_;
-    const auto found = std::ranges::lower_bound(known, touch, comes_before);
-    return found != known.end() && !comes_before(touch, *found) ? found->impulse
-                                                                : Vector3d(Vector3d::Zero());
   }
 
   /// The members as they move now, and what they touch.
@@ -260,6 +252,7 @@ class Island {
   double advance() {
     std::vector<Hit> constraints;
     Plan plan;
+    push_.reset();
     for (int round = 0; round < kRounds; ++round) {
       plan = make_plan(constraints);
       const std::vector<Hit> hits = find_hits(plan);
@@ -398,7 +391,8 @@ class Island {
   }
 
   [[nodiscard]] ProjectionOptions projection_options(const ContactProblem& problem) const {
-    return {.tolerance = of_gravity(problem.contacts.size() < kHeap ? kTolerance : kHeapTolerance)};
+    return {.tolerance = of_gravity(problem.contacts.size() < kHeap ? kTolerance : kHeapTolerance),
+            .rounds = kHeapRounds};
   }
 
   /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
@@ -496,13 +490,25 @@ class Island {
     }
   }
 
-  /// Adds displacements that lead pairs back to their distance of rest: least in the kinetic
-  /// metric, and without velocity, so that they add no energy of motion.
+  /// Adds displacements that lead pairs back to their distance of rest.
   void push_apart(Plan& plan) {
-    const ContactDistances& distances = world_.distances;
     if (!is_too_near() || span() < kStall * start_.h) {
       return;
     }
+    if (!push_) {
+      push_ = find_push();
+    }
+    robots_.displace(push_->mechanisms, plan.robots);
+    for (std::size_t k = 0; k < size(); ++k) {
+      plan.moves[k].translation += push_->bodies[k].v;
+      plan.moves[k].rotation_vector += push_->bodies[k].w;
+    }
+  }
+
+  /// Displacements, in metres in place of metres per second: least in the kinetic metric, and
+  /// without velocity, so that they add no energy of motion.
+  [[nodiscard]] ContactSolution find_push() {
+    const ContactDistances& distances = world_.distances;
     ProblemBodies bodies = problem_bodies();
     ContactProblem problem;
     for (const auto& [pair, manifold] : manifolds_) {
@@ -524,14 +530,7 @@ class Island {
     for (ContactMechanism& mechanism : problem.mechanisms) {
       mechanism.velocity.setZero();
     }
-    // In metres in place of metres per second.
-    const ContactSolution solution =
-        project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
-    robots_.displace(solution.mechanisms, plan.robots);
-    for (std::size_t k = 0; k < size(); ++k) {
-      plan.moves[k].translation += solution.bodies[k].v;
-      plan.moves[k].rotation_vector += solution.bodies[k].w;
-    }
+    return project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
   }
 
   /// Asks all pairs that the plan may bring near each other.
@@ -742,8 +741,9 @@ class Island {
   std::unordered_map<std::size_t, Pose> poses_around_;  // Of those asked for, now.
   std::map<BodyPair, Manifold> manifolds_;
   FirstContactResult answer_;
-  double clearance_ = 0.0;  // [m]  Of the motion asked last.
-  double span_;             // [s]  Longest of a plan, for now.
+  std::optional<ContactSolution> push_ = {};  // Of all plans from now.
+  double clearance_ = 0.0;                    // [m]  Of the motion asked last.
+  double span_;                               // [s]  Longest of a plan, for now.
 };
 
 }  // namespace
@@ -755,14 +755,6 @@ HeldDistance held_distance(const ContactDistances& distances, double pair_margin
   // What cannot yield, as a body that is crushed, would halve its way to nothing.
   const double share = gap > kJammed * distances.least ? 0.5 : 0.99;
   return {pair_margin + share * gap, 0.5 * (1.0 - share) * gap};
-}
-
-bool comes_before(const Touch& x, const Touch& y) {
-  const auto key = [](const Touch& touch) {
-    return std::tuple(touch.bodies, touch.feature_A.type, touch.feature_A.index,
-                      touch.feature_B.type, touch.feature_B.index);
-  };
-  return key(x) < key(y);
 }
 
 IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,

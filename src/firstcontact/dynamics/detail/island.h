@@ -54,9 +54,6 @@ struct StepContext {
 [[nodiscard]] IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
                                          Workspace& workspace);
 
-/// Whether the features of one touch come before those of the other.
-[[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
-
 /// How a pair is asked for first contact, which was this far apart at the start.
 ///
 /// @param gap  [m]  least, infinite where it is beyond the band

@@ -93,6 +93,13 @@ VectorXd KineticCoordinates::moved_by(const Impulses& impulses) const {
   return x;
 }
 
+BlockCholesky KineticCoordinates::factorisation() {
+  BlockCholesky matrix(static_cast<std::size_t>(size_ / 6), connected_blocks());
+  contacts_.find_places(matrix);
+  drives_.find_places(matrix);
+  return matrix;
+}
+
 std::vector<std::array<std::size_t, 2>> KineticCoordinates::connected_blocks() const {
   std::vector<std::array<std::size_t, 2>> pairs;
   contacts_.list_pairs(pairs);

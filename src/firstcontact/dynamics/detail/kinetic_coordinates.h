@@ -29,14 +29,8 @@ class KineticCoordinates {
   /// What impulses do: x with V(x) = V_free + M^-1 J^T r.
   [[nodiscard]] Eigen::VectorXd moved_by(const Impulses& impulses) const;
 
-  /// For all matrices I + G^T D G: a BlockCholesky or, where D is not symmetric, a BlockLu.
-  template <class Matrix>
-  [[nodiscard]] Matrix factorisation() {
-    Matrix matrix(static_cast<std::size_t>(size_ / 6), connected_blocks());
-    contacts_.find_places(matrix);
-    drives_.find_places(matrix);
-    return matrix;
-  }
+  /// For all matrices I + G^T D G.
+  [[nodiscard]] BlockCholesky factorisation();
 
  private:
   /// What moves by itself.

@@ -172,7 +172,7 @@ double greatest_response(const ContactRows& rows) {
 void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
                              const ProjectionOptions& options, Projection& projection) {
   KineticCoordinates coordinates(problem, rows);
-  auto hessian = coordinates.factorisation<BlockCholesky>();
+  auto hessian = coordinates.factorisation();
   const Lagrangian lagrangian(coordinates, rows);
   Lagrangian::Round round;
   round.multipliers = projection.impulses;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,25 +20,35 @@ namespace firstcontact::detail {
 /// touches none but the one below it.
 class SurfaceNeighbours {
  public:
-  explicit SurfaceNeighbours(const Shape& shape);
+  /// @param slack  [m]  >= 0  By so much may a neighbour reach farther: all corners of a face that
+  ///               lies on another one touch, however it is tilted.
+  SurfaceNeighbours(const Shape& shape, double slack);
 
   /// Whether no neighbour of the feature reaches farther along the direction than the feature does.
   ///
   /// @param direction_B  [-]  unit, body axes: from the feature to the other body
   [[nodiscard]] bool is_outermost(const Feature& feature, const Eigen::Vector3d& direction_B) const;
 
- private:
-  /// Unit directions from each feature into its neighbours: of an edge into its faces, of a vertex
-  /// along its edges.
-  struct Directions {
-    std::vector<std::uint32_t> first;  // Of feature k: first[k] to first[k + 1].
-    std::vector<Eigen::Vector3d> directions;
-  };
-  [[nodiscard]] static bool is_outermost(const Directions& of, std::uint32_t index,
-                                         const Eigen::Vector3d& direction_B);
+  /// Whether the feature is an edge that divides a flat face.
+  [[nodiscard]] bool is_flat_edge(const Feature& feature) const;
 
-  Directions edges_;
-  Directions vertices_;
+ private:
+  /// Ways from each feature to the ends of its neighbours: of an edge across its faces, of a vertex
+  /// along its edges.
+  struct Ways {
+    std::vector<std::uint32_t> first;  // Of feature k: first[k] to first[k + 1].
+    std::vector<Eigen::Vector3d> ways;
+
+    [[nodiscard]] std::span<const Eigen::Vector3d> of(std::uint32_t feature) const {
+      return {ways.data() + first[feature], ways.data() + first[feature + 1]};
+    }
+  };
+  [[nodiscard]] bool none_is_farther(std::span<const Eigen::Vector3d> ways,
+                                     const Eigen::Vector3d& direction_B) const;
+
+  double slack_;
+  Ways edges_;
+  Ways vertices_;
 };
 
 }  // namespace firstcontact::detail

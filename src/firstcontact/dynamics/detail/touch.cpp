@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include <firstcontact/query/close_features.h>
 
@@ -11,16 +12,47 @@ namespace {
 using Eigen::Vector3d;
 
 /// Touches nearer to each other than this part of the smaller body are one.
-constexpr double kSamePlace = 1e-6;
-constexpr double kSameNormal = 1.0 - 1e-9;  // [-]  Cosine.
+constexpr double kSamePlace = 1e-3;
+constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
 
+/// A touch is taken for what touched before where it is nearer than this part of the smaller body.
+constexpr double kCloseBy = 0.01;
+
+bool same_features(const Touch& x, const Touch& y) {
+  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
+         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+}
+
+double smaller_reach(const World& world, const BodyPair& bodies) {
+  return std::min(world.bodies[bodies[0]].reach, world.bodies[bodies[1]].reach);
+}
+
+/// Null where there is none.
+Touch* successor(const Touch& before, double close_by, std::vector<Touch>& touches) {
+  const auto same =
+      std::ranges::find_if(touches, [&](const Touch& t) { return same_features(t, before); });
+  if (same != touches.end()) {
+    return &*same;
+  }
+  const auto distance = [&](const Touch& t) { return (t.point - before.point).norm(); };
+  const auto nearest = std::ranges::min_element(touches, {}, distance);
+  return nearest != touches.end() && distance(*nearest) <= close_by ? &*nearest : nullptr;
+}
+
+/// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
+/// over it the gap is least at the ends of the other edge, or where that leaves the face.
 bool is_outermost(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses,
                   const Contact& contact) {
   const Vector3d& n_W = *contact.n_AB_W;
-  return world.neighbours[bodies[0]]->is_outermost(
-             contact.feature_A, poses[0].rotation.normalized().conjugate() * n_W) &&
-         world.neighbours[bodies[1]]->is_outermost(
-             contact.feature_B, poses[1].rotation.normalized().conjugate() * -n_W);
+  const SurfaceNeighbours& A = *world.neighbours[bodies[0]];
+  const SurfaceNeighbours& B = *world.neighbours[bodies[1]];
+  const bool are_edges =
+      contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
+  if (are_edges && (A.is_flat_edge(contact.feature_A) || B.is_flat_edge(contact.feature_B))) {
+    return false;
+  }
+  return A.is_outermost(contact.feature_A, poses[0].rotation.normalized().conjugate() * n_W) &&
+         B.is_outermost(contact.feature_B, poses[1].rotation.normalized().conjugate() * -n_W);
 }
 
 Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
@@ -32,16 +64,19 @@ Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) 
           .gap = contact.distance - margin};
 }
 
-/// Features that meet in one place, as the corner of one face and an edge of it, say the same.
+/// Features that meet in one place, as the corner of one face and an edge of it, say the same: of
+/// them the nearest.
 void keep_once(double size, std::vector<Touch>& touches) {
   std::vector<Touch> kept;
   for (const Touch& touch : touches) {
-    const bool is_new = std::ranges::none_of(kept, [&](const Touch& other) {
+    const auto same = std::ranges::find_if(kept, [&](const Touch& other) {
       return (touch.point - other.point).norm() <= kSamePlace * size &&
              touch.normal.dot(other.normal) >= kSameNormal;
     });
-    if (is_new) {
+    if (same == kept.end()) {
       kept.push_back(touch);
+    } else if (touch.gap < same->gap) {
+      *same = touch;
     }
   }
   touches = std::move(kept);
@@ -64,7 +99,7 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
     }
   }
   std::vector<Touch>& touches = outermost.empty() ? all : outermost;
-  keep_once(std::min(world.bodies[bodies[0]].reach, world.bodies[bodies[1]].reach), touches);
+  keep_once(smaller_reach(world, bodies), touches);
   return touches;
 }
 
@@ -81,6 +116,25 @@ Manifold find_manifold(const World& world, const BodyPair& bodies, const std::ar
   }
   manifold.touches = touches_among(world, bodies, poses, margin, contacts);
   return manifold;
+}
+
+bool comes_before(const Touch& x, const Touch& y) {
+  const auto key = [](const Touch& touch) {
+    return std::tuple(touch.bodies, touch.feature_A.type, touch.feature_A.index,
+                      touch.feature_B.type, touch.feature_B.index);
+  };
+  return key(x) < key(y);
+}
+
+void carry_impulses(const World& world, const std::vector<Touch>& before, Manifold& manifold) {
+  const double close_by = kCloseBy * smaller_reach(world, manifold.bodies);
+  const auto of_pair = std::ranges::equal_range(before, manifold.bodies, {},
+                                                [](const Touch& t) { return t.bodies; });
+  for (const Touch& touch : of_pair) {
+    if (Touch* next = successor(touch, close_by, manifold.touches)) {
+      next->impulse += touch.impulse;
+    }
+  }
 }
 
 }  // namespace firstcontact::detail

@@ -43,4 +43,14 @@ struct Manifold {
                                      const std::array<Pose, 2>& poses, double margin,
                                      Workspace& workspace);
 
+/// Whether the bodies, or else the features, of one touch come before those of the other.
+[[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
+
+/// Gives the manifold the impulses of what touched before: each goes to the touch of the same
+/// features or, as these change with every rounding where edges lie on edges, to the nearest one
+/// close by.
+///
+/// @param before  sorted
+void carry_impulses(const World& world, const std::vector<Touch>& before, Manifold& manifold);
+
 }  // namespace firstcontact::detail

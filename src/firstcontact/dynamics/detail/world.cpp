@@ -14,14 +14,14 @@ using Eigen::Vector3d;
 constexpr double kSlack = 1e-12;
 
 std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
-    const std::vector<SimBody>& bodies) {
+    const std::vector<SimBody>& bodies, double slack) {
   // Bodies that share their shape share what is known of it.
   std::unordered_map<const Hierarchy*, std::shared_ptr<const SurfaceNeighbours>> known;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> all;
   for (const SimBody& body : bodies) {
     auto& entry = known[&body.shape.hierarchy()];
     if (!entry) {
-      entry = std::make_shared<const SurfaceNeighbours>(body.shape);
+      entry = std::make_shared<const SurfaceNeighbours>(body.shape, slack);
     }
     all.push_back(entry);
   }
@@ -33,9 +33,9 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
 World::World(const LoadedScene& loaded, const LinksAsBodies& linked)
     : bodies(make_sim_bodies(loaded.scene, linked)),
       robots(make_sim_robots(loaded, linked)),
-      neighbours(neighbours_of(bodies)),
       laws(linked.loaded),
       distances(contact_distance_of(*loaded.scene.simulation, bodies)),
+      neighbours(neighbours_of(bodies, distances.band)),
       gravity(loaded.scene.simulation->gravity),
       events(loaded.scene.simulation->events) {}
 

@@ -50,11 +50,11 @@ struct World {
 
   std::vector<SimBody> bodies;
   std::vector<SimRobot> robots;
-  std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
   PairLaws laws;
   ContactDistances distances;
-  Eigen::Vector3d gravity;  ///< [m/s^2]
-  std::size_t events;       ///< In a step, at most.
+  std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
+  Eigen::Vector3d gravity;                                           ///< [m/s^2]
+  std::size_t events;                                                ///< In a step, at most.
 };
 
 /// How a body is displaced over some time, from a pose.
