@@ -91,7 +91,7 @@ struct Simulation {
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]
   double friction = 0.5;                        ///< [-]  >= 0
   double restitution = 0.0;                     ///< [-]  In [0, 1].
-  /// [m]  > 0  Bodies that touch rest at this distance to one and a half of it; by default 1e-4 of
+  /// [m]  > 0  Bodies that touch rest at this distance to one and a half of it; by default 1e-3 of
   /// the radius of the smallest free body.
   std::optional<double> contact_distance;
   std::size_t events = 1000;  ///< > 0  In a step; when they are spent, the step ends early.

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDensity = 1000.0;         // [kg/m^3]  Where nothing is said: water.
-constexpr double kRelativeDistance = 1e-4;  // Of the smallest free body's radius.
+constexpr double kRelativeDistance = 1e-3;  // Of the smallest free body's radius.
 
 Inertia inertia_of(const FreeBody& free, const Shape& shape) {
   Inertia inertia;

@@ -50,7 +50,7 @@ struct SimBody {
 /// @throws std::invalid_argument  names the body whose mass cannot be found, and the mend
 [[nodiscard]] std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked);
 
-/// [m]  What the scene says, or 1e-4 of the radius of the smallest free body; where there are links
+/// [m]  What the scene says, or 1e-3 of the radius of the smallest free body; where there are links
 /// only, of the smallest of them.
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
