@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kTolerance = 1e-10;  // [m/s]
 
-Vector3d random_vector(std::mt19937& rng) {
+Vector3d any_vector(std::mt19937& rng) {
   std::normal_distribution<double> normal;
   return {normal(rng), normal(rng), normal(rng)};
 }
@@ -53,14 +53,14 @@ ContactProblem random_heap(std::mt19937& rng, double friction) {
   ContactProblem problem;
   problem.bodies.resize(1);
   for (std::size_t b = 1; b < 7; ++b) {
-    ContactBody body = cube(std::exp(normal(rng)), random_vector(rng));
-    body.w = random_vector(rng);
+    ContactBody body = cube(std::exp(normal(rng)), any_vector(rng));
+    body.w = any_vector(rng);
     problem.bodies.push_back(body);
     for (int k = 0; k < 4; ++k) {
       ContactPoint contact;
       contact.bodies = {rng() % b, b};
-      contact.arm_A = random_vector(rng);
-      contact.arm_B = random_vector(rng);
+      contact.arm_A = any_vector(rng);
+      contact.arm_B = any_vector(rng);
       contact.frame = random_frame(rng);
       contact.friction = friction;
       contact.least_normal_velocity = -std::abs(0.1 * normal(rng));
@@ -119,8 +119,8 @@ TEST(ProjectOnContacts, IsTheNearestAllowedMotion) {
       // Another allowed motion: the answer to other free velocities.
       ContactProblem other = problem;
       for (std::size_t b = 1; b < other.bodies.size(); ++b) {
-        other.bodies[b].v += 0.1 * random_vector(rng);
-        other.bodies[b].w += 0.1 * random_vector(rng);
+        other.bodies[b].v += 0.1 * any_vector(rng);
+        other.bodies[b].w += 0.1 * any_vector(rng);
       }
       const ContactSolution allowed = solve(other, ProjectionSpace::automatic);
       ASSERT_GE(constraint(problem, allowed.bodies), least - 1e-8) << i;

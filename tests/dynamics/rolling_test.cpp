@@ -24,7 +24,7 @@ constexpr double kRadius = 0.1;  // [m]
 constexpr double kGap = 1e-6;    // [m]
 constexpr double kSlope = 20.0 * std::numbers::pi / 180.0;
 constexpr double kGravity = 9.81;  // [m/s^2]
-const std::string kFloor = body("floor", box("[99, 9, 1]"), "[0, 0, -0.5]");
+const std::string kLane = body("floor", box("[99, 9, 1]"), "[0, 0, -0.5]");
 const std::string kHeight = numbers({0.0, 0.0, kRadius + kGap});
 
 std::string incline(double step, double friction) {
@@ -40,7 +40,7 @@ void expect_rolling(const std::string& shape, const std::string& turned, double 
   const double way = 0.5 * kGravity * std::sin(kSlope) / (1.0 + inertia);
   for (const double step : {0.02, 0.01, 0.005}) {
     Simulator s =
-        simulator(kFloor + R"(, {"name": "roller", "shape": )" + shape +
+        simulator(kLane + R"(, {"name": "roller", "shape": )" + shape +
                       R"(, "pose": {"position": )" + kHeight + turned + R"(}, "dynamics": {}})",
                   incline(step, 0.3));
     const auto steps = static_cast<std::size_t>(std::lround(1.0 / step));
@@ -67,7 +67,7 @@ TEST(Rolling, CapsuleOnAnIncline) {
 // turns by 5/2 mu g cos / r.
 TEST(Rolling, BallSlipsWhereItIsTooSteep) {
   const double friction = 0.05;
-  Simulator s = simulator(kFloor + "," + body("ball", ball("0.1"), kHeight, R"(, "dynamics": {})"),
+  Simulator s = simulator(kLane + "," + body("ball", ball("0.1"), kHeight, R"(, "dynamics": {})"),
                           incline(0.01, friction));
   const RunBody end = run(s, 100).back().bodies[0];
   const double normal = kGravity * std::cos(kSlope);
@@ -79,7 +79,7 @@ TEST(Rolling, BallSlipsWhereItIsTooSteep) {
 TEST(Rolling, SlidingBallEndsWithFiveSevenths) {
   for (const double friction : {0.1, 0.4}) {
     Simulator s = simulator(
-        kFloor + "," +
+        kLane + "," +
             body("ball", ball("0.1"), kHeight, R"(, "dynamics": {"linear_velocity": [2, 0, 0]})"),
         settings(0.01, friction, kGap));
     const RunBody end = run(s, 100).back().bodies[0];

@@ -36,6 +36,9 @@ inline std::string ball(const std::string& radius) {
   return R"({"sphere": {"radius": )" + radius + "}}";
 }
 
+/// Its top is at z = 0.
+inline const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
+
 /// A row of numbers as scenes have it.
 inline std::string numbers(const std::vector<double>& values) {
   std::ostringstream out;

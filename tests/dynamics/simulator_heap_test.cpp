@@ -12,11 +12,10 @@ namespace {
 
 using test::body;
 using test::box;
+using test::kFloor;
 using test::run;
 using test::simulator;
 using test::verify;
-
-const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
 
 double total_energy(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
 

@@ -18,12 +18,12 @@ using Eigen::Vector3d;
 using test::ball;
 using test::body;
 using test::box;
+using test::kFloor;
 using test::run;
 using test::simulator;
 using test::verify;
 
 const std::string kFree = R"(, "dynamics": {})";
-const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
 
 // --- Closed forms --------------------------------------------------------------------------------
 
@@ -269,7 +269,7 @@ TEST(Simulator, TakesStatesFromOutside) {
 }
 
 /// What a scene that cannot be simulated is told.
-std::string complaint(const std::string& bodies) {
+std::string refusal(const std::string& bodies) {
   try {
     (void)simulator(bodies, "");
   } catch (const std::invalid_argument& error) {
@@ -279,12 +279,12 @@ std::string complaint(const std::string& bodies) {
 }
 
 TEST(Simulator, SaysWhatIsWrongWithAScene) {
-  EXPECT_NE(complaint(kFloor + "," + body("a", ball("0.1"), "[0, 0, 0.05]", kFree))
+  EXPECT_NE(refusal(kFloor + "," + body("a", ball("0.1"), "[0, 0, 0.05]", kFree))
                 .find("\"floor\" and \"a\" meet at the start"),
             std::string::npos);
   EXPECT_NE(
-      complaint(body("flag", R"({"vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]})",
-                     "[0, 0, 0]", kFree))
+      refusal(body("flag", R"({"vertices": [[0,0,0],[1,0,0],[0,1,0]], "triangles": [[0,1,2]]})",
+                   "[0, 0, 0]", kFree))
           .find("body \"flag\""),
       std::string::npos);
 }

@@ -11,8 +11,6 @@
 namespace firstcontact::test {
 namespace {
 
-const std::string kFloor = body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]");
-
 // --- Blocks --------------------------------------------------------------------------------------
 
 /// Blocks on top of each other, each that much farther along x than the one below.
