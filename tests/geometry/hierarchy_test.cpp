@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
 
 #include "support/rounds.h"
@@ -116,6 +117,33 @@ TEST(Shape, NumbersEachEdgeOnce) {
     EXPECT_EQ(quad.edge_index(b, a), e);
   }
   EXPECT_THROW((void)quad.edge_index(1, 3), std::invalid_argument);
+}
+
+TEST(Shape, HasEachCornerAndEdgeAsAnOwnFeatureOfOneTriangle) {
+  const Shape cylinder = make_cylinder(1.0, 1.0, 1e-3);
+  const auto own = cylinder.own_features();
+  ASSERT_EQ(own.size(), cylinder.mesh().triangles.size());
+  std::vector<int> corners(cylinder.mesh().vertices.size(), 0);
+  std::vector<int> edges(cylinder.edge_count(), 0);
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto& t = cylinder.mesh().triangles[cylinder.hierarchy().triangle_index[k]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners[t[i]] += own[k] >> i & 1;
+      edges[cylinder.edge_index(t[i], t[(i + 1) % 3])] += own[k] >> (3 + i) & 1;
+    }
+  }
+  EXPECT_EQ(corners, std::vector<int>(corners.size(), 1));
+  EXPECT_EQ(edges, std::vector<int>(edges.size(), 1));
+}
+
+TEST(Shape, DegenerateTrianglesOwnAllTheirFeatures) {
+  const Shape shape(Mesh{.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                         .triangles = {{0, 1, 2}, {0, 0, 1}, {2, 2, 2}}});
+  const auto own = shape.own_features();
+  ASSERT_EQ(own.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_TRUE(shape.hierarchy().triangle_index[k] == 0 || own[k] == 0x3f) << k;
+  }
 }
 
 TEST(Shape, RefusesWhatIsNoShape) {

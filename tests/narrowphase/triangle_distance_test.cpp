@@ -267,6 +267,41 @@ TEST(FeaturePairsWithin, HoldsTheClosestAndNothingBeyondTheBand) {
   });
 }
 
+// Asked one feature of each triangle at a time, they say together what they say at once.
+TEST(FeaturePairsWithin, AskedFeatureByFeatureHoldsTheSame) {
+  for_each_pair(200, [](const Kind&, const Triangle& A, const Triangle& B) {
+    const double band = 2.0 * triangle_distance(A, B).distance + 1e-3 * size(A, B);
+    const FeaturePairs all = feature_pairs_within(A, B, band);
+    const auto least = [](const FeaturePairs& pairs, const ClosestFeatures& of) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < pairs.count; ++k) {
+        if (pairs.pairs[k].feature_A == of.feature_A && pairs.pairs[k].feature_B == of.feature_B) {
+          distance = std::min(distance, pairs.pairs[k].distance);
+        }
+      }
+      return distance;
+    };
+    std::vector<double> found(all.count, std::numeric_limits<double>::infinity());
+    for (unsigned i = 0; i < 6; ++i) {
+      for (unsigned j = 0; j < 6; ++j) {
+        const FeaturePairs part = feature_pairs_within(A, B, band, 1u << i, 1u << j);
+        for (std::size_t k = 0; k < part.count; ++k) {
+          EXPECT_LE(least(all, part.pairs[k]), part.pairs[k].distance);
+        }
+        for (std::size_t k = 0; k < all.count; ++k) {
+          found[k] = std::min(found[k], least(part, all.pairs[k]));
+        }
+      }
+    }
+    for (std::size_t k = 0; k < all.count; ++k) {
+      EXPECT_EQ(found[k], all.pairs[k].distance);
+    }
+  });
+  const Triangle A{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+  const Triangle B{Vector3d(0, 0, 1), Vector3d(1, 0, 1), Vector3d(0, 1, 1)};
+  EXPECT_EQ(feature_pairs_within(A, B, 2.0, 0, 0).count, 0u);
+}
+
 // Two triangles with a common corner: nine pairs of edges and corners meet there, at distance 0.
 TEST(FeaturePairsWithin, HoldsEachPairOfFeaturesOnce) {
   const Triangle A{Vector3d(0.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};

@@ -152,9 +152,44 @@ std::vector<std::uint32_t> list_components(const Mesh& mesh, const Hierarchy& hi
 namespace {
 
 /// Not every shape is asked for its bounds.
+std::vector<std::uint8_t> find_own_features(const Shape& shape) {
+  const Mesh& mesh = shape.mesh();
+  std::vector<bool> has_vertex(mesh.vertices.size(), false);
+  std::vector<bool> has_edge(shape.edge_count(), false);
+  std::vector<std::uint8_t> own;
+  own.reserve(mesh.triangles.size());
+  for (const std::uint32_t triangle : shape.hierarchy().triangle_index) {
+    const auto& t = mesh.triangles[triangle];
+    unsigned features = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t next = t[(k + 1) % 3];
+      if (t[k] == next) {
+        features = 0x3f;
+        break;
+      }
+      const std::uint32_t edge = shape.edge_index(t[k], next);
+      features |= has_vertex[t[k]] ? 0u : 1u << k;
+      features |= has_edge[edge] ? 0u : 8u << k;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      has_vertex[t[k]] = true;
+      if (t[k] != t[(k + 1) % 3]) {
+        has_edge[shape.edge_index(t[k], t[(k + 1) % 3])] = true;
+      }
+    }
+    own.push_back(static_cast<std::uint8_t>(features));
+  }
+  return own;
+}
+
 struct LazyBounds {
   std::once_flag found;
   ShapeBounds bounds;
+};
+
+struct LazyFeatures {
+  std::once_flag found;
+  std::vector<std::uint8_t> of_triangles;
 };
 
 }  // namespace
@@ -169,6 +204,7 @@ struct Shape::Data {
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
+  std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();  // At all times.
 };
 
 Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) {
@@ -256,6 +292,12 @@ std::uint32_t Shape::edge_index(std::uint32_t vertex, std::uint32_t other) const
 }
 
 const Hierarchy& Shape::hierarchy() const { return data_->hierarchy; }
+
+std::span<const std::uint8_t> Shape::own_features() const {
+  std::call_once(data_->own_features->found,
+                 [&] { data_->own_features->of_triangles = find_own_features(*this); });
+  return data_->own_features->of_triangles;
+}
 
 const ShapeBounds& Shape::bounds() const {
   assert(!data_->hierarchy.deforms());

@@ -75,6 +75,11 @@ class FIRSTCONTACT_API Shape {
 
   [[nodiscard]] const Hierarchy& hierarchy() const;
 
+  /// Of each triangle, in the order of the hierarchy, the features that none before it has, so that
+  /// each counts once: bit k its corner k, bit 3 + k its edge from there; all of a degenerate one
+  /// whose corners repeat. Found when they are first asked for.
+  [[nodiscard]] std::span<const std::uint8_t> own_features() const;
+
   /// A box and a polytope around the triangles, found when they are first asked for. Of a shape
   /// that does not deform.
   [[nodiscard]] const ShapeBounds& bounds() const;

@@ -156,11 +156,18 @@ ClosestFeatures in_order(ClosestFeatures c, bool swapped) {
   return c;
 }
 
-/// Corners of S over the face of T, and edges of S through it; only feet within a squared distance
-/// of `reach()`.
+constexpr unsigned kAllFeatures = 0x3f;
+bool has_corner(unsigned features, int i) { return (features & 1u << i) != 0; }
+bool has_edge(unsigned features, int i) { return (features & 8u << i) != 0; }
+
+/// Corners of S over the face of T, and edges of S through it, of those asked; only feet within a
+/// squared distance of `reach()`.
 template <class Reach, class Use>
-void corners_and_edges(const Prepared& S, const Prepared& T, bool swapped, const Reach& reach,
-                       const Use& use) {
+void corners_and_edges(const Prepared& S, unsigned features, const Prepared& T, bool swapped,
+                       const Reach& reach, const Use& use) {
+  if (features == 0) {
+    return;
+  }
   const Vector3d heights = T.heights(S.corners);
   const double nn = T.normal.squaredNorm();
   const double longest2 = std::max({T.square[0], T.square[1], T.square[2]});
@@ -168,7 +175,8 @@ void corners_and_edges(const Prepared& S, const Prepared& T, bool swapped, const
   for (int i = 0; i < 3; ++i) {
     // Twice the squares' sum is at least the square of the sum of reach and rounding.
     const double r2 = (S.corners[i] - T.corners[0]).squaredNorm();
-    if (heights[i] * heights[i] <= 2.0 * (reach() * nn + rounding * r2)) {
+    if (has_corner(features, i) &&
+        heights[i] * heights[i] <= 2.0 * (reach() * nn + rounding * r2)) {
       if (const auto foot = foot_inside(S.corners[i], T)) {
         use((*foot - S.corners[i]).squaredNorm(), [&] {
           return in_order({(*foot - S.corners[i]).norm(),
@@ -180,27 +188,13 @@ void corners_and_edges(const Prepared& S, const Prepared& T, bool swapped, const
         });
       }
     }
-    if (const auto point = piercing_point(S, i, heights, T)) {
+    const auto point = has_edge(features, i) ? piercing_point(S, i, heights, T) : std::nullopt;
+    if (point) {
       use(0.0, [&] {
         return in_order({0.0, *point, *point, {Type::edge, i}, {Type::face, 0}}, swapped);
       });
     }
   }
-}
-
-/// Calls use(squared distance, function that makes the features) for each of the at most 21
-/// elementary pairs that may be within a squared distance of reach().
-template <class Reach, class Use>
-void for_each_pair(const Triangle& T_A, const Triangle& T_B, const Reach& reach, const Use& use) {
-  const Prepared A(T_A);
-  const Prepared B(T_B);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      edge_edge(A, i, B, j, use);
-    }
-  }
-  corners_and_edges(A, B, false, reach, use);
-  corners_and_edges(B, A, true, reach, use);
 }
 
 /// A number below kFeatures.
@@ -225,33 +219,44 @@ ClosestFeatures triangle_distance(const Triangle& T_A, const Triangle& T_B) {
   };
   const auto reach = [&least] { return least; };
   edge_edge(A, i, B, j, use);
-  corners_and_edges(A, B, false, reach, use);
-  corners_and_edges(B, A, true, reach, use);
+  corners_and_edges(A, kAllFeatures, B, false, reach, use);
+  corners_and_edges(B, kAllFeatures, A, true, reach, use);
   return best;
 }
 
-FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band) {
+FeaturePairs feature_pairs_within(const Triangle& T_A, const Triangle& T_B, double band,
+                                  unsigned features_A, unsigned features_B) {
   FeaturePairs within;
   std::array<std::uint8_t, kFeatures * kFeatures> place{};  // Plus 1; 0: not there yet.
-  const double reach = band * band * (1.0 + 0x1p-40);       // Not less than rounding takes off.
-  for_each_pair(
-      A, B, [reach] { return reach; },
-      [&](double squared_distance, const auto& features) {
-        if (squared_distance > reach) {
-          return;
-        }
-        const ClosestFeatures c = features();
-        if (!(c.distance <= band)) {
-          return;
-        }
-        std::uint8_t& found = place[kFeatures * number_of(c.feature_A) + number_of(c.feature_B)];
-        if (found == 0) {
-          within.pairs[within.count++] = c;
-          found = static_cast<std::uint8_t>(within.count);
-        } else if (c.distance < within.pairs[found - 1].distance) {
-          within.pairs[found - 1] = c;
-        }
-      });
+  const double reach2 = band * band * (1.0 + 0x1p-40);      // Not less than rounding takes off.
+  const auto use = [&](double squared_distance, const auto& features) {
+    if (squared_distance > reach2) {
+      return;
+    }
+    const ClosestFeatures c = features();
+    if (!(c.distance <= band)) {
+      return;
+    }
+    std::uint8_t& found = place[kFeatures * number_of(c.feature_A) + number_of(c.feature_B)];
+    if (found == 0) {
+      within.pairs[within.count++] = c;
+      found = static_cast<std::uint8_t>(within.count);
+    } else if (c.distance < within.pairs[found - 1].distance) {
+      within.pairs[found - 1] = c;
+    }
+  };
+  const Prepared A(T_A);
+  const Prepared B(T_B);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (has_edge(features_A, i) && has_edge(features_B, j)) {
+        edge_edge(A, i, B, j, use);
+      }
+    }
+  }
+  const auto reach = [reach2] { return reach2; };
+  corners_and_edges(A, features_A, B, false, reach, use);
+  corners_and_edges(B, features_B, A, true, reach, use);
   return within;
 }
 

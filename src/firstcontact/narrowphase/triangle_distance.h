@@ -49,7 +49,11 @@ struct FeaturePairs {
 
 /// All elementary pairs within `band` [m], each with the features in whose interiors its closest
 /// points lie; of those with the same features the nearest.
+///
+/// @param features_A,features_B  which corners (bits 0 to 2) and edges (bits 3 to 5) are asked; all
+///                               faces are
 FIRSTCONTACT_API FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B,
-                                                   double band);
+                                                   double band, unsigned features_A = 0x3f,
+                                                   unsigned features_B = 0x3f);
 
 }  // namespace firstcontact

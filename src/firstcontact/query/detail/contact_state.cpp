@@ -167,15 +167,22 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
          apart_along(between, pair, kClearly * reach);
 }
 
+/// Which features of each of two triangles are asked.
+struct AskedFeatures {
+  unsigned of_A = 0x3f;
+  unsigned of_B = 0x3f;
+};
+
 /// @param reach  [m]  the band, and more than positions err
 void append_pairs(const ContactFrame& frame, const RelativeState& state, std::uint32_t triangle_A,
-                  std::uint32_t triangle_B, double band, double reach,
+                  std::uint32_t triangle_B, const AskedFeatures& asked, double band, double reach,
                   std::vector<ClosePair>& pairs) {
   const TrianglePair triangles = frame.pair.place(state, triangle_A, triangle_B);
   if (clearly_apart(triangles, reach)) {
     return;
   }
-  const FeaturePairs close = feature_pairs_within(triangles.A, triangles.B, band);
+  const FeaturePairs close =
+      feature_pairs_within(triangles.A, triangles.B, band, asked.of_A, asked.of_B);
   for (std::size_t k = 0; k < close.count; ++k) {
     pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
   }
@@ -208,7 +215,7 @@ void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& 
   for (const OpenedPair& pair : workspace.opened_pairs) {
     const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
     if (pair.distance - travel <= reach) {
-      append_pairs(frame, state, pair.a, pair.b, band, reach, close);
+      append_pairs(frame, state, pair.a, pair.b, {}, band, reach, close);
     }
   }
   append_once(frame, state, workspace, contacts);
@@ -220,6 +227,8 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
   const RelativeState state = pair.motion().state(frame.t);
   const double reach = band + pair.gap_error(state);
   const BoxesAtInstant boxes(pair, state);
+  const auto own_A = frame.A.own_features();
+  const auto own_B = frame.B.own_features();
   std::vector<ClosePair>& close = workspace.close_pairs;
   close.clear();
   auto& stack = workspace.stack;
@@ -228,7 +237,11 @@ void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& wor
     const BoxPair top = stack.back();
     stack.pop_back();
     if (top.is_triangle_pair) {
-      append_pairs(frame, state, top.triangle_A, top.triangle_B, band, reach, close);
+      // All pairs of triangles that are close come here: each feature need be asked but once.
+      const AskedFeatures own{own_A[top.triangle_A], own_B[top.triangle_B]};
+      if (own.of_A != 0 || own.of_B != 0) {
+        append_pairs(frame, state, top.triangle_A, top.triangle_B, own, band, reach, close);
+      }
       continue;
     }
     boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
