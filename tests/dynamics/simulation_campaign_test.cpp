@@ -4,7 +4,7 @@
 //
 // FIRSTCONTACT_SIMULATIONS (default 20, 8 with robots) is the number of scenes of each kind, from
 // FIRSTCONTACT_FIRST_SIMULATION (default 0) on. A thousand take about twenty minutes:
-//   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/dynamics/simulation_campaign_test
+//   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/dynamics/dynamics_slow_test --gtest_filter=SimulationCampaign.*
 
 #include <gtest/gtest.h>
 
