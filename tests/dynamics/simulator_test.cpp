@@ -155,6 +155,22 @@ TEST(Simulator, BouncesToTheHeightThatRestitutionLeaves) {
   EXPECT_NEAR(highest, 0.1 + 0.64, 2e-3);
 }
 
+// However few events a step may have: what bounces at its begin goes on from there.
+TEST(Simulator, BouncesWithOneEventInAStep) {
+  Simulator s = simulator(kFloor + "," + body("a", ball("0.1"), "[0, 0, 0.4]", kFree),
+                          R"("step": 0.01, "restitution": 0.8, "events": 1)");
+  double lost = 0.0;
+  double highest = 0.0;
+  bool bounced = false;
+  for (const RunStep& step : run(s, 100)) {
+    lost += step.time_lost;
+    bounced = bounced || step.bodies[0].linear_velocity.z() > 0.0;
+    highest = bounced ? std::max(highest, step.bodies[0].X_WB.position.z()) : highest;
+  }
+  EXPECT_LE(lost, 0.02);
+  EXPECT_NEAR(highest, 0.1 + 0.64 * 0.3, 5e-3);
+}
+
 // --- Nothing interpenetrates
 // -----------------------------------------------------------------------
 

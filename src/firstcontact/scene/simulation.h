@@ -94,7 +94,7 @@ struct Simulation {
   /// [m]  > 0  Bodies that touch rest at this distance to one and a half of it; by default 1e-3 of
   /// the radius of the smallest free body.
   std::optional<double> contact_distance;
-  std::size_t events = 1000;  ///< > 0  In a step; when they are spent, the step ends early.
+  std::size_t events = 1000;  ///< > 0  In a step; past them the step ends early.
   std::vector<PairSurface> pairs;
 };
 

@@ -114,7 +114,7 @@ class Island {
       impact();
     }
     while (track_.reached < start_.h) {
-      if (track_.events >= world_.events || stalls >= kMostStalls) {
+      if (track_.events > world_.events || stalls >= kMostStalls) {
         break;
       }
       const double reached = track_.reached;
