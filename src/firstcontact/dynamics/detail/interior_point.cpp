@@ -16,9 +16,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kMostRounds = 2;  // Of sliding speeds.
-constexpr int kSweeps = 20;     // After each.
-constexpr double kFall = 0.7;   // [-]  Of the residual in a round, or it is the last.
+constexpr int kSweeps = 20;    // After each.
+constexpr double kFall = 0.7;  // [-]  Of the residual in a round, or it is the last.
 constexpr int kMostSteps = 40;
 constexpr double kConvexTolerance = 5.0;  // Of the tolerance; sweeps follow.
 constexpr int kPatience = 5;              // Steps without a residual of half the best one.

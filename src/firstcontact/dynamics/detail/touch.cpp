@@ -128,11 +128,11 @@ bool comes_before(const Touch& x, const Touch& y) {
 
 void carry_impulses(const World& world, const std::vector<Touch>& before, Manifold& manifold) {
   const double close_by = kCloseBy * smaller_reach(world, manifold.bodies);
-  const auto of_pair = std::ranges::equal_range(before, manifold.bodies, {},
-                                                [](const Touch& t) { return t.bodies; });
-  for (const Touch& touch : of_pair) {
-    if (Touch* next = successor(touch, close_by, manifold.touches)) {
-      next->impulse += touch.impulse;
+  const auto bodies_of = [](const Touch& touch) { return touch.bodies; };
+  auto touch = std::ranges::lower_bound(before, manifold.bodies, {}, bodies_of);
+  for (; touch != before.end() && touch->bodies == manifold.bodies; ++touch) {
+    if (Touch* next = successor(*touch, close_by, manifold.touches)) {
+      next->impulse += touch->impulse;
     }
   }
 }
