@@ -24,7 +24,7 @@ constexpr int kRounds = 12;
 
 /// A contact ahead is slight if the bodies approach by less than this part of the smaller one's
 /// radius over the span of the plan, and would not bounce.
-constexpr double kSlightApproach = 0.1;
+constexpr double kSlightApproach = 0.4;
 
 /// Half of what is missing to the rest distance is made up for in a plan.
 constexpr double kPush = 0.5;
