@@ -99,7 +99,7 @@ RecordedMotion waypoints(const py::object& times, const std::vector<Pose>& poses
       py::make_tuple(py::tuple(py::cast(numbers)), py::tuple(py::cast(poses)), py::cast(between))};
 }
 
-std::string describe(const RecordedMotion& motion) {
+std::string describe_motion(const RecordedMotion& motion) {
   return std::string("Motion.") + motion.factory + std::string(py::repr(motion.arguments));
 }
 
@@ -219,7 +219,7 @@ to pose.)")
                                     motion.motion.breaks().begin(), motion.motion.breaks().end()))),
                                 plain(motion.motion.pose(0.0).position)));
            })
-      .def("__repr__", &describe)
+      .def("__repr__", &describe_motion)
       .def(py::pickle(
           [](const RecordedMotion& motion) {
             return py::make_tuple(motion.factory, motion.arguments);

@@ -5,20 +5,20 @@
 namespace firstcontact::python {
 namespace {
 
-std::array<std::string, 2> names_of(const HeldResult& result, const BodyPair& members) {
+std::array<std::string, 2> member_names(const HeldResult& result, const BodyPair& members) {
   const Scene& scene = result.scene->scene();
   return {member_name(scene, members[0]), member_name(scene, members[1])};
 }
 
 SceneContact told(const HeldResult& result, const Contact& found, const BodyPair& members) {
-  SceneContact contact{found, names_of(result, members)};
+  SceneContact contact{found, member_names(result, members)};
   contact.normal_velocity = found.normal_velocity / result.scene->scene().duration;
   return contact;
 }
 
 PairView view(const HeldResult& result, const PairAnswer& pair) {
   const FirstContactResult& found = pair.first_contact;
-  PairView view{.names = names_of(result, pair.bodies),
+  PairView view{.names = member_names(result, pair.bodies),
                 .margin = pair.margin,
                 .verdict = found.verdict,
                 .reason = found.reason,
@@ -35,7 +35,7 @@ PairView view(const HeldResult& result, const PairAnswer& pair) {
 }
 
 PairView view(const HeldResult& result, const RobotPairAnswer& pair) {
-  PairView view{.names = names_of(result, pair.members),
+  PairView view{.names = member_names(result, pair.members),
                 .margin = pair.threshold,
                 .verdict = pair.verdict,
                 .reason = pair.reason,

@@ -80,11 +80,6 @@ py::tuple pairs_of(const SharedResult& result) {
   return pairs;
 }
 
-/// A class of firstcontact/_tuples.py.
-py::object tuple_type(const char* name) {
-  return py::module_::import("firstcontact._tuples").attr(name);
-}
-
 py::tuple intervals_of(const ScenePair& pair) {
   const py::object interval = tuple_type("ContactInterval");
   const double seconds = duration(*pair.result);

@@ -21,10 +21,6 @@ using std::filesystem::path;
 
 namespace {
 
-py::object tuple_type(const char* name) {
-  return py::module_::import("firstcontact._tuples").attr(name);
-}
-
 py::object to_tuple(const Mimic& mimic) {
   return tuple_type("Mimic")(mimic.joint, mimic.multiplier, mimic.offset);
 }

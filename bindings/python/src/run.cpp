@@ -125,7 +125,7 @@ py::tuple robot_rows(const RunStep& step, std::vector<double> RunRobot::*what) {
   return py::tuple(found);
 }
 
-std::string describe(const RunStep& step) {
+std::string describe_step(const RunStep& step) {
   return "<RunStep " + std::to_string(step.index) + " to " +
          std::string(py::repr(py::float_(step.time))) +
          " s: " + std::to_string(step.contacts.size()) + " contacts>";
@@ -189,7 +189,7 @@ vector (3) about it, both at a constant rate.)")
       .def(
           "to_json", [](const RunStep& s) { return without_line_feed(write_run_step(s)); },
           "Its line in the file of a run, without the line feed.")
-      .def("__repr__", &describe);
+      .def("__repr__", &describe_step);
 }
 
 /// A file and its reader.

@@ -88,7 +88,7 @@ std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
 
 /// Of bodies, or of robots.
 template <typename Named>
-py::tuple names_of(const std::vector<Named>& all) {
+py::tuple all_names(const std::vector<Named>& all) {
   py::list names;
   for (const Named& one : all) {
     names.append(one.name);
@@ -96,7 +96,7 @@ py::tuple names_of(const std::vector<Named>& all) {
   return py::tuple(names);
 }
 
-std::string describe(const HeldScene& scene) {
+std::string describe_scene(const HeldScene& scene) {
   return "<Scene " + std::string(py::repr(py::str(scene.scene().id))) + " of " +
          std::to_string(scene.scene().bodies.size()) + " bodies, " +
          (scene.scene().robots.empty()
@@ -122,10 +122,10 @@ the working directory where they were so, and reads them again when they are nee
           "duration", [](const HeldScene& s) { return s.scene().duration; },
           "[s] Of the step; t = 1 there.")
       .def_property_readonly(
-          "bodies", [](const HeldScene& s) { return names_of(s.scene().bodies); },
+          "bodies", [](const HeldScene& s) { return all_names(s.scene().bodies); },
           "Their names, in order.")
       .def_property_readonly(
-          "robots", [](const HeldScene& s) { return names_of(s.scene().robots); },
+          "robots", [](const HeldScene& s) { return all_names(s.scene().robots); },
           "Their names, in order.")
       .def_property_readonly(
           "input_digest", [](const HeldScene& s) { return loaded_without_gil(s).input_digest; },
@@ -139,7 +139,7 @@ the working directory where they were so, and reads them again when they are nee
             return py::module_::import("json").attr("loads")(write_scene(s.scene()));
           },
           "The same as a dict.")
-      .def("__repr__", &describe)
+      .def("__repr__", &describe_scene)
       .def(py::pickle(
           [](const HeldScene& s) {
             return py::make_tuple(write_scene(s.scene()), s.scene().text_digest,

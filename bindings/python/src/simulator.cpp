@@ -225,7 +225,7 @@ std::optional<RunStep> step_until(HeldSimulator& held, OrNone<std::stop_source> 
 
 RunStep step(HeldSimulator& held) { return step_until(held, {}).value(); }
 
-std::string describe(HeldSimulator& held) {
+std::string describe_simulator(HeldSimulator& held) {
   const Simulator& simulator = held.idle();
   return "<Simulator of " + std::to_string(simulator.states().size()) + " bodies after " +
          std::to_string(simulator.step_count()) + " steps, " +
@@ -338,7 +338,7 @@ changed.)")
           R"(Goes on after a step of a run of the same scene, bit for bit as that run did.
 
 step: as from RunReader, or from an earlier `step`. ValueError where it is not of such a run.)")
-      .def("__repr__", &describe);
+      .def("__repr__", &describe_simulator);
 }
 
 }  // namespace firstcontact::python

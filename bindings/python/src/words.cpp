@@ -8,6 +8,10 @@ py::handle member(const char* enumeration, const char* word) {
   return py::module_::import("firstcontact._words").attr(enumeration)(word).release();
 }
 
+py::object tuple_type(const char* name) {
+  return py::module_::import("firstcontact._tuples").attr(name);
+}
+
 void refuse_word(const char* enumeration, const char* const* words, std::size_t count,
                  const std::string& got) {
   std::string text = std::string(enumeration) + ": expected one of ";

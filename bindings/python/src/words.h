@@ -101,6 +101,9 @@ struct Words<RunVerdict> {
   static constexpr std::array kWords{"proven", "closer", "broken", "not_proven"};
 };
 
+/// A class of firstcontact/_tuples.py.
+pybind11::object tuple_type(const char* name);
+
 /// A member of a class of firstcontact/_words.py, kept for good.
 pybind11::handle member(const char* enumeration, const char* word);
 
