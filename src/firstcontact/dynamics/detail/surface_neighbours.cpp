@@ -15,7 +15,7 @@ constexpr double kTilt = 1e-6;
 
 /// Sorts pairs of (feature, way) into rows.
 template <class Ways>
-Ways in_rows(std::size_t count, std::vector<std::pair<std::uint32_t, Vector3d>> pairs) {
+Ways in_rows(std::size_t count, std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
   std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
   Ways rows;
   rows.first.assign(count + 1, 0);
