@@ -154,10 +154,12 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
       }
     }
     detail::project_by_interior_point(problem, rows, options, inner);
-    if (automatic || inner.residual <= options.tolerance) {
-      return solution_of(problem, rows, inner, ProjectionSpace::motion);
+    if (inner.residual < projection.residual) {
+      projection = std::move(inner);
     }
-    projection = std::move(inner);
+    if (automatic || projection.residual <= options.tolerance) {
+      return solution_of(problem, rows, projection, ProjectionSpace::motion);
+    }
   }
   const Projection before = projection;
   detail::project_in_motion_space(problem, rows, options, projection);
