@@ -136,6 +136,8 @@ TEST(MalformedPlanningScene, IsNamedByLineAndPlace) {
                  place +
                      ".header.frame_id: expected a frame that rests (\"\", \"ground\", "
                      "\"world\"), got \"hook\"");
+  expect_message("world: {collision_objects: [7]}",
+                 "s.yaml:1: world.collision_objects[0]: expected an object with \"id\", got 7");
   const std::string held =
       "robot_state: {attached_collision_objects: [{link_name: hook, object: {id: o, header: "
       "{frame_id: cart}, primitives: []}}]}\nworld: {}";

@@ -115,7 +115,11 @@ const JsonObject& JsonReader::object(const JsonValue& value, const KnownKeys& kn
 }
 
 const JsonValue& JsonReader::member(const JsonValue& object, std::string_view key) const {
-  const JsonValue* member = find(std::get<JsonObject>(object.value), key);
+  const auto* members = std::get_if<JsonObject>(&object.value);
+  if (members == nullptr) {
+    fail_expected("an object with " + in_quotes(key), object);
+  }
+  const JsonValue* member = find(*members, key);
   if (member == nullptr) {
     fail(object, "expected a key " + in_quotes(key) + ", got none");
   }

@@ -36,7 +36,7 @@ class JsonReader {
   /// An object without other keys than the known ones.
   [[nodiscard]] const JsonObject& object(const JsonValue& value, const KnownKeys& known) const;
 
-  /// The value of a key that must be there.
+  /// The value of a key that must be there, in what must be an object.
   [[nodiscard]] const JsonValue& member(const JsonValue& object, std::string_view key) const;
 
   [[nodiscard]] const JsonArray& array(const JsonValue& value, const std::string& what) const;
