@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace firstcontact::benchmarks {
 namespace {
@@ -30,7 +31,7 @@ RobotMotion StraightMotion::of(const RobotModel& model) const {
       joints.emplace(model.joints()[k].name, CoordinatePath::linear(kTimes, values));
     }
   }
-  return {model, joints};
+  return {model, std::move(joints)};
 }
 
 double StraightMotion::longest_joint() const {

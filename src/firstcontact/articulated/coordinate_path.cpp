@@ -67,16 +67,23 @@ CoordinateSegment at_rest(double position, double t_begin, double t_end) {
   return segment;
 }
 
-void require(bool condition, const std::string& message) {
+[[noreturn]] void refuse(const std::string& message) {
+  throw std::invalid_argument("CoordinatePath: " + message);
+}
+
+/// Planners make paths by the thousand: no message is put together before it is needed.
+void require(bool condition, const char* message) {
   if (!condition) {
-    throw std::invalid_argument("CoordinatePath: " + message);
+    refuse(message);
   }
 }
 
-void require_numbers(std::span<const double> values, const std::string& name) {
+void require_numbers(std::span<const double> values, const char* name) {
   for (const double value : values) {
     // Negated, so that NaN is refused too. Angles beyond are refused by sine_cosine.
-    require(std::abs(value) <= kMaximumAngle, name + " must be finite and at most 1e8 in size");
+    if (!(std::abs(value) <= kMaximumAngle)) {
+      refuse(std::string(name) + " must be finite and at most 1e8 in size");
+    }
   }
 }
 
@@ -134,11 +141,13 @@ std::vector<CoordinateSegment> through(std::span<const double> times,
   require_times(times);
   constexpr std::array<const char*, 3> kNames = {"positions", "velocities", "accelerations"};
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    require(columns[c].size() == times.size(),
-            std::string(kNames[c]) + " must be as many as times, " + std::to_string(times.size()));
+    if (columns[c].size() != times.size()) {
+      refuse(std::string(kNames[c]) + " must be as many as times, " + std::to_string(times.size()));
+    }
     require_numbers(columns[c], kNames[c]);
   }
   std::vector<CoordinateSegment> segments;
+  segments.reserve(times.size() + 1);
   if (times.front() > 0.0) {
     segments.push_back(at_rest(columns[0].front(), 0.0, times.front()));
   }
@@ -319,9 +328,10 @@ CoordinatePath CoordinatePath::polynomials(std::span<const double> times,
     segments.push_back(scaled_polynomial(coefficients[k], times[k], times[k + 1]));
     if (k > 0) {
       const double before = segments[k - 1].state(times[k]).value.hi;
-      require(std::abs(before - segments[k].a[0].hi) <= kJump,
-              "the coordinate jumps at time " + std::to_string(times[k]) +
-                  "; let neighbouring pieces meet");
+      if (!(std::abs(before - segments[k].a[0].hi) <= kJump)) {
+        refuse("the coordinate jumps at time " + std::to_string(times[k]) +
+               "; let neighbouring pieces meet");
+      }
     }
   }
   const double first = segments.front().a[0].hi;

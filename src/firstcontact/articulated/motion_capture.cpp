@@ -117,7 +117,7 @@ RobotMotion capture_motion(const RobotModel& figure, const MotionCapture& captur
                              })));
     }
   }
-  return RobotMotion(figure, joints, base);
+  return RobotMotion(figure, std::move(joints), base);
 }
 
 }  // namespace firstcontact

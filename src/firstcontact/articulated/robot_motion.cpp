@@ -184,15 +184,15 @@ void sort_times(std::vector<double>& times) {
 }
 
 std::vector<AnyMotion> checked_motions(const RobotModel& model,
-                                       const std::map<std::string, JointMotion>& joints) {
+                                       std::map<std::string, JointMotion> joints) {
   std::vector<AnyMotion> motions(model.joints().size());
-  for (const auto& [name, motion] : joints) {
+  for (auto& [name, motion] : joints) {
     const std::optional<std::size_t> index = model.find_joint(name);
     if (!index) {
       refuse(name, "is not a joint of the robot '" + model.name() + "'");
     }
     require_match(model.joints()[*index], motion);
-    std::visit([&](const auto& kind) { motions[*index] = kind; }, motion);
+    std::visit([&](auto& kind) { motions[*index] = std::move(kind); }, motion);
   }
   for (std::size_t j = 0; j < motions.size(); ++j) {
     const Joint& joint = model.joints()[j];
@@ -255,7 +255,7 @@ Pieces pieces_of(const Motion& motion) {
 /// beyond is a path of its own.
 struct RobotMotion::Data {
   std::vector<AnyMotion> motions;
-  Motion base = Motion::fixed();
+  Motion base;
   Pieces base_pieces;
   std::vector<Pieces> joint_pieces;  // Empty for fixed joints.
   std::vector<double> breaks;
@@ -287,14 +287,15 @@ const LinkPath& LinkMotion::at(double t) const {
   return *found;
 }
 
-RobotMotion::RobotMotion(RobotModel model, const std::map<std::string, JointMotion>& joints,
-                         Motion base)
+RobotMotion::RobotMotion(RobotModel model, std::map<std::string, JointMotion> joints, Motion base)
     : model_(std::move(model)) {
   const FloatEnvironmentGuard guard;
-  auto data = std::make_shared<Data>();
-  data->motions = checked_motions(model_, joints);
-  data->base = std::move(base);
-  data->base_pieces = pieces_of(data->base);
+  Pieces base_pieces = pieces_of(base);
+  auto data = std::make_shared<Data>(Data{.motions = checked_motions(model_, std::move(joints)),
+                                          .base = std::move(base),
+                                          .base_pieces = std::move(base_pieces),
+                                          .joint_pieces = {},
+                                          .breaks = {}});
   data->breaks = {0.0};
   add_ends(data->breaks, data->base);
   data->joint_pieces.reserve(model_.joints().size());

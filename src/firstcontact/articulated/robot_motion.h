@@ -66,7 +66,7 @@ class FIRSTCONTACT_API RobotMotion {
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it
   ///         is fixed, mimics another, or is not of the robot; a joint that is not continuous is to
   ///         take the shortest way
-  RobotMotion(RobotModel model, const std::map<std::string, JointMotion>& joints,
+  RobotMotion(RobotModel model, std::map<std::string, JointMotion> joints,
               Motion base = Motion::fixed());
 
   [[nodiscard]] const RobotModel& model() const { return model_; }

@@ -55,14 +55,22 @@ Quaternion exact(const Eigen::Quaterniond& q) {
   return {q.w(), DoubleDoubleVector3(q.x(), q.y(), q.z())};
 }
 
+DoubleDoubleVector3 unit(int axis) {
+  DoubleDoubleVector3 e;
+  e.c[axis] = 1.0;
+  return e;
+}
+
 /// Columns of the rotation matrix of q / |q|.
 std::array<DoubleDoubleVector3, 3> rotation_columns(const Eigen::Quaterniond& rotation) {
+  if (rotation.vec().isZero(0.0)) {
+    return {unit(0), unit(1), unit(2)};
+  }
   const Quaternion q = exact(rotation);
   const DoubleDouble length2 = q.w * q.w + dot(q.v, q.v);
   std::array<DoubleDoubleVector3, 3> columns;
   for (int j = 0; j < 3; ++j) {
-    DoubleDoubleVector3 e;
-    e.c[j] = 1.0;
+    const DoubleDoubleVector3 e = unit(j);
     // R e = e + 2 (w v x e + v x (v x e)) / |q|^2.
     const DoubleDoubleVector3 vxe = cross(q.v, e);
     const DoubleDoubleVector3 sum = q.w * vxe + cross(q.v, vxe);
@@ -158,8 +166,7 @@ double rounded_length(const DoubleDoubleVector3& v) { return v.value().norm(); }
 ConstantRateSegment at_rest(const Pose& pose) {
   ConstantRateSegment s;
   s.p_WQ = DoubleDoubleVector3(pose.position);
-  const auto columns = rotation_columns(pose.rotation);
-  s.rotation = columns;
+  s.rotation = rotation_columns(pose.rotation);
   s.rotation_error = kConstructionError;
   return s;
 }

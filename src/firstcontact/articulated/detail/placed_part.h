@@ -27,6 +27,8 @@ class PlacedPart {
     known_.fill(-1);
     if (track_.rests()) {
       swept_ = track_.rest();
+    } else {
+      places_.reserve(kFewPlaces);
     }
   }
 
@@ -47,6 +49,8 @@ class PlacedPart {
   }
 
  private:
+  static constexpr std::size_t kFewPlaces = 5;  // Of the piece and its halves.
+
   const PartPlace& place(int k) {
     std::int16_t& index = known_[static_cast<std::size_t>(k)];
     if (index < 0) {

@@ -32,11 +32,6 @@ FramePlace pass(const FramePlace& parent, const JointState& joint) {
   return child;
 }
 
-FramePlace pass(const FramePlace& parent, const JointPath& joint, double t) {
-  const JointState* rest = joint.rest();
-  return rest != nullptr ? pass(parent, *rest) : pass(parent, joint.state(t));
-}
-
 }  // namespace
 
 TreeCourse::TreeCourse(std::vector<Node> nodes, const TimeGrid& grid) : grid_(grid) {
@@ -50,37 +45,37 @@ TreeCourse::TreeCourse(std::vector<Node> nodes, const TimeGrid& grid) : grid_(gr
 }
 
 const FramePlace& TreeCourse::place(std::size_t node, int k) {
-  std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
+  const std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
   if (places.empty()) {
-    const FramePlace world;
-    const double t = grid_.at(k);
-    places.reserve(joints_.size());
-    for (const auto& [joint, rests] : joints_) {
-      places.push_back(pass(joint.parent == kWorld ? world : places[joint.parent], *joint.path, t));
-    }
+    place_all(k);
   }
   return places[node];
 }
 
-void TreeCourse::find_levers() {
+void TreeCourse::place_all(int k) {
   const FramePlace world;
-  const double t = grid_.at(TimeGrid::kMiddle);
-  levers_.reserve(joints_.size());
+  const double t = grid_.at(k);
+  std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
+  places.reserve(joints_.size());
   for (const auto& [joint, rests] : joints_) {
-    const FramePlace& parent =
-        joint.parent == kWorld ? world : place(joint.parent, TimeGrid::kMiddle);
+    const FramePlace& parent = joint.parent == kWorld ? world : places[joint.parent];
     const JointState state = joint.path->state(t);
-    const Vector3d step = state.p_PQ.value();
-    levers_.push_back({parent.p + parent.R * step, parent.R * state.axis, step.norm(),
-                       state.p_QL.norm(), joint.path->bounds(grid_.piece.begin, grid_.piece.end)});
+    if (k == TimeGrid::kMiddle) {
+      add_lever(parent, state, *joint.path);
+    }
+    places.push_back(pass(parent, state));
   }
+}
+
+void TreeCourse::add_lever(const FramePlace& parent, const JointState& state,
+                           const JointPath& path) {
+  const Vector3d step = state.p_PQ.value();
+  levers_.push_back({parent.p + parent.R * step, parent.R * state.axis, step.norm(),
+                     state.p_QL.norm(), path.bounds(grid_.piece.begin, grid_.piece.end)});
 }
 
 CoordinateSegment::Bounds TreeCourse::bounds(std::size_t node, const Vector3d& p_LC, double reach,
                                              std::size_t frame) {
-  if (levers_.empty()) {
-    find_levers();
-  }
   const double middle = grid_.at(TimeGrid::kMiddle);
   const double T = std::max(grid_.piece.end - middle, middle - grid_.piece.begin) * kUp;
   const FramePlace& L = place(node, TimeGrid::kMiddle);

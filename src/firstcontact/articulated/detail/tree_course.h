@@ -68,12 +68,13 @@ class TreeCourse {
     Node node;
     bool rests = false;  // With all that it hangs on.
   };
-  void find_levers();
+  void place_all(int k);
+  void add_lever(const FramePlace& parent, const JointState& state, const JointPath& path);
 
   TimeGrid grid_;
   std::vector<Joint> joints_;
-  std::vector<Lever> levers_;                                          // Empty until asked for.
-  std::array<std::vector<FramePlace>, GridWindow::kSize + 1> places_;  // So, too.
+  std::vector<Lever> levers_;  // Empty until a place at the middle was asked for.
+  std::array<std::vector<FramePlace>, GridWindow::kSize + 1> places_;  // So, too, each.
 };
 
 }  // namespace firstcontact::detail
