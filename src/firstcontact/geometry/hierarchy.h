@@ -52,8 +52,11 @@ struct alignas(64) HierarchyNode {
   }
 
  private:
+  /// How many slots of a mask come before one. The number of bits of each k < 16, which not every
+  /// processor counts, is digit k of a constant.
   static std::uint32_t rank(unsigned mask, int slot) {
-    return static_cast<std::uint32_t>(std::popcount(mask & ((1u << slot) - 1u)));
+    constexpr std::uint64_t kBits = 0x4332322132212110u;
+    return static_cast<std::uint32_t>(kBits >> (4 * (mask & ((1u << slot) - 1u)))) & 15u;
   }
 };
 static_assert(sizeof(HierarchyNode) == 128);

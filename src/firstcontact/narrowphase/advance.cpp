@@ -100,7 +100,10 @@ struct CarriedView {
 double along_direction_carried(const CarriedView& view, const Triangle& carrier,
                                const Triangle& other, const Vector3d& n, double clearance_error,
                                double time_left, double enough) {
-  const double spin = view.rate * n.cross(view.axis).norm();
+  // n . (w u x r) = r . (n x u) w.
+  const Vector3d turn = view.rate * n.cross(view.axis);
+  const Vector3d other_turn = view.other_rate * n.cross(view.other_axis);
+  const double spin = turn.norm();
   const double other_speed = view.other_velocity.norm() + view.other_rate * view.other_reach;
   const Vector3d apart = view.other_pivot - view.carrier_pivot;
   // The pivots move on lines, so that their distance is greatest at an end.
@@ -113,13 +116,12 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
       (view.other_rate * view.other_rate * view.other_reach + 2.0 * spin * other_speed +
        view.rate * spin * distance + slip * (view.rate + view.other_rate) + view.bend);
   const double wall = std::max({n.dot(carrier[0]), n.dot(carrier[1]), n.dot(carrier[2])});
+  const double drift = n.dot(view.other_velocity);
   for (int k = 0; k < 3; ++k) {
     const Vector3d& b = other[k];
-    const Vector3d velocity = view.other_velocity +
-                              view.other_rate * view.other_axis.cross(b - view.other_pivot) -
-                              view.rate * view.axis.cross(b - view.carrier_pivot);
     gaps.gap[k] = n.dot(b) - wall - clearance_error;
-    gaps.speed[k] = slip - n.dot(velocity);
+    gaps.speed[k] = slip - drift - other_turn.dot(b - view.other_pivot) +
+                    turn.dot(b - view.carrier_pivot);
   }
   return gaps.time_open(enough);
 }

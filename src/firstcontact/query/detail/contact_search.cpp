@@ -1,6 +1,7 @@
 #include <firstcontact/query/detail/contact_search.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -29,6 +30,11 @@ constexpr std::size_t kMostRemembered = 256;
 /// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
 /// expected to be so, too.
 constexpr std::uint64_t kManyFreed = 256;
+
+/// Pairs of boxes that are bounded once more in double precision, until it is known for how many
+/// that is the end; and how many it may cost for one.
+constexpr std::uint64_t kFewRepeated = 64;
+constexpr std::uint64_t kRepeatedForOne = 4;
 
 /// [m^2]  Of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
@@ -61,7 +67,7 @@ class Search {
     opened_.clear();
     start(t_begin_);
     while (!queue_.empty()) {
-      if (best_.contact && queue_.top().priority >= best_.t - stop_window_) {
+      if (best_.contact && queue_.top().priority() >= best_.t - stop_window_) {
         break;
       }
       if (const UndecidedReason reason = spent(); reason != UndecidedReason::none) {
@@ -175,7 +181,7 @@ class Search {
 
   /// All that is left is proven free before the least priority.
   [[nodiscard]] double proven_free() const {
-    const double t = queue_.empty() ? t_end_ : queue_.top().priority;
+    const double t = queue_.empty() ? t_end_ : queue_.top().priority();
     return std::max(t_begin_, best_.contact ? std::min(t, best_.t) : t);
   }
 
@@ -289,11 +295,8 @@ class Search {
     unsigned live = lanes & bounds.live;
     const unsigned doubt =
         in_doubt(pair_.A().nodes[group.node_a], pair_.B().nodes[group.node_b], bounds);
-    for (unsigned unsure = live & doubt; unsure != 0; unsure &= unsure - 1) {
-      const int k = std::countr_zero(unsure);
-      if (!bound_in_double(group, k, bounds.time[k])) {
-        live &= ~(1u << k);
-      }
+    if ((live & doubt) != 0) {
+      live &= ~bound_in_double(group, live & doubt, bounds);
     }
     if (!all_remembered_ && freed_ > kManyFreed) {
       live &= ~free_triangles(group, live, bounds);
@@ -339,28 +342,50 @@ class Search {
 
   /// Lanes in which double precision, and the corners of triangles in place of their boxes, may
   /// find more. Two triangles are as quickly tested themselves; a large one matters to many small
-  /// boxes.
+  /// boxes, unless it turned out not to.
   [[nodiscard]] unsigned in_doubt(const HierarchyNode& a, const HierarchyNode& b,
                                   const BoxBounds& bounds) const {
     const unsigned triangle_pairs = lanes_of(a.leaves(), b.leaves());
     const unsigned large_triangles = (lanes_of(a.leaves(), b.used()) & bounds.larger_a) |
                                      (lanes_of(a.used(), b.leaves()) & bounds.larger_b);
-    const unsigned doubt = (bounds.unsure | large_triangles) & ~triangle_pairs;
+    const bool corners_help = repeated_ < kFewRepeated + kRepeatedForOne * worth_repeating_;
+    const unsigned doubt =
+        (bounds.unsure | (corners_help ? large_triangles : 0u)) & ~triangle_pairs;
     // The box of a triangle that deforms is thick: its axes are those that suited it at t = 0.
     return pair_.deforms() ? doubt | triangle_pairs : doubt;
   }
 
-  /// Repeats one lane where single precision could not tell; whether it is still of interest.
-  bool bound_in_double(const BoxGroup& group, int lane, float& time) const {
-    const BoxId a{group.node_a, static_cast<std::uint32_t>(lane / HierarchyNode::kWidth)};
-    const BoxId b{group.node_b, static_cast<std::uint32_t>(lane % HierarchyNode::kWidth)};
-    const double apart = pair_.time_apart(state_, pair_.place_A(state_, a),
-                                          pair_.place_B(state_, b), box_threshold_, error_);
-    if (covered(state_t_, apart)) {
-      return false;
+  /// Repeats lanes where single precision could not tell; returns those that are done with, and
+  /// improves the times of others.
+  unsigned bound_in_double(const BoxGroup& group, unsigned lanes, BoxBounds& bounds) {
+    std::array<PlacedBox, HierarchyNode::kWidth> b;
+    for (unsigned slots = (lanes | lanes >> 4 | lanes >> 8 | lanes >> 12) & 15u; slots != 0;
+         slots &= slots - 1) {
+      const int j = std::countr_zero(slots);
+      b[j] = pair_.place_B(state_, {group.node_b, static_cast<std::uint32_t>(j)});
     }
-    time = std::max(time, round_down(std::min(apart, 4.0)));
-    return true;
+    const double enough = 2.0 * (horizon() - state_t_);
+    repeated_ += static_cast<std::uint64_t>(std::popcount(lanes));
+    unsigned done = 0;
+    PlacedBox a;
+    int placed = -1;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int k = std::countr_zero(lanes);
+      const int i = k / HierarchyNode::kWidth;
+      if (i != placed) {
+        a = pair_.place_A(state_, {group.node_a, static_cast<std::uint32_t>(i)});
+        placed = i;
+      }
+      const double apart = pair_.time_apart(state_, a, b[k % HierarchyNode::kWidth],
+                                            box_threshold_, error_, enough);
+      worth_repeating_ += apart > 2.0 * static_cast<double>(bounds.time[k]) ? 1 : 0;
+      if (covered(state_t_, apart)) {
+        done |= 1u << k;
+      } else {
+        bounds.time[k] = std::max(bounds.time[k], round_down(std::min(apart, 4.0)));
+      }
+    }
+    return done;
   }
 
   /// Places both bodies.
@@ -377,7 +402,7 @@ class Search {
   void follow_triangles(TriangleEntry entry) {
     ++work_.triangle_pairs;
     check_start(entry);
-    const double due = queue_.empty() ? horizon() : queue_.top().priority + tie_window_;
+    const double due = queue_.empty() ? horizon() : queue_.top().priority() + tie_window_;
     double t = entry.key;
     do {
       if (best_.contact && t >= best_.t) {
@@ -512,7 +537,9 @@ class Search {
   double tie_window_;
   double stop_window_ = 0.0;
   std::uint64_t next_clock_ = 0;
-  std::uint64_t freed_ = 0;  // Pairs of triangles.
+  std::uint64_t freed_ = 0;     // Pairs of triangles.
+  std::uint64_t repeated_ = 0;  // Bounds in double precision.
+  std::uint64_t worth_repeating_ = 0;
   bool unresolved_ = false;
   bool all_remembered_ = true;
   PieceResult best_;

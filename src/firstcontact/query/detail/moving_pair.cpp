@@ -98,6 +98,7 @@ struct Separation {
   double gap;
 };
 
+/// Until use() returns true.
 template <class Use>
 void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) {
   const Vector3d d = b.centre - a.centre;
@@ -107,15 +108,12 @@ void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) 
       n = -n;
       along = -along;
     }
-    use(Separation{n, along - extent_along(a, n) - extent_along(b, -n)});
+    return use(Separation{n, along - extent_along(a, n) - extent_along(b, -n)});
   };
   const double length = d.norm();
-  if (length > 0.0) {
-    consider(d / length);
-  }
-  for (int k = 0; k < 3; ++k) {
-    consider(a.axes.row(k).transpose());
-    consider(b.axes.row(k).transpose());
+  bool done = length > 0.0 && consider(d / length);
+  for (int k = 0; k < 3 && !done; ++k) {
+    done = consider(a.axes.row(k).transpose()) || consider(b.axes.row(k).transpose());
   }
 }
 
@@ -173,7 +171,7 @@ TrianglePair MovingPair::rates(const RelativeState& state, std::uint32_t triangl
 }
 
 double MovingPair::time_apart(const RelativeState& state, const PlacedBox& a, const PlacedBox& b,
-                              double threshold, double error) const {
+                              double threshold, double error, double enough) const {
   const double wA = state.rate_A;
   const double wB = state.rate_B;
   const double dA = A_.deformation_speed;
@@ -185,7 +183,7 @@ double MovingPair::time_apart(const RelativeState& state, const PlacedBox& a, co
   for_each_direction(a, b, [&](const Separation& s) {
     const double clear = s.gap - threshold - error;
     if (!(clear > 0.0)) {
-      return;
+      return false;
     }
     const double turn_A = wA * s.n.cross(state.axis_A).norm();
     const double turn_B = wB * s.n.cross(state.axis_B).norm();
@@ -196,6 +194,7 @@ double MovingPair::time_apart(const RelativeState& state, const PlacedBox& a, co
         (turn_A * (wA * a.reach + 2.0 * dA) + turn_B * (wB * b.reach + 2.0 * dB) +
          slip * (wA + wB) + state.bend);
     best = std::max(best, time_to_close(clear, speed, half_acceleration));
+    return best >= enough;
   });
   return best;
 }
@@ -215,7 +214,10 @@ void MovingPair::bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_
 
 double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
   double best = -std::numeric_limits<double>::infinity();
-  for_each_direction(a, b, [&](const Separation& s) { best = std::max(best, s.gap); });
+  for_each_direction(a, b, [&](const Separation& s) {
+    best = std::max(best, s.gap);
+    return false;
+  });
   return best;
 }
 

@@ -75,15 +75,17 @@ class MovingPair {
   [[nodiscard]] TrianglePair rates(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// [-]  For how long two boxes are provably farther apart than the threshold, by the directions
-  /// of the centre line and of each box's axes; of a triangle's box, only the triangle counts.
+  /// [-]  For how long two boxes are provably farther apart than the threshold, or `enough` where
+  /// it is longer than that, by the directions of the centre line and of each box's axes; of a
+  /// triangle's box, only the triangle counts.
   ///
   /// Of a body that deforms, the boxes grow. Derivation: were the body not to turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
   /// time. Turning adds the velocities of where the vertices are now, and the accelerations of
   /// advance_deforming().
   [[nodiscard]] double time_apart(const RelativeState& state, const PlacedBox& a,
-                                  const PlacedBox& b, double threshold, double error) const;
+                                  const PlacedBox& b, double threshold, double error,
+                                  double enough) const;
 
   /// [m]  Lower bound of the distance of two boxes at this instant, by the same directions;
   /// negative where none separates.

@@ -129,10 +129,30 @@ struct CloseKey {
 };
 
 /// An entry of the search queue: a group or a pair of triangles, by the order of the search.
-struct QueueItem {
-  double priority = 0.0;  ///< [-]  At most the least key of what it stands for.
+class QueueItem {
+ public:
+  QueueItem() = default;
+  /// @param priority  [-]  at most the least key of what the item stands for
+  QueueItem(double priority, std::uint32_t index, bool is_triangle_pair)
+      : index(index),
+        is_triangle_pair(is_triangle_pair),
+        order_(in_order(std::bit_cast<std::int64_t>(priority))) {}
+
   std::uint32_t index = 0;
   bool is_triangle_pair = false;
+
+  [[nodiscard]] double priority() const { return std::bit_cast<double>(in_order(order_)); }
+
+  friend bool operator<(const QueueItem& x, const QueueItem& y) { return x.order_ < y.order_; }
+
+ private:
+  /// The code of a double as an integer in the same order, and back. Integers are compared without
+  /// branches, which in a queue cannot be foreseen.
+  static std::int64_t in_order(std::int64_t code) {
+    return code ^ (code < 0 ? std::numeric_limits<std::int64_t>::max() : 0);
+  }
+
+  std::int64_t order_ = 0;
 };
 
 /// A heap with four children to an entry, which are neighbours in memory; least priority first.
@@ -146,7 +166,7 @@ class SearchQueue {
   void push(const QueueItem& item) {
     items_.push_back(item);
     std::size_t hole = items_.size() - 1;
-    while (hole > 0 && item.priority < items_[(hole - 1) / kWidth].priority) {
+    while (hole > 0 && item < items_[(hole - 1) / kWidth]) {
       items_[hole] = items_[(hole - 1) / kWidth];
       hole = (hole - 1) / kWidth;
     }
@@ -163,27 +183,33 @@ class SearchQueue {
 
   void replace_top(const QueueItem& item) {
     std::size_t hole = 0;
-    while (true) {
-      const std::size_t first = kWidth * hole + 1;
-      const std::size_t end = std::min(first + kWidth, items_.size());
-      std::size_t least = hole;
-      double priority = item.priority;
-      for (std::size_t child = first; child < end; ++child) {
-        const bool less = items_[child].priority < priority;
-        least = less ? child : least;
-        priority = less ? items_[child].priority : priority;
-      }
-      if (least == hole) {
-        break;
-      }
+    std::size_t least = least_child(hole);
+    while (least != hole && items_[least] < item) {
       items_[hole] = items_[least];
       hole = least;
+      least = least_child(hole);
     }
     items_[hole] = item;
   }
 
  private:
   static constexpr std::size_t kWidth = 4;
+
+  /// The entry itself where it has none.
+  [[nodiscard]] std::size_t least_child(std::size_t entry) const {
+    const std::size_t first = kWidth * entry + 1;
+    if (first + kWidth <= items_.size()) {
+      const std::size_t low = first + (items_[first + 1] < items_[first] ? 1 : 0);
+      const std::size_t high = first + 2 + (items_[first + 3] < items_[first + 2] ? 1 : 0);
+      return items_[high] < items_[low] ? high : low;
+    }
+    std::size_t least = first < items_.size() ? first : entry;
+    for (std::size_t child = first + 1; child < items_.size(); ++child) {
+      least = items_[child] < items_[least] ? child : least;
+    }
+    return least;
+  }
+
   std::vector<QueueItem> items_;
 };
 
