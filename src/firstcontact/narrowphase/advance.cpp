@@ -120,8 +120,8 @@ double along_direction_carried(const CarriedView& view, const Triangle& carrier,
   for (int k = 0; k < 3; ++k) {
     const Vector3d& b = other[k];
     gaps.gap[k] = n.dot(b) - wall - clearance_error;
-    gaps.speed[k] = slip - drift - other_turn.dot(b - view.other_pivot) +
-                    turn.dot(b - view.carrier_pivot);
+    gaps.speed[k] =
+        slip - drift - other_turn.dot(b - view.other_pivot) + turn.dot(b - view.carrier_pivot);
   }
   return gaps.time_open(enough);
 }

@@ -323,8 +323,7 @@ struct Placer {
     V<D> R[3][3];
     for (int k = 0; k < 3; ++k) {
       for (int m = 0; m < 3; ++m) {
-        R[k][m] = each(first, static_cast<float>(frame.rotation[0][3 * k + m]),
-                       static_cast<float>(frame.rotation[1][3 * k + m]));
+        R[k][m] = each(first, frame.rounded[0][3 * k + m], frame.rounded[1][3 * k + m]);
       }
     }
     for (int axis = 0; axis < 3; ++axis) {

@@ -14,6 +14,7 @@ namespace firstcontact::detail {
 /// axes, origin at A's centre; index 0 is A, 1 is B.
 struct BoxFrame {
   double rotation[2][9];  ///< Row-major.
+  float rounded[2][9];    ///< The same, rounded.
   double origin[2][3];    ///< Centres of the hierarchies.
   double pivot[2][3];
   double ratio[2];       ///< Unit of the hierarchy.

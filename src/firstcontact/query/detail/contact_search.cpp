@@ -376,8 +376,8 @@ class Search {
         a = pair_.place_A(state_, {group.node_a, static_cast<std::uint32_t>(i)});
         placed = i;
       }
-      const double apart = pair_.time_apart(state_, a, b[k % HierarchyNode::kWidth],
-                                            box_threshold_, error_, enough);
+      const double apart =
+          pair_.time_apart(state_, a, b[k % HierarchyNode::kWidth], box_threshold_, error_, enough);
       worth_repeating_ += apart > 2.0 * static_cast<double>(bounds.time[k]) ? 1 : 0;
       if (covered(state_t_, apart)) {
         done |= 1u << k;

@@ -242,6 +242,8 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
     for (int j = 0; j < 3; ++j) {
       frame.rotation[0][3 * i + j] = state.R_WA(i, j);
       frame.rotation[1][3 * i + j] = state.R_WB(i, j);
+      frame.rounded[0][3 * i + j] = static_cast<float>(state.R_WA(i, j));
+      frame.rounded[1][3 * i + j] = static_cast<float>(state.R_WB(i, j));
     }
     frame.origin[1][i] = state.p_AB[i] * scale;
     frame.pivot[0][i] = state.p_AQa[i] * scale;
