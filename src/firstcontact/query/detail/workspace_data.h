@@ -133,9 +133,9 @@ class QueueItem {
  public:
   QueueItem() = default;
   /// @param priority  [-]  at most the least key of what the item stands for
-  QueueItem(double priority, std::uint32_t index, bool is_triangle_pair)
-      : index(index),
-        is_triangle_pair(is_triangle_pair),
+  QueueItem(double priority, std::uint32_t stands_for, bool a_triangle_pair)
+      : index(stands_for),
+        is_triangle_pair(a_triangle_pair),
         order_(in_order(std::bit_cast<std::int64_t>(priority))) {}
 
   std::uint32_t index = 0;
