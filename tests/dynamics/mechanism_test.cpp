@@ -170,6 +170,34 @@ TEST(Mechanism, KeepsItsMomentumWhereNothingHoldsIt) {
 }
 
 // The Jacobians are the derivatives of where the links are.
+// Along its own way a mechanism is carried as inertia takes it, to second order in the time: half
+// of it leaves a quarter of the difference.
+TEST(Mechanism, CarriesVelocitiesAsInertiaDoes) {
+  std::mt19937 rng(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Mechanism mechanism(chain(rng, {JointType::floating, JointType::revolute, JointType::ball,
+                                          JointType::planar, JointType::prismatic}),
+                              {}, trial % 2 == 0);
+    const MechanismState state = random_state(rng, mechanism);
+    const double energy = mechanism.mechanics(state, Vector3d::Zero()).kinetic_energy;
+    const auto difference = [&](double dt) {
+      const MechanismState after = mechanism.after_free_motion(state, Vector3d::Zero(), dt);
+      const VectorXd carried = mechanism.carried(state, after.positions);
+      EXPECT_NEAR(mechanism.mechanics({after.positions, carried}, Vector3d::Zero()).kinetic_energy,
+                  energy, 1e-9 * energy);
+      return (carried - after.velocities).norm() / state.velocities.norm();
+    };
+    EXPECT_LT(difference(5e-4), 0.3 * difference(1e-3)) << trial;
+    EXPECT_LT(difference(1e-3), 1e-3) << trial;
+  }
+}
+
+TEST(Mechanism, CarriesVelocitiesOfOneHingeUnchanged) {
+  const Mechanism mechanism(pendulum(0.7), {}, false);
+  const MechanismState state{VectorXd::Constant(1, 0.3), VectorXd::Constant(1, 5.0)};
+  EXPECT_NEAR(mechanism.carried(state, VectorXd::Constant(1, 0.4))[0], 5.0, 1e-12);
+}
+
 TEST(Mechanism, LinksMoveAsTheirJacobiansSay) {
   std::mt19937 rng(7);
   constexpr double kStep = 1e-6;

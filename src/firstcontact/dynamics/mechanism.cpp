@@ -413,6 +413,34 @@ MechanismState Mechanism::after_free_motion(const MechanismState& state, const V
   return now;
 }
 
+VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positions) const {
+  const MechanismInstant from = at(state);
+  const MechanismInstant to = at({positions, VectorXd::Zero(size_)});
+  VectorXd momenta = VectorXd::Zero(size_);
+  double energy = 0.0;  // Twice.
+  for (std::size_t l = 0; l < from.X_WL.size(); ++l) {
+    const auto& inertia = model_.links()[l].inertia;
+    if (!inertia) {
+      continue;
+    }
+    const auto centre = [&](const MechanismInstant& instant) -> Vector3d {
+      return instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
+    };
+    const Spatial& V = from.velocity[l];
+    const Vector3d w = V.tail<3>();
+    const Vector3d v_WC = V.head<3>() + w.cross(centre(from) - from.reference);
+    const Matrix3d R = from.X_WL[l].rotation.toRotationMatrix();
+    const Vector3d linear = inertia->mass * v_WC;
+    const Vector3d angular = R * (inertia->about_C_L * (R.transpose() * w));
+    energy += linear.dot(v_WC) + angular.dot(w);
+    momenta +=
+        to.J[l].transpose() * spatial(linear, angular + (centre(to) - to.reference).cross(linear));
+  }
+  const VectorXd velocities = mass_matrix(to).llt().solve(momenta);
+  const double found = velocities.dot(momenta);
+  return found > 0.0 ? VectorXd(std::sqrt(energy / found) * velocities) : velocities;
+}
+
 MechanismMechanics Mechanism::mechanics(const MechanismState& state,
                                         const Vector3d& gravity) const {
   const MechanismInstant instant = at(state);

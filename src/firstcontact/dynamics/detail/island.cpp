@@ -406,8 +406,8 @@ class Island {
     if (is_solved && robots_.has_motors()) {
       return;
     }
-    const double before = energy_of(problem.bodies, velocities_of(problem.mechanisms));
-    const double after = energy_of(solution.bodies, solution.mechanisms);
+    const double before = energy_of(problem, problem.bodies, velocities_of(problem.mechanisms));
+    const double after = energy_of(problem, solution.bodies, solution.mechanisms);
     double mass = 0.0;
     for (std::size_t k = 0; k < size(); ++k) {
       mass += member(k).inertia.mass;
@@ -439,9 +439,10 @@ class Island {
   }
 
   /// [J]  Of the members and their robots.
-  [[nodiscard]] double energy_of(const std::vector<ContactBody>& bodies,
+  [[nodiscard]] double energy_of(const ContactProblem& problem,
+                                 const std::vector<ContactBody>& bodies,
                                  const std::vector<Eigen::VectorXd>& mechanisms) const {
-    double sum = robots_.kinetic_energy(mechanisms);
+    double sum = kinetic_energy(problem.mechanisms, mechanisms);
     for (std::size_t k = 0; k < size(); ++k) {
       if (!member(k).piece) {
         sum += kinetic_energy(member(k).inertia, {states_[k].X_WB, bodies[k].v, bodies[k].w});
@@ -715,8 +716,8 @@ class Island {
     robots_.add_drives_at_impact(problem);
     ContactSolution solution = project_impact(
         problem, restitution, size(),
-        [this](const auto& moving, const auto& mechanisms) {
-          return energy_of(moving, mechanisms);
+        [&](const auto& moving, const auto& mechanisms) {
+          return energy_of(problem, moving, mechanisms);
         },
         projection_options(problem));
     limit_energy(problem, solution);

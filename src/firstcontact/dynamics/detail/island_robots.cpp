@@ -56,27 +56,27 @@ IslandRobots::IslandRobots(const World& world, const StepStart& start,
     robots_[r].pieces.push_back({.member = k, .body = &body});
   }
   for (Robot& robot : robots_) {
-    look_around(robot);
+    robot.now = view_of(robot, robot.state);
   }
 }
 
-void IslandRobots::look_around(Robot& robot) const {
+IslandRobots::View IslandRobots::view_of(const Robot& robot, const MechanismState& state) const {
   const Mechanism& mechanism = robot.robot->mechanism;
-  const MechanismInstant instant = mechanism.at(robot.state);
-  robot.mass = mechanism.mass_matrix(instant);
+  const MechanismInstant instant = mechanism.at(state);
   const auto n = mechanism.size();
-  robot.inverse_mass = robot.mass.llt().solve(MatrixXd::Identity(n, n));
-  robot.gravity_forces = mechanism.bias_forces(instant, world_.gravity) -
-                         mechanism.bias_forces(instant, Vector3d::Zero());
-  for (Piece& piece : robot.pieces) {
-    piece.X_WB = piece_pose(*piece.body, instant);
-    const Jacobian& J = instant.J[piece.body->piece->link];
-    const Vector3d arm = centre_of_mass(piece.body->inertia, piece.X_WB) - instant.reference;
-    piece.J = J;
-    for (Eigen::Index k = 0; k < J.cols(); ++k) {
-      piece.J.col(k).head<3>() += Vector3d(J.col(k).tail<3>()).cross(arm);
+  View view;
+  view.inverse_mass = mechanism.mass_matrix(instant).llt().solve(MatrixXd::Identity(n, n));
+  view.gravity_forces = mechanism.bias_forces(instant, world_.gravity) -
+                        mechanism.bias_forces(instant, Vector3d::Zero());
+  for (const Piece& piece : robot.pieces) {
+    PiecePlace place{piece_pose(*piece.body, instant), instant.J[piece.body->piece->link]};
+    const Vector3d arm = centre_of_mass(piece.body->inertia, place.X_WB) - instant.reference;
+    for (Eigen::Index k = 0; k < place.J.cols(); ++k) {
+      place.J.col(k).head<3>() += Vector3d(place.J.col(k).tail<3>()).cross(arm);
     }
+    view.pieces.push_back(std::move(place));
   }
+  return view;
 }
 
 bool IslandRobots::has_motors() const {
@@ -87,7 +87,7 @@ bool IslandRobots::has_motors() const {
 double IslandRobots::longest_span() const {
   double fastest = 0.0;  // [rad/s]
   for (const Robot& robot : robots_) {
-    for (const Piece& piece : robot.pieces) {
+    for (const PiecePlace& piece : robot.now.pieces) {
       const Vector3d w = piece.J.bottomRows<3>() * robot.state.velocities;
       fastest = std::max(fastest, w.norm());
     }
@@ -95,14 +95,14 @@ double IslandRobots::longest_span() const {
   return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
 }
 
-const IslandRobots::Piece& IslandRobots::piece_of(std::size_t member) const {
+const IslandRobots::PiecePlace& IslandRobots::piece_of(std::size_t member) const {
   const auto& [robot, piece] = place_[member];
-  return robots_[robot].pieces[piece];
+  return robots_[robot].now.pieces[piece];
 }
 
 ContactBody IslandRobots::body(std::size_t member) const {
   const std::size_t r = place_[member][0];
-  const Piece& piece = piece_of(member);
+  const PiecePlace& piece = piece_of(member);
   const Eigen::Matrix<double, 6, 1> V = piece.J * robots_[r].state.velocities;
   return {.v = V.head<3>(), .w = V.tail<3>(), .link = MechanismLink{r, piece.J}};
 }
@@ -113,13 +113,14 @@ RigidState IslandRobots::state(std::size_t member) const {
 }
 
 Move IslandRobots::drift(std::size_t member, const Pose& X_WB) const {
-  const Piece& piece = piece_of(member);
-  return move_between(*piece.body, X_WB, piece.X_WB, Vector3d::Zero());
+  const auto& [robot, piece] = place_[member];
+  return move_between(*robots_[robot].pieces[piece].body, X_WB, piece_of(member).X_WB,
+                      Vector3d::Zero());
 }
 
 void IslandRobots::add_mechanisms(ContactProblem& problem) const {
   for (const Robot& robot : robots_) {
-    problem.mechanisms.push_back({robot.inverse_mass, robot.state.velocities});
+    problem.mechanisms.push_back({robot.now.inverse_mass, robot.state.velocities});
   }
 }
 
@@ -128,27 +129,28 @@ std::vector<RobotPlan> IslandRobots::fly(ContactProblem& problem, double from, d
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
     const Mechanism& mechanism = robot.robot->mechanism;
+    const bool is_driven = robot.robot->is_driven();
+    // Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It
+    // does not fall: the forces of gravity are those where it gets.
+    const MechanismState end = mechanism.after_free_motion(
+        robot.state, is_driven ? Vector3d::Zero() : world_.gravity, span);
+    View there = view_of(robot, end);
+    VectorXd velocities = end.velocities;
     std::vector<JointDrive> drives;
-    MechanismState end;
-    VectorXd velocities;
-    if (robot.robot->is_driven()) {
-      // Inertia carries it as it moves by itself, or a fast turn would gain energy. What is driven
-      // does not fall: the forces of gravity are those where it is.
-      end = mechanism.after_free_motion(robot.state, Vector3d::Zero(), span);
-      velocities = end.velocities - span * robot.inverse_mass * robot.gravity_forces;
+    if (is_driven) {
+      velocities -= span * there.inverse_mass * there.gravity_forces;
       const VectorXd origin = mechanism.moved(end.positions, -span * end.velocities);
       drives = robot.robot->drives(robot.state, origin, r, from, span);
-    } else {
-      end = mechanism.after_free_motion(robot.state, world_.gravity, span);
-      velocities = end.velocities;
+    }
+    for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
+      ContactBody& body = problem.bodies[robot.pieces[k].member];
+      const Eigen::Matrix<double, 6, 1> V = there.pieces[k].J * velocities;
+      body.v = V.head<3>();
+      body.w = V.tail<3>();
+      body.link = MechanismLink{r, std::move(there.pieces[k].J)};
     }
     free.push_back({end});
-    problem.mechanisms.push_back({robot.inverse_mass, velocities});
-    for (const Piece& piece : robot.pieces) {
-      const Eigen::Matrix<double, 6, 1> V = piece.J * velocities;
-      problem.bodies[piece.member].v = V.head<3>();
-      problem.bodies[piece.member].w = V.tail<3>();
-    }
+    problem.mechanisms.push_back({std::move(there.inverse_mass), std::move(velocities)});
     std::ranges::copy(drives, std::back_inserter(problem.drives));
   }
   return free;
@@ -191,8 +193,10 @@ std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
         robot.robot->is_driven() ? mechanism.moved(free[r].end.positions, span * changed)
         : end_leads              ? mechanism.moved(robot.state.positions, span * v)
                                  : mechanism.moved(free[r].end.positions, 0.5 * span * changed);
+    const VectorXd velocities =
+        changed.isZero(0.0) ? v : mechanism.carried({free[r].end.positions, v}, positions);
     plans.push_back(
-        {{positions, v}, impulses_of(r, robot.robot->motor_count(), problem, solution)});
+        {{positions, velocities}, impulses_of(r, robot.robot->motor_count(), problem, solution)});
   }
   return plans;
 }
@@ -211,10 +215,10 @@ void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
     const Robot& robot = robots_[r];
     const MechanismInstant there = robot.robot->mechanism.at(plans[r].end);
     const VectorXd mean = 0.5 * (robot.state.velocities + plans[r].end.velocities);
-    for (const Piece& piece : robot.pieces) {
-      const Vector3d w = (piece.J * mean).tail<3>();
-      moves[piece.member] = move_between(*piece.body, states[piece.member].X_WB,
-                                         piece_pose(*piece.body, there), span * w);
+    for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
+      const auto& [member, body] = robot.pieces[k];
+      const Vector3d w = (robot.now.pieces[k].J * mean).tail<3>();
+      moves[member] = move_between(*body, states[member].X_WB, piece_pose(*body, there), span * w);
     }
   }
 }
@@ -233,7 +237,7 @@ void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, do
       robot.track.pieces.push_back({to, begin, robot.state, robot.impact, share * motors});
       robot.impact.setZero();
     }
-    look_around(robot);
+    robot.now = view_of(robot, robot.state);
   }
 }
 
@@ -244,14 +248,6 @@ void IslandRobots::take_velocities(const ContactSolution& solution) {
     robots_[r].impact += impulses_of(r, robots_[r].robot->rigid_motor_count(), solved, solution);
     robots_[r].state.velocities = solution.mechanisms[r];
   }
-}
-
-double IslandRobots::kinetic_energy(const std::vector<VectorXd>& velocities) const {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < robots_.size(); ++r) {
-    sum += 0.5 * velocities[r].dot(robots_[r].mass * velocities[r]);
-  }
-  return sum;
 }
 
 std::vector<RobotTrack> IslandRobots::take_tracks() {

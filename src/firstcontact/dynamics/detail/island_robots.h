@@ -48,7 +48,7 @@ class IslandRobots {
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
 
-  /// [s]  Of a plan: mass matrices and Jacobians are those of its begin. Infinite at rest.
+  /// [s]  Of a plan: in it, mass matrices and Jacobians hardly change. Infinite at rest.
   [[nodiscard]] double longest_span() const;
 
   /// How a member that is a piece of a link takes part in a contact problem; velocities are those
@@ -65,6 +65,8 @@ class IslandRobots {
   void add_mechanisms(ContactProblem& problem) const;
 
   /// Free motion over a span: velocities of mechanisms and of their links, and what drives joints.
+  /// They hold where it ends, and so do masses and Jacobians: coordinates of a link that a turning
+  /// one carries change with the turn, so that at its begin the same numbers say something else.
   ///
   /// @param from  [s]  since the simulation began
   /// @returns  where each robot would be, by inertia alone where anything drives a joint
@@ -74,7 +76,7 @@ class IslandRobots {
 
   /// Where each robot gets. As of bodies the mean of the velocities at both ends leads it, on top
   /// of what free motion did. Where anything drives a joint, those at the end do, on top of what
-  /// inertia alone did.
+  /// inertia alone did. Velocities are carried from where free motion leads to there.
   ///
   /// @param by_end  of the problem's bodies: velocities at the end lead them
   [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
@@ -95,9 +97,6 @@ class IslandRobots {
   /// Takes the velocities of the impact now, and what motors did to them.
   void take_velocities(const ContactSolution& solution);
 
-  /// [J]  1/2 v^T M v of all, with these velocities of theirs.
-  [[nodiscard]] double kinetic_energy(const std::vector<Eigen::VectorXd>& velocities) const;
-
   [[nodiscard]] std::vector<RobotTrack> take_tracks();
 
  private:
@@ -105,27 +104,33 @@ class IslandRobots {
   struct Piece {
     std::size_t member;
     const SimBody* body;
+  };
+  struct PiecePlace {
     Pose X_WB = {};   // As the joints have it.
     Jacobian J = {};  // Of (v_WC, w_WB).
+  };
+  /// A robot in one state.
+  struct View {
+    std::vector<PiecePlace> pieces = {};
+    Eigen::MatrixXd inverse_mass = {};
+    Eigen::VectorXd gravity_forces = {};
   };
   struct Robot {
     const SimRobot* robot;
     MechanismState state;
     std::vector<Piece> pieces = {};
-    Eigen::MatrixXd mass = {};
-    Eigen::MatrixXd inverse_mass = {};
-    Eigen::VectorXd gravity_forces = {};
+    View now = {};
     Eigen::VectorXd impact = {};  // Of motors, since the last piece of the track.
     RobotTrack track = {};
   };
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  void look_around(Robot& robot) const;
+  [[nodiscard]] View view_of(const Robot& robot, const MechanismState& state) const;
   [[nodiscard]] Eigen::VectorXd impulses_of(std::size_t robot, std::size_t motors,
                                             const ContactProblem& problem,
                                             const ContactSolution& solution) const;
-  [[nodiscard]] const Piece& piece_of(std::size_t member) const;
+  [[nodiscard]] const PiecePlace& piece_of(std::size_t member) const;
 
   const World& world_;
   std::vector<Robot> robots_;

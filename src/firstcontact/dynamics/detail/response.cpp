@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 namespace firstcontact::detail {
@@ -136,6 +137,16 @@ std::vector<Eigen::VectorXd> velocities_of(const std::vector<ContactMechanism>& 
     velocities.push_back(mechanism.velocity);
   }
   return velocities;
+}
+
+double kinetic_energy(const std::vector<ContactMechanism>& mechanisms,
+                      const std::vector<Eigen::VectorXd>& velocities) {
+  double sum = 0.0;
+  for (std::size_t m = 0; m < mechanisms.size(); ++m) {
+    const Eigen::VectorXd& v = velocities[m];
+    sum += 0.5 * v.dot(mechanisms[m].inverse_mass.llt().solve(v));
+  }
+  return sum;
 }
 
 }  // namespace firstcontact::detail

@@ -65,4 +65,8 @@ class ProblemBodies {
 [[nodiscard]] std::vector<Eigen::VectorXd> velocities_of(
     const std::vector<ContactMechanism>& mechanisms);
 
+/// [J]  1/2 v^T M v of all, with these velocities of theirs.
+[[nodiscard]] double kinetic_energy(const std::vector<ContactMechanism>& mechanisms,
+                                    const std::vector<Eigen::VectorXd>& velocities);
+
 }  // namespace firstcontact::detail
