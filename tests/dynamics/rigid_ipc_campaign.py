@@ -11,26 +11,9 @@ proven, 3 where a simulation lost time or did not end within --limit seconds of 
 import argparse
 import json
 import pathlib
-import re
-import subprocess
 import sys
-import tempfile
 
-
-def run(*command: str, limit: float) -> tuple:
-    """Exit status and text; a command that takes too long is interrupted, and ends by itself."""
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    try:
-        text, _ = process.communicate(timeout=limit)
-    except subprocess.TimeoutExpired:
-        process.send_signal(2)
-        text, _ = process.communicate()
-    return process.returncode, text
-
-
-def fact(text: str, label: str) -> str:
-    found = re.search(rf"^  {label} +(.*)$", text, re.MULTILINE)
-    return found[1] if found else "?"
+from campaign import simulate_and_verify
 
 
 def main() -> int:
@@ -47,15 +30,8 @@ def main() -> int:
         if asked.names and not any(part in name for part in asked.names):
             continue
         own = json.loads(fixture.read_text(encoding="utf-8")).get("max_time", asked.duration)
-        with tempfile.TemporaryDirectory() as folder:
-            record = str(pathlib.Path(folder) / "run.jsonl")
-            simulated, text = run(asked.tool, "simulate", str(fixture), "--duration",
-                                  str(min(own, asked.duration)), "-o", record, limit=asked.limit)
-            verified, proof = run(asked.tool, "verify", record, limit=asked.limit)
-        print(f"{name:55} {['whole', '', 'error', 'early'][simulated]:6} "
-              f"{['proven', 'REFUTED', 'BROKEN', 'not proven'][verified]:11} steps {fact(text, 'steps')}; "
-              f"lost {fact(text, 'time lost')}; {fact(text, 'took')}; least {fact(proof, 'least')}", flush=True)
-        status = 1 if verified or status == 1 else max(status, simulated)
+        ended = simulate_and_verify(asked.tool, fixture, min(own, asked.duration), asked.limit, name)
+        status = 1 if 1 in (status, ended) else max(status, ended)
     return status
 
 

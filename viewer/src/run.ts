@@ -25,6 +25,8 @@ export class Run {
   readonly ends: Float64Array;
   /// [N] The greatest contact force of each step.
   readonly greatestForces: readonly number[];
+  /// [W] Of all motors together in each step, negative where they brake; none without motors.
+  readonly motorPowers: readonly number[] | null;
 
   private readonly all: RunContactsData;
 
@@ -36,6 +38,10 @@ export class Run {
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
     this.greatestForces = steps.map((_, step) => this.greatestForce(step));
+    const hasMotors = steps.some(({ robots }) =>
+      robots?.some(({ efforts }) => efforts.some(Boolean)),
+    );
+    this.motorPowers = hasMotors ? steps.map((_, step) => this.motorPower(step)) : null;
   }
 
   get duration(): number {
@@ -87,6 +93,19 @@ export class Run {
     }
     const { lasted } = this.steps[step]!;
     return lasted > 0 ? Math.sqrt(most) / lasted : 0;
+  }
+
+  /// Efforts are means over the step, and so is what they move: of the velocities at its ends.
+  private motorPower(step: number): number {
+    const before = this.steps[step - 1]?.robots;
+    let power = 0;
+    this.steps[step]!.robots?.forEach(({ velocities, efforts }, robot) => {
+      efforts.forEach((effort, k) => {
+        const v = velocities[k]!;
+        power += 0.5 * effort * (v + (before?.[robot]?.velocities[k] ?? v));
+      });
+    });
+    return power;
   }
 
   private firstContact(step: number): number {

@@ -4,7 +4,9 @@ import { describe, expect, test } from "vitest";
 import { lengthText, pointText, timeText } from "../src/core/format";
 import { readPageData } from "../src/data/page_data";
 import { momentOf } from "../src/link";
+import { runCharts } from "../src/panels/run_charts";
 import { Player } from "../src/player";
+import { Run } from "../src/run";
 import { featureEdges } from "../src/view/feature_edges";
 import { roundNumber } from "../src/view/grid";
 
@@ -22,6 +24,69 @@ describe("quantities", () => {
     expect(roundNumber(0.3)).toBeCloseTo(0.2, 12);
     expect(roundNumber(7)).toBe(5);
     expect(roundNumber(1)).toBe(1);
+  });
+});
+
+describe("a run with motors", () => {
+  const run = (efforts: number[][], velocities: number[][]): Run =>
+    new Run({
+      header: {
+        scene: { simulation: { duration: 2, gravity: [0, 0, -9.81] } },
+        masses: [],
+      } as never,
+      steps: efforts.map((_, k) => ({
+        step: k + 1,
+        time: k + 1,
+        lasted: 1,
+        time_lost: 0,
+        clearance: null,
+        kinetic_energy: 1,
+        potential_energy: 0,
+        linear_momentum: [0, 0, 0],
+        angular_momentum: [0, 0, 0],
+        residual: 0,
+        events: 0,
+        robots: [{ efforts: efforts[k]!, velocities: velocities[k]! }],
+      })),
+      ways: [],
+      contacts: {
+        until: new Uint32Array(efforts.length),
+        bodies: new Uint32Array(),
+        points: new Float64Array(),
+        impulses: new Float32Array(),
+        distances: new Float32Array(),
+      },
+    });
+  const moving = [
+    [1, 0],
+    [3, -2],
+  ];
+
+  test("says what they give, and take where they brake", () => {
+    const driven = run(
+      [
+        [5, 0],
+        [-7, 4],
+      ],
+      moving,
+    );
+    expect(driven.motorPowers).toEqual([5, -18]);
+    const chart = runCharts(driven).find(({ name }) => name === "power of motors")!;
+    expect(chart.content.unit).toBe("W");
+    expect(chart.content.range[0]).toBeLessThan(-18);
+    expect(chart.content.range[1]).toBeGreaterThan(5);
+  });
+
+  test("has no chart of them without any", () => {
+    const free = run(
+      [
+        [0, 0],
+        [0, 0],
+      ],
+      moving,
+    );
+    expect(free.motorPowers).toBeNull();
+    expect(runCharts(free).map(({ name }) => name)).not.toContain("power of motors");
   });
 });
 

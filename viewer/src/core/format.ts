@@ -38,6 +38,15 @@ const forces: readonly Unit[] = [
   { name: "µN", size: 1e-6 },
 ];
 
+const powers: readonly Unit[] = [
+  { name: "GW", size: 1e9 },
+  { name: "MW", size: 1e6 },
+  { name: "kW", size: 1e3 },
+  { name: "W", size: 1 },
+  { name: "mW", size: 1e-3 },
+  { name: "µW", size: 1e-6 },
+];
+
 const unitFor = (units: readonly Unit[], base: Unit, value: number): Unit =>
   value === 0 ? base : (units.find(({ size }) => Math.abs(value) >= size) ?? units.at(-1)!);
 
@@ -47,6 +56,7 @@ export const timeUnit = (value: number): Unit => unitFor(times, times[0]!, value
 
 export const energyUnit = (value: number): Unit => unitFor(energies, energies[3]!, value);
 export const forceUnit = (value: number): Unit => unitFor(forces, forces[3]!, value);
+export const powerUnit = (value: number): Unit => unitFor(powers, powers[3]!, value);
 
 /// A true minus sign, and no more digits than asked.
 export function number(value: number, digits = 4): string {

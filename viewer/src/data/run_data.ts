@@ -16,6 +16,13 @@ export interface StepData {
   readonly angular_momentum: Vector3; ///< [kg m²/s]
   readonly residual: number; ///< [m/s]
   readonly events: number;
+  readonly robots?: readonly RobotStepData[]; ///< That forces move.
+}
+
+/// A robot at the end of a step.
+export interface RobotStepData {
+  readonly velocities: readonly number[]; ///< [rad/s or m/s]
+  readonly efforts: readonly number[]; ///< [N m or N] Of motors, the mean over the step.
 }
 
 /// The way of a body: where each of its pieces begins, and where the last one ends.

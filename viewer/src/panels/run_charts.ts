@@ -1,7 +1,15 @@
 /// What is said of every step, over time. A click shows one of them in the large chart.
 
 import { element } from "../core/dom";
-import { energyUnit, forceUnit, lengthUnit, quantity, timeUnit, type Unit } from "../core/format";
+import {
+  energyUnit,
+  forceUnit,
+  lengthUnit,
+  powerUnit,
+  quantity,
+  timeUnit,
+  type Unit,
+} from "../core/format";
 import type { Signal } from "../core/signal";
 import type { StepData } from "../data/run_data";
 import type { Player } from "../player";
@@ -41,7 +49,7 @@ function steppedLine({ ends }: Run, values: readonly (number | null)[]): ChartLi
   };
 }
 
-/// From nothing to the greatest.
+/// From nothing, or the least below it, to the greatest.
 function amount(
   run: Run,
   name: string,
@@ -49,7 +57,8 @@ function amount(
   of: (step: StepData, k: number) => number,
 ): RunChart {
   const values = run.steps.map(of);
-  const unit = unitFor(most(values));
+  const [low, high] = [least([0, ...values]), most(values)];
+  const unit = unitFor(Math.max(-low, high));
   const line = steppedLine(
     run,
     values.map((value) => value / unit.size),
@@ -57,7 +66,7 @@ function amount(
   const content: ChartContent = {
     title: name,
     unit: unit.name,
-    range: [0, (1.08 * (most(values) || 1)) / unit.size],
+    range: [(1.08 * low) / unit.size, (1.08 * (high || (low < 0 ? 0 : 1))) / unit.size],
     lines: [line],
     levels: [],
     bands: [],
@@ -117,11 +126,17 @@ function clearance(run: Run): RunChart[] {
   return [{ name: "apart by at least", content, values, unitFor: lengthUnit }];
 }
 
+function power(run: Run): RunChart[] {
+  const powers = run.motorPowers;
+  return powers ? [amount(run, "power of motors", powerUnit, (_, k) => powers[k]!)] : [];
+}
+
 export const runCharts = (run: Run): RunChart[] => [
   energy(run),
   amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
   amount(run, "greatest contact force", forceUnit, (_, k) => run.greatestForces[k]!),
   amount(run, "impacts", ones, ({ events }) => events),
+  ...power(run),
   ...clearance(run),
   amount(run, "time lost", timeUnit, ({ time_lost }) => time_lost),
 ];
