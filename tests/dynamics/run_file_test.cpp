@@ -86,6 +86,7 @@ RunStep example_step(std::size_t index, Doubles& doubles) {
   contact.distance = doubles.next();
   contact.impulse = doubles.vector();
   step.contacts.push_back(contact);
+  step.impacts.push_back({0.03, {0, 1}, doubles.vector(), doubles.vector()});
   return step;
 }
 
@@ -237,6 +238,8 @@ TEST(RunFile, SaysWhereItIsWrong) {
             "run.jsonl:2: bodies[0].body: expected an integer from 0 to 1");
   EXPECT_EQ(after("\"edge\"", "\"hedge\""),
             "run.jsonl:2: contacts[0].features[0].type: expected vertex, edge or face");
+  EXPECT_EQ(after("\"at\":0.03", "\"at\":-1"),
+            "run.jsonl:2: impacts[0].at: expected a number that is not negative");
   EXPECT_EQ(after("\"residual\":", "\"resi\\ndual\":"),
             "run.jsonl:2: expected the key \"residual\"");
   EXPECT_EQ(after("\"residual\":", "\"a\\nb\":1,\"residual\":"),

@@ -82,6 +82,19 @@ TEST(Simulator, ElasticBallsExchangeTheirVelocities) {
   EXPECT_LE((steps.back().linear_momentum - steps[0].linear_momentum).norm(), 1e-10);
   EXPECT_LE((steps.back().angular_momentum - steps[0].angular_momentum).norm(), 1e-10);
   EXPECT_NEAR(steps.back().kinetic_energy, steps[0].kinetic_energy, 1e-10);
+  // They meet after 0.3 m at 3 m/s, in the middle of their gap.
+  std::vector<RunImpact> impacts;
+  for (const RunStep& step : steps) {
+    for (RunImpact impact : step.impacts) {
+      impact.at += step.time - step.lasted;
+      impacts.push_back(impact);
+    }
+  }
+  ASSERT_EQ(impacts.size(), 1u);
+  EXPECT_NEAR(impacts[0].at, 0.1, 1e-3);
+  EXPECT_EQ(impacts[0].bodies, (BodyPair{0, 1}));
+  EXPECT_NEAR(impacts[0].point.x(), 0.2, 1e-3);
+  EXPECT_NEAR(impacts[0].impulse.x(), 3.0 * s.header().masses[1], 1e-9);
 }
 
 TEST(Simulator, InelasticBallsGoOnTogether) {
@@ -147,10 +160,18 @@ TEST(Simulator, BouncesToTheHeightThatRestitutionLeaves) {
   Simulator s = simulator(kFloor + "," + body("a", ball("0.1"), "[0, 0, 1.1]", kFree),
                           R"("step": 0.005, "restitution": 0.8)");
   double highest = 0.0;
+  double momentum = 0.0;
   bool bounced = false;
   for (const RunStep& step : run(s, 200)) {
     bounced = bounced || step.bodies[0].linear_velocity.z() > 0.0;
     highest = bounced ? std::max(highest, step.bodies[0].X_WB.position.z()) : highest;
+    // Impacts and gravity are all that changes its momentum.
+    double impulse = -9.81 * s.header().masses[1] * step.lasted;
+    for (const RunImpact& impact : step.impacts) {
+      impulse += impact.impulse.z();
+    }
+    EXPECT_NEAR(step.linear_momentum.z() - momentum, impulse, 1e-9) << step.index;
+    momentum = step.linear_momentum.z();
   }
   EXPECT_NEAR(highest, 0.1 + 0.64, 2e-3);
 }

@@ -84,6 +84,20 @@ def test_box_comes_to_rest_on_the_floor(simulator):
     np.testing.assert_allclose(contacts.impulses.sum(axis=0), [0, 0, 8 * GRAVITY * 0.01], atol=1e-5)
 
 
+def test_impacts_are_what_stops_the_box():
+    simulator = fc.Simulator(box_scene(restitution=0.9))
+    steps = [simulator.step() for _ in range(simulator.steps_of_duration)]
+    times = np.concatenate([step.impacts.times for step in steps])
+    bodies = np.vstack([step.impacts.bodies for step in steps])
+    points = np.vstack([step.impacts.points for step in steps])
+    assert len(times) == len(points) > 0 and times.min() >= 0
+    np.testing.assert_array_equal(bodies, [[FLOOR, BOX]] * len(times))
+    # It falls on the floor at 2 m/s, and leaves it at 1.8 m/s.
+    first = next(step for step in steps if len(step.impacts.times) > 0)
+    speed = math.sqrt(2 * GRAVITY * 0.2)
+    assert first.impacts.impulses[:, 2].sum() == pytest.approx(1.9 * 8 * speed, rel=0.02)
+
+
 def test_pieces_lead_from_state_to_state(simulator):
     before = simulator.positions[BOX]
     for _ in range(simulator.steps_of_duration):

@@ -3,6 +3,7 @@
 import { describe, expect, test } from "vitest";
 import { lengthText, pointText, timeText } from "../src/core/format";
 import { readPageData } from "../src/data/page_data";
+import type { Vector3 } from "../src/data/result";
 import { momentOf } from "../src/link";
 import { runCharts } from "../src/panels/run_charts";
 import { Player } from "../src/player";
@@ -27,8 +28,8 @@ describe("quantities", () => {
   });
 });
 
-describe("a run with motors", () => {
-  const run = (efforts: number[][], velocities: number[][]): Run =>
+describe("a run", () => {
+  const run = (efforts: number[][], velocities: number[][], impulses: Vector3[] = []): Run =>
     new Run({
       header: {
         scene: { simulation: { duration: 2, gravity: [0, 0, -9.81] } },
@@ -47,6 +48,9 @@ describe("a run with motors", () => {
         residual: 0,
         events: 0,
         robots: [{ efforts: efforts[k]!, velocities: velocities[k]! }],
+        ...(k === 0 && impulses.length > 0
+          ? { impacts: impulses.map((impulse) => ({ impulse })) }
+          : {}),
       })),
       ways: [],
       contacts: {
@@ -62,7 +66,7 @@ describe("a run with motors", () => {
     [3, -2],
   ];
 
-  test("says what they give, and take where they brake", () => {
+  test("says what motors give, and take where they brake", () => {
     const driven = run(
       [
         [5, 0],
@@ -77,7 +81,18 @@ describe("a run with motors", () => {
     expect(chart.content.range[1]).toBeGreaterThan(5);
   });
 
-  test("has no chart of them without any", () => {
+  test("says how hard the hardest impact of each step is", () => {
+    const still = [[0], [0]];
+    const hit = run(still, still, [
+      [0, 3, 4],
+      [-1, 0, 0],
+    ]);
+    const chart = runCharts(hit).find(({ name }) => name === "greatest impact")!;
+    expect(chart.content.unit).toBe("N s");
+    expect(chart.values).toEqual([5, 0]);
+  });
+
+  test("has no charts of what it does not have", () => {
     const free = run(
       [
         [0, 0],
@@ -86,7 +101,9 @@ describe("a run with motors", () => {
       moving,
     );
     expect(free.motorPowers).toBeNull();
-    expect(runCharts(free).map(({ name }) => name)).not.toContain("power of motors");
+    const names = runCharts(free).map(({ name }) => name);
+    expect(names).not.toContain("power of motors");
+    expect(names).not.toContain("greatest impact");
   });
 });
 

@@ -33,7 +33,7 @@ from ._errors import ParseError
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
-                      RobotSemantics, RunContacts, RunMoment, RunVerification)
+                      RobotSemantics, RunContacts, RunImpacts, RunMoment, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
                      JointType, RunVerdict, StartContacts, UndecidedReason, Verdict)
 
@@ -45,9 +45,9 @@ __all__ = [
     "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairRules", "ParseError", "PlanningRequest", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
-    "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene", "SceneClosest",
-    "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator", "StartContacts",
-    "StopSource", "Trajectory", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
+    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
+    "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator",
+    "StartContacts", "StopSource", "Trajectory", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
     "distance", "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",
     "linear_vertex_face_contact", "load_scene", "make_box", "make_capsule", "make_cone",

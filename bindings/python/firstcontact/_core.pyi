@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._tuples import (ContactInterval, GapPoints, GapSamples, HeightMap, Joint, LimitViolation,
-                      Mesh, MovingShape, PlanningRequest, RobotSemantics, RunContacts,
+                      Mesh, MovingShape, PlanningRequest, RobotSemantics, RunContacts, RunImpacts,
                       RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      UndecidedReason, Verdict)
@@ -624,6 +624,8 @@ class RunStep:
     def robot_efforts(self) -> tuple[_Doubles, ...]: ...
     @property
     def contacts(self) -> RunContacts: ...
+    @property
+    def impacts(self) -> RunImpacts: ...
     def pieces(self, body: int) -> _Doubles: ...
     def to_json(self) -> str: ...
 

@@ -181,6 +181,19 @@ class RunContacts(NamedTuple):
     """Of the first and the second body."""
 
 
+class RunImpacts(NamedTuple):
+    """The m places at which impacts within a step of a simulation acted, one a row, in the order of time."""
+
+    times: npt.NDArray[np.float64]
+    """[s]  (m,), since the step began."""
+    bodies: npt.NDArray[np.int64]
+    """m×2, numbers of the first and the second body."""
+    points: npt.NDArray[np.float64]
+    """[m]  m×3, in the world, between the two surfaces."""
+    impulses: npt.NDArray[np.float64]
+    """[N s]  m×3, on the second body."""
+
+
 class RunMoment(NamedTuple):
     """Two bodies at a moment of a run."""
 

@@ -100,18 +100,37 @@ py::array pieces(const RunStep& step, std::size_t number) {
   return table(row_by_row, 14);
 }
 
-py::object contacts(const RunStep& step) {
+/// The numbers of two bodies in each row.
+template <class Element>
+py::array pairs_of_bodies(const std::vector<Element>& elements) {
   std::vector<std::int64_t> bodies;
+  for (const Element& element : elements) {
+    bodies.push_back(static_cast<std::int64_t>(element.bodies[0]));
+    bodies.push_back(static_cast<std::int64_t>(element.bodies[1]));
+  }
+  return table(bodies, 2);
+}
+
+py::object impacts(const RunStep& step) {
+  std::vector<double> times;
+  for (const RunImpact& impact : step.impacts) {
+    times.push_back(impact.at);
+  }
+  return py::module_::import("firstcontact._tuples")
+      .attr("RunImpacts")(owning(std::move(times)), pairs_of_bodies(step.impacts),
+                          rows(step.impacts, &RunImpact::point),
+                          rows(step.impacts, &RunImpact::impulse));
+}
+
+py::object contacts(const RunStep& step) {
   std::vector<double> distances;
   py::list features;
   for (const RunContact& contact : step.contacts) {
-    bodies.push_back(static_cast<std::int64_t>(contact.bodies[0]));
-    bodies.push_back(static_cast<std::int64_t>(contact.bodies[1]));
     distances.push_back(contact.distance);
     features.append(py::make_tuple(contact.feature_A, contact.feature_B));
   }
   return py::module_::import("firstcontact._tuples")
-      .attr("RunContacts")(table(bodies, 2), rows(step.contacts, &RunContact::point),
+      .attr("RunContacts")(pairs_of_bodies(step.contacts), rows(step.contacts, &RunContact::point),
                            rows(step.contacts, &RunContact::normal), owning(std::move(distances)),
                            rows(step.contacts, &RunContact::impulse), py::tuple(features));
 }
@@ -180,6 +199,8 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
           "[N m or N] Of the motors along each of the robots' velocities, the mean over the step; "
           "0 where there is none.")
       .def_property_readonly("contacts", &contacts, "What acted at the end, as RunContacts.")
+      .def_property_readonly("impacts", &impacts,
+                             "What impacts within the step did, as RunImpacts.")
       .def("pieces", &pieces, py::arg("body"),
            R"(How a body got through the step: p×14, one piece a row, none where it rests.
 

@@ -71,7 +71,7 @@ class Line {
 
   /// All of the keys, and no other but the one that may be there.
   void require_keys(const json& object, std::initializer_list<std::string_view> keys,
-                    std::string_view may_be = {}) const {
+                    std::initializer_list<std::string_view> may_be = {}) const {
     if (!object.is_object()) {
       fail(object, "an object");
     }
@@ -81,7 +81,8 @@ class Line {
       }
     }
     for (const auto& [key, member] : object.items()) {
-      if (key != may_be && std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      if (std::ranges::find(keys, key) == keys.end() &&
+          std::ranges::find(may_be, key) == may_be.end()) {
         fail(member, "no such key here");
       }
     }
@@ -259,6 +260,15 @@ RunContact read_contact(const json& value, std::size_t bodies, const Line& line)
   return contact;
 }
 
+RunImpact read_impact(const json& value, std::size_t bodies, const Line& line) {
+  line.require_keys(value, {"at", "bodies", "point", "impulse"});
+  const json& pair = line.array(value["bodies"], 2);
+  return {.at = line.not_negative(value["at"]),
+          .bodies = {line.index(pair[0], bodies), line.index(pair[1], bodies)},
+          .point = line.vector3(value["point"]),
+          .impulse = line.vector3(value["impulse"])};
+}
+
 std::vector<RunBody> read_bodies(const json& array, std::size_t bodies, double lasted,
                                  const Line& line) {
   std::vector<RunBody> result;
@@ -303,7 +313,7 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
       root,
       {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance", "kinetic_energy",
        "potential_energy", "linear_momentum", "angular_momentum", "residual", "events"},
-      "robots");
+      {"robots", "impacts"});
   RunStep step;
   step.index = line.index(root["step"], kAnyCount);
   step.time = line.not_negative(root["time"]);
@@ -315,6 +325,11 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
   }
   for (const json& contact : line.array(root["contacts"])) {
     step.contacts.push_back(read_contact(contact, bodies, line));
+  }
+  if (root.contains("impacts")) {
+    for (const json& impact : line.array(root["impacts"])) {
+      step.impacts.push_back(read_impact(impact, bodies, line));
+    }
   }
   step.clearance = root["clearance"].is_null() ? std::numeric_limits<double>::infinity()
                                                : line.not_negative(root["clearance"]);

@@ -58,6 +58,14 @@ struct RunContact {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body, in the step.
 };
 
+/// What an impact within a step did at one place.
+struct RunImpact {
+  double at = 0.0;  ///< [s]  Since the step began.
+  BodyPair bodies = {};
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the two surfaces.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body.
+};
+
 struct RunStep {
   std::size_t index = 0;          ///< From 1.
   double time = 0.0;              ///< [s]  Simulated until here; the sum of what the steps lasted.
@@ -74,6 +82,7 @@ struct RunStep {
   std::vector<RunBody> bodies = {};
   std::vector<RunRobot> robots = {};  ///< That forces move, in order.
   std::vector<RunContact> contacts = {};
+  std::vector<RunImpact> impacts = {};  ///< In the order of time.
 };
 
 /// What a run begins with.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -415,6 +416,8 @@ class Simulator::Implementation {
       step.clearance = std::min(step.clearance, track.clearance);
       step.residual = std::max(step.residual, track.residual);
       step.events += track.events;
+      std::ranges::copy_if(track.impacts, std::back_inserter(step.impacts),
+                           [&](const RunImpact& impact) { return impact.at <= lasted; });
       for (std::size_t k = 0; k < track.members.size(); ++k) {
         step.bodies.push_back(recorded(track.members[k], track.pieces[k], lasted));
       }
@@ -438,6 +441,7 @@ class Simulator::Implementation {
       }
     }
     std::ranges::sort(step.bodies, {}, &RunBody::body);
+    std::ranges::stable_sort(step.impacts, {}, &RunImpact::at);
     for (const RunBody& body : step.bodies) {
       for (const RunPiece& piece : body.pieces) {
         size = std::max(size,

@@ -132,6 +132,14 @@ class StepText {
       field("impulse", contact.impulse);
     });
   }
+  void add(const RunImpact& impact) {
+    object([&] {
+      field("at", impact.at);
+      field("bodies", impact.bodies);
+      field("point", impact.point);
+      field("impulse", impact.impulse);
+    });
+  }
   /// Null where no pair was near.
   void add_clearance(double clearance) {
     if (clearance == std::numeric_limits<double>::infinity()) {
@@ -227,6 +235,9 @@ std::string write_run_step(const RunStep& step) {
     text.field("events", step.events);
     if (!step.robots.empty()) {
       text.field("robots", step.robots);
+    }
+    if (!step.impacts.empty()) {
+      text.field("impacts", step.impacts);
     }
   });
   return text.take() + "\n";

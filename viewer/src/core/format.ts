@@ -47,6 +47,13 @@ const powers: readonly Unit[] = [
   { name: "µW", size: 1e-6 },
 ];
 
+const impulses: readonly Unit[] = [
+  { name: "kN s", size: 1e3 },
+  { name: "N s", size: 1 },
+  { name: "mN s", size: 1e-3 },
+  { name: "µN s", size: 1e-6 },
+];
+
 const unitFor = (units: readonly Unit[], base: Unit, value: number): Unit =>
   value === 0 ? base : (units.find(({ size }) => Math.abs(value) >= size) ?? units.at(-1)!);
 
@@ -56,6 +63,7 @@ export const timeUnit = (value: number): Unit => unitFor(times, times[0]!, value
 
 export const energyUnit = (value: number): Unit => unitFor(energies, energies[3]!, value);
 export const forceUnit = (value: number): Unit => unitFor(forces, forces[3]!, value);
+export const impulseUnit = (value: number): Unit => unitFor(impulses, impulses[1]!, value);
 export const powerUnit = (value: number): Unit => unitFor(powers, powers[3]!, value);
 
 /// A true minus sign, and no more digits than asked.

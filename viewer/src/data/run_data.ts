@@ -17,6 +17,7 @@ export interface StepData {
   readonly residual: number; ///< [m/s]
   readonly events: number;
   readonly robots?: readonly RobotStepData[]; ///< That forces move.
+  readonly impacts?: readonly { readonly impulse: Vector3 }[]; ///< [N s] On the second body.
 }
 
 /// A robot at the end of a step.

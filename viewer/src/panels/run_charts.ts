@@ -4,6 +4,7 @@ import { element } from "../core/dom";
 import {
   energyUnit,
   forceUnit,
+  impulseUnit,
   lengthUnit,
   powerUnit,
   quantity,
@@ -13,6 +14,7 @@ import {
 import type { Signal } from "../core/signal";
 import type { StepData } from "../data/run_data";
 import type { Player } from "../player";
+import { length } from "../motion/vector";
 import type { Run } from "../run";
 import { chartButton } from "./chart_button";
 import { sketch, type SketchLine } from "./sketch";
@@ -126,6 +128,14 @@ function clearance(run: Run): RunChart[] {
   return [{ name: "apart by at least", content, values, unitFor: lengthUnit }];
 }
 
+function impulse(run: Run): RunChart[] {
+  const greatest = ({ impacts }: StepData): number =>
+    most((impacts ?? []).map((impact) => length(impact.impulse)));
+  return run.steps.some(({ impacts }) => impacts?.length)
+    ? [amount(run, "greatest impact", impulseUnit, greatest)]
+    : [];
+}
+
 function power(run: Run): RunChart[] {
   const powers = run.motorPowers;
   return powers ? [amount(run, "power of motors", powerUnit, (_, k) => powers[k]!)] : [];
@@ -136,6 +146,7 @@ export const runCharts = (run: Run): RunChart[] => [
   amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
   amount(run, "greatest contact force", forceUnit, (_, k) => run.greatestForces[k]!),
   amount(run, "impacts", ones, ({ events }) => events),
+  ...impulse(run),
   ...power(run),
   ...clearance(run),
   amount(run, "time lost", timeUnit, ({ time_lost }) => time_lost),

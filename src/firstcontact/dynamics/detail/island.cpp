@@ -694,6 +694,7 @@ class Island {
   void impact() {
     ProblemBodies bodies = problem_bodies();
     ContactProblem problem;
+    std::vector<const Touch*> touches;
     std::vector<double> restitution;
     for (const auto& [pair, manifold] : manifolds_) {
       for (const Touch& touch : manifold.touches) {
@@ -704,6 +705,7 @@ class Island {
         Touch unknown = touch;
         unknown.impulse.setZero();
         problem.contacts.push_back(contact_at(unknown, bodies, world_.laws.friction(pair), 0.0));
+        touches.push_back(&touch);
         const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
         restitution.push_back(bounces(pair, closing) ? world_.laws.restitution(pair) : 0.0);
       }
@@ -722,6 +724,12 @@ class Island {
         projection_options(problem));
     limit_energy(problem, solution);
     robots_.take_velocities(solution);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      if (!solution.impulses[k].isZero(0.0)) {
+        track_.impacts.push_back({track_.reached, touches[k]->bodies, touches[k]->point,
+                                  problem.contacts[k].frame.transpose() * solution.impulses[k]});
+      }
+    }
     for (std::size_t k = 0; k < size(); ++k) {
       states_[k].v_WC = solution.bodies[k].v;
       states_[k].w_WB = solution.bodies[k].w;

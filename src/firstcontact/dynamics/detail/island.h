@@ -10,6 +10,7 @@
 #include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/touch.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/dynamics/run.h>
 
 namespace firstcontact::detail {
 
@@ -28,6 +29,7 @@ struct IslandTrack {
   std::vector<std::vector<TrackPiece>> pieces;  ///< Of each member.
   std::vector<RobotTrack> robots = {};          ///< Whose links are members.
   std::vector<Touch> touches = {};              ///< That acted last, with their impulses.
+  std::vector<RunImpact> impacts = {};          ///< In the order of time.
   double reached = 0.0;                         ///< [s]
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
   double residual = 0.0;   ///< [m/s]
