@@ -6,10 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <firstcontact/dynamics/detail/island_robots.h>
-#include <firstcontact/dynamics/detail/surroundings.h>
-#include <firstcontact/dynamics/detail/touch.h>
-#include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/dynamics/detail/island_state.h>
 #include <firstcontact/dynamics/run.h>
 
 namespace firstcontact::detail {
@@ -36,15 +33,6 @@ struct IslandTrack {
   std::size_t events = 0;
 };
 
-/// What the islands of a step share.
-struct StepContext {
-  const World& world;
-  const StepStart& start;
-  const Surroundings& around;
-  const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
-                                      ///< the solver.
-};
-
 /// Advances the free bodies `members`, of a robot all its links or none, with all fixed and
 /// scripted bodies around them, and without any other.
 ///
@@ -55,15 +43,5 @@ struct StepContext {
 /// rests, less than the rest of the step is planned at a time.
 [[nodiscard]] IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
                                          Workspace& workspace);
-
-/// How a pair is asked for first contact, which was this far apart at the start.
-///
-/// @param gap  [m]  least, infinite where it is beyond the band
-struct HeldDistance {
-  double margin = 0.0;     ///< [m]  Of the question.
-  double tolerance = 0.0;  ///< [m]
-};
-[[nodiscard]] HeldDistance held_distance(const ContactDistances& distances, double pair_margin,
-                                         double gap);
 
 }  // namespace firstcontact::detail

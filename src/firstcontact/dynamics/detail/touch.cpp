@@ -23,10 +23,6 @@ bool same_features(const Touch& x, const Touch& y) {
          x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
 }
 
-double smaller_reach(const World& world, const BodyPair& bodies) {
-  return std::min(world.bodies[bodies[0]].reach, world.bodies[bodies[1]].reach);
-}
-
 /// Null where there is none.
 Touch* successor(const Touch& before, double close_by, std::vector<Touch>& touches) {
   const auto same =
@@ -126,8 +122,8 @@ bool comes_before(const Touch& x, const Touch& y) {
   return key(x) < key(y);
 }
 
-void carry_impulses(const World& world, const std::vector<Touch>& before, Manifold& manifold) {
-  const double close_by = kCloseBy * smaller_reach(world, manifold.bodies);
+void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold) {
+  const double close_by = kCloseBy * size;
   const auto bodies_of = [](const Touch& touch) { return touch.bodies; };
   auto touch = std::ranges::lower_bound(before, manifold.bodies, {}, bodies_of);
   for (; touch != before.end() && touch->bodies == manifold.bodies; ++touch) {

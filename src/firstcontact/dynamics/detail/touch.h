@@ -51,6 +51,7 @@ struct Manifold {
 /// close by.
 ///
 /// @param before  sorted
-void carry_impulses(const World& world, const std::vector<Touch>& before, Manifold& manifold);
+/// @param size    [m]  of the smaller body
+void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold);
 
 }  // namespace firstcontact::detail

@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 /// Boxes are larger by this part of their size and place than they need be: rounding.
 constexpr double kSlack = 1e-12;
 
+/// Pairs nearer than this part of their distance of rest are hardly let nearer.
+constexpr double kJammed = 1e-3;
+
 std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
     const std::vector<SimBody>& bodies, double slack) {
   // Bodies that share their shape share what is known of it.
@@ -38,6 +41,19 @@ World::World(const LoadedScene& loaded, const LinksAsBodies& linked)
       neighbours(neighbours_of(bodies, distances.band)),
       gravity(loaded.scene.simulation->gravity),
       events(loaded.scene.simulation->events) {}
+
+HeldDistance held_distance(const ContactDistances& distances, double pair_margin, double gap) {
+  if (gap > distances.least + distances.tolerance) {
+    return {pair_margin + distances.least, distances.tolerance};
+  }
+  // What cannot yield, as a body that is crushed, would halve its way to nothing.
+  const double share = gap > kJammed * distances.least ? 0.5 : 0.99;
+  return {pair_margin + share * gap, 0.5 * (1.0 - share) * gap};
+}
+
+double smaller_reach(const World& world, const BodyPair& bodies) {
+  return std::min(world.bodies[bodies[0]].reach, world.bodies[bodies[1]].reach);
+}
 
 Motion motion_of(const SimBody& body, const Pose& X_WB, const Move& move) {
   const std::array<ConstantRatePiece, 1> piece{

@@ -44,6 +44,16 @@ struct ContactDistances {
   double pushed;     ///< [m]  Pairs below it are pushed apart.
 };
 
+/// How a pair is asked for first contact, which was this far apart at the start.
+///
+/// @param gap  [m]  least, infinite where it is beyond the band
+struct HeldDistance {
+  double margin = 0.0;     ///< [m]  Of the question.
+  double tolerance = 0.0;  ///< [m]
+};
+[[nodiscard]] HeldDistance held_distance(const ContactDistances& distances, double pair_margin,
+                                         double gap);
+
 struct World {
   /// @param loaded  the scene of which `linked` was made
   World(const LoadedScene& loaded, const LinksAsBodies& linked);
@@ -56,6 +66,9 @@ struct World {
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
   std::size_t events;                                                ///< In a step, at most.
 };
+
+/// [m]  Of two bodies, how far the smaller one reaches.
+[[nodiscard]] double smaller_reach(const World& world, const BodyPair& bodies);
 
 /// How a body is displaced over some time, from a pose.
 struct Move {

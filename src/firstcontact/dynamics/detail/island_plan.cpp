@@ -1,0 +1,200 @@
+#include <firstcontact/dynamics/detail/island_plan.h>
+
+#include <algorithm>
+
+#include <firstcontact/dynamics/detail/island_response.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Half of what is missing to the rest distance is made up for in a plan.
+constexpr double kPush = 0.5;
+
+}  // namespace
+
+/// Velocities without contacts, and how far they lead.
+struct IslandPlanner::FreeFlight {
+  std::vector<ContactBody> at_end;
+  std::vector<Vector3d> rotation_vectors;
+};
+
+IslandPlanner::FreeFlight IslandPlanner::free_flight(const std::vector<ContactBody>& bodies) const {
+  FreeFlight flight;
+  flight.at_end = bodies;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    const SimBody& body = state_.member(k);
+    if (body.piece) {
+      flight.rotation_vectors.emplace_back(Vector3d::Zero());
+      continue;  // Flies with its robot.
+    }
+    Vector3d force = body.inertia.mass * state_.world.gravity;
+    Vector3d torque = Vector3d::Zero();
+    const double from = state_.start.time + state_.reached;
+    for (const TimedForce& timed : body.forces) {
+      // The mean over the span.
+      const double share =
+          std::max(0.0, std::min(timed.to, from + span_) - std::max(timed.from, from)) / span_;
+      force += share * timed.force;
+      torque += share * timed.torque;
+    }
+    flight.at_end[k].v += span_ * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
+    const FreeTurn turn = free_turn(body.inertia, state_.states[k], torque, span_);
+    flight.at_end[k].w = turn.w_WB;
+    flight.rotation_vectors.push_back(turn.rotation_vector);
+  }
+  return flight;
+}
+
+Plan IslandPlanner::plan(std::vector<TouchAhead>& ahead) {
+  ProblemBodies bodies = state_.problem_bodies();
+  ContactProblem problem;
+  std::vector<Touch*> touches;
+  const double share = span_ / state_.start.h;
+  const auto add = [&](Touch& touch, double least) -> ContactPoint& {
+    state_.add_others(touch.bodies, bodies);
+    problem.contacts.push_back(
+        contact_at(touch, bodies, state_.world.laws.friction(touch.bodies), least));
+    touches.push_back(&touch);
+    ContactPoint& contact = problem.contacts.back();
+    contact.guess *= share;
+    contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span_;
+    return contact;
+  };
+  for (auto& [pair, manifold] : state_.manifolds) {
+    for (Touch& touch : manifold.touches) {
+      const ContactPoint& contact =
+          add(touch, -state_.world.distances.way_to_rest(touch.gap) / span_);
+      // What will bounce has to arrive first.
+      if (state_.bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
+        problem.contacts.pop_back();
+        touches.pop_back();
+      }
+    }
+  }
+  for (TouchAhead& constraint : ahead) {
+    ContactPoint& contact = add(constraint.touch, constraint.least);
+    contact.arm_A = constraint.contact.arm_A;
+    contact.arm_B = constraint.contact.arm_B;
+  }
+  const FreeFlight flight = free_flight(bodies.bodies());
+  problem.bodies = flight.at_end;
+  const std::vector<RobotPlan> free =
+      state_.robots.fly(problem, state_.start.time + state_.reached, span_);
+  const ContactSolution solution = project_plan(state_, problem);
+  Plan made{.at_end = solution.bodies, .residual = solution.residual};
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    Touch acting = *touches[k];
+    acting.impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
+    touches[k]->impulse = acting.impulse / share;
+    made.touches.push_back(acting);
+  }
+  made.at_end.resize(state_.size());
+  const std::vector<bool> by_end = led_by_end(problem, bodies.bodies(), solution);
+  set_moves(bodies.bodies(), flight, solution, by_end, made);
+  made.robots = state_.robots.plan(problem, solution, free, by_end, span_);
+  push_apart(made);
+  state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
+  return made;
+}
+
+/// [m]  What the drift of links adds to the way along a contact's normal.
+double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
+  double way = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    if (state_.world.bodies[pair[side]].piece) {
+      const std::size_t k = state_.place.at(pair[side]);
+      const Move drift = state_.robots.drift(k, state_.states[k].X_WB);
+      const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
+      const Vector3d at_contact = drift.translation + drift.rotation_vector.cross(arm);
+      way += (side == 0 ? -1.0 : 1.0) * contact.frame.row(0).dot(at_contact);
+    }
+  }
+  return way;
+}
+
+/// The mean of the velocities at both ends is exact under constant forces; where it would break a
+/// constraint, as at one that only begins to act, those at the end lead the bodies in contact.
+std::vector<bool> IslandPlanner::led_by_end(const ContactProblem& problem,
+                                            const std::vector<ContactBody>& before,
+                                            const ContactSolution& solution) const {
+  std::vector<ContactBody> mean = solution.bodies;
+  for (std::size_t b = 0; b < mean.size(); ++b) {
+    mean[b].v = 0.5 * (before[b].v + solution.bodies[b].v);
+    mean[b].w = 0.5 * (before[b].w + solution.bodies[b].w);
+  }
+  const double slack = 2.0 * projection_options(state_, problem).tolerance;
+  const bool mean_is_allowed =
+      std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
+        return normal_velocity(contact, mean) >= contact.least_normal_velocity - slack;
+      });
+  std::vector<bool> by_end(before.size(), false);
+  if (!mean_is_allowed) {
+    for (const ContactPoint& contact : problem.contacts) {
+      by_end[contact.bodies[0]] = true;
+      by_end[contact.bodies[1]] = true;
+    }
+  }
+  return by_end;
+}
+
+/// Those of pieces of links are their robots' matter.
+void IslandPlanner::set_moves(const std::vector<ContactBody>& before, const FreeFlight& flight,
+                              const ContactSolution& solution, const std::vector<bool>& by_end,
+                              Plan& plan) const {
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    const Vector3d& w_free = flight.at_end[k].w;
+    const Vector3d& w = solution.bodies[k].w;
+    const Vector3d turn =
+        by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
+    const Vector3d& v = solution.bodies[k].v;
+    plan.moves.push_back({span_ * (by_end[k] ? v : Vector3d(0.5 * (before[k].v + v))),
+                          flight.rotation_vectors[k] + span_ * turn});
+  }
+}
+
+/// Adds displacements that lead pairs back to their distance of rest.
+void IslandPlanner::push_apart(Plan& plan) {
+  if (!state_.is_too_near() || span_ < stall(state_.start.h)) {
+    return;
+  }
+  if (!push_) {
+    push_ = find_push();
+  }
+  state_.robots.displace(push_->mechanisms, plan.robots);
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    plan.moves[k].translation += push_->bodies[k].v;
+    plan.moves[k].rotation_vector += push_->bodies[k].w;
+  }
+}
+
+/// Displacements, in metres in place of metres per second: least in the kinetic metric, and
+/// without velocity, so that they add no energy of motion.
+ContactSolution IslandPlanner::find_push() {
+  const ContactDistances& distances = state_.world.distances;
+  ProblemBodies bodies = state_.problem_bodies();
+  ContactProblem problem;
+  for (const auto& [pair, manifold] : state_.manifolds) {
+    for (const Touch& touch : manifold.touches) {
+      state_.add_others(pair, bodies);
+      const double missing = distances.least - touch.gap;
+      Touch unknown = touch;
+      unknown.impulse.setZero();
+      problem.contacts.push_back(
+          contact_at(unknown, bodies, 0.0, missing > 0.0 ? kPush * missing : missing));
+    }
+  }
+  problem.bodies = bodies.bodies();
+  for (ContactBody& body : problem.bodies) {
+    body.v.setZero();
+    body.w.setZero();
+  }
+  state_.robots.add_mechanisms(problem);
+  for (ContactMechanism& mechanism : problem.mechanisms) {
+    mechanism.velocity.setZero();
+  }
+  return project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
+}
+
+}  // namespace firstcontact::detail
