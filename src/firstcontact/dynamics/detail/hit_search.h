@@ -14,7 +14,7 @@ namespace firstcontact::detail {
 /// A pair that the plan brings into contact.
 struct Hit {
   BodyPair bodies;
-  double t = 0.0;  // [-]  Of the span.
+  double t = 0.0;  ///< [-]  Of the span.
   bool is_slight = false;
   std::vector<TouchAhead> ahead = {};
 };

@@ -13,17 +13,17 @@ namespace firstcontact::detail {
 /// A touch of the motion ahead, and how it would be reached.
 struct TouchAhead {
   Touch touch;
-  ContactPoint contact;  // With the arms of its time.
-  double least = 0.0;    // [m/s]  Normal velocity that keeps the pair apart until the end.
+  ContactPoint contact;  ///< With the arms of its time.
+  double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
 };
 
 /// What the bodies do over its span: the rest of the step, or less.
 struct Plan {
-  std::vector<Move> moves = {};     // Of each member.
-  std::vector<ContactBody> at_end;  // Velocities of each member.
+  std::vector<Move> moves = {};     ///< Of each member.
+  std::vector<ContactBody> at_end;  ///< Velocities of each member.
   std::vector<RobotPlan> robots = {};
-  std::vector<Touch> touches = {};  // With their impulses.
-  double residual = 0.0;            // [m/s]
+  std::vector<Touch> touches = {};  ///< With their impulses.
+  double residual = 0.0;            ///< [m/s]
 };
 
 /// Makes plans from where an island is now, each with more constraints than the one before.
