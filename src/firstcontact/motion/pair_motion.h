@@ -31,6 +31,10 @@ class FIRSTCONTACT_API PairMotion {
   /// dear.
   [[nodiscard]] virtual double boxes_window() const { return 0x1p-9; }
 
+  /// [-]  Boxes farther apart than this part of their sizes are bounded once more when they are
+  /// due, nearer ones opened. The less the longer bodies stay beside each other.
+  [[nodiscard]] virtual double far_boxes() const { return 0.15; }
+
   /// [m]  A's point C in the frame of the motions, where points are reported.
   [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;
 

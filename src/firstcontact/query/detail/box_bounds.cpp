@@ -33,7 +33,6 @@ constexpr float kTiny = 0x1p-60f;         // Above what underflow can lose in a 
 constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when their unit is scaled.
 constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
 constexpr float kLargest = 1e30f;         // Beyond, products may overflow.
-constexpr float kFar = 0.15f;
 constexpr float kSizeRatio = 1.5f;
 
 /// Boxes placed in the frame: four of A, then four of B.
@@ -535,7 +534,7 @@ struct Pairs {
         hn::MulAdd(best.largest_gap, hn::Set(d, 1.0f - kRoughness), hn::Set(d, frame.threshold));
     hn::Store(gap, d, bounds.gap + first);
     store_bits(hn::Not(hn::Ge(time, hn::Set(d, frame.horizon))), first, bounds.live);
-    store_bits(hn::Gt(gap, hn::Mul(hn::Set(d, kFar), hn::Add(s.radius_a, s.radius_b))), first,
+    store_bits(hn::Gt(gap, hn::Mul(hn::Set(d, frame.far), hn::Add(s.radius_a, s.radius_b))), first,
                bounds.far);
     store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, kSizeRatio), s.radius_b)), first,
                bounds.larger_a);
