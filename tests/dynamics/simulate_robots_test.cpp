@@ -452,6 +452,23 @@ TEST_F(SimulateRobots, JointsComeApartBySagittasBetweenTheEndsOfSteps) {
   }
 }
 
+// Whatever the step: links move on straight ways, and their arcs are not to be far from these.
+TEST_F(SimulateRobots, FastLinksAreMovedByATenthOfARadianAtATime) {
+  constexpr double kSpeed = 30.0;  // [rad/s]
+  Simulator s = simulator(
+      scene(kPendulum, R"("dynamics": {"velocities": {"hinge": )" + std::to_string(kSpeed) + "}}",
+            "", R"("step": 0.01, "gravity": [0, 0, 0])"));
+  for (const RunStep& step : run(s, 50)) {
+    double turned = 0.0;
+    for (const RunPiece& piece : step.bodies[0].pieces) {
+      ASSERT_LE(piece.rotation_vector.norm(), 0.1 + 1e-9) << step.index;
+      turned += piece.rotation_vector.norm();
+    }
+    ASSERT_NEAR(turned, kSpeed * 0.01, 1e-9) << step.index;
+    ASSERT_NEAR(step.robots[0].velocities[0], kSpeed, 1e-9) << step.index;
+  }
+}
+
 TEST_F(SimulateRobots, SaysWhatIsWrong) {
   const auto complaint = [&](const std::string& robot) -> std::string {
     try {
