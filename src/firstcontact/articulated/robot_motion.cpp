@@ -184,7 +184,7 @@ void sort_times(std::vector<double>& times) {
 }
 
 std::vector<AnyMotion> checked_motions(const RobotModel& model,
-                                       std::map<std::string, JointMotion> joints) {
+                                       std::map<std::string, JointMotion>&& joints) {
   std::vector<AnyMotion> motions(model.joints().size());
   for (auto& [name, motion] : joints) {
     const std::optional<std::size_t> index = model.find_joint(name);

@@ -106,8 +106,8 @@ class FIRSTCONTACT_API Mechanism {
                                                  const Eigen::Vector3d& gravity, double dt) const;
 
   /// The velocities at other positions, nearby, with which every link goes on as it does in the
-  /// state: they keep the kinetic energy and, as nearly as joints let them, each link's momentum and
-  /// angular momentum about its centre (least squares in the kinetic metric; to first order the
+  /// state: they keep the kinetic energy and, as nearly as joints let them, each link's momentum
+  /// and angular momentum about its centre (least squares in the kinetic metric; to first order the
   /// parallel transport of that metric). Where a link carries one that is far out or turns against
   /// it, the same numbers at other positions are another motion.
   [[nodiscard]] Eigen::VectorXd carried(const MechanismState& state,

@@ -226,7 +226,7 @@ class Search {
       for (const auto& [parent, joint] : std::span(trees_[index].nodes).subspan(1)) {
         nodes.push_back({parent, motion.joint_path(joint, middle_)});
       }
-      course.emplace(std::move(nodes), grid_);
+      course.emplace(nodes, grid_);
     }
     return *course;
   }

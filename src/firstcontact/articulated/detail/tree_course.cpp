@@ -34,7 +34,7 @@ FramePlace pass(const FramePlace& parent, const JointState& joint) {
 
 }  // namespace
 
-TreeCourse::TreeCourse(std::vector<Node> nodes, const TimeGrid& grid) : grid_(grid) {
+TreeCourse::TreeCourse(const std::vector<Node>& nodes, const TimeGrid& grid) : grid_(grid) {
   joints_.reserve(nodes.size());
   for (const Node& node : nodes) {
     assert(node.parent == kWorld || node.parent < joints_.size());

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,7 +38,7 @@ class TreeCourse {
     const JointPath* path = nullptr;  ///< From the parent; smooth in the piece.
   };
 
-  TreeCourse(std::vector<Node> nodes, const TimeGrid& grid);
+  TreeCourse(const std::vector<Node>& nodes, const TimeGrid& grid);
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] std::size_t parent(std::size_t node) const { return joints_[node].node.parent; }
