@@ -75,9 +75,9 @@ class MovingPair {
   [[nodiscard]] TrianglePair rates(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// [-]  For how long two boxes are provably farther apart than the threshold, or `enough` where
-  /// it is longer than that, by the directions of the centre line and of each box's axes; of a
-  /// triangle's box, only the triangle counts.
+  /// [-]  For how long two boxes are provably farther apart than the threshold, by the directions
+  /// of the centre line and of each box's axes; of a triangle's box, only the triangle counts. The
+  /// first direction that lasts for `enough` is not improved on.
   ///
   /// Of a body that deforms, the boxes grow. Derivation: were the body not to turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
