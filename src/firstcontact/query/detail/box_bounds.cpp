@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Derivation of the two slacks, u = 2^-24, lengths of a pair L = |c_A| + |c_B| + r_A + r_B with
+// Derivation of the slacks, u = 2^-24, lengths of a pair L = |c_A| + |c_B| + r_A + r_B with
 // centres c relative to a point beside them (formed in double, then rounded).
 //  - Centres: u |c|; their difference u |d|; its dot product with a direction 3 u |d|.
 //  - Axes: the scalar part of the quaternion is at least 0.65 and within 3.5 u, entries of the
@@ -17,12 +17,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 //  - Directions are what they are, stored; only box extents along them have errors: at most
 //    24 u sqrt(3) r for axes and products. The sum stays below 64 u L.
 //  - Velocities: positions relative to the pivot, cross and dot products add up to 16 u of
-//    |s| + w_A rho_A + w_B rho_B, |n x u| to 8 u of it.
+//    |s| + w_A rho_A + w_B rho_B, w (n x u) to 4 u w, and as part of an extent to 4 u sqrt(3) w r.
+//  - Extents at the horizon, along m = n + H w (n x u): 24 u sqrt(3) r |m|. Of two extents that are
+//    interpolated each error counts by its share. With |m| <= 1 + H w |n x u| the gap's slack has
+//    24 u sqrt(3) r, and 42 u r w |n x u| of the speed is left, for which there is kSwingSlack.
 //  - Bodies that deform: boxes are interpolated in double; sums of the rates of centres and
-//  extents,
-//    each at most 2 D, err by less than 80 u D, for which the frame's speed has 4 D more.
+//    extents, each at most 2 D, err by less than 80 u D, for which the frame's speed has 4 D more.
 constexpr float kGapSlack = 0x1p-18f;
 constexpr float kSpeedSlack = 0x1p-19f;
+constexpr float kSwingSlack = 0x1p-18f;
 constexpr float kTimeSlack = 1.0f - 0x1p-18f;
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
 constexpr float kRoughness = HWY_TARGET <= HWY_AVX3 ? 0x1p-13f : 0x1p-11f;
@@ -33,6 +36,7 @@ constexpr float kTiny = 0x1p-60f;         // Above what underflow can lose in a 
 constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when their unit is scaled.
 constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
 constexpr float kLargest = 1e30f;         // Beyond, products may overflow.
+constexpr float kShortest = 0x1p-40f;     // Of the times until which extents are followed.
 constexpr float kSizeRatio = 1.5f;
 
 /// Boxes placed in the frame: four of A, then four of B.
@@ -43,14 +47,24 @@ struct alignas(64) Placed {
   float axes[3][3][8];  // axis, component
   float extent[3][8];
   float radius[8];
-  float reach[8];       // distance of any point from the pivot, times the rate
-  float size[8];        // |c| + r
-  float doubt[8];       // of a triangle's box: how much it may be thicker than the triangle
-  float turn[2][2][8];  // for axes 0 and 1: w |n x u| of A, of B
+  float reach[8];  // distance of any point from the pivot, times the rate
+  float size[8];   // |c| + r
+  float doubt[8];  // of a triangle's box: how much it may be thicker than the triangle
+  // For axes 0 and 1:
+  float own_turn[2][8];       // w |n x u| of the box's own body
+  float turn_of_other[2][8];  // and of the other one
+  float swing[2][8];          // rate of the box's own extent, as it turns
+  float seen[2][3][8];        // the axis as the other body sees it at the horizon
   // Of bodies that deform:
   float drift[3][8];   // velocity of the centre as its body sees it, in the frame's axes
   float growth[3][8];  // rate of the extent
 };
+
+/// [-]  The time until which extents are followed: to the horizon, and where that is so near that
+/// its reciprocal could overflow, a little beyond it.
+HWY_INLINE float chord_end(const BoxFrame& frame) {
+  return frame.horizon > kShortest ? frame.horizon : kShortest;
+}
 
 /// Four boxes of a node at both ends of the step; the same twice of a body that does not deform.
 struct NodeAtEnds {
@@ -94,16 +108,24 @@ HWY_INLINE V<D> root_up(D d, V<D> x) {
   return hn::Mul(hn::Mul(positive, hn::Set(d, 1.0f + kRoughness)), reciprocal_root(d, positive));
 }
 
-/// At least |n x u|, u the same in all lanes.
+template <class VD>
+HWY_INLINE void cross(const VD* x, const VD* y, VD* product) {
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    product[k] = hn::NegMulAdd(x[j], y[i], hn::Mul(x[i], y[j]));
+  }
+}
+
+/// At least w |n x u|, spin = w u; and the direction as a body with that spin sees it after a time.
 template <class D>
-HWY_INLINE V<D> length_of_cross(D d, const V<D>* n, const float* u) {
-  const V<D> u0 = hn::Set(d, u[0]);
-  const V<D> u1 = hn::Set(d, u[1]);
-  const V<D> u2 = hn::Set(d, u[2]);
-  const V<D> x = hn::NegMulAdd(n[2], u1, hn::Mul(n[1], u2));
-  const V<D> y = hn::NegMulAdd(n[0], u2, hn::Mul(n[2], u0));
-  const V<D> z = hn::NegMulAdd(n[1], u0, hn::Mul(n[0], u1));
-  return root_up(d, hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+HWY_INLINE V<D> turn_against(D d, const V<D>* n, const V<D>* spin, float duration, V<D>* seen) {
+  V<D> turning[3];
+  cross(n, spin, turning);
+  for (int k = 0; k < 3; ++k) {
+    seen[k] = hn::MulAdd(hn::Set(d, duration), turning[k], n[k]);
+  }
+  return root_up(d, dot(d, turning, turning));
 }
 
 template <class DF>
@@ -263,7 +285,7 @@ struct Placer {
     }
     const V<D> size =
         hn::Add(hn::Add(hn::Abs(c[0]), hn::Abs(c[1])), hn::Add(hn::Abs(c[2]), radius));
-    place_axes(frame, first, v, placed);
+    place_axes(frame, first, v, e, placed);
     place_velocity(frame, first, rate, lever, placed);
     for (int k = 0; k < 3 && !kDeforms; ++k) {
       hn::Store(e[k], d, placed.extent[k] + first);
@@ -296,7 +318,7 @@ struct Placer {
   }
 
   /// Box axes from the quaternion (w, x, y, z), turned by the body's rotation.
-  HWY_INLINE void place_axes(const BoxFrame& frame, std::size_t first, const V<D>* v,
+  HWY_INLINE void place_axes(const BoxFrame& frame, std::size_t first, const V<D>* v, const V<D>* e,
                              Placed& placed) const {
     const V<D> one = hn::Set(d, 1.0f);
     const V<D> x = v[0];
@@ -325,18 +347,38 @@ struct Placer {
         R[k][m] = each(first, frame.rounded[0][3 * k + m], frame.rounded[1][3 * k + m]);
       }
     }
+    V<D> n[3][3];
     for (int axis = 0; axis < 3; ++axis) {
-      V<D> n[3];
       for (int k = 0; k < 3; ++k) {
-        n[k] = dot(d, R[k], rows[axis]);
-        hn::Store(n[k], d, placed.axes[axis][k] + first);
+        n[axis][k] = dot(d, R[k], rows[axis]);
+        hn::Store(n[axis][k], d, placed.axes[axis][k] + first);
       }
-      if (axis < 2) {
-        for (int other = 0; other < 2; ++other) {
-          const V<D> turn =
-              hn::Mul(hn::Set(d, frame.rate[other]), length_of_cross(d, n, frame.axis[other]));
-          hn::Store(turn, d, placed.turn[axis][other] + first);
-        }
+    }
+    place_turning(frame, first, n, e, placed);
+  }
+
+  HWY_INLINE void place_turning(const BoxFrame& frame, std::size_t first, const V<D> (*axes)[3],
+                                const V<D>* e, Placed& placed) const {
+    V<D> own[3];
+    V<D> other[3];
+    for (int k = 0; k < 3; ++k) {
+      own[k] = each(first, frame.rate[0] * frame.axis[0][k], frame.rate[1] * frame.axis[1][k]);
+      other[k] = each(first, frame.rate[1] * frame.axis[1][k], frame.rate[0] * frame.axis[0][k]);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      const V<D>* n = axes[axis];
+      V<D> turning[3];
+      cross(n, own, turning);
+      hn::Store(root_up(d, dot(d, turning, turning)), d, placed.own_turn[axis] + first);
+      const int i = 1 - axis;
+      hn::Store(hn::MulAdd(e[i], hn::Abs(dot(d, axes[i], turning)),
+                           hn::Mul(e[2], hn::Abs(dot(d, axes[2], turning)))),
+                d, placed.swing[axis] + first);
+      V<D> seen[3];
+      hn::Store(turn_against(d, n, other, chord_end(frame), seen), d,
+                placed.turn_of_other[axis] + first);
+      for (int k = 0; k < 3; ++k) {
+        hn::Store(seen[k], d, placed.seen[axis][k] + first);
       }
     }
   }
@@ -381,7 +423,9 @@ struct Pairs {
     V<D> radius_b;
     V<D> reach_a;
     V<D> reach_b;
-    V<D> charge;  // threshold and slack
+    V<D> charge;    // threshold and slack
+    V<D> spread_a;  // times its turn: what the extent may grow faster by than was told
+    V<D> spread_b;
     V<D> slip;
     V<D> slip_acceleration;
     V<D> doubt_middle;
@@ -389,11 +433,14 @@ struct Pairs {
 
   /// Takes in a direction n, |n| within kRoughness of 1; its length does not enter the time, as
   /// gap, speed and acceleration are all in proportion to it.
-  HWY_INLINE void consider(const Sizes& s, V<D> raw_gap, V<D> opening, V<D> turn_a, V<D> turn_b,
-                           Best& best) const {
+  ///
+  /// @param opening  by the centres
+  /// @param swing    how fast the extents grow; of bodies that deform without their turning
+  HWY_INLINE void consider(const Sizes& s, V<D> raw_gap, V<D> opening, V<D> swing, V<D> turn_a,
+                           V<D> turn_b, Best& best) const {
     const V<D> gap = hn::Sub(raw_gap, s.charge);
-    const V<D> speed =
-        hn::MulAdd(turn_a, s.radius_a, hn::MulAdd(turn_b, s.radius_b, hn::Sub(s.slip, opening)));
+    const V<D> least = hn::Add(swing, hn::Sub(s.slip, opening));
+    const V<D> speed = hn::MulAdd(turn_a, s.spread_a, hn::MulAdd(turn_b, s.spread_b, least));
     const V<D> twice_acceleration =
         hn::MulAdd(turn_a, s.reach_a, hn::MulAdd(turn_b, s.reach_b, s.slip_acceleration));
     const V<D> twice_open = hn::Max(hn::Add(gap, gap), hn::Zero(d));
@@ -410,9 +457,19 @@ struct Pairs {
     best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
   }
 
-  /// How fast the gap opens by the centres, less what the boxes grow.
-  HWY_INLINE V<D> opening(V<D> by_centres, V<D> growth) const {
-    return kDeforms ? hn::Sub(by_centres, growth) : by_centres;
+  /// The extent of boxes along n.
+  HWY_INLINE V<D> extent_along(const V<D>* n, const V<D> (*axes)[3], const V<D>* extent) const {
+    V<D> sum = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      sum = hn::MulAdd(hn::Abs(dot(d, n, axes[k])), extent[k], sum);
+    }
+    return sum;
+  }
+
+  /// The rate of the chord from an extent now to that along the direction that a box sees at the
+  /// horizon; in between it is not more, as it is convex.
+  HWY_INLINE V<D> chord(const BoxFrame& frame, V<D> now, V<D> at_horizon) const {
+    return hn::Mul(hn::Sub(at_horizon, now), hn::Set(d, 1.0f / chord_end(frame)));
   }
 
   /// x with its sign turned where y is negative.
@@ -421,7 +478,7 @@ struct Pairs {
   /// time_to_close() of narrowphase/advance.h for half the acceleration, in single precision:
   /// 2 g / (m + sqrt(m^2 + 2 K g)); 0 where the gap is not open, or not a number. Exact roots and
   /// quotients, as tied pairs must stay tied.
-  HWY_INLINE V<D> time_to_close(const Best& best) const {
+  HWY_INLINE V<D> time_to_close(const BoxFrame& frame, const Best& best) const {
     const V<D> twice_open = hn::Max(hn::Add(best.gap, best.gap), hn::Zero(d));
     const V<D> root =
         hn::Sqrt(hn::MulAdd(best.twice_acceleration, twice_open, hn::Mul(best.speed, best.speed)));
@@ -429,7 +486,8 @@ struct Pairs {
         hn::Add(hn::Add(best.speed, root),
                 hn::MulAdd(hn::Abs(best.speed), hn::Set(d, 0x1p-20f), hn::Set(d, kTiny)));
     const V<D> time = hn::Div(hn::Mul(twice_open, hn::Set(d, kTimeSlack)), closing);
-    return hn::IfThenElseZero(hn::Gt(time, hn::Zero(d)), hn::Min(time, hn::Set(d, 4.0f)));
+    return hn::IfThenElseZero(hn::Gt(time, hn::Zero(d)),
+                              hn::Min(time, hn::Set(d, chord_end(frame))));
   }
 
   template <class Mask>
@@ -448,6 +506,8 @@ struct Pairs {
     Sizes s;
     s.radius_a = of_a(placed.radius);
     s.radius_b = of_b(placed.radius);
+    s.spread_a = hn::Mul(s.radius_a, hn::Set(d, kDeforms ? 1.0f : kSwingSlack));
+    s.spread_b = hn::Mul(s.radius_b, hn::Set(d, kDeforms ? 1.0f : kSwingSlack));
     s.reach_a = of_a(placed.reach);
     s.reach_b = of_b(placed.reach);
     const V<D> slack = hn::MulAdd(hn::Add(of_a(placed.size), of_b(placed.size)),
@@ -515,19 +575,33 @@ struct Pairs {
       }
     }
     for (int k = 0; k < 2; ++k) {
+      V<D> swing_a = growth_along_a[k];
+      V<D> swing_b = growth_along_b[k];
+      if constexpr (!kDeforms) {
+        V<D> seen_by_b[3];
+        V<D> seen_by_a[3];
+        for (int m = 0; m < 3; ++m) {
+          seen_by_b[m] = of_a(placed.seen[k][m]);
+          seen_by_a[m] = of_b(placed.seen[k][m]);
+        }
+        swing_a = hn::Add(of_a(placed.swing[k]), chord(frame, extent_b_along[k],
+                                                       extent_along(seen_by_b, axes_b, extent_b)));
+        swing_b = hn::Add(of_b(placed.swing[k]), chord(frame, extent_a_along[k],
+                                                       extent_along(seen_by_a, axes_a, extent_a)));
+      }
       const V<D> along_a = dot(d, axes_a[k], between);
       consider(s, hn::Sub(hn::Abs(along_a), hn::Add(extent_a[k], extent_b_along[k])),
-               opening(with_sign(dot(d, axes_a[k], velocity), along_a), growth_along_a[k]),
-               of_a(placed.turn[k][0]), of_a(placed.turn[k][1]), best);
+               with_sign(dot(d, axes_a[k], velocity), along_a), swing_a, of_a(placed.own_turn[k]),
+               of_a(placed.turn_of_other[k]), best);
       const V<D> along_b = dot(d, axes_b[k], between);
       consider(s, hn::Sub(hn::Abs(along_b), hn::Add(extent_b[k], extent_a_along[k])),
-               opening(with_sign(dot(d, axes_b[k], velocity), along_b), growth_along_b[k]),
-               of_b(placed.turn[k][0]), of_b(placed.turn[k][1]), best);
+               with_sign(dot(d, axes_b[k], velocity), along_b), swing_b,
+               of_b(placed.turn_of_other[k]), of_b(placed.own_turn[k]), best);
     }
     consider_centre_line(frame, s, between, velocity, axes_a, axes_b, extent_a, extent_b, growth_a,
                          growth_b, best);
 
-    const V<D> time = time_to_close(best);
+    const V<D> time = time_to_close(frame, best);
     hn::Store(time, d, bounds.time + first);
     // A direction may be longer than 1, and the gap along it by as much.
     const V<D> gap =
@@ -569,10 +643,21 @@ struct Pairs {
         growth = hn::MulAdd(along_b, growth_b[k], growth);
       }
     }
-    const V<D> turn_a = hn::Mul(hn::Set(d, frame.rate[0]), length_of_cross(d, n, frame.axis[0]));
-    const V<D> turn_b = hn::Mul(hn::Set(d, frame.rate[1]), length_of_cross(d, n, frame.axis[1]));
-    consider(s, hn::Sub(dot(d, n, between), extent), opening(dot(d, n, velocity), growth), turn_a,
-             turn_b, best);
+    V<D> turn[2];
+    V<D> seen[2][3];  // by A and B at the horizon
+    for (int body = 0; body < 2; ++body) {
+      V<D> spin[3];
+      for (int k = 0; k < 3; ++k) {
+        spin[k] = hn::Set(d, frame.rate[body] * frame.axis[body][k]);
+      }
+      turn[body] = turn_against(d, n, spin, chord_end(frame), seen[body]);
+    }
+    const V<D> swing = kDeforms ? growth
+                                : chord(frame, extent,
+                                        hn::Add(extent_along(seen[0], axes_a, extent_a),
+                                                extent_along(seen[1], axes_b, extent_b)));
+    consider(s, hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), swing, turn[0], turn[1],
+             best);
   }
 };
 

@@ -33,11 +33,12 @@ struct BoxFrame {
 
 /// Of lane 4 i + j, for box i of A's node and box j of B's.
 struct BoxBounds {
-  alignas(64) float time[16];  ///< [-]  Provably farther apart than the threshold for this long.
-  alignas(64) float gap[16];   ///< [unit]  Lower bound of the distance at this instant; may be < 0.
-  std::uint16_t live;          ///< Time is below the horizon.
-  std::uint16_t far;           ///< The gap is large for the size of the boxes.
-  std::uint16_t larger_a;      ///< A's box is so much larger that it alone should be opened.
+  /// [-]  Provably farther apart than the threshold for this long, to the horizon at most.
+  alignas(64) float time[16];
+  alignas(64) float gap[16];  ///< [unit]  Lower bound of the distance at this instant; may be < 0.
+  std::uint16_t live;         ///< Time is below the horizon.
+  std::uint16_t far;          ///< The gap is large for the size of the boxes.
+  std::uint16_t larger_a;     ///< A's box is so much larger that it alone should be opened.
   std::uint16_t larger_b;
   std::uint16_t unsure;  ///< Double precision may find a direction that separates for longer.
 };
