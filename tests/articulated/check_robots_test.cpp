@@ -558,7 +558,7 @@ TEST(CheckRobots, FindsEveryIntervalOfContact) {
 }
 
 /// Of random arms: samples outside of the intervals of their pair are free, and the first entry is
-/// the pair's t.
+/// the pair's t, nearly that of the first contact alone.
 TEST(CheckRobots, OutsideOfIntervalsAllIsFree) {
   RobotCheckOptions options;
   options.all_contact_intervals = true;
@@ -568,7 +568,8 @@ TEST(CheckRobots, OutsideOfIntervalsAllIsFree) {
     const RobotCheckResult result = check_robots(c.scene(), options);
     const RobotCheckResult first = check_robots(c.scene());
     ASSERT_EQ(result.verdict, first.verdict) << seed;
-    ASSERT_NEAR(result.t, first.t, 1e-9) << seed;
+    // Searches of other windows end at other times within the tolerance.
+    ASSERT_NEAR(result.t, first.t, options.tolerance) << seed;
     for (int i = 0; i <= 1000; ++i) {
       const double t = i / 1000.0;
       bool reported = false;

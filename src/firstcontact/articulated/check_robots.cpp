@@ -31,7 +31,7 @@ using detail::PartSearch;
 /// first, as a contact spares the others. Fixed, so that answers do not depend on the number of
 /// threads.
 constexpr std::size_t kBlock = 32;
-constexpr std::size_t kFirstRound = 2;
+constexpr std::size_t kFirstRound = 1;
 constexpr std::size_t kLargestRound = 32;
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

@@ -44,6 +44,7 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
   [[nodiscard]] double speed_bound(double radius_A, double radius_B) const override;
   [[nodiscard]] double boxes_window() const override { return 0x1p-6; }
   [[nodiscard]] double far_boxes() const override { return 0.03; }
+  [[nodiscard]] double alone() const override { return 2.5; }
   [[nodiscard]] Eigen::Vector3d origin(double t) const override;
 
  private:

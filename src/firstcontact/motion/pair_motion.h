@@ -35,6 +35,10 @@ class FIRSTCONTACT_API PairMotion {
   /// due, nearer ones opened. The less the longer bodies stay beside each other.
   [[nodiscard]] virtual double far_boxes() const { return 0.15; }
 
+  /// [-]  Of two boxes one that is larger by this factor is opened alone, else both are. The more
+  /// where what comes near is seldom of one size.
+  [[nodiscard]] virtual double alone() const { return 1.5; }
+
   /// [m]  A's point C in the frame of the motions, where points are reported.
   [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;
 

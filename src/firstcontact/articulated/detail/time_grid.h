@@ -8,7 +8,7 @@
 namespace firstcontact::detail {
 
 /// Halvings of a piece of time. More cost more places of links than they spare searches.
-inline constexpr int kHalvings = 4;
+inline constexpr int kHalvings = 3;
 
 /// A window of time that halving a piece makes, by the numbers of its ends in a grid.
 struct GridWindow {

@@ -37,7 +37,6 @@ constexpr float kTinyLength = 0x1p-100f;  // Above what extents can lose when th
 constexpr float kExtentDoubt = 0x1p-9f;   // Of the radius: above what extents were rounded up by.
 constexpr float kLargest = 1e30f;         // Beyond, products may overflow.
 constexpr float kShortest = 0x1p-40f;     // Of the times until which extents are followed.
-constexpr float kSizeRatio = 1.5f;
 
 /// Boxes placed in the frame: four of A, then four of B.
 struct alignas(64) Placed {
@@ -610,9 +609,9 @@ struct Pairs {
     store_bits(hn::Not(hn::Ge(time, hn::Set(d, frame.horizon))), first, bounds.live);
     store_bits(hn::Gt(gap, hn::Mul(hn::Set(d, frame.far), hn::Add(s.radius_a, s.radius_b))), first,
                bounds.far);
-    store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, kSizeRatio), s.radius_b)), first,
+    store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, frame.alone), s.radius_b)), first,
                bounds.larger_a);
-    store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, kSizeRatio), s.radius_a)), first,
+    store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, frame.alone), s.radius_a)), first,
                bounds.larger_b);
     // A gap of -(slack + doubt) to 2 slack may be one that double precision finds open.
     const auto sure = hn::And(hn::Gt(best.nearness, hn::Add(s.doubt_middle, slack)),

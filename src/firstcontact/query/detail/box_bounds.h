@@ -27,6 +27,7 @@ struct BoxFrame {
   float threshold;       ///< Closer is contact; the error of positions in double is included.
   float horizon;         ///< Pairs apart for this long are done with.
   float far;             ///< [-]  A gap is large beyond this part of the boxes' radii.
+  float alone;           ///< [-]  A box larger than another by this factor is opened alone.
   double t;              ///< Where boxes are interpolated, of bodies that deform.
   float deformation[2];  ///< At least the speed of their vertices, as their bodies see them.
 };

@@ -228,6 +228,7 @@ double MovingPair::gap_along(const Vector3d& n, const PlacedBox& a, const Placed
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
   frame.far = static_cast<float>(motion_.far_boxes());
+  frame.alone = static_cast<float>(motion_.alone());
   const std::array<double, 2> units{A_.unit, B_.unit};
   const std::array<double, 2> deformation{A_.deformation_speed, B_.deformation_speed};
   for (int body = 0; body < 2; ++body) {
