@@ -61,7 +61,8 @@ Departure departure(std::uint64_t seed) {
         const Vector3d model = model_displacement(state, p, tau);
         const auto exact = oracle::exact_place(chain, Wide(t + tau), point) - start;
         const double apart = norm(exact - exact_point(model)).nearest();
-        const double most = state.drift * tau + 0.5 * state.bend * tau * tau;
+        const double bend = state.bend_of(0.0, (p - state.p_AQb).norm());
+        const double most = state.drift * tau + 0.5 * bend * tau * tau;
         // What this test rounds: the model's displacement, and t + tau.
         const double size = p.norm() + (p - state.p_AQb).norm() + ball.radius;
         const double rounding = 1e-15 * (size * (1.0 + state.rate_B) + model.norm());
@@ -103,10 +104,23 @@ TEST(LinkPairMotion, ASteadyHingeHasNoBend) {
                         scratch);
   const double end = motion.enter(0.0);
   const double steady = kRate * kRate * (kArm + kRadius);
-  EXPECT_LE(motion.state(0.0).bend, 0.7 * steady);
-  EXPECT_LE(motion.state(end).bend, 1e-9 * steady);
+  EXPECT_LE(motion.state(0.0).bend_of(0.0, kArm + kRadius), 0.7 * steady);
+  EXPECT_LE(motion.state(end).bend_of(0.0, kArm + kRadius), 1e-9 * steady);
   EXPECT_LE(motion.state(0.0).drift, 1e-12);
   EXPECT_LE((motion.state(0.0).p_AQb).norm(), 1e-12);  // The pole is on the axle.
+}
+
+/// What is near the axle bends less.
+TEST(LinkPairMotion, BendGrowsWithTheDistanceFromThePole) {
+  const RobotMotion robot = planar_motion({ramp(0.0, 1.0), ramp(0.0, 0.5)});
+  const LinkMotion arm = robot.link(2);
+  const LinkMotion rest(Motion::fixed());
+  LinkScratch scratch;
+  LinkPairMotion motion({rest, Vector3d::Zero(), 0.1}, {arm, {0.5, 0.0, 0.0}, 1.0}, scratch);
+  motion.enter(0.0);
+  const RelativeState state = motion.state(0.0);
+  EXPECT_GT(state.bend_B, 0.0);
+  EXPECT_LE(state.bend_of(0.0, 0.1), 0.5 * state.bend_of(0.0, 1.0));
 }
 
 /// Bodies that follow a Motion are their own models for any number of turns.
@@ -117,7 +131,7 @@ TEST(LinkPairMotion, FreeBodiesHaveNoBend) {
   LinkScratch scratch;
   LinkPairMotion motion({A, {0.1, 0.2, 0.3}, 0.5}, {B, Vector3d::Zero(), 0.5}, scratch);
   EXPECT_EQ(motion.enter(0.0), 1.0);
-  EXPECT_EQ(motion.state(0.3).bend, 0.0);
+  EXPECT_EQ(motion.state(0.3).bend_of(1.0, 1.0), 0.0);
   EXPECT_LE(motion.state(0.3).drift, 1e-10);
 }
 

@@ -2,6 +2,7 @@
 // against where the boxes really are.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -31,13 +32,24 @@ using test::real_box;
 using test::RealBox;
 using test::RealVector;
 
-BoxFrame frame_of(const MovingBoxes& c) {
+/// By how much the motion of boxes may depart from its model.
+struct Departure {
+  double drift = 0.0;                         // [m per step]
+  double bend = 0.0;                          // [m per step^2]
+  std::array<double, 2> bend_per_metre = {};  // [per step^2]  From the pivots of A and B.
+};
+
+BoxFrame frame_of(const MovingBoxes& c, const Departure& departure = {}) {
   const Motion A = c.A.motion();
   const Motion B = c.B.motion();
   ConstantRatePair motion(A, B, c.A.hierarchy.centre, c.B.hierarchy.centre, 1e-6);
   motion.enter(c.t);
   const MovingPair pair(c.A.hierarchy, c.B.hierarchy, motion);
-  const RelativeState state = motion.state(c.t);
+  RelativeState state = motion.state(c.t);
+  state.drift += departure.drift;
+  state.bend += departure.bend;
+  state.bend_A += departure.bend_per_metre[0];
+  state.bend_B += departure.bend_per_metre[1];
   BoxFrame frame = pair.box_frame();
   pair.place(state, c.threshold + pair.gap_error(state), frame);
   frame.horizon = static_cast<float>(1.0 - c.t);
@@ -120,15 +132,36 @@ TEST_P(BoxBoundsOn, GapIsNeverAboveTheDistanceOfBoxesThatDeform) {
   }
 }
 
-/// How far the motion of boxes may depart from its model.
+/// Boxes whose motion may depart from its model.
 struct Departing {
   MovingBoxes boxes;
-  double drift = 0.0;  // [m per step]
-  double bend = 0.0;   // [m per step^2]
+  Departure by;
+
+  /// [m]  From the body's pivot, the place on its axis beside its centre, to the corner that is
+  /// farthest from it.
+  [[nodiscard]] Real reach(const test::Body& body, int slot) const {
+    const RealVector axis = body.rotation_vector.cast<Real>().normalized();
+    const RealVector lever = (body.rotation.normalized() * body.hierarchy.centre).cast<Real>();
+    const RealVector pivot = body.position.cast<Real>() + boxes.t * body.translation.cast<Real>() +
+                             axis.dot(lever) * axis;
+    const RealBox box = real_box(body, slot, boxes.t, pivot);
+    Real most = 0.0L;
+    for (int corner = 0; corner < 8; ++corner) {
+      const RealVector sign((corner & 1) != 0 ? 1.0L : -1.0L, (corner & 2) != 0 ? 1.0L : -1.0L,
+                            (corner & 4) != 0 ? 1.0L : -1.0L);
+      most = std::max(most, (box.centre + box.axes * box.extent.cwiseProduct(sign)).norm());
+    }
+    return most;
+  }
+
+  [[nodiscard]] Real bend_of(int i, int j) const {
+    return by.bend + by.bend_per_metre[0] * reach(boxes.A, i) +
+           by.bend_per_metre[1] * reach(boxes.B, j);
+  }
 
   /// The least distance that is left of that of the model, tau after the case's time.
   [[nodiscard]] Real distance(int i, int j, Real tau) const {
-    return boxes.distance(i, j, boxes.t + tau) - drift * tau - 0.5L * bend * tau * tau;
+    return boxes.distance(i, j, boxes.t + tau) - by.drift * tau - 0.5L * bend_of(i, j) * tau * tau;
   }
 };
 
@@ -137,16 +170,24 @@ Departing departing(Random& random, const MovingBoxes& boxes) {
   const auto gap = static_cast<double>(boxes.distance(0, 0, boxes.t)) - boxes.threshold;
   const double left = std::max(1.0 - boxes.t, 1e-3);
   const double scale = std::max(gap, 0.0) / left;
-  return {boxes, scale * random.logarithmic(0.01, 10.0),
-          scale / left * random.logarithmic(0.01, 10.0)};
+  Departing c{
+      boxes,
+      {scale * random.logarithmic(0.01, 10.0), scale / left * random.logarithmic(0.01, 10.0)}};
+  const test::Body* const bodies[] = {&boxes.A, &boxes.B};
+  for (std::size_t k = 0; k < 2; ++k) {
+    // Only of bodies that turn.
+    if (bodies[k]->rotation_vector.norm() > RelativeState::kLeastRate) {
+      c.by.bend_per_metre[k] = scale / left * random.logarithmic(0.01, 10.0) /
+                               static_cast<double>(c.reach(*bodies[k], 0));
+    }
+  }
+  return c;
 }
 
 Bounds bounds_departing(const Departing& c) {
   Bounds bounds;
   bounds.unit = std::max(c.boxes.A.hierarchy.unit, c.boxes.B.hierarchy.unit);
-  BoxFrame frame = frame_of(c.boxes);
-  frame.drift = round_up(c.drift / bounds.unit);
-  frame.bend = round_up(c.bend / bounds.unit);
+  const BoxFrame frame = frame_of(c.boxes, c.by);
   bound_boxes(frame, c.boxes.A.node(), c.boxes.B.node(), bounds);
   return bounds;
 }
@@ -178,7 +219,7 @@ TEST_P(BoxBoundsOn, TimeIsMostOfWhatDeparturesLeave) {
     const Departing c = departing(random, random_moving_boxes(random, Approach::straight));
     const Real gap = c.distance(0, 0, 0.0L) - c.boxes.threshold;
     const Real most = (c.boxes.B.translation - c.boxes.A.translation).cast<Real>().norm() +
-                      c.drift + c.bend * (1.0L - c.boxes.t);
+                      c.by.drift + c.bend_of(0, 0) * (1.0L - c.boxes.t);
     Real tau = 0.0L;
     for (int i = 0; i < 2000 && gap > 0.0L && c.boxes.t + tau < 1.0L; ++i) {
       const Real left = c.distance(0, 0, tau) - c.boxes.threshold;
@@ -323,12 +364,13 @@ TEST_P(BoxBoundsOn, FlagsSayWhatTheNumbersSay) {
 TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   Random random(7);
-  for (int field = 0; field < 9; ++field) {
+  for (int field = 0; field < 11; ++field) {
     const MovingBoxes c = random_moving_boxes(random, Approach::any);
     BoxFrame frame = frame_of(c);
     double* const doubles[] = {&frame.rotation[1][4], &frame.origin[1][0], &frame.ratio[0]};
-    float* const floats[] = {&frame.axis[1][1], &frame.rate[0], &frame.velocity[1][2],
-                             &frame.threshold,  &frame.drift,   &frame.bend};
+    float* const floats[] = {&frame.axis[1][1],       &frame.rate[0],         &frame.velocity[1][2],
+                             &frame.threshold,        &frame.drift,           &frame.bend,
+                             &frame.bend_by_reach[0], &frame.bend_by_reach[1]};
     if (field < 3) {
       *doubles[field] = kNaN;
     } else {

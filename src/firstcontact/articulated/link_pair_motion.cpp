@@ -51,6 +51,36 @@ double end_of_window(const TimeWindow& piece, double t, double length) {
   return end > t && next < 1.0 ? std::min(end, piece.end) : piece.end;
 }
 
+/// The centre of a ball: where it is from the link's origin, and how it moves.
+struct CentreMotion {
+  Vector3d offset;
+  Vector3d velocity;
+  Vector3d acceleration;
+};
+
+CentreMotion centre_of(const LinkState& link, const LinkBall& ball) {
+  CentreMotion centre;
+  centre.offset = link.pose.R_FL * ball.p_LC;
+  const Vector3d inward = link.spin.cross(centre.offset);
+  centre.velocity = link.velocity + inward;
+  centre.acceleration =
+      link.acceleration + link.spin_rate.cross(centre.offset) + link.spin.cross(inward);
+  return centre;
+}
+
+/// From the pole of acceleration to the centre of a ball; zero where the link does not turn.
+Vector3d lever_of(const LinkState& link, const CentreMotion& centre, double radius) {
+  const double rate = link.spin.norm();
+  if (rate == 0.0) {
+    return Vector3d::Zero();
+  }
+  const Vector3d axis = link.spin / rate;
+  const Vector3d across = centre.acceleration - axis.dot(centre.acceleration) * axis;
+  const double most = rate * (centre.velocity.norm() + rate * radius);
+  const double scale = std::min(1.0, kFarPole * most / std::max(across.norm(), 1e-300));
+  return -scale / (rate * rate) * across;
+}
+
 }  // namespace
 
 /// One body's part of a RelativeState, positions from the pair's origin.
@@ -63,6 +93,7 @@ struct LinkPairMotion::BodyState {
   double rate = 0.0;
   double drift = 0.0;
   double bend = 0.0;
+  double bend_per_metre = 0.0;  ///< [per step^2]  For each metre from the pivot.
   double position_error = 0.0;
   double rotation_error = 0.0;
 };
@@ -106,11 +137,19 @@ void LinkPairMotion::bound(Body& body, double t, double end) {
     body.jerk = 0.0;
     return;
   }
-  const LinkPart whole{.centre = body.ball.p_LC, .radius = body.ball.radius};
-  const CoordinateSegment::Bounds bounds =
-      body.path->window(t, t, end, whole, scratch_, p_FO_).bounds();
-  body.speed = bounds.rate;
-  body.jerk = bounds.jerk;
+  const LinkState link = body.path->state(t, scratch_, p_FO_);
+  const Vector3d lever = lever_of(link, centre_of(link, body.ball), body.ball.radius);
+  body.has_near_pole = lever.norm() <= body.ball.radius;
+  body.p_LP = body.ball.p_LC;
+  if (body.has_near_pole) {
+    body.p_LP -= link.pose.R_FL.transpose() * lever;
+  }
+  const LinkWindow window = body.path->window(t, t, end, {.centre = body.p_LP}, scratch_, p_FO_);
+  const double reach = ((body.ball.p_LC - body.p_LP).norm() + body.ball.radius) * kUp;
+  body.speed = (window.bounds().rate + window.per_metre().rate * reach) * kUp;
+  body.jerk = (window.bounds().jerk + window.per_metre().jerk * reach) * kUp;
+  body.jerk_at_P = window.bounds().jerk;
+  body.jerk_per_metre = window.per_metre().jerk;
 }
 
 LinkPairMotion::BodyState LinkPairMotion::free_state(const Body& body, const ConstantRatePath& path,
@@ -138,32 +177,24 @@ LinkPairMotion::BodyState LinkPairMotion::state_of(const Body& body, double t) c
   }
   const LinkState link = body.path->state(t, scratch_, p_FO_);
   const double radius = body.ball.radius * kUp;
-  const Vector3d offset = link.pose.R_FL * body.ball.p_LC;
-  const double far = offset.norm();
+  const CentreMotion centre = centre_of(link, body.ball);
+  const double far = centre.offset.norm();
   const Vector3d& w = link.spin;
-  const Vector3d inward = w.cross(offset);
-  const Vector3d velocity = link.velocity + inward;
-  const Vector3d acceleration = link.acceleration + link.spin_rate.cross(offset) + w.cross(inward);
 
   BodyState state;
   state.R = link.pose.R_FL;
-  state.centre = link.pose.p_OL + offset;
+  state.centre = link.pose.p_OL + centre.offset;
   state.rotation_error = link.pose.rotation_error;
   state.position_error = link.pose.position_error + link.pose.rotation_error * far +
                          kRounding * (far + link.pose.p_OL.norm());
   state.rate = w.norm();
-  Vector3d lever = Vector3d::Zero();  // From the pole to the centre.
   if (state.rate > 0.0) {
     state.axis = w / state.rate;
-    const Vector3d across = acceleration - state.axis.dot(acceleration) * state.axis;
-    const double most = state.rate * (velocity.norm() + state.rate * radius);
-    const double scale = std::min(1.0, kFarPole * most / std::max(across.norm(), 1e-300));
-    lever = -scale / (state.rate * state.rate) * across;
   }
+  const Vector3d lever = lever_of(link, centre, radius);
   state.pivot = state.centre - lever;
-  state.pivot_velocity = velocity - w.cross(lever);
+  state.pivot_velocity = centre.velocity - w.cross(lever);
   const double reach = lever.norm() + radius;
-  const Vector3d bent = acceleration - w.cross(w.cross(lever));
   const double w2 = state.rate * state.rate;
   const double misplaced = (far + radius) * (link.pose.rotation_error + kRounding);
   state.drift = (link.velocity_error + link.spin_error * (far + radius) + state.rate * misplaced +
@@ -172,12 +203,39 @@ LinkPairMotion::BodyState LinkPairMotion::state_of(const Body& body, double t) c
   const double turn_error =
       link.spin_rate_error + link.spin_error * (2.0 * state.rate + link.spin_error);
   const double turn = link.spin_rate.norm() + w2;
-  state.bend = (bent.norm() + link.spin_rate.norm() * radius + link.acceleration_error +
-                turn_error * (far + reach) + turn * misplaced +
-                kRounding * (link.acceleration.norm() + turn * (far + reach)) +
-                (body.jerk + w2 * state.rate * reach) * std::max(end_ - t, 0.0) / 3.0) *
-               kUp;
+  const double error = link.acceleration_error + turn_error * (far + reach) + turn * misplaced +
+                       kRounding * (link.acceleration.norm() + turn * (far + reach));
+  set_bend(body, link, centre.acceleration - w.cross(w.cross(lever)), lever, error, t, state);
   return state;
+}
+
+/// @param bent   [m per step^2]  the acceleration of the ball's centre without that of its model
+/// @param lever  [m]             from the pole to the centre
+/// @param error  [m per step^2]  of the acceleration of any point of the ball
+void LinkPairMotion::set_bend(const Body& body, const LinkState& link, const Vector3d& bent,
+                              const Vector3d& lever, double error, double t,
+                              BodyState& state) const {
+  const double third = std::max(end_ - t, 0.0) / 3.0;
+  const double radius = body.ball.radius * kUp;
+  const double twist = state.rate * state.rate * state.rate;
+  if (body.has_near_pole) {
+    const Vector3d P = link.pose.p_OL + link.pose.R_FL * body.p_LP;
+    const double misplaced = (P - state.pivot).norm() + link.pose.position_error +
+                             (link.pose.rotation_error + kRounding) * body.p_LP.norm();
+    state.bend = (bent - link.spin_rate.cross(lever)).norm() +
+                 (body.jerk_at_P + body.jerk_per_metre * misplaced) * third;
+    state.bend_per_metre = link.spin_rate.norm() + (body.jerk_per_metre + twist) * third;
+  } else {
+    state.bend = bent.norm() + link.spin_rate.norm() * radius +
+                 (body.jerk_at_P + body.jerk_per_metre * radius) * third;
+    state.bend_per_metre = twist * third;
+  }
+  if (state.rate < RelativeState::kLeastRate) {
+    state.bend += state.bend_per_metre * (lever.norm() + radius);
+    state.bend_per_metre = 0.0;
+  }
+  state.bend = (state.bend + error) * kUp;
+  state.bend_per_metre *= kUp;
 }
 
 RelativeState LinkPairMotion::state(double t) const {
@@ -196,7 +254,12 @@ RelativeState LinkPairMotion::state(double t) const {
   state.rate_B = B.rate;
   state.pivot_velocity = B.pivot_velocity - A.pivot_velocity;
   state.drift = A.drift + B.drift + kRounding * (A.pivot_velocity.norm() + B.pivot_velocity.norm());
-  state.bend = A.bend + B.bend;
+  const double size = state.p_AB.norm() + state.p_AQa.norm() + state.p_AQb.norm() +
+                      bodies_[0].ball.radius + bodies_[1].ball.radius;
+  // Distances from the pivots are differences of positions.
+  state.bend = A.bend + B.bend + kRounding * size * (A.bend_per_metre + B.bend_per_metre);
+  state.bend_A = A.bend_per_metre;
+  state.bend_B = B.bend_per_metre;
   state.position_error =
       A.position_error + B.position_error + kRounding * (A.centre.norm() + B.centre.norm());
   state.rotation_error_A = A.rotation_error;

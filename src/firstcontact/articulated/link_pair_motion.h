@@ -25,10 +25,14 @@ struct LinkBall {
 /// zero. A link on one axle that turns at a constant rate then has no bend at the start of a piece.
 ///
 /// Derivation: let w, al be the spin and its rate, c the acceleration of the ball's centre C at t,
-/// across w: a, and Q = C + a / w^2. A point at e from C has the acceleration c + al x e +
-/// w x (w x e); its model's is w x (w x (C - Q + e)). They differ by c - a + al x e at t, and after
-/// tau by (J + w^3 |Q - C| + w^3 r) tau more at most, with J a bound of the point's jerk. Twice
-/// integrated that is (|c - a| + |al| r + (J + w^3 (|Q - C| + r)) T / 3) tau^2 / 2 for tau <= T.
+/// across w: a, and Q = C + a / w^2. A point at d from Q has the acceleration q + al x d +
+/// w x (w x d), with q that of the link's point at Q; its model's is w x (w x d). They differ by
+/// q + al x d at t, and after tau by (J + w^3 |d|) tau more at most, with J a bound of the point's
+/// jerk. With J_P a bound for the link's point P and j what is added to it for each metre from
+/// there, twice integrated that is for tau <= T
+///   (|q| + (J_P + j |Q - P|) T / 3  +  (|al| + (j + w^3) T / 3) |d|) tau^2 / 2.
+/// P is the pole at the start of the piece. Where that is outside of the ball, distances from it
+/// say little; P is then C, and |q| + |al| |d| is |c - a| + |al| r, J is J_P + j r.
 ///
 /// Pieces are windows of time in which no point's path bends by more than about half of itself; of
 /// bodies that follow a Motion they are its pieces, and nothing bends. Windows are halves of halves
@@ -53,10 +57,16 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
     const LinkPath* path = nullptr;  ///< The piece entered.
     double speed = 0.0;              ///< Of any point of the ball.
     double jerk = 0.0;
+    bool has_near_pole = false;  ///< Within the ball, at the start of the piece.
+    Eigen::Vector3d p_LP = Eigen::Vector3d::Zero();  ///< That pole, or the ball's centre.
+    double jerk_at_P = 0.0;
+    double jerk_per_metre = 0.0;
   };
   struct BodyState;
   void bound(Body& body, double t, double end);
   [[nodiscard]] BodyState state_of(const Body& body, double t) const;
+  void set_bend(const Body& body, const LinkState& link, const Eigen::Vector3d& bent,
+                const Eigen::Vector3d& lever, double error, double t, BodyState& state) const;
   [[nodiscard]] BodyState free_state(const Body& body, const ConstantRatePath& path,
                                      double t) const;
 

@@ -116,6 +116,7 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
     chain.pass(bounds, arm.cross(place.axis).norm() + error, place.step, place.lever);
   }
   window.bounds_ = chain.bounds();
+  window.per_metre_ = chain.per_metre();
   return window;
 }
 

@@ -70,6 +70,10 @@ class FIRSTCONTACT_API LinkWindow {
   /// every time of the window.
   [[nodiscard]] const CoordinateSegment::Bounds& bounds() const { return bounds_; }
 
+  /// [per metre]  A point of the link at a distance r from the part exceeds these bounds by r times
+  /// these at most.
+  [[nodiscard]] const CoordinateSegment::Bounds& per_metre() const { return per_metre_; }
+
   /// The displacement along n, from t to t_to().
   ///
   /// Derivation: a point P at offset e from the link's origin has velocity v + w x e and
@@ -110,6 +114,7 @@ class FIRSTCONTACT_API LinkWindow {
   double speed_error_ = 0.0;                                // Of any point of the part at t.
   double acceleration_error_ = 0.0;
   CoordinateSegment::Bounds bounds_;
+  CoordinateSegment::Bounds per_metre_;
 };
 
 namespace detail {

@@ -12,10 +12,12 @@ namespace firstcontact {
 /// From t on each body P turns at a constant rate about its pivot Qp, and the pivots move on lines:
 /// what follows from these numbers alone is the body's model motion. The exact motion of a point
 /// may depart from it. Summed over both bodies, for points within the radii that the state was made
-/// for, that is at most
-///   drift tau + bend tau^2 / 2,   0 <= tau <= time left of the piece;
-/// both are zero for motions of constant rates, up to the rounding of what stands here.
+/// for and at distances d_A, d_B from their bodies' pivots, that is at most
+///   drift tau + (bend + bend_A d_A + bend_B d_B) tau^2 / 2,   0 <= tau <= time left of the piece;
+/// all are zero for motions of constant rates, up to the rounding of what stands here.
 struct RelativeState {
+  static constexpr double kLeastRate = 0x1p-10;  ///< [rad per step]
+
   double t = 0.0;
   Eigen::Matrix3d R_WA = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
@@ -31,6 +33,13 @@ struct RelativeState {
       Eigen::Vector3d::Zero();  ///< [m per step]  Of B's relative to A's.
   double drift = 0.0;           ///< [m per step]
   double bend = 0.0;            ///< [m per step^2]
+  double bend_A = 0.0;          ///< [per step^2]  Zero where A turns by less than kLeastRate.
+  double bend_B = 0.0;          ///< [per step^2]
+
+  /// [m per step^2]  For points at these distances from their pivots.
+  [[nodiscard]] double bend_of(double d_A, double d_B) const {
+    return bend + bend_A * d_A + bend_B * d_B;
+  }
 
   double position_error = 0.0;    ///< [m]  Of p_AB, beyond one rounding of its size.
   double rotation_error_A = 0.0;  ///< [-]  Of R y: times |y|, beyond 22 2^-53 of it.

@@ -66,9 +66,9 @@ double along_direction_fixed(const RelativeState& state, const TrianglePair& pai
   const double slip =
       state.drift + kSpeedError * (state.pivot_velocity.norm() + wA * reach.A + wB * reach.B);
   Gaps<9> gaps;
-  gaps.half_acceleration =
-      0.5 * (1.0 + 0x1p-46) *
-      (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B + slip * (wA + wB) + state.bend);
+  gaps.half_acceleration = 0.5 * (1.0 + 0x1p-46) *
+                           (wA * turn_A.norm() * reach.A + wB * turn_B.norm() * reach.B +
+                            slip * (wA + wB) + state.bend_of(reach.A, reach.B));
   const double drift = n.dot(state.pivot_velocity);
   int k = 0;
   for (const Vector3d& a : pair.A) {
@@ -138,9 +138,10 @@ double advance(const RelativeState& state, const TrianglePair& pair, const Vecto
   if (fixed >= enough) {
     return fixed;
   }
+  const double bend = state.bend_of(reach.A, reach.B);
   const CarriedView by_A{state.rate_A, state.axis_A, state.p_AQa,          state.rate_B,
                          state.axis_B, state.p_AQb,  state.pivot_velocity, reach.B,
-                         state.drift,  state.bend};
+                         state.drift,  bend};
   const double carried_by_A =
       along_direction_carried(by_A, pair.A, pair.B, n, clearance_error, time_left, enough);
   if (carried_by_A >= enough) {
@@ -148,7 +149,7 @@ double advance(const RelativeState& state, const TrianglePair& pair, const Vecto
   }
   const CarriedView by_B{state.rate_B, state.axis_B, state.p_AQb,           state.rate_A,
                          state.axis_A, state.p_AQa,  -state.pivot_velocity, reach.A,
-                         state.drift,  state.bend};
+                         state.drift,  bend};
   return std::max(
       {fixed, carried_by_A,
        along_direction_carried(by_B, pair.B, pair.A, -n, clearance_error, time_left, enough)});

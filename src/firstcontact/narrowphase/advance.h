@@ -30,8 +30,9 @@ struct TrianglePair {
 ///   K = w_B^2 rho_B + 2 w_A |n x u_A| (|s| + w_B rho_B) + w_A^2 |n x u_A| D,
 /// the accelerations of B, of Coriolis and of the turning frame, with s the relative velocity of
 /// the pivots and D a bound of |b - Q_A| up to t_end. That holds for the model motions; what exact
-/// ones may depart from them adds the state's drift to the rate and its bend to K. Every direction
-/// certifies; the best of the three is taken, or the first that holds beyond t_end.
+/// ones may depart from them adds the state's drift to the rate and its bend for the corners' reach
+/// to K. Every direction certifies; the best of the three is taken, or the first that holds beyond
+/// t_end.
 ///
 /// @param pair       positions at the state's time t
 /// @param n          [-]  unit up to rounding, from A towards B

@@ -51,7 +51,7 @@ MovingCorners corners(const BodyState& body, const Triangle& position, const Tri
 double advance_deforming(const RelativeState& state, const TrianglePair& pair,
                          const TrianglePair& rates, const ClosestFeatures& closest,
                          const Vector3d& n, double threshold, double error, double t_end) {
-  assert(state.drift == 0.0 && state.bend == 0.0);
+  assert(state.drift == 0.0 && state.bend_of(1.0, 1.0) == 0.0);
   const double time_left = t_end - state.t;
   const double enough = time_left * (1.0 + 0x1p-40) + 0x1p-100;
   const double offset = state.p_AB.norm();

@@ -28,16 +28,27 @@ class ChainBounds {
   void pass(const JointBounds& bounds, double from_axis, double step, double lever) {
     const auto& [w1, w2, w3] = bounds.angle;
     beyond_ += lever;
-    const double rho = std::min(from_axis + reach_ + v_ * T_, beyond_) * kUp;
+    const double by_axis = from_axis + reach_ + v_ * T_;
+    const double rho = std::min(by_axis, beyond_) * kUp;
+    const double more_rho = by_axis < beyond_ ? 1.0 + more_.rate * T_ : 1.0;
     const double turning = length_of(w2, w1 * w1);
-    j_ = bounds.pivot.jerk + j_ + 3.0 * w1 * a_ + 3.0 * turning * v_ +
-         length_of(w3 + w1 * w1 * w1, 3.0 * w1 * w2) * rho;
+    const double twisting = length_of(w3 + w1 * w1 * w1, 3.0 * w1 * w2);
+    more_.jerk += 3.0 * w1 * more_.acceleration + 3.0 * turning * more_.rate + twisting * more_rho;
+    more_.acceleration += 2.0 * w1 * more_.rate + turning * more_rho;
+    more_.rate += w1 * more_rho;
+    j_ = bounds.pivot.jerk + j_ + 3.0 * w1 * a_ + 3.0 * turning * v_ + twisting * rho;
     a_ = bounds.pivot.acceleration + a_ + 2.0 * w1 * v_ + turning * rho;
     v_ = bounds.pivot.rate + v_ + w1 * rho;
     beyond_ += step + bounds.pivot.rate * T_;
   }
 
   [[nodiscard]] CoordinateSegment::Bounds bounds() const { return {v_ * kUp, a_ * kUp, j_ * kUp}; }
+
+  /// [per metre]  At most what is added for each metre by which the part reaches farther: rho is a
+  /// concave function of the reach, and with it are all the bounds.
+  [[nodiscard]] CoordinateSegment::Bounds per_metre() const {
+    return {more_.rate * kUp, more_.acceleration * kUp, more_.jerk * kUp};
+  }
 
  private:
   /// Sums and products of up to some hundred joints' bounds.
@@ -56,6 +67,7 @@ class ChainBounds {
   double v_ = 0.0;
   double a_ = 0.0;
   double j_ = 0.0;
+  CoordinateSegment::Bounds more_;  // Derivatives of these by the reach.
 };
 
 }  // namespace firstcontact::detail

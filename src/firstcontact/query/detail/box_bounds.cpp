@@ -515,8 +515,12 @@ struct Pairs {
     s.slip = hn::MulAdd(hn::Set(d, kSpeedSlack),
                         hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)),
                         hn::Set(d, (1.0f + kRoughness) * frame.drift));
-    s.slip_acceleration = hn::MulAdd(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])),
-                                     hn::Set(d, (1.0f + 2.0f * kRoughness) * frame.bend));
+    constexpr float kLength = 1.0f + 2.0f * kRoughness;  // Of a direction, at most.
+    const V<D> bend = hn::MulAdd(s.reach_a, hn::Set(d, kLength * frame.bend_by_reach[0]),
+                                 hn::MulAdd(s.reach_b, hn::Set(d, kLength * frame.bend_by_reach[1]),
+                                            hn::Set(d, kLength * frame.bend)));
+    s.slip_acceleration =
+        hn::MulAdd(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])), bend);
 
     const V<D> doubt = hn::Add(of_a(placed.doubt), of_b(placed.doubt));
     s.doubt_middle = hn::Mul(hn::Set(d, 0.5f), hn::Add(slack, doubt));

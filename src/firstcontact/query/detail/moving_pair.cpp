@@ -192,7 +192,7 @@ double MovingPair::time_apart(const RelativeState& state, const PlacedBox& a, co
     const double half_acceleration =
         0.5 * (1.0 + 0x1p-46) *
         (turn_A * (wA * a.reach + 2.0 * dA) + turn_B * (wB * b.reach + 2.0 * dB) +
-         slip * (wA + wB) + state.bend);
+         slip * (wA + wB) + state.bend_of(a.reach, b.reach));
     best = std::max(best, time_to_close(clear, speed, half_acceleration));
     return best >= enough;
   });
@@ -238,6 +238,20 @@ BoxFrame MovingPair::box_frame() const {
   return frame;
 }
 
+/// Distances from the pivots are differences of positions in single precision.
+void MovingPair::place_bend(const RelativeState& state, BoxFrame& frame) const {
+  constexpr double kDistanceError = 0x1p-20;
+  const double size =
+      A_.radius + B_.radius + state.p_AB.norm() + state.p_AQa.norm() + state.p_AQb.norm();
+  const double bend = state.bend + kDistanceError * size * (state.bend_A + state.bend_B);
+  const auto rounded = [](double value) { return value == 0.0 ? 0.0f : round_up(value); };
+  frame.bend = rounded(bend / unit());
+  frame.bend_by_reach[0] =
+      rounded(state.bend_A / std::max(state.rate_A, RelativeState::kLeastRate));
+  frame.bend_by_reach[1] =
+      rounded(state.bend_B / std::max(state.rate_B, RelativeState::kLeastRate));
+}
+
 void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& frame) const {
   const double scale = 1.0 / unit();  // A power of two: exact.
   for (int i = 0; i < 3; ++i) {
@@ -260,7 +274,7 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
   frame.speed = round_up(
       (state.pivot_velocity.norm() + 4.0 * (A_.deformation_speed + B_.deformation_speed)) * scale);
   frame.drift = state.drift == 0.0 ? 0.0f : round_up(state.drift * scale);
-  frame.bend = state.bend == 0.0 ? 0.0f : round_up(state.bend * scale);
+  place_bend(state, frame);
   frame.threshold = round_up(threshold * scale);
   frame.t = state.t;
 }

@@ -117,6 +117,8 @@ class MovingPair {
   [[nodiscard]] double speed_bound() const { return speed_bound_; }
 
  private:
+  void place_bend(const RelativeState& state, BoxFrame& frame) const;
+
   const Hierarchy& A_;
   const Hierarchy& B_;
   const PairMotion& motion_;
