@@ -15,8 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A gap of this part of what is of interest is near enough; more rounds than these gain nothing.
-constexpr double kNearEnough = 0.9;
+/// More rounds than these gain nothing.
 constexpr int kRounds = 16;
 
 constexpr std::size_t kPlaces = detail::kDirections;
@@ -192,7 +191,7 @@ Separation separate(Places A, Places B, const Vector3d& n, const GapRange& range
     const Vector3d nearest = simplex.nearest();
     const double distance = nearest.norm();
     const double more = distance - range.least;
-    if (!(distance > 0.0 && more > 0.0) || best.gap - range.least >= kNearEnough * more) {
+    if (!(distance > 0.0 && more > 0.0) || best.gap - range.least >= range.near * more) {
       break;
     }
     along = nearest / distance;

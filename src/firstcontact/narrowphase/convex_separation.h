@@ -32,6 +32,7 @@ struct Separation {
 struct GapRange {
   double least = 0.0;  ///< [m]  Where there is no greater one, any direction will do.
   double enough = std::numeric_limits<double>::infinity();  ///< [m]  None greater is asked for.
+  double near = 0.9;  ///< [-]  Nor one beyond this part of the way from the least to the distance.
 };
 
 /// Looks for a direction whose gap is nearly the distance, as far as that exceeds the least (E. G.

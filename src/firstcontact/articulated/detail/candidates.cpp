@@ -18,6 +18,10 @@ constexpr double kUp = 1.0 + 0x1p-40;
 constexpr double kLooseError = 0.05;
 constexpr int kErrorDepth = 8;
 
+/// [-]  A gap of this part of the distance at a window's middle is near enough: better ones cost
+/// more than the windows that they spare.
+constexpr double kNear = 0.5;
+
 /// Two parts that are still in question.
 struct Question {
   std::size_t pair = 0;
@@ -155,14 +159,15 @@ class Search {
                             double threshold) {
     const SweptGap gap = gap_of_boxes(A, B);
     if (question.n.isZero(0.0)) {
-      question.n = gap.n;
+      const Eigen::Vector3d between = B.middle.centre - A.middle.centre;
+      question.n = between.isZero(0.0) ? gap.n : between.normalized();
     }
     return gap.bound > threshold;
   }
 
   static bool hulls_are_far(Question& question, const SweptPart& A, const SweptPart& B,
                             double threshold) {
-    const SweptGap middle = gap_at_middle(A, B, threshold, question.n);
+    const SweptGap middle = gap_at_middle(A, B, threshold, question.n, kNear);
     question.n = middle.n;
     question.middle = middle.bound;
     question.apart = middle.bound > threshold;

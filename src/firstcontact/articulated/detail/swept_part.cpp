@@ -123,9 +123,11 @@ SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B) {
   return {most, (forth[axis] >= back[axis] ? 1.0 : -1.0) * Vector3d::Unit(axis)};
 }
 
-SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n) {
+SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n,
+                       double near) {
   const double thick = thickness(A, B, A.middle.error + B.middle.error);
-  const Separation found = separate(hull(A, A.middle), hull(B, B.middle), n, {thick + enough});
+  const Separation found =
+      separate(hull(A, A.middle), hull(B, B.middle), n, {.least = thick + enough, .near = near});
   return {found.gap - thick, found.n};
 }
 

@@ -97,8 +97,9 @@ struct SweptGap {
 ///
 /// @param enough  [m]  no less is of interest
 /// @param n       [-]  unit; where to look first
+/// @param near    [-]  the part of the distance that is looked for
 [[nodiscard]] SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough,
-                                     const Eigen::Vector3d& n);
+                                     const Eigen::Vector3d& n, double near = 0.9);
 
 /// The same throughout the window, by the convex hull of all differences of control points.
 ///
