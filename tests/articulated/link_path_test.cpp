@@ -309,6 +309,36 @@ Excess excess_of_speed(const ChainOptions& options, double travel) {
   return excess;
 }
 
+/// A law: bounds of a point and of each metre from it hold for a ball around it, and are those of a
+/// ball where that is small.
+TEST(LinkWindow, BoundsGrowWithTheReachByNoMoreThanTheirSlopes) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed + 900);
+    const ChainCase c = random_chain(seed, {.joints = 1 + static_cast<int>(seed % 12)});
+    const double t = random.uniform(0.0, 0.9);
+    const LinkPath path = c.motion.path(c.motion.model().links().size() - 1, t);
+    const double to = std::min(t + random.logarithmic(1e-3, 1.0), path.t_end());
+    const Vector3d centre = random.vector(0.0, 0.3);
+    LinkScratch scratch;
+    const LinkWindow point = path.window(t, t, to, {.centre = centre}, scratch);
+    for (const double reach : {1e-6, 0.1, 10.0}) {
+      const CoordinateSegment::Bounds ball =
+          path.window(t, t, to, {.centre = centre, .radius = reach}, scratch).bounds();
+      const auto by_slope = [&](double CoordinateSegment::Bounds::*bound) {
+        return point.bounds().*bound + reach * point.per_metre().*bound;
+      };
+      ASSERT_LE(ball.rate, by_slope(&CoordinateSegment::Bounds::rate) * (1.0 + 1e-11)) << seed;
+      ASSERT_LE(ball.acceleration,
+                by_slope(&CoordinateSegment::Bounds::acceleration) * (1.0 + 1e-11))
+          << seed;
+      ASSERT_LE(ball.jerk, by_slope(&CoordinateSegment::Bounds::jerk) * (1.0 + 1e-11)) << seed;
+      if (reach < 1e-5) {
+        ASSERT_GE(ball.jerk, by_slope(&CoordinateSegment::Bounds::jerk) * (1.0 - 1e-9)) << seed;
+      }
+    }
+  }
+}
+
 /// Tight: where the joints together turn by 0.1 rad, and still by 0.3, the excess is at most half
 /// of the greatest speed over all directions; by 0.01 rad, a few percent of it. By 0.7 rad, 0.1 for
 /// each joint, it is so on average only: such a window wants to be seen in three parts.

@@ -356,6 +356,7 @@ struct Placer {
     place_turning(frame, first, n, e, placed);
   }
 
+  /// How the two thinner axes turn against both bodies.
   HWY_INLINE void place_turning(const BoxFrame& frame, std::size_t first, const V<D> (*axes)[3],
                                 const V<D>* e, Placed& placed) const {
     V<D> own[3];
