@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <firstcontact/dynamics/detail/hit_search.h>
@@ -29,6 +30,7 @@ class Island {
   Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace)
       : state_(step, std::move(members)),
         guesses_(step.guesses),
+        stop_(step.stop),
         workspace_(workspace),
         span_(step.start.h) {
     track_.members = state_.members;
@@ -36,7 +38,7 @@ class Island {
     track_.clearance = std::numeric_limits<double>::infinity();
   }
 
-  IslandTrack run() {
+  std::optional<IslandTrack> run() {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
     if (has_bounce()) {
@@ -49,12 +51,15 @@ class Island {
       }
       const double reached = state_.reached;
       const double planned = span();
-      const double t = advance();
-      if (t < 1.0) {
+      const std::optional<double> t = advance();
+      if (!t) {
+        return std::nullopt;
+      }
+      if (*t < 1.0) {
         ++track_.events;
         impact();
       }
-      choose_span(planned, t);
+      choose_span(planned, *t);
       stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
     }
     track_.reached = state_.reached;
@@ -84,12 +89,12 @@ class Island {
   }
 
   /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
-  /// plan. Returns how far, in parts of its span.
-  double advance() {
+  /// plan. Returns how far, in parts of its span; nothing if it was stopped.
+  std::optional<double> advance() {
     IslandPlanner planner(state_, span());
     HitSearch search(state_, span(), workspace_);
     std::vector<TouchAhead> ahead;
-    for (int round = 1;; ++round) {
+    for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan(ahead);
       const std::vector<Hit> hits = search.find(plan);
       if (hits.empty()) {
@@ -107,6 +112,7 @@ class Island {
         }
       }
     }
+    return std::nullopt;
   }
 
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
@@ -210,6 +216,7 @@ class Island {
 
   IslandState state_;
   const std::vector<Touch>& guesses_;
+  const std::stop_token& stop_;
   std::vector<Touch> acted_ = {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
@@ -218,8 +225,8 @@ class Island {
 
 }  // namespace
 
-IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
-                           Workspace& workspace) {
+std::optional<IslandTrack> advance_island(const StepContext& step, std::vector<std::size_t> members,
+                                          Workspace& workspace) {
   return Island(step, std::move(members), workspace).run();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <firstcontact/dynamics/detail/island_state.h>
@@ -41,7 +42,10 @@ struct IslandTrack {
 /// its first contact. Where it is slight, it becomes a constraint of the same span; else all move
 /// until it, and the impact is projected there. Where that brings a pair nearer than where it
 /// rests, less than the rest of the step is planned at a time.
-[[nodiscard]] IslandTrack advance_island(const StepContext& step, std::vector<std::size_t> members,
-                                         Workspace& workspace);
+///
+/// @returns  nothing if it was stopped
+[[nodiscard]] std::optional<IslandTrack> advance_island(const StepContext& step,
+                                                        std::vector<std::size_t> members,
+                                                        Workspace& workspace);
 
 }  // namespace firstcontact::detail

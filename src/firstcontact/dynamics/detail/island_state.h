@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <stop_token>
 #include <unordered_map>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct StepContext {
   const Surroundings& around;
   const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
                                       ///< the solver.
+  const std::stop_token& stop;
 };
 
 /// An island now: plans, searches and impacts look at it, and Island moves it.

@@ -21,11 +21,11 @@ constexpr int kExactRounds = 2;
 class Islands {
  public:
   Islands(const World& world, const StepStart& start, const std::vector<Touch>& guesses,
-          Workspace& workspace)
+          Workspace& workspace, const std::stop_token& stop)
       : world_(world),
         start_(start),
         around_(world, start),
-        step_{world, start, around_, guesses},
+        step_{world, start, around_, guesses, stop},
         workspace_(workspace),
         sets_(world.bodies.size()) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -35,10 +35,10 @@ class Islands {
     }
   }
 
-  std::optional<std::vector<IslandTrack>> run(const std::stop_token& stop) {
+  std::optional<std::vector<IslandTrack>> run() {
     join_links();
     join_near();
-    for (int round = 0; advance_changed(stop); ++round) {
+    for (int round = 0; advance_changed(); ++round) {
       if (!join_meeting(round >= kExactRounds)) {
         return take_tracks();
       }
@@ -99,7 +99,7 @@ class Islands {
   }
 
   /// Advances the sets that are new. Returns false if it was stopped.
-  bool advance_changed(const std::stop_token& stop) {
+  bool advance_changed() {
     std::vector<std::vector<std::size_t>> members(world_.bodies.size());
     for (const std::size_t b : free_) {
       members[set_of(b)].push_back(b);
@@ -114,11 +114,11 @@ class Islands {
       if (members[s].empty()) {
         continue;
       }
-      if (stop.stop_requested()) {
-        return false;
-      }
       is_new_[s] = true;
       tracks_[s] = advance_island(step_, std::move(members[s]), workspace_);
+      if (!tracks_[s]) {
+        return false;
+      }
     }
     return true;
   }
@@ -224,7 +224,7 @@ std::optional<std::vector<IslandTrack>> advance_islands(const World& world, cons
                                                         const std::vector<Touch>& guesses,
                                                         Workspace& workspace,
                                                         const std::stop_token& stop) {
-  return Islands(world, start, guesses, workspace).run(stop);
+  return Islands(world, start, guesses, workspace, stop).run();
 }
 
 }  // namespace firstcontact::detail
