@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <firstcontact/dynamics/contact_problem.h>
 #include <firstcontact/dynamics/detail/contact_rows.h>
@@ -103,69 +105,115 @@ ContactSolution solution_of(const ContactProblem& problem, const ContactRows& ro
   return solution;
 }
 
+template <class Number>
+void require_positive(Number value, const std::string& option) {
+  if (!(value > Number())) {
+    throw std::invalid_argument("ProjectionOptions::" + option + " must be > 0, got " +
+                                std::to_string(value));
+  }
+}
+
+/// Tries what is cheap for the problem before what is dear.
+class Solver {
+ public:
+  Solver(const ContactProblem& problem, const ProjectionOptions& options)
+      : problem_(problem),
+        options_(options),
+        rows_(problem),
+        is_automatic_(options.space == ProjectionSpace::automatic),
+        projection_(start(problem, rows_)) {
+    const std::size_t moving = moving_velocities(problem);
+    const std::size_t contacts = rows_.contacts.size();
+    is_small_ = moving <= kMostInMotionSpace;
+    has_interior_ = is_small_ && problem.drives.empty() && contacts >= kManyForInteriorPoint;
+    // Along a chain of links impulses would have to travel from joint to joint.
+    has_many_ =
+        !problem.mechanisms.empty() || has_interior_ || 6 * contacts >= kManyContacts * moving;
+  }
+
+  ContactSolution solve() {
+    if (is_solved(projection_) || sweep_first()) {
+      return solution(projection_, ProjectionSpace::contact);
+    }
+    if (has_interior_) {
+      if (std::optional<ContactSolution> found = from_inside()) {
+        return std::move(*found);
+      }
+    }
+    return by_multipliers();
+  }
+
+ private:
+  [[nodiscard]] bool is_solved(const Projection& projection) const {
+    return projection.residual <= options_.tolerance;
+  }
+
+  [[nodiscard]] ContactSolution solution(const Projection& projection,
+                                         ProjectionSpace space) const {
+    return solution_of(problem_, rows_, projection, space);
+  }
+
+  /// Sweeps over the contacts, where that may be enough. Whether it is all that is to be done.
+  bool sweep_first() {
+    const bool is_worthwhile = is_automatic_ && !(is_small_ && has_many_);
+    if (options_.space != ProjectionSpace::contact && !is_worthwhile) {
+      return false;
+    }
+    ProjectionOptions sweeping = options_;
+    if (is_automatic_ && is_small_) {
+      sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+    }
+    detail::project_in_contact_space(rows_, sweeping, projection_);
+    return !is_automatic_ || is_solved(projection_) || !is_small_;
+  }
+
+  /// By an interior point. Nothing where multipliers are to go on.
+  std::optional<ContactSolution> from_inside() {
+    Projection inner = projection_;
+    if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
+      ProjectionOptions sweeping = options_;
+      sweeping.sweeps = kSweepsBeforeMotionSpace;
+      sweeping.tolerance = kExtraSweeps * options_.tolerance;
+      detail::project_in_contact_space(rows_, sweeping, inner);
+      if (is_solved(inner)) {
+        return solution(inner, ProjectionSpace::contact);
+      }
+    }
+    detail::project_by_interior_point(problem_, rows_, options_, inner);
+    if (inner.residual < projection_.residual) {
+      projection_ = std::move(inner);
+    }
+    if (is_automatic_ || is_solved(projection_)) {
+      return solution(projection_, ProjectionSpace::motion);
+    }
+    return std::nullopt;
+  }
+
+  ContactSolution by_multipliers() {
+    const Projection before = projection_;
+    detail::project_in_motion_space(problem_, rows_, options_, projection_);
+    return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
+                                                  : solution(projection_, ProjectionSpace::motion);
+  }
+
+  const ContactProblem& problem_;
+  const ProjectionOptions& options_;
+  ContactRows rows_;
+  bool is_automatic_;
+  bool is_small_ = false;
+  bool has_interior_ = false;
+  bool has_many_ = false;
+  Projection projection_;
+};
+
 }  // namespace
 
 ContactSolution project_on_contacts(const ContactProblem& problem,
                                     const ProjectionOptions& options) {
-  if (!(options.tolerance > 0.0)) {
-    throw std::invalid_argument("ProjectionOptions::tolerance must be > 0, got " +
-                                std::to_string(options.tolerance));
-  }
-  if (options.sweeps <= 0) {
-    throw std::invalid_argument("ProjectionOptions::sweeps must be > 0, got " +
-                                std::to_string(options.sweeps));
-  }
-  if (options.rounds <= 0) {
-    throw std::invalid_argument("ProjectionOptions::rounds must be > 0, got " +
-                                std::to_string(options.rounds));
-  }
-  const ContactRows rows(problem);
-  Projection projection = start(problem, rows);
-  if (projection.residual <= options.tolerance) {
-    return solution_of(problem, rows, projection, ProjectionSpace::contact);
-  }
-  const std::size_t moving = moving_velocities(problem);
-  const bool automatic = options.space == ProjectionSpace::automatic;
-  const bool is_small = moving <= kMostInMotionSpace;
-  const bool is_inner =
-      is_small && problem.drives.empty() && rows.contacts.size() >= kManyForInteriorPoint;
-  // Along a chain of links impulses would have to travel from joint to joint.
-  const bool has_many =
-      !problem.mechanisms.empty() || is_inner || 6 * rows.contacts.size() >= kManyContacts * moving;
-  if (options.space == ProjectionSpace::contact || (automatic && !(is_small && has_many))) {
-    ProjectionOptions sweeping = options;
-    if (automatic && is_small) {
-      sweeping.sweeps = std::min(options.sweeps, kSweepsBeforeMotionSpace);
-    }
-    detail::project_in_contact_space(rows, sweeping, projection);
-    if (!automatic || projection.residual <= options.tolerance || !is_small) {
-      return solution_of(problem, rows, projection, ProjectionSpace::contact);
-    }
-  }
-  if (is_inner) {
-    Projection inner = projection;
-    if (automatic) {  // Where hardly anything changed since the guesses, sweeps are enough.
-      ProjectionOptions sweeping = options;
-      sweeping.sweeps = kSweepsBeforeMotionSpace;
-      sweeping.tolerance = kExtraSweeps * options.tolerance;
-      detail::project_in_contact_space(rows, sweeping, inner);
-      if (inner.residual <= options.tolerance) {
-        return solution_of(problem, rows, inner, ProjectionSpace::contact);
-      }
-    }
-    detail::project_by_interior_point(problem, rows, options, inner);
-    if (inner.residual < projection.residual) {
-      projection = std::move(inner);
-    }
-    if (automatic || projection.residual <= options.tolerance) {
-      return solution_of(problem, rows, projection, ProjectionSpace::motion);
-    }
-  }
-  const Projection before = projection;
-  detail::project_in_motion_space(problem, rows, options, projection);
-  return before.residual < projection.residual
-             ? solution_of(problem, rows, before, ProjectionSpace::contact)
-             : solution_of(problem, rows, projection, ProjectionSpace::motion);
+  require_positive(options.tolerance, "tolerance");
+  require_positive(options.sweeps, "sweeps");
+  require_positive(options.rounds, "rounds");
+  return Solver(problem, options).solve();
 }
 
 double contact_residual(const ContactProblem& problem, const ContactSolution& solution) {
