@@ -68,6 +68,10 @@ TEST(ConvexSeparation, GapIsThatOfThePointsAndNearlyTheDistance) {
     if (distance.lower > 1e-3) {
       ++apart;
       ASSERT_GE(found.gap, 0.85 * distance.lower) << seed;
+      const Separation nearer = separate(A.placed(), B.placed(), found.n, {.near = 0.99});
+      ASSERT_GE(nearer.gap, 0.98 * distance.lower) << seed;
+      const Separation rough = separate(A.placed(), B.placed(), random.direction(), {.near = 0.5});
+      ASSERT_GE(rough.gap, 0.49 * distance.lower) << seed;
     }
   }
   EXPECT_GT(apart, 500);

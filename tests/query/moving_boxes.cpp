@@ -87,7 +87,7 @@ Body random_body(Random& random) {
   body.hierarchy.unit = std::exp2(std::round(random.uniform(-20.0, 20.0)));
   body.hierarchy.radius = body.hierarchy.unit;
   body.hierarchy.centre = random.chance(0.5)
-                              ? random.uniform(0.0, 5.0) * body.hierarchy.unit * random.direction()
+                              ? random.uniform(0.0, 6.0) * body.hierarchy.unit * random.direction()
                               : Vector3d(Vector3d::Zero());
   body.hierarchy.nodes = {random_node(random)};
   body.rotation = Eigen::AngleAxisd(random.uniform(0.0, std::numbers::pi), random.direction());
@@ -107,6 +107,34 @@ void set_lever(const Vector3d& lever, double t, Body& body) {
   const HierarchyNode& node = body.node();
   const Vector3d box(node.centre[0][0], node.centre[1][0], node.centre[2][0]);
   body.hierarchy.centre = (turned * body.rotation).conjugate() * lever - body.hierarchy.unit * box;
+}
+
+/// The axes of the first box, one per column, in those of its body.
+RealMatrix axes_in_body(const Body& body) {
+  Body still = body;
+  still.rotation_vector.setZero();
+  still.rotation.setIdentity();
+  return real_box(still, 0, 0.0L, RealVector::Zero()).axes;
+}
+
+/// Lets the first box of one body turn about its own middle, beside the wide and resting face of
+/// the other's, at t perhaps parallel to it. Returns the direction of the face.
+Vector3d tilt(Random& random, double t, Body& tilting, Body& resting) {
+  resting.hierarchy.unit = resting.hierarchy.radius = 4.0 * tilting.hierarchy.unit;
+  for (int k = 1; k < 3; ++k) {
+    resting.hierarchy.nodes[0].extent[k][0] = extent_code(0.5);
+  }
+  const RealMatrix face = real_box(resting, 0, t, RealVector::Zero()).axes;
+  const Vector3d normal = face.col(0).cast<double>();
+  tilting.rotation_vector =
+      random.logarithmic(0.1, 20.0) * normal.cross(random.direction()).normalized();
+  if (random.chance(0.5)) {
+    const RealMatrix turned = turn(t * tilting.rotation_vector.cast<Real>());
+    const RealMatrix R = turned.transpose() * face * axes_in_body(tilting).transpose();
+    tilting.rotation = Eigen::Quaternion<Real>(R).cast<double>().normalized();
+  }
+  set_lever(Vector3d::Zero(), t, tilting);
+  return normal;
 }
 
 /// Sets all but the positions; returns the direction from A's first box to B's.
@@ -136,6 +164,8 @@ Vector3d set_motion(Random& random, Approach approach, MovingBoxes& c) {
       set_lever(10.0 * c.B.hierarchy.unit * normal, c.t, c.B);
       return normal;
     }
+    case Approach::tilting:
+      return random.chance(0.5) ? tilt(random, c.t, c.A, c.B) : tilt(random, c.t, c.B, c.A);
     case Approach::circling: {
       const Vector3d aside = normal.cross(random.direction()).normalized();
       const double radius =
@@ -194,6 +224,14 @@ Approach random_approach(Random& random) {
   return static_cast<Approach>(static_cast<int>(random.uniform(0.0, 5.0)));
 }
 
+/// [m]  Of the smaller one of the first boxes: one that tilts gets no nearer than by that.
+double least_size(const MovingBoxes& c) {
+  const auto size = [](const Body& body) {
+    return static_cast<double>(real_box(body, 0, 0.0L, RealVector::Zero()).extent.norm());
+  };
+  return std::min(size(c.A), size(c.B));
+}
+
 MovingBoxes moving_boxes(Random& random, Approach approach, bool deforming) {
   MovingBoxes c;
   c.A = random_body(random);
@@ -205,10 +243,11 @@ MovingBoxes moving_boxes(Random& random, Approach approach, bool deforming) {
     }
   }
   c.t = random.uniform(0.0, 0.9);
-  const double gap = c.size() * random.logarithmic(1e-5, 10.0);
+  const Vector3d heading = set_motion(random, approach, c);
+  const double gap = approach == Approach::tilting ? least_size(c) * random.logarithmic(1e-5, 0.5)
+                                                   : c.size() * random.logarithmic(1e-5, 10.0);
   // Near the gap, a direction that is not quite unit would pass for farther apart.
   c.threshold = random.chance(0.5) ? 0.0 : gap * (1.0 - random.logarithmic(1e-5, 1.0));
-  const Vector3d heading = set_motion(random, approach, c);
   if (random.chance(0.3)) {
     c.A.position = random.logarithmic(1.0, 1e6) * c.size() * random.direction();
   }

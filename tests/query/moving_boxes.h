@@ -80,6 +80,7 @@ enum class Approach {
   straight,
   spinning,  ///< About the face's normal, so that points are fast, but not towards the face.
   swinging,  ///< Around an axis in the face, at first along it: only the acceleration counts.
+  tilting,   ///< One of the two above a face, about its own middle: only its extent counts.
   circling,  ///< Both together, about a far axis along the normal: fast, but not for each other.
 };
 

@@ -230,10 +230,6 @@ void LinkPairMotion::set_bend(const Body& body, const LinkState& link, const Vec
                  (body.jerk_at_P + body.jerk_per_metre * radius) * third;
     state.bend_per_metre = twist * third;
   }
-  if (state.rate < RelativeState::kLeastRate) {
-    state.bend += state.bend_per_metre * (lever.norm() + radius);
-    state.bend_per_metre = 0.0;
-  }
   state.bend = (state.bend + error) * kUp;
   state.bend_per_metre *= kUp;
 }

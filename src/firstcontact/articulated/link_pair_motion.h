@@ -48,19 +48,19 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
   [[nodiscard]] double speed_bound(double radius_A, double radius_B) const override;
   [[nodiscard]] double boxes_window() const override { return 0x1p-6; }
   [[nodiscard]] double far_boxes() const override { return 0.03; }
-  [[nodiscard]] double alone() const override { return 2.5; }
+  [[nodiscard]] double larger_boxes() const override { return 2.5; }
   [[nodiscard]] Eigen::Vector3d origin(double t) const override;
 
  private:
   struct Body {
     LinkBall ball;
     const LinkPath* path = nullptr;  ///< The piece entered.
-    double speed = 0.0;              ///< Of any point of the ball.
-    double jerk = 0.0;
-    bool has_near_pole = false;  ///< Within the ball, at the start of the piece.
-    Eigen::Vector3d p_LP = Eigen::Vector3d::Zero();  ///< That pole, or the ball's centre.
-    double jerk_at_P = 0.0;
-    double jerk_per_metre = 0.0;
+    double speed = 0.0;              ///< [m per step]  Of any point of the ball, in the window.
+    double jerk = 0.0;               ///< [m per step^3]  So, too.
+    bool has_near_pole = false;      ///< Within the ball, at the start of the window.
+    Eigen::Vector3d p_LP = Eigen::Vector3d::Zero();  ///< [m]  That pole, or the ball's centre.
+    double jerk_at_P = 0.0;                          ///< [m per step^3]  Of that point of the link,
+    double jerk_per_metre = 0.0;                     ///< [per step^3]  and for each metre from it.
   };
   struct BodyState;
   void bound(Body& body, double t, double end);

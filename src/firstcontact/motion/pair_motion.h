@@ -37,7 +37,7 @@ class FIRSTCONTACT_API PairMotion {
 
   /// [-]  Of two boxes one that is larger by this factor is opened alone, else both are. The more
   /// where what comes near is seldom of one size.
-  [[nodiscard]] virtual double alone() const { return 1.5; }
+  [[nodiscard]] virtual double larger_boxes() const { return 1.5; }
 
   /// [m]  A's point C in the frame of the motions, where points are reported.
   [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;

@@ -16,8 +16,6 @@ namespace firstcontact {
 ///   drift tau + (bend + bend_A d_A + bend_B d_B) tau^2 / 2,   0 <= tau <= time left of the piece;
 /// all are zero for motions of constant rates, up to the rounding of what stands here.
 struct RelativeState {
-  static constexpr double kLeastRate = 0x1p-10;  ///< [rad per step]
-
   double t = 0.0;
   Eigen::Matrix3d R_WA = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
@@ -33,10 +31,10 @@ struct RelativeState {
       Eigen::Vector3d::Zero();  ///< [m per step]  Of B's relative to A's.
   double drift = 0.0;           ///< [m per step]
   double bend = 0.0;            ///< [m per step^2]
-  double bend_A = 0.0;          ///< [per step^2]  Zero where A turns by less than kLeastRate.
+  double bend_A = 0.0;          ///< [per step^2]
   double bend_B = 0.0;          ///< [per step^2]
 
-  /// [m per step^2]  For points at these distances from their pivots.
+  /// [m per step^2]  The whole bend of points at these distances [m] from their pivots.
   [[nodiscard]] double bend_of(double d_A, double d_B) const {
     return bend + bend_A * d_A + bend_B * d_B;
   }

@@ -46,9 +46,10 @@ struct alignas(64) Placed {
   float axes[3][3][8];  // axis, component
   float extent[3][8];
   float radius[8];
-  float reach[8];  // distance of any point from the pivot, times the rate
-  float size[8];   // |c| + r
-  float doubt[8];  // of a triangle's box: how much it may be thicker than the triangle
+  float distance[8];  // of any point from the pivot
+  float reach[8];     // the same times the rate
+  float size[8];      // |c| + r
+  float doubt[8];     // of a triangle's box: how much it may be thicker than the triangle
   // For axes 0 and 1:
   float own_turn[2][8];       // w |n x u| of the box's own body
   float turn_of_other[2][8];  // and of the other one
@@ -276,7 +277,8 @@ struct Placer {
     }
     const V<D> radius = root_up(d, dot(d, e, e));
     const V<D> rate = each(first, frame.rate[0], frame.rate[1]);
-    V<D> reach = hn::Mul(rate, hn::Add(root_up(d, dot(d, lever, lever)), radius));
+    const V<D> distance = hn::Add(root_up(d, dot(d, lever, lever)), radius);
+    V<D> reach = hn::Mul(rate, distance);
     if constexpr (kDeforms) {
       // w (|rho| + D) + 2 D takes the place of w |rho|.
       const V<D> speed = each(first, frame.deformation[0], frame.deformation[1]);
@@ -284,12 +286,15 @@ struct Placer {
     }
     const V<D> size =
         hn::Add(hn::Add(hn::Abs(c[0]), hn::Abs(c[1])), hn::Add(hn::Abs(c[2]), radius));
-    place_axes(frame, first, v, e, placed);
+    V<D> axes[3][3];
+    place_axes(frame, first, v, axes, placed);
+    place_turning(frame, first, axes, e, placed);
     place_velocity(frame, first, rate, lever, placed);
     for (int k = 0; k < 3 && !kDeforms; ++k) {
       hn::Store(e[k], d, placed.extent[k] + first);
     }
     hn::Store(radius, d, placed.radius + first);
+    hn::Store(distance, d, placed.distance + first);
     hn::Store(reach, d, placed.reach + first);
     hn::Store(size, d, placed.size + first);
     const auto leaves = each_mask(first, a.leaves(), b.leaves());
@@ -317,8 +322,8 @@ struct Placer {
   }
 
   /// Box axes from the quaternion (w, x, y, z), turned by the body's rotation.
-  HWY_INLINE void place_axes(const BoxFrame& frame, std::size_t first, const V<D>* v, const V<D>* e,
-                             Placed& placed) const {
+  HWY_INLINE void place_axes(const BoxFrame& frame, std::size_t first, const V<D>* v,
+                             V<D> (*axes)[3], Placed& placed) const {
     const V<D> one = hn::Set(d, 1.0f);
     const V<D> x = v[0];
     const V<D> y = v[1];
@@ -346,14 +351,12 @@ struct Placer {
         R[k][m] = each(first, frame.rounded[0][3 * k + m], frame.rounded[1][3 * k + m]);
       }
     }
-    V<D> n[3][3];
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < 3; ++k) {
-        n[axis][k] = dot(d, R[k], rows[axis]);
-        hn::Store(n[axis][k], d, placed.axes[axis][k] + first);
+        axes[axis][k] = dot(d, R[k], rows[axis]);
+        hn::Store(axes[axis][k], d, placed.axes[axis][k] + first);
       }
     }
-    place_turning(frame, first, n, e, placed);
   }
 
   /// How the two thinner axes turn against both bodies.
@@ -457,7 +460,7 @@ struct Pairs {
     best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
   }
 
-  /// The extent of boxes along n.
+  /// The extent of boxes along n; or, of the rates of their half extents, its rate.
   HWY_INLINE V<D> extent_along(const V<D>* n, const V<D> (*axes)[3], const V<D>* extent) const {
     V<D> sum = hn::Zero(d);
     for (int k = 0; k < 3; ++k) {
@@ -517,9 +520,10 @@ struct Pairs {
                         hn::Add(hn::Set(d, frame.speed), hn::Add(s.reach_a, s.reach_b)),
                         hn::Set(d, (1.0f + kRoughness) * frame.drift));
     constexpr float kLength = 1.0f + 2.0f * kRoughness;  // Of a direction, at most.
-    const V<D> bend = hn::MulAdd(s.reach_a, hn::Set(d, kLength * frame.bend_by_reach[0]),
-                                 hn::MulAdd(s.reach_b, hn::Set(d, kLength * frame.bend_by_reach[1]),
-                                            hn::Set(d, kLength * frame.bend)));
+    const V<D> bend = hn::MulAdd(
+        of_a(placed.distance), hn::Set(d, kLength * frame.bend_by_distance[0]),
+        hn::MulAdd(of_b(placed.distance), hn::Set(d, kLength * frame.bend_by_distance[1]),
+                   hn::Set(d, kLength * frame.bend)));
     s.slip_acceleration =
         hn::MulAdd(s.slip, hn::Set(d, 2.0f * (frame.rate[0] + frame.rate[1])), bend);
 
@@ -614,9 +618,9 @@ struct Pairs {
     store_bits(hn::Not(hn::Ge(time, hn::Set(d, frame.horizon))), first, bounds.live);
     store_bits(hn::Gt(gap, hn::Mul(hn::Set(d, frame.far), hn::Add(s.radius_a, s.radius_b))), first,
                bounds.far);
-    store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, frame.alone), s.radius_b)), first,
+    store_bits(hn::Gt(s.radius_a, hn::Mul(hn::Set(d, frame.larger), s.radius_b)), first,
                bounds.larger_a);
-    store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, frame.alone), s.radius_a)), first,
+    store_bits(hn::Gt(s.radius_b, hn::Mul(hn::Set(d, frame.larger), s.radius_a)), first,
                bounds.larger_b);
     // A gap of -(slack + doubt) to 2 slack may be one that double precision finds open.
     const auto sure = hn::And(hn::Gt(best.nearness, hn::Add(s.doubt_middle, slack)),
@@ -635,18 +639,8 @@ struct Pairs {
     for (int k = 0; k < 3; ++k) {
       n[k] = hn::Mul(between[k], scale);
     }
-    V<D> extent = hn::Zero(d);
-    V<D> growth = hn::Zero(d);
-    for (int k = 0; k < 3; ++k) {
-      const V<D> along_a = hn::Abs(dot(d, n, axes_a[k]));
-      const V<D> along_b = hn::Abs(dot(d, n, axes_b[k]));
-      extent = hn::MulAdd(along_a, extent_a[k], extent);
-      extent = hn::MulAdd(along_b, extent_b[k], extent);
-      if constexpr (kDeforms) {
-        growth = hn::MulAdd(along_a, growth_a[k], growth);
-        growth = hn::MulAdd(along_b, growth_b[k], growth);
-      }
-    }
+    const V<D> extent =
+        hn::Add(extent_along(n, axes_a, extent_a), extent_along(n, axes_b, extent_b));
     V<D> turn[2];
     V<D> seen[2][3];  // by A and B at the horizon
     for (int body = 0; body < 2; ++body) {
@@ -656,10 +650,14 @@ struct Pairs {
       }
       turn[body] = turn_against(d, n, spin, chord_end(frame), seen[body]);
     }
-    const V<D> swing = kDeforms ? growth
-                                : chord(frame, extent,
-                                        hn::Add(extent_along(seen[0], axes_a, extent_a),
-                                                extent_along(seen[1], axes_b, extent_b)));
+    V<D> swing;
+    if constexpr (kDeforms) {
+      swing = hn::Add(extent_along(n, axes_a, growth_a), extent_along(n, axes_b, growth_b));
+    } else {
+      swing = chord(frame, extent,
+                    hn::Add(extent_along(seen[0], axes_a, extent_a),
+                            extent_along(seen[1], axes_b, extent_b)));
+    }
     consider(s, hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), swing, turn[0], turn[1],
              best);
   }

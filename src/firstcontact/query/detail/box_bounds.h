@@ -24,13 +24,13 @@ struct BoxFrame {
   float speed;           ///< At least the length of the latter.
   float drift;           ///< At least those of RelativeState.
   float bend;
-  float bend_by_reach[2];  ///< [per step]  More bend: times the rate, times a distance from Q.
-  float threshold;         ///< Closer is contact; the error of positions in double is included.
-  float horizon;           ///< Pairs apart for this long are done with.
-  float far;               ///< [-]  A gap is large beyond this part of the boxes' radii.
-  float alone;             ///< [-]  A box larger than another by this factor is opened alone.
-  double t;                ///< Where boxes are interpolated, of bodies that deform.
-  float deformation[2];    ///< At least the speed of their vertices, as their bodies see them.
+  float bend_by_distance[2];  ///< [per step^2]  Of each body, for points that far from its pivot.
+  float threshold;            ///< Closer is contact; the error of positions in double is included.
+  float horizon;              ///< Pairs apart for this long are done with.
+  float far;                  ///< [-]  A gap is large beyond this part of the boxes' radii.
+  float larger;               ///< [-]  A box larger than another by this factor is opened alone.
+  double t;                   ///< Where boxes are interpolated, of bodies that deform.
+  float deformation[2];       ///< At least the speed of their vertices, as their bodies see them.
 };
 
 /// Of lane 4 i + j, for box i of A's node and box j of B's.

@@ -228,7 +228,7 @@ double MovingPair::gap_along(const Vector3d& n, const PlacedBox& a, const Placed
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
   frame.far = static_cast<float>(motion_.far_boxes());
-  frame.alone = static_cast<float>(motion_.alone());
+  frame.larger = static_cast<float>(motion_.larger_boxes());
   const std::array<double, 2> units{A_.unit, B_.unit};
   const std::array<double, 2> deformation{A_.deformation_speed, B_.deformation_speed};
   for (int body = 0; body < 2; ++body) {
@@ -246,10 +246,8 @@ void MovingPair::place_bend(const RelativeState& state, BoxFrame& frame) const {
   const double bend = state.bend + kDistanceError * size * (state.bend_A + state.bend_B);
   const auto rounded = [](double value) { return value == 0.0 ? 0.0f : round_up(value); };
   frame.bend = rounded(bend / unit());
-  frame.bend_by_reach[0] =
-      rounded(state.bend_A / std::max(state.rate_A, RelativeState::kLeastRate));
-  frame.bend_by_reach[1] =
-      rounded(state.bend_B / std::max(state.rate_B, RelativeState::kLeastRate));
+  frame.bend_by_distance[0] = rounded(state.bend_A);
+  frame.bend_by_distance[1] = rounded(state.bend_B);
 }
 
 void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& frame) const {
