@@ -13,36 +13,16 @@
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 
+#include <dynamics/random_body.h>
+
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-Vector3d random_vector(std::mt19937& rng, double size) {
-  std::normal_distribution<double> normal(0.0, size);
-  return {normal(rng), normal(rng), normal(rng)};
-}
-
-Eigen::Quaterniond random_rotation(std::mt19937& rng) {
-  std::normal_distribution<double> n;
-  return Eigen::Quaterniond(n(rng), n(rng), n(rng), n(rng)).normalized();
-}
-
-SimBody tetrahedron(std::mt19937& rng) {
-  Mesh mesh;
-  for (int k = 0; k < 4; ++k) {
-    mesh.vertices.push_back(random_vector(rng, 1.0));
-  }
-  mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
-  SimBody body{.shape = Shape(mesh)};
-  body.inertia.p_BC = random_vector(rng, 0.5);
-  for (const Vector3d& v : mesh.vertices) {
-    body.box_B.extend(v);
-    body.reach = std::max(body.reach, (v - body.inertia.p_BC).norm());
-  }
-  return body;
-}
+using test::random_rotation;
+using test::random_vector;
+using test::tetrahedron;
 
 TEST(SweptBox, HoldsEveryCornerAtEveryTime) {
   std::mt19937 rng(1);

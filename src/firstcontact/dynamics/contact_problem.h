@@ -78,15 +78,18 @@ struct ContactProblem {
 /// Where the problem is solved; the answer is the same.
 enum class ProjectionSpace {
   automatic,  ///< The cheaper one; motion where contact does not get there.
-  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, exact for each contact.
+  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, exact for each contact, as the step
+              ///< of nonsmooth conjugate gradients.
   motion,     ///< Unknown: the velocities. Newton's method on an augmented Lagrangian.
 };
 
 struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
-  int sweeps = 200;  ///< At most, of all contacts in contact space; > 0.
-  int rounds = 12;   ///< At most, of the interior point; > 0.
+  double enough = 0.0;  ///< [m/s]  Of many contacts: a residual that sweeps may leave where an
+                        ///< interior point would come next.
+  int sweeps = 200;     ///< At most, of all contacts in contact space; > 0.
+  int rounds = 12;      ///< At most, of the interior point; > 0.
 };
 
 struct ContactSolution {
@@ -111,11 +114,14 @@ struct ContactSolution {
 /// 0, it is on its side. All contacts at once: impacts are simultaneous.
 ///
 /// In contact space each contact is solved exactly in turn, with all others held, until none
-/// changes: r in K, u + mu |u_t| n in its dual, orthogonal (De Saxce, Feng, "The bipotential
-/// method", Mathematical and Computer Modelling 28 (1998)). In motion space the velocities minimise
+/// changes, and after each sweep there and back goes on in the direction of the ones before (M.
+/// Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
+/// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in
+/// its dual, orthogonal (De Saxce, Feng, "The bipotential method", Mathematical and Computer
+/// Modelling 28 (1998)). In motion space the velocities minimise
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
 /// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
-/// however many contacts there are, and no loss where masses differ greatly. From 300 contacts on,
+/// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on,
 /// without drives, an interior point comes before it, in rounds: each solves the convex problem in
 /// which |u_t| is what the round before left, and sweeps contact space. The automatic choice takes
 /// what its rounds leave.

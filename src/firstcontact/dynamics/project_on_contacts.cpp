@@ -21,7 +21,7 @@ using detail::Projection;
 constexpr std::size_t kMostInMotionSpace = 6000;
 
 /// What sweeps do not do in so many, motion space does better.
-constexpr int kSweepsBeforeMotionSpace = 30;
+constexpr int kSweepsBeforeMotionSpace = 100;
 
 /// Then they go on to this part of the tolerance: what is left would add up from step to step.
 constexpr double kExtraSweeps = 0.1;
@@ -32,7 +32,7 @@ constexpr std::size_t kManyContacts = 12;
 
 /// From so many contacts on an interior point comes first: its factorisations hardly grow in
 /// number. Multipliers would take ten times as long.
-constexpr std::size_t kManyForInteriorPoint = 300;
+constexpr std::size_t kManyForInteriorPoint = 120;
 
 /// Velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
@@ -75,34 +75,6 @@ Projection start(const ContactProblem& problem, const ContactRows& rows) {
         detail::greatest_residual(rows, projection->impulses, projection->velocities);
   }
   return guessed.residual < none.residual ? guessed : none;
-}
-
-ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
-                            const Projection& projection, ProjectionSpace space) {
-  ContactSolution solution;
-  for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
-    solution.mechanisms.emplace_back(projection.velocities.segment(
-        rows.layout.mechanism[m], problem.mechanisms[m].velocity.size()));
-  }
-  solution.bodies = problem.bodies;
-  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
-    ContactBody& body = solution.bodies[b];
-    const Eigen::Matrix<double, 6, 1> V =
-        body.link
-            ? Eigen::Matrix<double, 6, 1>(body.link->J * solution.mechanisms[body.link->mechanism])
-            : Eigen::Matrix<double, 6, 1>(projection.velocities.segment<6>(rows.layout.body[b]));
-    body.v = V.head<3>();
-    body.w = V.tail<3>();
-  }
-  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-    solution.impulses.push_back(rows.contacts[k].own.turn().transpose() *
-                                projection.impulses.contacts[k]);
-  }
-  solution.drives = projection.impulses.drives;
-  solution.residual = projection.residual;
-  solution.space = space;
-  solution.iterations = projection.iterations;
-  return solution;
 }
 
 template <class Number>
@@ -150,7 +122,7 @@ class Solver {
 
   [[nodiscard]] ContactSolution solution(const Projection& projection,
                                          ProjectionSpace space) const {
-    return solution_of(problem_, rows_, projection, space);
+    return detail::solution_of(problem_, rows_, projection, space);
   }
 
   /// Sweeps over the contacts, where that may be enough. Whether it is all that is to be done.
@@ -172,10 +144,10 @@ class Solver {
     Projection inner = projection_;
     if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
       ProjectionOptions sweeping = options_;
-      sweeping.sweeps = kSweepsBeforeMotionSpace;
+      sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
       sweeping.tolerance = kExtraSweeps * options_.tolerance;
       detail::project_in_contact_space(rows_, sweeping, inner);
-      if (is_solved(inner)) {
+      if (inner.residual <= std::max(options_.tolerance, options_.enough)) {
         return solution(inner, ProjectionSpace::contact);
       }
     }

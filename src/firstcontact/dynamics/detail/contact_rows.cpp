@@ -178,4 +178,32 @@ VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses) {
   return V;
 }
 
+ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
+                            const Projection& projection, ProjectionSpace space) {
+  ContactSolution solution;
+  for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {
+    solution.mechanisms.emplace_back(projection.velocities.segment(
+        rows.layout.mechanism[m], problem.mechanisms[m].velocity.size()));
+  }
+  solution.bodies = problem.bodies;
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    ContactBody& body = solution.bodies[b];
+    const Eigen::Matrix<double, 6, 1> V =
+        body.link
+            ? Eigen::Matrix<double, 6, 1>(body.link->J * solution.mechanisms[body.link->mechanism])
+            : Eigen::Matrix<double, 6, 1>(projection.velocities.segment<6>(rows.layout.body[b]));
+    body.v = V.head<3>();
+    body.w = V.tail<3>();
+  }
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    solution.impulses.push_back(rows.contacts[k].own.turn().transpose() *
+                                projection.impulses.contacts[k]);
+  }
+  solution.drives = projection.impulses.drives;
+  solution.residual = projection.residual;
+  solution.space = space;
+  solution.iterations = projection.iterations;
+  return solution;
+}
+
 }  // namespace firstcontact::detail

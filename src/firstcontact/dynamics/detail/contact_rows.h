@@ -124,8 +124,19 @@ struct Projection {
 /// The free velocities changed by impulses.
 [[nodiscard]] Eigen::VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses);
 
+[[nodiscard]] ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
+                                          const Projection& projection, ProjectionSpace space);
+
 void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& options,
                               Projection& projection);
+
+/// Contacts that changed are solved anew, and in turn those of which the bodies then move otherwise
+/// by more than the tolerance, until there are none or `options.sweeps` times as many were solved
+/// as there are contacts. What is far away from the change stays as it is, to the last bit.
+///
+/// @param changed  contacts
+void project_around(const ContactRows& rows, const std::vector<std::size_t>& changed,
+                    const ProjectionOptions& options, Projection& projection);
 
 /// For many contacts and no drives. In rounds: mu |u_t| is taken to be what it was after the round
 /// before, at first that of the projection. With P = diag(1, mu, mu) it is then y = P u + mu |u_t|

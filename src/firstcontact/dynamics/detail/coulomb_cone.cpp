@@ -17,6 +17,9 @@ using Eigen::Vector3d;
 /// Added to a response, relative to its greatest entry: locked axes leave directions without one.
 constexpr double kRegularisation = 1e-13;
 
+/// [-]  How far the side of a cone may be missed.
+constexpr double kConeTolerance = 1e-13;
+
 /// The rotation about the normal to axes along which a tangential system is diagonal.
 Matrix3d principal_turn(const Matrix2d& A) {
   const double angle = 0.5 * std::atan2(2.0 * A(0, 1), A(0, 0) - A(1, 1));
@@ -36,11 +39,11 @@ Matrix2d tangential_system(const Matrix3d& W) {
 
 Vector3d project_on_cone(const Vector3d& r, double friction) {
   const double side = r.tail<2>().norm();
+  if (friction * side <= -r[0]) {
+    return Vector3d::Zero();  // First: without friction, r = -n is not beyond the side, either.
+  }
   if (side <= friction * r[0]) {
     return r;
-  }
-  if (friction * side <= -r[0]) {
-    return Vector3d::Zero();
   }
   const double normal = (r[0] + friction * side) / (1.0 + friction * friction);
   const double scale = friction * normal / side;
@@ -49,11 +52,11 @@ Vector3d project_on_cone(const Vector3d& r, double friction) {
 
 Matrix3d cone_projection_derivative(const Vector3d& r, double friction) {
   const double side = r.tail<2>().norm();
-  if (side <= friction * r[0]) {
-    return Matrix3d::Identity();
-  }
   if (friction * side <= -r[0]) {
     return Matrix3d::Zero();
+  }
+  if (side <= friction * r[0]) {
+    return Matrix3d::Identity();
   }
   const Vector3d across(0.0, -r[2] / side, r[1] / side);
   const Vector3d along(1.0, friction * r[1] / side, friction * r[2] / side);
@@ -103,18 +106,21 @@ Vector3d ContactResponse::sliding(const Vector3d& u_free, double friction) const
   double high = std::numeric_limits<double>::infinity();
   Vector3d r = Vector3d::Zero();
   for (int k = 0; k < 60; ++k) {
-    const Eigen::Array2d divisor = a_.array() + alpha;
-    const Vector2d r_t = -(c.array() / divisor).matrix();
-    r << pressed - coupling_.dot(r_t), r_t;
-    const double side = r_t.norm();
-    const double excess = side - friction * r[0];  // > 0: outside the cone, alpha is too small.
-    if (std::abs(excess) <= 1e-14 * side) {
+    const Eigen::Array2d inverse = (a_.array() + alpha).inverse();
+    const Eigen::Array2d r_t = -c.array() * inverse;
+    const Eigen::Array2d rate = -r_t * inverse;  // d r_t / d alpha
+    const double normal = pressed - coupling_.dot(r_t.matrix());
+    const double per_side = 1.0 / r_t.matrix().norm();
+    r << normal, r_t;
+    // mu r_n / |r_t| is nearly a line; < 1: outside the cone, alpha is too small.
+    const double ratio = friction * normal * per_side;
+    if (std::abs(ratio - 1.0) <= kConeTolerance) {
       break;
     }
-    (excess > 0.0 ? low : high) = alpha;
-    const Vector2d rate = -(r_t.array() / divisor).matrix();  // d r_t / d alpha
-    const double slope = r_t.dot(rate) / side + friction * coupling_.dot(rate);
-    double next = alpha - excess / slope;
+    (ratio < 1.0 ? low : high) = alpha;
+    const double slope = -per_side * (friction * coupling_.dot(rate.matrix()) +
+                                      ratio * per_side * (r_t * rate).sum());
+    double next = alpha - (ratio - 1.0) / slope;
     if (!(next > low && next < high)) {  // Newton's step left the bracket, or there is none.
       next = high < std::numeric_limits<double>::infinity() ? 0.5 * (low + high)
                                                             : 2.0 * alpha + a_.maxCoeff();

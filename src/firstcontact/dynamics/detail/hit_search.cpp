@@ -23,6 +23,7 @@ Move HitSearch::move_of(std::size_t body, const Plan& plan) const {
 }
 
 std::vector<Hit> HitSearch::find(const Plan& plan) {
+  hulls_.clear();
   std::vector<AlignedBox3d> boxes;
   for (std::size_t k = 0; k < state_.size(); ++k) {
     boxes.push_back(swept_box(state_.member(k), state_.states[k].X_WB, plan.moves[k]));
@@ -30,18 +31,46 @@ std::vector<Hit> HitSearch::find(const Plan& plan) {
   std::vector<Hit> hits;
   const double reach = state_.world.distances.least + state_.world.distances.tolerance;
   clearance_ = state_.world.distances.least;
-  state_.for_each_pair(boxes, reach, span_ / state_.start.h,
-                       [&](const BodyPair& pair, double margin) {
-                         ask(pair, margin, {move_of(pair[0], plan), move_of(pair[1], plan)}, hits);
-                       });
+  const auto find_hit = [&](const BodyPair& pair, double margin) {
+    if (!moves_as_before(pair[0], plan) || !moves_as_before(pair[1], plan)) {
+      ask(pair, margin, {move_of(pair[0], plan), move_of(pair[1], plan)}, hits);
+      return;
+    }
+    const HeldDistance held = held_distance(state_.world.distances, margin, gap_of(pair));
+    clearance_ = std::min(clearance_, held.margin);
+    if (const auto found = hits_.find(pair); found != hits_.end()) {
+      hits.push_back(found->second);
+    }
+  };
+  state_.for_each_pair(boxes, reach, span_ / state_.start.h, find_hit);
+  moves_ = plan.moves;
+  hits_.clear();
+  for (const Hit& hit : hits) {
+    hits_.emplace(hit.bodies, hit);
+  }
   return hits;
+}
+
+/// What was found of two such bodies still holds.
+bool HitSearch::moves_as_before(std::size_t body, const Plan& plan) const {
+  if (moves_.empty() || state_.world.bodies[body].kind != BodyKind::free) {
+    return !moves_.empty();
+  }
+  const std::size_t k = state_.place.at(body);
+  return moves_[k].translation == plan.moves[k].translation &&
+         moves_[k].rotation_vector == plan.moves[k].rotation_vector;
+}
+
+/// [m]  Beyond its margin, now; infinite beyond the band.
+double HitSearch::gap_of(const BodyPair& pair) const {
+  const auto found = state_.manifolds.find(pair);
+  return found == state_.manifolds.end() ? std::numeric_limits<double>::infinity()
+                                         : found->second.gap;
 }
 
 void HitSearch::ask(const BodyPair& pair, double margin, const std::array<Move, 2>& moves,
                     std::vector<Hit>& hits) {
-  const auto found = state_.manifolds.find(pair);
-  const double gap =
-      found == state_.manifolds.end() ? std::numeric_limits<double>::infinity() : found->second.gap;
+  const double gap = gap_of(pair);
   const HeldDistance held = held_distance(state_.world.distances, margin, gap);
   clearance_ = std::min(clearance_, held.margin);
   if (cannot_reach(pair, std::min(gap, state_.world.distances.band) + margin - held.margin,
@@ -50,6 +79,9 @@ void HitSearch::ask(const BodyPair& pair, double margin, const std::array<Move, 
   }
   if (!(held.tolerance > 0.0)) {
     hits.push_back({.bodies = pair});  // Rounding left no gap that could be halved: no time passes.
+    return;
+  }
+  if (hulls_stay_apart(pair, moves, held.margin)) {
     return;
   }
   FirstContactOptions options;
@@ -63,6 +95,27 @@ void HitSearch::ask(const BodyPair& pair, double margin, const std::array<Move, 
     return;
   }
   hits.push_back(hit_of(pair, margin, {A.pose(answer_.t), B.pose(answer_.t)}, moves));
+}
+
+const SweptHull& HitSearch::hull_of(std::size_t body, const Move& move) {
+  return hulls_.try_emplace(body, state_.world.bodies[body], state_.pose_of(body), move)
+      .first->second;
+}
+
+/// A face that touches goes with its body; of edges, either will do.
+bool HitSearch::hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>& moves,
+                                 double distance) {
+  const SweptHull& A = hull_of(pair[0], moves[0]);
+  const SweptHull& B = hull_of(pair[1], moves[1]);
+  Vector3d n = (B.p_WC - A.p_WC).normalized();
+  bool sees_B = false;
+  const auto found = state_.manifolds.find(pair);
+  if (found != state_.manifolds.end() && !found->second.touches.empty()) {
+    const Touch& touch = found->second.touches[0];
+    n = touch.normal;
+    sees_B = touch.feature_B.type == FeatureType::face;
+  }
+  return sees_B ? stays_apart(B, A, distance, -n) : stays_apart(A, B, distance, n);
 }
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not

@@ -4,9 +4,12 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include <firstcontact/dynamics/detail/island_plan.h>
+#include <firstcontact/dynamics/detail/swept_hull.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
@@ -41,10 +44,18 @@ class HitSearch {
   [[nodiscard]] Hit hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
                            const std::array<Move, 2>& moves);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
+  [[nodiscard]] const SweptHull& hull_of(std::size_t body, const Move& move);
+  [[nodiscard]] bool hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>& moves,
+                                      double distance);
+  [[nodiscard]] double gap_of(const BodyPair& pair) const;
+  [[nodiscard]] bool moves_as_before(std::size_t body, const Plan& plan) const;
 
   IslandState& state_;
   double span_;
   Workspace& workspace_;
+  std::unordered_map<std::size_t, SweptHull> hulls_ = {};  // Of this plan.
+  std::vector<Move> moves_ = {};                           // Of the plan before.
+  std::map<BodyPair, Hit> hits_ = {};                      // In it.
   FirstContactResult answer_;
   double clearance_ = 0.0;
 };

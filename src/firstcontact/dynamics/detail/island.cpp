@@ -93,9 +93,8 @@ class Island {
   std::optional<double> advance() {
     IslandPlanner planner(state_, span());
     HitSearch search(state_, span(), workspace_);
-    std::vector<TouchAhead> ahead;
     for (int round = 1; !stop_.stop_requested(); ++round) {
-      const Plan plan = planner.plan(ahead);
+      const Plan plan = planner.plan();
       const std::vector<Hit> hits = search.find(plan);
       if (hits.empty()) {
         move_to(plan, 1.0, search.clearance());
@@ -108,7 +107,7 @@ class Island {
       }
       for (const Hit& hit : hits) {
         if (hit.is_slight) {
-          ahead.insert(ahead.end(), hit.ahead.begin(), hit.ahead.end());
+          std::ranges::for_each(hit.ahead, [&](const TouchAhead& ahead) { planner.add(ahead); });
         }
       }
     }

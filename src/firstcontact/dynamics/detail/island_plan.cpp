@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <firstcontact/dynamics/detail/island_response.h>
-
 namespace firstcontact::detail {
 namespace {
 
@@ -14,15 +12,9 @@ constexpr double kPush = 0.5;
 
 }  // namespace
 
-/// Velocities without contacts, and how far they lead.
-struct IslandPlanner::FreeFlight {
-  std::vector<ContactBody> at_end;
-  std::vector<Vector3d> rotation_vectors;
-};
-
-IslandPlanner::FreeFlight IslandPlanner::free_flight(const std::vector<ContactBody>& bodies) const {
+IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   FreeFlight flight;
-  flight.at_end = bodies;
+  flight.at_end = bodies_.bodies();
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const SimBody& body = state_.member(k);
     if (body.piece) {
@@ -47,52 +39,94 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight(const std::vector<ContactBo
   return flight;
 }
 
-Plan IslandPlanner::plan(std::vector<TouchAhead>& ahead) {
-  ProblemBodies bodies = state_.problem_bodies();
-  ContactProblem problem;
-  std::vector<Touch*> touches;
-  const double share = span_ / state_.start.h;
-  const auto add = [&](Touch& touch, double least) -> ContactPoint& {
-    state_.add_others(touch.bodies, bodies);
-    problem.contacts.push_back(
-        contact_at(touch, bodies, state_.world.laws.friction(touch.bodies), least));
-    touches.push_back(&touch);
-    ContactPoint& contact = problem.contacts.back();
-    contact.guess *= share;
-    contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span_;
-    return contact;
-  };
-  for (auto& [pair, manifold] : state_.manifolds) {
-    for (Touch& touch : manifold.touches) {
-      const ContactPoint& contact =
-          add(touch, -state_.world.distances.way_to_rest(touch.gap) / span_);
+IslandPlanner::IslandPlanner(IslandState& state, double span)
+    : state_(state), span_(span), bodies_(state.problem_bodies()) {
+  for (const auto& [pair, manifold] : state_.manifolds) {
+    state_.add_others(pair, bodies_);
+    for (const Touch& touch : manifold.touches) {
       // What will bounce has to arrive first.
-      if (state_.bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
-        problem.contacts.pop_back();
-        touches.pop_back();
+      const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
+      if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
+        constraints_.emplace(
+            pair, Constraint{touch, -state_.world.distances.way_to_rest(touch.gap) / span_});
       }
     }
   }
-  for (TouchAhead& constraint : ahead) {
-    ContactPoint& contact = add(constraint.touch, constraint.least);
-    contact.arm_A = constraint.contact.arm_A;
-    contact.arm_B = constraint.contact.arm_B;
+  flight_ = free_flight();
+}
+
+void IslandPlanner::add(const TouchAhead& ahead) {
+  const BodyPair& pair = ahead.touch.bodies;
+  state_.add_others(pair, bodies_);
+  const auto [first, end] = constraints_.equal_range(pair);
+  auto found = std::find_if(first, end, [&](const auto& entry) {
+    return same_features(entry.second.touch, ahead.touch);
+  });
+  if (found == end) {
+    found = constraints_.emplace(pair, Constraint{ahead.touch});
   }
-  const FreeFlight flight = free_flight(bodies.bodies());
-  problem.bodies = flight.at_end;
+  found->second.is_new = true;
+  found->second.least = ahead.least;
+  found->second.arms = {ahead.contact.arm_A, ahead.contact.arm_B};
+  const Eigen::Vector3d impulse = found->second.touch.impulse;
+  found->second.touch = ahead.touch;
+  found->second.touch.impulse = impulse;
+}
+
+ContactProblem IslandPlanner::problem_now() const {
+  ContactProblem problem{.bodies = bodies_.bodies()};
+  std::ranges::copy(flight_.at_end, problem.bodies.begin());
+  for (const auto& [pair, constraint] : constraints_) {
+    ContactPoint contact =
+        contact_at(constraint.touch, bodies_, state_.world.laws.friction(pair), constraint.least);
+    if (constraint.arms) {
+      contact.arm_A = (*constraint.arms)[0];
+      contact.arm_B = (*constraint.arms)[1];
+    }
+    contact.guess *= span_ / state_.start.h;
+    contact.least_normal_velocity -= drift_along(pair, contact) / span_;
+    problem.contacts.push_back(contact);
+  }
+  return problem;
+}
+
+/// All of it, or what changed since the last plan.
+PlanSolution IslandPlanner::solve(const ContactProblem& problem) {
+  std::vector<std::size_t> changed;
+  std::size_t k = 0;
+  for (auto& [pair, constraint] : constraints_) {
+    if (constraint.is_new) {
+      changed.push_back(k);
+      constraint.is_new = false;
+    }
+    ++k;
+  }
+  if (last_) {
+    if (std::optional<PlanSolution> again = project_plan_again(state_, problem, *last_, changed)) {
+      return std::move(*again);
+    }
+  }
+  return project_plan(state_, problem);
+}
+
+Plan IslandPlanner::plan() {
+  ContactProblem problem = problem_now();
   const std::vector<RobotPlan> free =
       state_.robots.fly(problem, state_.start.time + state_.reached, span_);
-  const ContactSolution solution = project_plan(state_, problem);
+  last_ = solve(problem);
+  const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
-  for (std::size_t k = 0; k < touches.size(); ++k) {
-    Touch acting = *touches[k];
+  std::size_t k = 0;
+  for (auto& [pair, constraint] : constraints_) {
+    Touch acting = constraint.touch;
     acting.impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
-    touches[k]->impulse = acting.impulse / share;
+    constraint.touch.impulse = acting.impulse / (span_ / state_.start.h);
     made.touches.push_back(acting);
+    ++k;
   }
   made.at_end.resize(state_.size());
-  const std::vector<bool> by_end = led_by_end(problem, bodies.bodies(), solution);
-  set_moves(bodies.bodies(), flight, solution, by_end, made);
+  const std::vector<bool> by_end = led_by_end(problem, bodies_.bodies(), solution);
+  set_moves(bodies_.bodies(), solution, by_end, made);
   made.robots = state_.robots.plan(problem, solution, free, by_end, span_);
   push_apart(made);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
@@ -140,17 +174,17 @@ std::vector<bool> IslandPlanner::led_by_end(const ContactProblem& problem,
 }
 
 /// Those of pieces of links are their robots' matter.
-void IslandPlanner::set_moves(const std::vector<ContactBody>& before, const FreeFlight& flight,
+void IslandPlanner::set_moves(const std::vector<ContactBody>& before,
                               const ContactSolution& solution, const std::vector<bool>& by_end,
                               Plan& plan) const {
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    const Vector3d& w_free = flight.at_end[k].w;
+    const Vector3d& w_free = flight_.at_end[k].w;
     const Vector3d& w = solution.bodies[k].w;
     const Vector3d turn =
         by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
     const Vector3d& v = solution.bodies[k].v;
     plan.moves.push_back({span_ * (by_end[k] ? v : Vector3d(0.5 * (before[k].v + v))),
-                          flight.rotation_vectors[k] + span_ * turn});
+                          flight_.rotation_vectors[k] + span_ * turn});
   }
 }
 
@@ -194,7 +228,9 @@ ContactSolution IslandPlanner::find_push() {
   for (ContactMechanism& mechanism : problem.mechanisms) {
     mechanism.velocity.setZero();
   }
-  return project_on_contacts(problem, {.tolerance = 1e-2 * distances.least, .sweeps = 50});
+  return project_on_contacts(
+      problem,
+      {.tolerance = 1e-2 * distances.least, .enough = 0.1 * distances.least, .sweeps = 50});
 }
 
 }  // namespace firstcontact::detail

@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
+#include <firstcontact/dynamics/detail/island_response.h>
 #include <firstcontact/dynamics/detail/island_state.h>
 
 namespace firstcontact::detail {
@@ -29,31 +32,49 @@ struct Plan {
 /// Makes plans from where an island is now, each with more constraints than the one before.
 class IslandPlanner {
  public:
-  /// @param span  [s]
-  IslandPlanner(IslandState& state, double span) : state_(state), span_(span) {}
-
-  /// Starts from the impulses of the touches, which are those of a whole step, and leaves those
-  /// that it finds there.
+  /// Starts with what touches now, and the impulses of a whole step that it has.
   ///
-  /// @param ahead  touches that are to be constraints besides those of now
-  [[nodiscard]] Plan plan(std::vector<TouchAhead>& ahead);
+  /// @param span  [s]
+  IslandPlanner(IslandState& state, double span);
+
+  /// Starts from the impulses of the plan before.
+  [[nodiscard]] Plan plan();
+
+  /// Makes a touch of the motion ahead a constraint. Where the same features have one it takes its
+  /// place: between two that say nearly the same impulses would only slowly go over.
+  void add(const TouchAhead& ahead);
 
  private:
-  struct FreeFlight;
+  struct Constraint {
+    Touch touch;                                              // With its impulse of a whole step.
+    double least = 0.0;                                       // [m/s]  Normal velocity.
+    std::optional<std::array<Eigen::Vector3d, 2>> arms = {};  // [m]  In place of those of now.
+    bool is_new = true;                                       // Since the plan before.
+  };
+  /// Velocities without contacts, and how far they lead.
+  struct FreeFlight {
+    std::vector<ContactBody> at_end;
+    std::vector<Eigen::Vector3d> rotation_vectors;
+  };
 
-  [[nodiscard]] FreeFlight free_flight(const std::vector<ContactBody>& bodies) const;
+  [[nodiscard]] FreeFlight free_flight() const;
+  [[nodiscard]] ContactProblem problem_now() const;
+  [[nodiscard]] PlanSolution solve(const ContactProblem& problem);
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
   [[nodiscard]] std::vector<bool> led_by_end(const ContactProblem& problem,
                                              const std::vector<ContactBody>& before,
                                              const ContactSolution& solution) const;
-  void set_moves(const std::vector<ContactBody>& before, const FreeFlight& flight,
-                 const ContactSolution& solution, const std::vector<bool>& by_end,
-                 Plan& plan) const;
+  void set_moves(const std::vector<ContactBody>& before, const ContactSolution& solution,
+                 const std::vector<bool>& by_end, Plan& plan) const;
   void push_apart(Plan& plan);
   [[nodiscard]] ContactSolution find_push();
 
   IslandState& state_;
-  double span_;                               // [s]
+  double span_;  // [s]
+  ProblemBodies bodies_;
+  std::multimap<BodyPair, Constraint> constraints_;
+  FreeFlight flight_;
+  std::optional<PlanSolution> last_ = {};
   std::optional<ContactSolution> push_ = {};  // Of all plans from now.
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <firstcontact/dynamics/detail/project_again.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -12,8 +14,18 @@ using Eigen::Vector3d;
 /// they slide even less.
 constexpr double kTolerance = 3e-7;
 constexpr double kHeapTolerance = 1e-3;
-constexpr std::size_t kHeap = 300;  // Contacts.
+constexpr std::size_t kHeap = 120;  // Contacts.
 constexpr int kHeapRounds = 2;
+
+/// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
+constexpr double kHeapEnough = 0.3;
+constexpr int kHeapSweeps = 60;
+
+/// In a plan that is like another but for some contacts, what changes by more than this goes on to
+/// others; and how often each of all is solved, in the mean at most.
+constexpr double kAroundTolerance = 1e-2;
+constexpr int kAroundSweeps = 16;
+
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
 /// A residual of this part of what gravity adds tells that a problem has no solution, or none that
@@ -45,11 +57,14 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 /// answer is anything: it is shortened to what there was before, or to what moves with the
 /// script.
 /// Motors add what they want, as long as there is a solution.
-void limit_energy(const IslandState& state, const ContactProblem& problem,
+///
+/// @returns whether it was shortened
+bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const bool is_solved = solution.residual <= of_gravity(state, kUnsolved);
+  const bool is_solved = solution.residual <= std::max(of_gravity(state, kUnsolved),
+                                                       projection_options(state, problem).enough);
   if (is_solved && state.robots.has_motors()) {
-    return;
+    return false;
   }
   const double before =
       energy_of(state, problem, problem.bodies, velocities_of(problem.mechanisms));
@@ -72,7 +87,7 @@ void limit_energy(const IslandState& state, const ContactProblem& problem,
   const double allowed =
       is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
   if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
-    return;
+    return false;
   }
   const double share = allowed / std::sqrt(after);
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -82,23 +97,42 @@ void limit_energy(const IslandState& state, const ContactProblem& problem,
   for (Eigen::VectorXd& velocities : solution.mechanisms) {
     velocities *= share;
   }
+  return true;
 }
 
 }  // namespace
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  return {
-      .tolerance = of_gravity(state, problem.contacts.size() < kHeap ? kTolerance : kHeapTolerance),
-      .rounds = kHeapRounds};
+  if (problem.contacts.size() < kHeap) {
+    return {.tolerance = of_gravity(state, kTolerance)};
+  }
+  return {.tolerance = of_gravity(state, kHeapTolerance),
+          .enough = of_gravity(state, kHeapEnough),
+          .sweeps = kHeapSweeps,
+          .rounds = kHeapRounds};
 }
 
-ContactSolution project_plan(const IslandState& state, const ContactProblem& problem) {
+PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
   if (problem.contacts.empty() && problem.drives.empty()) {
-    return unchanged(problem);
+    return {unchanged(problem)};
   }
-  ContactSolution solution = project_on_contacts(problem, projection_options(state, problem));
-  limit_energy(state, problem, solution);
-  return solution;
+  PlanSolution plan{project_on_contacts(problem, projection_options(state, problem))};
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
+}
+
+std::optional<PlanSolution> project_plan_again(const IslandState& state,
+                                               const ContactProblem& problem,
+                                               const PlanSolution& before,
+                                               const std::vector<std::size_t>& changed) {
+  if (problem.contacts.size() < kHeap || !state.robots.empty() || before.is_limited) {
+    return std::nullopt;
+  }
+  PlanSolution plan{
+      project_again(problem, before.velocities.bodies, changed,
+                    {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
 }
 
 ContactSolution project_impact_of(const IslandState& state, const ContactProblem& problem,

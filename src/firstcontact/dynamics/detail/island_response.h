@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <firstcontact/dynamics/contact_problem.h>
@@ -14,8 +15,20 @@ namespace firstcontact::detail {
 [[nodiscard]] ProjectionOptions projection_options(const IslandState& state,
                                                    const ContactProblem& problem);
 
+/// The velocities of a plan.
+struct PlanSolution {
+  ContactSolution velocities;
+  bool is_limited = false;  ///< They are shorter than contacts would have them.
+};
+
 /// The free velocities of a plan as contacts and drives allow them.
-[[nodiscard]] ContactSolution project_plan(const IslandState& state, const ContactProblem& problem);
+[[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
+
+/// Those of a plan that is like another but for contacts that changed, by project_again(). Nothing
+/// where that is not worth while.
+[[nodiscard]] std::optional<PlanSolution> project_plan_again(
+    const IslandState& state, const ContactProblem& problem, const PlanSolution& before,
+    const std::vector<std::size_t>& changed);
 
 /// Those after an impact, by project_impact(). Neither adds energy, but for what motors and
 /// scripted bodies do.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <firstcontact/dynamics/detail/swept_hull.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -73,7 +75,16 @@ void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& wo
   for (std::size_t k = 0; k < size(); ++k) {
     boxes.push_back(swept_box(member(k), states[k].X_WB, {}));
   }
+  std::unordered_map<std::size_t, SweptHull> hulls;
+  const auto hull_of = [&](std::size_t body) -> const SweptHull& {
+    return hulls.try_emplace(body, world.bodies[body], pose_of(body), Move()).first->second;
+  };
   for_each_pair(boxes, world.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
+    const SweptHull& A = hull_of(pair[0]);
+    const SweptHull& B = hull_of(pair[1]);
+    if (stays_apart(A, B, margin + world.distances.band, (B.p_WC - A.p_WC).normalized())) {
+      return;
+    }
     Manifold manifold =
         find_manifold(world, pair, {pose_of(pair[0]), pose_of(pair[1])}, margin, workspace);
     if (manifold.gap <= world.distances.band) {

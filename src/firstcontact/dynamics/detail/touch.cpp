@@ -18,11 +18,6 @@ constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
 /// A touch is taken for what touched before where it is nearer than this part of the smaller body.
 constexpr double kCloseBy = 0.01;
 
-bool same_features(const Touch& x, const Touch& y) {
-  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
-         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
-}
-
 /// Null where there is none.
 Touch* successor(const Touch& before, double close_by, std::vector<Touch>& touches) {
   const auto same =
@@ -79,6 +74,11 @@ void keep_once(double size, std::vector<Touch>& touches) {
 }
 
 }  // namespace
+
+bool same_features(const Touch& x, const Touch& y) {
+  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
+         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+}
 
 std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,

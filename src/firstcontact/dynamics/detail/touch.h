@@ -24,6 +24,8 @@ struct Touch {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 
+[[nodiscard]] bool same_features(const Touch& x, const Touch& y);
+
 /// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
 /// it where none does. Contacts without normal, of surfaces that meet, are left out.
 ///
