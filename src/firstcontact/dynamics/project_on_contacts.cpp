@@ -23,8 +23,10 @@ constexpr std::size_t kMostInMotionSpace = 6000;
 /// What sweeps do not do in so many, motion space does better.
 constexpr int kSweepsBeforeMotionSpace = 100;
 
-/// Then they go on to this part of the tolerance: what is left would add up from step to step.
-constexpr double kExtraSweeps = 0.1;
+/// Then there are so many more, to this part of the tolerance: what is left would add up from step
+/// to step.
+constexpr int kExtraSweeps = 30;
+constexpr double kExtraTolerance = 0.1;
 
 /// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
 /// sweep costs as many contacts as an assembly, of which far fewer are needed).
@@ -145,8 +147,14 @@ class Solver {
     if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
       ProjectionOptions sweeping = options_;
       sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
-      sweeping.tolerance = kExtraSweeps * options_.tolerance;
       detail::project_in_contact_space(rows_, sweeping, inner);
+      if (is_solved(inner)) {
+        const int sweeps = inner.iterations;
+        sweeping.sweeps = kExtraSweeps;
+        sweeping.tolerance = kExtraTolerance * options_.tolerance;
+        detail::project_in_contact_space(rows_, sweeping, inner);
+        inner.iterations += sweeps;
+      }
       if (inner.residual <= std::max(options_.tolerance, options_.enough)) {
         return solution(inner, ProjectionSpace::contact);
       }
