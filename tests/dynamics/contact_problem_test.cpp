@@ -304,6 +304,8 @@ TEST(ProjectOnContacts, RefusesOptionsOutOfRange) {
   EXPECT_THROW((void)project_on_contacts({}, {.tolerance = 0.0}), std::invalid_argument);
   EXPECT_THROW((void)project_on_contacts({}, {.tolerance = std::nan("")}), std::invalid_argument);
   EXPECT_THROW((void)project_on_contacts({}, {.sweeps = 0}), std::invalid_argument);
+  EXPECT_THROW((void)project_on_contacts({}, {.enough = -1.0}), std::invalid_argument);
+  EXPECT_THROW((void)project_on_contacts({}, {.enough = std::nan("")}), std::invalid_argument);
 }
 
 /// The same problem with the bodies from the second one on as links of one mechanism, six

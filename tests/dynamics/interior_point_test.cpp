@@ -125,6 +125,22 @@ TEST(InteriorPoint, SlidingWallsConvergeInRounds) {
 }
 
 // What many contacts are given to, and what it may leave.
+// Sweeps that left little enough are the answer; else it is found from inside.
+TEST(ProjectOnContacts, LeavesWhatIsEnough) {
+  std::mt19937 rng(9);
+  const ContactProblem problem = wall(rng, 10, 10, 0.5);
+  const ProjectionOptions exact{.tolerance = 1e-4, .sweeps = 20, .rounds = 2};
+  ProjectionOptions rough = exact;
+  rough.enough = 0.1;
+  const ContactSolution left = project_on_contacts(problem, rough);
+  EXPECT_EQ(left.space, ProjectionSpace::contact);
+  EXPECT_GT(left.residual, exact.tolerance);
+  EXPECT_LE(left.residual, rough.enough);
+  const ContactSolution found = project_on_contacts(problem, exact);
+  EXPECT_EQ(found.space, ProjectionSpace::motion);
+  EXPECT_LT(found.residual, left.residual);
+}
+
 TEST(ProjectOnContacts, SolvesWallsInMotionSpace) {
   std::mt19937 rng(3);
   const ContactProblem problem = wall(rng, 10, 12, 0.5);

@@ -48,6 +48,35 @@ TEST(Simulator, HeapComesToRestProvenApart) {
   EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
 }
 
+// So many that the laws are met in part only, and plans are made anew around what changed: never
+// more energy, no residual beyond what heaps may have, and nothing meets.
+TEST(Simulator, FallingHeapOfManyLosesEnergyProvenApart) {
+  std::string bodies = kFloor;
+  for (int k = 0; k < 64; ++k) {
+    const std::vector<double> place{0.27 * (k % 3) + 0.01 * (k % 5), 0.23 * (k / 3 % 3),
+                                    0.15 + 0.26 * (k / 9)};
+    bodies += "," + body("b" + std::to_string(k), box("[0.2, 0.2, 0.2]"), numbers(place),
+                         R"(, "dynamics": {"angular_velocity": [)" + std::to_string(k % 4 - 1.5) +
+                             ", 2, " + std::to_string(k % 7 - 3.0) + "]}");
+  }
+  Simulator s = simulator(bodies, R"("step": 0.01, "friction": 0.5)");
+  const auto steps = run(s, 80);
+  double weight = 0.0;
+  for (const double mass : s.header().masses) {
+    weight += 9.81 * mass;
+  }
+  const double lift = weight * s.header().scene.simulation->contact_distance.value();
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < steps.size(); ++k) {
+    most = std::max(most, steps[k].contacts.size());
+    EXPECT_EQ(steps[k].time_lost, 0.0) << k;
+    EXPECT_LE(steps[k].residual, 0.3 * 9.81 * 0.01) << k;
+    EXPECT_LE(total_energy(steps[k]), total_energy(steps[k - 1]) + lift) << k;
+  }
+  EXPECT_GT(most, 150u);
+  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
 // Half over each other in rows, sides flush, so that features change with every rounding: whatever
 // they are, a pair touches in the corners of what lies over each other, and a wall of more
 // than 300 contacts rests as exactly as heaps are solved.

@@ -90,6 +90,29 @@ TEST(SweptHull, NeverTellsMoreThanTheLeastDistance) {
   }
 }
 
+// With round bodies, far from the origin, and where only one of them turns.
+TEST(SweptHull, NeverTellsMoreThanTheLeastDistanceOfRoundBodiesAnywhere) {
+  std::mt19937 rng(4);
+  for (int trial = 0; trial < 1500; ++trial) {
+    Moving c(rng);
+    const double far = trial % 3 == 0 ? 1e6 : 0.0;
+    c.X_WA.position.x() += far;
+    c.X_WB.position.x() += far;
+    if (trial % 2 == 0) {
+      c.move_A = {};
+    }
+    const double thick = 0.3;
+    const double least = c.least_distance(60) - 2.0 * thick;
+    c.A.shape = Shape(c.A.shape.mesh(), thick);
+    c.B.shape = Shape(c.B.shape.mesh(), thick);
+    c.A.reach += thick;
+    c.B.reach += thick;
+    if (least > 0.0) {
+      ASSERT_FALSE(c.stay_apart(least * (1.0 + 1e-9) + 1e-12)) << trial;
+    }
+  }
+}
+
 TEST(SweptHull, TellsMostOfWhatStaysApart) {
   std::mt19937 rng(2);
   int apart = 0;

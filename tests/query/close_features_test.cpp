@@ -52,9 +52,10 @@ std::vector<Contact> close(const Mesh& a, const Pose& X_WA, const Mesh& b, const
   Workspace workspace;
   std::vector<Contact> contacts;
   close_features({A, motion_A}, {B, motion_B}, 0.0, band, workspace, contacts);
+  // Edges are counted otherwise where there are more triangles, but are in the same order.
   std::ranges::sort(contacts, {}, [](const Contact& contact) {
-    return std::tuple(std::round(1e9 * contact.p_WA.x()), std::round(1e9 * contact.p_WA.y()),
-                      std::round(1e9 * contact.p_WA.z()), contact.distance);
+    return std::tuple(contact.feature_A.type, contact.feature_A.index, contact.feature_B.type,
+                      contact.feature_B.index);
   });
   return contacts;
 }

@@ -87,7 +87,7 @@ struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
   double enough = 0.0;  ///< [m/s]  Of many contacts: a residual that sweeps may leave where an
-                        ///< interior point would come next.
+                        ///< interior point would come next; >= 0.
   int sweeps = 200;     ///< At most, of all contacts in contact space; > 0.
   int rounds = 12;      ///< At most, of the interior point; > 0.
 };
@@ -121,10 +121,10 @@ struct ContactSolution {
 /// Modelling 28 (1998)). In motion space the velocities minimise
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
 /// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
-/// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on,
-/// without drives, an interior point comes before it, in rounds: each solves the convex problem in
-/// which |u_t| is what the round before left, and sweeps contact space. The automatic choice takes
-/// what its rounds leave.
+/// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on
+/// (300 where there are two for each velocity), without drives, an interior point comes before it,
+/// in rounds: each solves the convex problem in which |u_t| is what the round before left, and
+/// sweeps contact space. The automatic choice takes what its rounds leave.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.

@@ -36,6 +36,9 @@ constexpr std::size_t kManyContacts = 12;
 /// number. Multipliers would take ten times as long.
 constexpr std::size_t kManyForInteriorPoint = 120;
 
+/// The same where there are many for each body, and few equations for multipliers.
+constexpr std::size_t kManyRedundant = 300;
+
 /// Velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
   std::size_t count = 0;
@@ -99,10 +102,11 @@ class Solver {
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
-    has_interior_ = is_small_ && problem.drives.empty() && contacts >= kManyForInteriorPoint;
+    const bool are_redundant = 6 * contacts >= kManyContacts * moving;
+    has_interior_ = is_small_ && problem.drives.empty() &&
+                    contacts >= (are_redundant ? kManyRedundant : kManyForInteriorPoint);
     // Along a chain of links impulses would have to travel from joint to joint.
-    has_many_ =
-        !problem.mechanisms.empty() || has_interior_ || 6 * contacts >= kManyContacts * moving;
+    has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant;
   }
 
   ContactSolution solve() {
@@ -149,11 +153,14 @@ class Solver {
       sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
       detail::project_in_contact_space(rows_, sweeping, inner);
       if (is_solved(inner)) {
-        const int sweeps = inner.iterations;
         sweeping.sweeps = kExtraSweeps;
         sweeping.tolerance = kExtraTolerance * options_.tolerance;
-        detail::project_in_contact_space(rows_, sweeping, inner);
-        inner.iterations += sweeps;
+        Projection more = inner;
+        detail::project_in_contact_space(rows_, sweeping, more);
+        more.iterations += inner.iterations;
+        if (more.residual < inner.residual) {
+          inner = std::move(more);
+        }
       }
       if (inner.residual <= std::max(options_.tolerance, options_.enough)) {
         return solution(inner, ProjectionSpace::contact);
@@ -193,6 +200,10 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   require_positive(options.tolerance, "tolerance");
   require_positive(options.sweeps, "sweeps");
   require_positive(options.rounds, "rounds");
+  if (!(options.enough >= 0.0)) {
+    throw std::invalid_argument("ProjectionOptions::enough must be >= 0, got " +
+                                std::to_string(options.enough));
+  }
   return Solver(problem, options).solve();
 }
 

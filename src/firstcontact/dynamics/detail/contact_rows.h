@@ -124,6 +124,7 @@ struct Projection {
 /// The free velocities changed by impulses.
 [[nodiscard]] Eigen::VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses);
 
+/// The problem's bodies, mechanisms and drives with a projection's velocities and impulses.
 [[nodiscard]] ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
                                           const Projection& projection, ProjectionSpace space);
 

@@ -151,11 +151,11 @@ class Neighbourhood {
       if (change > tolerance_) {
         for (const RowSide& side : rows_.contacts[k].sides) {
           if (!side.response.isZero(0.0)) {
-            std::ranges::for_each(contacts_of_.at(side.at), [&](std::size_t other) {
+            for (const std::size_t other : contacts_of_.at(side.at)) {
               if (other != k) {
                 wait(other);
               }
-            });
+            }
           }
         }
       }

@@ -107,7 +107,9 @@ class Island {
       }
       for (const Hit& hit : hits) {
         if (hit.is_slight) {
-          std::ranges::for_each(hit.ahead, [&](const TouchAhead& ahead) { planner.add(ahead); });
+          for (const TouchAhead& ahead : hit.ahead) {
+            planner.add(ahead);
+          }
         }
       }
     }

@@ -10,6 +10,11 @@ using Eigen::Vector3d;
 /// Half of what is missing to the rest distance is made up for in a plan.
 constexpr double kPush = 0.5;
 
+/// A touch ahead takes the place of what the same features say if that is as near as this part of
+/// the smaller body and points as much the same way.
+constexpr double kSamePlace = 0.1;
+constexpr double kSameNormal = 1.0 - 1e-3;  // [-]  Cosine.
+
 }  // namespace
 
 IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
@@ -55,22 +60,39 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   flight_ = free_flight();
 }
 
+std::array<Vector3d, 2> IslandPlanner::arms_of(const Constraint& constraint) const {
+  if (constraint.arms) {
+    return *constraint.arms;
+  }
+  const ContactPoint contact = contact_at(constraint.touch, bodies_, 0.0, 0.0);
+  return {contact.arm_A, contact.arm_B};
+}
+
+/// Whether a constraint is about the same place of one of the bodies, seen from there.
+bool IslandPlanner::is_at(const TouchAhead& ahead, const Constraint& constraint) const {
+  const std::array<Vector3d, 2> arms = arms_of(constraint);
+  const double apart =
+      std::min((arms[0] - ahead.contact.arm_A).norm(), (arms[1] - ahead.contact.arm_B).norm());
+  return same_features(constraint.touch, ahead.touch) &&
+         constraint.touch.normal.dot(ahead.touch.normal) >= kSameNormal &&
+         apart <= kSamePlace * smaller_reach(state_.world, ahead.touch.bodies);
+}
+
 void IslandPlanner::add(const TouchAhead& ahead) {
   const BodyPair& pair = ahead.touch.bodies;
   state_.add_others(pair, bodies_);
+  Constraint constraint{.touch = ahead.touch,
+                        .least = ahead.least,
+                        .arms = {{ahead.contact.arm_A, ahead.contact.arm_B}}};
   const auto [first, end] = constraints_.equal_range(pair);
-  auto found = std::find_if(first, end, [&](const auto& entry) {
-    return same_features(entry.second.touch, ahead.touch);
-  });
+  const auto found =
+      std::find_if(first, end, [&](const auto& entry) { return is_at(ahead, entry.second); });
   if (found == end) {
-    found = constraints_.emplace(pair, Constraint{ahead.touch});
+    constraints_.emplace(pair, std::move(constraint));
+    return;
   }
-  found->second.is_new = true;
-  found->second.least = ahead.least;
-  found->second.arms = {ahead.contact.arm_A, ahead.contact.arm_B};
-  const Eigen::Vector3d impulse = found->second.touch.impulse;
-  found->second.touch = ahead.touch;
-  found->second.touch.impulse = impulse;
+  constraint.touch.impulse = found->second.touch.impulse;
+  found->second = std::move(constraint);
 }
 
 ContactProblem IslandPlanner::problem_now() const {

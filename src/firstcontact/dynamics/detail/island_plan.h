@@ -29,7 +29,8 @@ struct Plan {
   double residual = 0.0;            ///< [m/s]
 };
 
-/// Makes plans from where an island is now, each with more constraints than the one before.
+/// Makes plans from where an island is now, each with more or tighter constraints than the one
+/// before.
 class IslandPlanner {
  public:
   /// Starts with what touches now, and the impulses of a whole step that it has.
@@ -40,8 +41,8 @@ class IslandPlanner {
   /// Starts from the impulses of the plan before.
   [[nodiscard]] Plan plan();
 
-  /// Makes a touch of the motion ahead a constraint. Where the same features have one it takes its
-  /// place: between two that say nearly the same impulses would only slowly go over.
+  /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
+  /// takes its place: between two that say nearly the same impulses would only slowly go over.
   void add(const TouchAhead& ahead);
 
  private:
@@ -57,6 +58,8 @@ class IslandPlanner {
     std::vector<Eigen::Vector3d> rotation_vectors;
   };
 
+  [[nodiscard]] std::array<Eigen::Vector3d, 2> arms_of(const Constraint& constraint) const;
+  [[nodiscard]] bool is_at(const TouchAhead& ahead, const Constraint& constraint) const;
   [[nodiscard]] FreeFlight free_flight() const;
   [[nodiscard]] ContactProblem problem_now() const;
   [[nodiscard]] PlanSolution solve(const ContactProblem& problem);

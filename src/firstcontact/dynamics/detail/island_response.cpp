@@ -14,7 +14,8 @@ using Eigen::Vector3d;
 /// they slide even less.
 constexpr double kTolerance = 3e-7;
 constexpr double kHeapTolerance = 1e-3;
-constexpr std::size_t kHeap = 120;  // Contacts.
+constexpr std::size_t kHeap = 120;       // Contacts.
+constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
 constexpr int kHeapRounds = 2;
 
 /// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
@@ -35,6 +36,10 @@ constexpr double kUnsolved = 1e-2;
 /// [m/s]  A part of what gravity adds in a step.
 double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.world.gravity.norm() * state.start.h);
+}
+
+bool is_heap(const IslandState& state, const ContactProblem& problem) {
+  return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
 }
 
 /// [J]  Of the members and their robots.
@@ -61,8 +66,7 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const bool is_solved = solution.residual <= std::max(of_gravity(state, kUnsolved),
-                                                       projection_options(state, problem).enough);
+  const bool is_solved = solution.residual <= of_gravity(state, kUnsolved);
   if (is_solved && state.robots.has_motors()) {
     return false;
   }
@@ -103,7 +107,7 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 }  // namespace
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  if (problem.contacts.size() < kHeap) {
+  if (!is_heap(state, problem)) {
     return {.tolerance = of_gravity(state, kTolerance)};
   }
   return {.tolerance = of_gravity(state, kHeapTolerance),
@@ -125,12 +129,15 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
                                                const ContactProblem& problem,
                                                const PlanSolution& before,
                                                const std::vector<std::size_t>& changed) {
-  if (problem.contacts.size() < kHeap || !state.robots.empty() || before.is_limited) {
+  if (!is_heap(state, problem) || !state.robots.empty() || before.is_limited) {
     return std::nullopt;
   }
   PlanSolution plan{
       project_again(problem, before.velocities.bodies, changed,
                     {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
+  if (plan.velocities.residual > projection_options(state, problem).enough) {
+    return std::nullopt;
+  }
   plan.is_limited = limit_energy(state, problem, plan.velocities);
   return plan;
 }

@@ -25,7 +25,7 @@ struct PlanSolution {
 [[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
 
 /// Those of a plan that is like another but for contacts that changed, by project_again(). Nothing
-/// where that is not worth while.
+/// where that is not worth while, or leaves too much.
 [[nodiscard]] std::optional<PlanSolution> project_plan_again(
     const IslandState& state, const ContactProblem& problem, const PlanSolution& before,
     const std::vector<std::size_t>& changed);

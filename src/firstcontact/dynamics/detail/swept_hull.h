@@ -23,7 +23,7 @@ struct SweptHull {
   Eigen::Vector3d p_WC;                 ///< [m]  At the begin.
   Eigen::Vector3d translation;          ///< [m]
   double rate;                          ///< [rad per step]
-  double reach;                         ///< [m]  From C, without thickness.
+  double reach;                         ///< [m]  Of the body, from C.
   double thickness;                     ///< [m]  Around the hull.
 };
 

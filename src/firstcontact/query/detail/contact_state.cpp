@@ -259,7 +259,7 @@ void find_close_of_few(const ContactFrame& frame, const RelativeState& state, do
     for (std::uint32_t b = 0; b < pair.B().triangles.size(); ++b) {
       const AskedFeatures own{own_A[a], own_B[b]};
       if ((own.of_A != 0 || own.of_B != 0) &&
-          of_A.box.squaredExteriorDistance(of_B[b].box) <= apart * apart) {
+          !(of_A.box.squaredExteriorDistance(of_B[b].box) > apart * apart)) {
         append_pairs(frame, {of_A.corners, of_B[b].corners}, a, b, own, band, reach, close);
       }
     }
