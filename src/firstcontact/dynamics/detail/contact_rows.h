@@ -74,6 +74,23 @@ struct ContactRow {
   }
 };
 
+/// Solves one contact with all others held. Returns how much its velocity changes [m/s].
+inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen::VectorXd& V) {
+  if (!(row.greatest() > 0.0)) {
+    return 0.0;
+  }
+  const Eigen::Vector3d u = row.excess_velocity(V);
+  if (u[0] >= 0.0 && impulse.isZero(0.0)) {
+    return 0.0;
+  }
+  const Eigen::Vector3d u_free = u - row.own.W() * impulse;
+  const Eigen::Vector3d solved = row.own.impulse(u_free, row.friction);
+  const Eigen::Vector3d change = solved - impulse;
+  row.apply(change, V);
+  impulse = solved;
+  return change.norm() * row.greatest();
+}
+
 /// A drive of one coordinate.
 struct DriveRow {
   Eigen::Index at;         // Of its mechanism.

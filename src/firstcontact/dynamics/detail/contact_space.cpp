@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <unordered_map>
 #include <utility>
 
 #include <firstcontact/dynamics/detail/contact_rows.h>
@@ -13,24 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Solves one contact with all others held. Returns how much its velocity changes [m/s].
-double solve(const ContactRow& row, Vector3d& impulse, VectorXd& V) {
-  if (!(row.greatest() > 0.0)) {
-    return 0.0;
-  }
-  const Vector3d u = row.excess_velocity(V);
-  if (u[0] >= 0.0 && impulse.isZero(0.0)) {
-    return 0.0;
-  }
-  const Vector3d u_free = u - row.own.W() * impulse;
-  const Vector3d solved = row.own.impulse(u_free, row.friction);
-  const Vector3d change = solved - impulse;
-  row.apply(change, V);
-  impulse = solved;
-  return change.norm() * row.greatest();
-}
-
-double solve(const DriveRow& row, double& impulse, VectorXd& V) {
+double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
   const double solved =
       std::clamp(impulse - row.excess_velocity(impulse, V) / row.own, row.least, row.greatest);
   const double change = solved - impulse;
@@ -47,7 +28,7 @@ double sweep(const std::vector<Row>& rows, bool backwards, std::vector<Impulse>&
   double change = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t k = backwards ? n - 1 - i : i;
-    change = std::max(change, solve(rows[k], impulses[k], V));
+    change = std::max(change, solve_alone(rows[k], impulses[k], V));
   }
   return change;
 }
@@ -122,63 +103,6 @@ class Extrapolation {
   double last_ = 0.0;
 };
 
-/// Contacts that wait to be solved, first come, first served.
-class Neighbourhood {
- public:
-  Neighbourhood(const ContactRows& rows, const ProjectionOptions& options, Projection& projection)
-      : rows_(rows),
-        tolerance_(options.tolerance),
-        most_(static_cast<std::size_t>(options.sweeps) * rows.contacts.size()),
-        projection_(projection),
-        waits_(rows.contacts.size(), false) {
-    for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-      for (const RowSide& side : rows.contacts[k].sides) {
-        contacts_of_[side.at].push_back(k);
-      }
-    }
-  }
-
-  void project(const std::vector<std::size_t>& changed) {
-    for (const std::size_t k : changed) {
-      wait(k);
-    }
-    for (std::size_t solved = 0; !queue_.empty() && solved < most_; ++solved) {
-      const std::size_t k = queue_.front();
-      queue_.pop_front();
-      waits_[k] = false;
-      const double change =
-          solve(rows_.contacts[k], projection_.impulses.contacts[k], projection_.velocities);
-      if (change > tolerance_) {
-        for (const RowSide& side : rows_.contacts[k].sides) {
-          if (!side.response.isZero(0.0)) {
-            for (const std::size_t other : contacts_of_.at(side.at)) {
-              if (other != k) {
-                wait(other);
-              }
-            }
-          }
-        }
-      }
-    }
-  }
-
- private:
-  void wait(std::size_t k) {
-    if (!waits_[k]) {
-      waits_[k] = true;
-      queue_.push_back(k);
-    }
-  }
-
-  const ContactRows& rows_;
-  double tolerance_;
-  std::size_t most_;
-  Projection& projection_;
-  std::vector<bool> waits_;
-  std::deque<std::size_t> queue_;
-  std::unordered_map<Eigen::Index, std::vector<std::size_t>> contacts_of_;
-};
-
 }  // namespace
 
 void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& options,
@@ -205,12 +129,6 @@ void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& 
     }
   }
   residual = greatest_residual(rows, impulses, V);
-}
-
-void project_around(const ContactRows& rows, const std::vector<std::size_t>& changed,
-                    const ProjectionOptions& options, Projection& projection) {
-  Neighbourhood(rows, options, projection).project(changed);
-  projection.residual = greatest_residual(rows, projection.impulses, projection.velocities);
 }
 
 }  // namespace firstcontact::detail

@@ -171,7 +171,8 @@ double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& cont
 }
 
 /// The mean of the velocities at both ends is exact under constant forces; where it would break a
-/// constraint, as at one that only begins to act, those at the end lead the bodies in contact.
+/// constraint, as at one that only begins to act, or somewhere in nearly any heap, those at the end
+/// lead the bodies in contact.
 std::vector<bool> IslandPlanner::led_by_end(const ContactProblem& problem,
                                             const std::vector<ContactBody>& before,
                                             const ContactSolution& solution) const {

@@ -7,19 +7,11 @@
 #include <vector>
 
 #include <firstcontact/query/contact.h>
+#include <firstcontact/query/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
-
-/// What contacts are reported relative to.
-struct ContactFrame {
-  const Shape& A;
-  const Shape& B;
-  const MovingPair& pair;
-  double t;
-  Eigen::Vector3d p_WC;  ///< [m]  Centre of A's hierarchy in the world at t.
-};
 
 /// One contact from the closest features of two triangles (indices in the hierarchies' order).
 [[nodiscard]] Contact make_contact(const ContactFrame& frame, const RelativeState& state,

@@ -1,0 +1,172 @@
+#include <firstcontact/query/detail/close_pairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/query/detail/box_pairs.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d face_normal(const Triangle& T) { return (T[1] - T[0]).cross(T[2] - T[0]); }
+
+Feature global_feature(const Shape& shape, std::uint32_t triangle, const TriangleFeature& local) {
+  const std::uint32_t index = shape.hierarchy().triangle_index[triangle];
+  const auto& corners = shape.mesh().triangles[index];
+  switch (local.type) {
+    case TriangleFeature::Type::vertex:
+      return {FeatureType::vertex, corners[local.index], index};
+    case TriangleFeature::Type::edge:
+      return {FeatureType::edge,
+              shape.edge_index(corners[local.index], corners[(local.index + 1) % 3]), index};
+    case TriangleFeature::Type::face:
+      break;
+  }
+  return {FeatureType::face, index, index};
+}
+
+/// Whether two triangles are farther apart than `reach` along n, of any length.
+bool apart_along(const Vector3d& n, const TrianglePair& pair, double reach) {
+  const Vector3d a(n.dot(pair.A[0]), n.dot(pair.A[1]), n.dot(pair.A[2]));
+  const Vector3d b(n.dot(pair.B[0]), n.dot(pair.B[1]), n.dot(pair.B[2]));
+  const double gap = std::max(b.minCoeff() - a.maxCoeff(), a.minCoeff() - b.maxCoeff());
+  return gap > 0.0 && gap * gap > reach * reach * n.squaredNorm();
+}
+
+/// Most pairs of triangles that were opened are, by far more than rounding.
+bool clearly_apart(const TrianglePair& pair, double reach) {
+  constexpr double kClearly = 1.0 + 0x1p-20;
+  const Vector3d between =
+      (pair.B[0] + pair.B[1] + pair.B[2]) - (pair.A[0] + pair.A[1] + pair.A[2]);
+  return apart_along(face_normal(pair.A), pair, kClearly * reach) ||
+         apart_along(face_normal(pair.B), pair, kClearly * reach) ||
+         apart_along(between, pair, kClearly * reach);
+}
+
+/// Which features of each of two triangles are asked.
+struct AskedFeatures {
+  unsigned of_A = 0x3f;
+  unsigned of_B = 0x3f;
+};
+
+/// @param reach  [m]  the band, and more than positions err
+void append_pairs(const ContactFrame& frame, const TrianglePair& triangles,
+                  std::uint32_t triangle_A, std::uint32_t triangle_B, const AskedFeatures& asked,
+                  double band, double reach, std::vector<ClosePair>& pairs) {
+  if (clearly_apart(triangles, reach)) {
+    return;
+  }
+  const FeaturePairs close =
+      feature_pairs_within(triangles.A, triangles.B, band, asked.of_A, asked.of_B);
+  for (std::size_t k = 0; k < close.count; ++k) {
+    pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
+  }
+}
+
+/// Of meshes with so few triangles each pair is looked at: boxes around boxes tell no more.
+constexpr std::size_t kFewTriangles = 16;
+
+/// A triangle at an instant, and the box around it along the axes of body A.
+struct BoxedTriangle {
+  Triangle corners;
+  Eigen::AlignedBox3d box;
+};
+
+BoxedTriangle boxed(const Triangle& corners, const Eigen::Matrix3d& R_WA) {
+  BoxedTriangle triangle{corners, {}};
+  for (const Vector3d& corner : corners) {
+    triangle.box.extend(R_WA.transpose() * corner);
+  }
+  return triangle;
+}
+
+/// Each feature need be asked but once, where all pairs of triangles that are close are looked at.
+///
+/// @param reach  [m]  the band, and more than positions err
+void find_close_of_few(const ContactFrame& frame, const RelativeState& state, double band,
+                       double reach, std::vector<ClosePair>& close) {
+  const MovingPair& pair = frame.pair;
+  const auto own_A = frame.A.own_features();
+  const auto own_B = frame.B.own_features();
+  const double apart = reach + pair.gap_error(state);
+  std::array<BoxedTriangle, kFewTriangles> of_B;
+  for (std::uint32_t b = 0; b < pair.B().triangles.size(); ++b) {
+    of_B[b] = boxed(pair.place(state, 0, b).B, state.R_WA);
+  }
+  for (std::uint32_t a = 0; a < pair.A().triangles.size(); ++a) {
+    const BoxedTriangle of_A = boxed(pair.place(state, a, 0).A, state.R_WA);
+    for (std::uint32_t b = 0; b < pair.B().triangles.size(); ++b) {
+      const AskedFeatures own{own_A[a], own_B[b]};
+      if ((own.of_A != 0 || own.of_B != 0) &&
+          !(of_A.box.squaredExteriorDistance(of_B[b].box) > apart * apart)) {
+        append_pairs(frame, {of_A.corners, of_B[b].corners}, a, b, own, band, reach, close);
+      }
+    }
+  }
+}
+
+void find_close_of_many(const ContactFrame& frame, const RelativeState& state, double band,
+                        double reach, WorkspaceData& workspace) {
+  const MovingPair& pair = frame.pair;
+  const BoxesAtInstant boxes(pair, state);
+  const auto own_A = frame.A.own_features();
+  const auto own_B = frame.B.own_features();
+  auto& stack = workspace.stack;
+  stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
+  while (!stack.empty()) {
+    const BoxPair top = stack.back();
+    stack.pop_back();
+    if (top.is_triangle_pair) {
+      const AskedFeatures own{own_A[top.triangle_A], own_B[top.triangle_B]};
+      if (own.of_A != 0 || own.of_B != 0) {
+        append_pairs(frame, pair.place(state, top.triangle_A, top.triangle_B), top.triangle_A,
+                     top.triangle_B, own, band, reach, workspace.close_pairs);
+      }
+      continue;
+    }
+    boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
+      if (!(lane.gap() > reach)) {
+        stack.push_back(lane.inside());
+      }
+    });
+  }
+}
+
+}  // namespace
+
+ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A, std::uint32_t triangle_B,
+                     const ClosestFeatures& closest) {
+  return {global_feature(frame.A, triangle_A, closest.feature_A),
+          global_feature(frame.B, triangle_B, closest.feature_B), triangle_A, triangle_B, closest};
+}
+
+void find_close_among_opened(const ContactFrame& frame, const RelativeState& state, double band,
+                             WorkspaceData& workspace) {
+  workspace.close_pairs.clear();
+  const double reach = band + 2.0 * frame.pair.gap_error(state);
+  for (const OpenedPair& pair : workspace.opened_pairs) {
+    const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
+    if (pair.distance - travel <= reach) {
+      append_pairs(frame, frame.pair.place(state, pair.a, pair.b), pair.a, pair.b, {}, band, reach,
+                   workspace.close_pairs);
+    }
+  }
+}
+
+void find_close(const ContactFrame& frame, const RelativeState& state, double band,
+                WorkspaceData& workspace) {
+  workspace.close_pairs.clear();
+  const double reach = band + frame.pair.gap_error(state);
+  if (std::max(frame.pair.A().triangles.size(), frame.pair.B().triangles.size()) <= kFewTriangles) {
+    find_close_of_few(frame, state, band, reach, workspace.close_pairs);
+  } else {
+    find_close_of_many(frame, state, band, reach, workspace);
+  }
+}
+
+}  // namespace firstcontact::detail

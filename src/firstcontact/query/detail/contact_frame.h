@@ -1,0 +1,22 @@
+/// @file
+/// Two bodies at the instant of their contacts.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+namespace firstcontact::detail {
+
+/// What contacts are reported relative to.
+struct ContactFrame {
+  const Shape& A;
+  const Shape& B;
+  const MovingPair& pair;
+  double t;
+  Eigen::Vector3d p_WC;  ///< [m]  Centre of A's hierarchy in the world at t.
+};
+
+}  // namespace firstcontact::detail
