@@ -20,8 +20,10 @@ using detail::Projection;
 /// get anywhere, but take less memory.
 constexpr std::size_t kMostInMotionSpace = 6000;
 
-/// What sweeps do not do in so many, motion space does better.
+/// What sweeps do not do in so many, motion space does better; sooner where contacts are many for
+/// each body.
 constexpr int kSweepsBeforeMotionSpace = 100;
+constexpr int kSweepsOfRedundant = 30;
 
 /// Then there are so many more, to this part of the tolerance: what is left would add up from step
 /// to step.
@@ -102,11 +104,11 @@ class Solver {
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
-    const bool are_redundant = 6 * contacts >= kManyContacts * moving;
+    are_redundant_ = 6 * contacts >= kManyContacts * moving;
     has_interior_ = is_small_ && problem.drives.empty() &&
-                    contacts >= (are_redundant ? kManyRedundant : kManyForInteriorPoint);
+                    contacts >= (are_redundant_ ? kManyRedundant : kManyForInteriorPoint);
     // Along a chain of links impulses would have to travel from joint to joint.
-    has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant;
+    has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant_;
   }
 
   ContactSolution solve() {
@@ -150,9 +152,10 @@ class Solver {
     Projection inner = projection_;
     if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
       ProjectionOptions sweeping = options_;
-      sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+      sweeping.sweeps =
+          std::min(options_.sweeps, are_redundant_ ? kSweepsOfRedundant : kSweepsBeforeMotionSpace);
       detail::project_in_contact_space(rows_, sweeping, inner);
-      if (is_solved(inner)) {
+      if (is_solved(inner) && !are_redundant_) {
         sweeping.sweeps = kExtraSweeps;
         sweeping.tolerance = kExtraTolerance * options_.tolerance;
         Projection more = inner;
@@ -187,6 +190,7 @@ class Solver {
   const ProjectionOptions& options_;
   ContactRows rows_;
   bool is_automatic_;
+  bool are_redundant_ = false;
   bool is_small_ = false;
   bool has_interior_ = false;
   bool has_many_ = false;
