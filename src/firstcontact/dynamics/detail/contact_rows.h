@@ -152,6 +152,7 @@ void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& 
 /// by more than the tolerance, until there are none or `options.sweeps` times as many were solved
 /// as there are contacts. What is far away from the change stays as it is, to the last bit.
 ///
+/// @param rows     without links and drives
 /// @param changed  contacts
 void project_around(const ContactRows& rows, const std::vector<std::size_t>& changed,
                     const ProjectionOptions& options, Projection& projection);

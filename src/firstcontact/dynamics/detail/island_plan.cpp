@@ -12,8 +12,8 @@ constexpr double kPush = 0.5;
 
 /// A touch ahead takes the place of what the same features say if that is as near as this part of
 /// the smaller body and points as much the same way.
-constexpr double kSamePlace = 0.1;
-constexpr double kSameNormal = 1.0 - 1e-3;  // [-]  Cosine.
+constexpr double kReplacedWithin = 0.1;
+constexpr double kReplacedNormal = 1.0 - 1e-3;  // [-]  Cosine.
 
 }  // namespace
 
@@ -74,8 +74,8 @@ bool IslandPlanner::is_at(const TouchAhead& ahead, const Constraint& constraint)
   const double apart =
       std::min((arms[0] - ahead.contact.arm_A).norm(), (arms[1] - ahead.contact.arm_B).norm());
   return same_features(constraint.touch, ahead.touch) &&
-         constraint.touch.normal.dot(ahead.touch.normal) >= kSameNormal &&
-         apart <= kSamePlace * smaller_reach(state_.world, ahead.touch.bodies);
+         constraint.touch.normal.dot(ahead.touch.normal) >= kReplacedNormal &&
+         apart <= kReplacedWithin * smaller_reach(state_.world, ahead.touch.bodies);
 }
 
 void IslandPlanner::add(const TouchAhead& ahead) {

@@ -10,13 +10,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of contact problems: of what gravity adds in a step. Heaps are solved less exactly, and where
-/// they slide even less.
+/// Of contact problems: of what gravity adds in a step. Heaps and bodies with very many contacts
+/// are solved less exactly, and where heaps slide even less.
 constexpr double kTolerance = 3e-7;
 constexpr double kHeapTolerance = 1e-3;
 constexpr std::size_t kHeap = 120;       // Contacts.
 constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
-constexpr int kHeapRounds = 2;
+constexpr std::size_t kManyContacts = 300;
+constexpr int kRoundsOfMany = 2;
 
 /// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
 constexpr double kHeapEnough = 0.3;
@@ -107,13 +108,16 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 }  // namespace
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  if (!is_heap(state, problem)) {
-    return {.tolerance = of_gravity(state, kTolerance)};
+  if (is_heap(state, problem)) {
+    return {.tolerance = of_gravity(state, kHeapTolerance),
+            .enough = of_gravity(state, kHeapEnough),
+            .sweeps = kHeapSweeps,
+            .rounds = kRoundsOfMany};
   }
-  return {.tolerance = of_gravity(state, kHeapTolerance),
-          .enough = of_gravity(state, kHeapEnough),
-          .sweeps = kHeapSweeps,
-          .rounds = kHeapRounds};
+  if (problem.contacts.size() >= kManyContacts) {
+    return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
+  }
+  return {.tolerance = of_gravity(state, kTolerance), .rounds = kRoundsOfMany};
 }
 
 PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {

@@ -1,11 +1,9 @@
 #include <firstcontact/dynamics/detail/swept_hull.h>
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 
-#include <Eigen/Geometry>
-
+#include <firstcontact/dynamics/detail/turn.h>
 #include <firstcontact/narrowphase/convex_separation.h>
 
 namespace firstcontact::detail {
@@ -17,12 +15,6 @@ using Eigen::Vector3d;
 /// [-]  Of all places and ways that are added up. Of those, rotations err by a few 2^-52, the
 /// matrix between (of norm 3 at most) by as many more, and the gap by 2^-48.
 constexpr double kRounding = 0x1p-44;
-
-Matrix3d rotation(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  return angle > 0.0 ? Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix()
-                     : Matrix3d(Matrix3d::Identity());
-}
 
 /// [m]  How far a point of B may be from its parabola, as A sees it, roundings included.
 double error_seen(const SweptHull& A, const SweptHull& B) {
@@ -48,8 +40,8 @@ SweptHull::SweptHull(const SimBody& body, const Pose& X_WB, const Move& move)
       reach(body.reach),
       thickness(body.shape.radius() + bounds->error) {
   R_WB[0] = X_WB.rotation.normalized().toRotationMatrix();
-  R_WB[1] = rotation(0.5 * move.rotation_vector) * R_WB[0];
-  R_WB[2] = rotation(move.rotation_vector) * R_WB[0];
+  R_WB[1] = turn(0.5 * move.rotation_vector).toRotationMatrix() * R_WB[0];
+  R_WB[2] = turn(move.rotation_vector).toRotationMatrix() * R_WB[0];
 }
 
 bool stays_apart(const SweptHull& A, const SweptHull& B, double distance, const Vector3d& n) {
