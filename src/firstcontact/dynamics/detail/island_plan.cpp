@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <firstcontact/dynamics/detail/project_again.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -231,11 +233,17 @@ void IslandPlanner::push_apart(Plan& plan) {
 ContactSolution IslandPlanner::find_push() {
   const ContactDistances& distances = state_.world.distances;
   ProblemBodies bodies = state_.problem_bodies();
+  const ProjectionOptions options{
+      .tolerance = 1e-2 * distances.least, .enough = 0.3 * distances.least, .sweeps = 50};
   ContactProblem problem;
+  std::vector<std::size_t> too_near;
   for (const auto& [pair, manifold] : state_.manifolds) {
     for (const Touch& touch : manifold.touches) {
       state_.add_others(pair, bodies);
       const double missing = distances.least - touch.gap;
+      if (kPush * missing > options.tolerance) {
+        too_near.push_back(problem.contacts.size());
+      }
       Touch unknown = touch;
       unknown.impulse.setZero();
       problem.contacts.push_back(
@@ -251,9 +259,13 @@ ContactSolution IslandPlanner::find_push() {
   for (ContactMechanism& mechanism : problem.mechanisms) {
     mechanism.velocity.setZero();
   }
-  return project_on_contacts(
-      problem,
-      {.tolerance = 1e-2 * distances.least, .enough = 0.1 * distances.least, .sweeps = 50});
+  if (problem.mechanisms.empty()) {  // Most have room: only those around move.
+    ContactSolution around = project_again(problem, problem.bodies, too_near, options);
+    if (around.residual <= options.enough) {
+      return around;
+    }
+  }
+  return project_on_contacts(problem, options);
 }
 
 }  // namespace firstcontact::detail
