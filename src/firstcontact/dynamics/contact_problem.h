@@ -87,7 +87,8 @@ struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
   double enough = 0.0;  ///< [m/s]  Of many contacts: a residual that sweeps may leave where an
-                        ///< interior point would come next; >= 0.
+                        ///< interior point would come next, and a fifth of it where more of them
+                        ///< hardly help; >= 0.
   int sweeps = 200;     ///< At most, of all contacts in contact space; > 0.
   int rounds = 12;      ///< At most, of the interior point; > 0.
 };

@@ -70,18 +70,40 @@ Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
   return impulses;
 }
 
-/// Starts from the guesses where they are nearer to the laws than no impulse at all.
-Projection start(const ContactProblem& problem, const ContactRows& rows) {
-  Projection guessed{.impulses = guesses(problem, rows)};
-  Projection none;
-  none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
-  none.impulses.drives.assign(rows.drives.size(), 0.0);
-  for (Projection* projection : {&guessed, &none}) {
-    projection->velocities = detail::velocities_after(rows, projection->impulses);
-    projection->residual =
-        detail::greatest_residual(rows, projection->impulses, projection->velocities);
+/// [J]  r^T J M^-1 J^T r / 2 + r^T u_free, of which the impulses without friction are the least
+/// point; 0 without impulses.
+double dual_objective(const ContactRows& rows, const Projection& projection) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    const ContactRow& row = rows.contacts[k];
+    const Eigen::Vector3d& impulse = projection.impulses.contacts[k];
+    if (!impulse.isZero(0.0)) {
+      sum += 0.5 * impulse.dot(row.excess_velocity(rows.free_velocities) +
+                               row.excess_velocity(projection.velocities));
+    }
   }
-  return guessed.residual < none.residual ? guessed : none;
+  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
+    const detail::DriveRow& row = rows.drives[k];
+    const double impulse = projection.impulses.drives[k];
+    sum += 0.5 * impulse *
+           (row.excess_velocity(0.0, rows.free_velocities) +
+            row.excess_velocity(impulse, projection.velocities));
+  }
+  return sum;
+}
+
+/// Starts from the guesses where they are better than no impulse at all. As a whole: of many
+/// contacts one may be wrong by much, as where a body came to lie on another feature.
+Projection start(const ContactProblem& problem, const ContactRows& rows) {
+  Projection from{.impulses = guesses(problem, rows)};
+  from.velocities = detail::velocities_after(rows, from.impulses);
+  if (!(dual_objective(rows, from) < 0.0)) {
+    from.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
+    from.impulses.drives.assign(rows.drives.size(), 0.0);
+    from.velocities = rows.free_velocities;
+  }
+  from.residual = detail::greatest_residual(rows, from.impulses, from.velocities);
+  return from;
 }
 
 template <class Number>
@@ -143,7 +165,7 @@ class Solver {
     if (is_automatic_ && is_small_) {
       sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
     }
-    detail::project_in_contact_space(rows_, sweeping, projection_);
+    detail::project_in_contact_space(problem_, rows_, sweeping, projection_);
     return !is_automatic_ || is_solved(projection_) || !is_small_;
   }
 
@@ -152,14 +174,16 @@ class Solver {
     Projection inner = projection_;
     if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
       ProjectionOptions sweeping = options_;
-      sweeping.sweeps =
-          std::min(options_.sweeps, are_redundant_ ? kSweepsOfRedundant : kSweepsBeforeMotionSpace);
-      detail::project_in_contact_space(rows_, sweeping, inner);
+      if (!(options_.enough > 0.0)) {
+        sweeping.sweeps = std::min(options_.sweeps,
+                                   are_redundant_ ? kSweepsOfRedundant : kSweepsBeforeMotionSpace);
+      }
+      detail::project_in_contact_space(problem_, rows_, sweeping, inner);
       if (is_solved(inner) && !are_redundant_) {
         sweeping.sweeps = kExtraSweeps;
         sweeping.tolerance = kExtraTolerance * options_.tolerance;
         Projection more = inner;
-        detail::project_in_contact_space(rows_, sweeping, more);
+        detail::project_in_contact_space(problem_, rows_, sweeping, more);
         more.iterations += inner.iterations;
         if (more.residual < inner.residual) {
           inner = std::move(more);

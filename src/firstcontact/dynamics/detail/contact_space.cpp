@@ -1,17 +1,20 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
+#include <optional>
 
+#include <firstcontact/dynamics/detail/conjugate_direction.h>
+#include <firstcontact/dynamics/detail/contact_batches.h>
 #include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
 
 namespace firstcontact::detail {
 namespace {
 
+using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
+double solve_alone(const DriveRow& row, double& impulse, Eigen::Ref<VectorXd> V) {
   const double solved =
       std::clamp(impulse - row.excess_velocity(impulse, V) / row.own, row.least, row.greatest);
   const double change = solved - impulse;
@@ -20,115 +23,132 @@ double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
   return std::abs(change) * row.own;
 }
 
-/// Returns the greatest change [m/s].
-template <class Row, class Impulse>
-double sweep(const std::vector<Row>& rows, bool backwards, std::vector<Impulse>& impulses,
-             VectorXd& V) {
-  const std::size_t n = rows.size();
-  double change = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t k = backwards ? n - 1 - i : i;
-    change = std::max(change, solve_alone(rows[k], impulses[k], V));
-  }
-  return change;
-}
-
-/// What all contacts and drives change in a pair of sweeps, for directions of conjugate gradients.
-struct Changes {
-  Impulses impulses;
-  VectorXd V;
-};
-
-double squared_length(const ContactRows& rows, const Impulses& r) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-    sum += rows.contacts[k].greatest() * r.contacts[k].squaredNorm();
-  }
-  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
-    sum += rows.drives[k].own * r.drives[k] * r.drives[k];
-  }
-  return sum;
-}
-
-template <class Value>
-void subtract(const std::vector<Value>& values, std::vector<Value>& from) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    from[k] = values[k] - from[k];
-  }
-}
-
-template <class Value>
-void add(double share, const std::vector<Value>& values, std::vector<Value>& to) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    to[k] += share * values[k];
-  }
-}
-
-/// Goes on in the direction of the pairs of sweeps before.
-class Extrapolation {
+/// Contacts and drives one by one. The state: all impulses, then the velocities.
+class RowSweeps {
  public:
-  explicit Extrapolation(const ContactRows& rows) : rows_(rows) {}
+  explicit RowSweeps(const ContactRows& rows)
+      : rows_(rows),
+        drives_at_(static_cast<Index>(3 * rows.contacts.size())),
+        V_at_(drives_at_ + static_cast<Index>(rows.drives.size())) {}
 
-  /// Before a pair of sweeps.
-  void begin(const Projection& projection) {
-    step_.impulses = projection.impulses;
-    step_.V = projection.velocities;
+  /// Squared lengths are those of impulses, weighed by what they change.
+  [[nodiscard]] VectorXd weights() const {
+    VectorXd weights = VectorXd::Zero(V_at_ + rows_.layout.size);
+    Index at = 0;
+    for (const ContactRow& row : rows_.contacts) {
+      weights.segment<3>(at).setConstant(row.greatest());
+      at += 3;
+    }
+    for (const DriveRow& row : rows_.drives) {
+      weights[at++] = row.own;
+    }
+    return weights;
   }
 
-  /// After it.
-  void end(Projection& projection) {
-    subtract(projection.impulses.contacts, step_.impulses.contacts);
-    subtract(projection.impulses.drives, step_.impulses.drives);
-    step_.V = projection.velocities - step_.V;
-    const double squared = squared_length(rows_, step_.impulses);
-    const double share = squared / last_;
-    last_ = squared;
-    if (!(share <= 1.0) || direction_.V.size() == 0) {
-      direction_ = step_;
-      return;
+  [[nodiscard]] VectorXd state_of(const Projection& projection) const {
+    VectorXd state(V_at_ + rows_.layout.size);
+    Index at = 0;
+    for (const Vector3d& impulse : projection.impulses.contacts) {
+      state.segment<3>(at) = impulse;
+      at += 3;
     }
-    add(share, direction_.impulses.contacts, projection.impulses.contacts);
-    add(share, direction_.impulses.drives, projection.impulses.drives);
-    projection.velocities += share * direction_.V;
-    add(share, direction_.impulses.contacts, step_.impulses.contacts);
-    add(share, direction_.impulses.drives, step_.impulses.drives);
-    step_.V += share * direction_.V;
-    std::swap(step_, direction_);
+    std::ranges::copy(projection.impulses.drives, state.data() + drives_at_);
+    state.tail(rows_.layout.size) = projection.velocities;
+    return state;
+  }
+
+  /// @returns [m/s]  the greatest change of a velocity
+  double sweep(bool backwards, VectorXd& state) const {
+    Eigen::Ref<VectorXd> V = state.tail(rows_.layout.size);
+    double change = 0.0;
+    in_order(rows_.contacts.size(), backwards, [&](Index k) {
+      Eigen::Map<Vector3d> impulse(state.data() + 3 * k);
+      change =
+          std::max(change, solve_alone(rows_.contacts[static_cast<std::size_t>(k)], impulse, V));
+    });
+    in_order(rows_.drives.size(), backwards, [&](Index k) {
+      double& impulse = state[drives_at_ + k];
+      change = std::max(change, solve_alone(rows_.drives[static_cast<std::size_t>(k)], impulse, V));
+    });
+    return change;
+  }
+
+  void take(const VectorXd& state, Projection& projection) const {
+    Index at = 0;
+    for (Vector3d& impulse : projection.impulses.contacts) {
+      impulse = state.segment<3>(at);
+      at += 3;
+    }
+    for (double& impulse : projection.impulses.drives) {
+      impulse = state[at++];
+    }
+    projection.velocities = state.tail(rows_.layout.size);
+    projection.residual = greatest_residual(rows_, projection.impulses, projection.velocities);
   }
 
  private:
+  template <class Use>
+  static void in_order(std::size_t size, bool backwards, const Use& use) {
+    const auto count = static_cast<Index>(size);
+    for (Index i = 0; i < count; ++i) {
+      use(backwards ? count - 1 - i : i);
+    }
+  }
+
   const ContactRows& rows_;
-  Changes step_;
-  Changes direction_;
-  double last_ = 0.0;
+  Index drives_at_;
+  Index V_at_;
 };
 
-}  // namespace
+/// Where changes fell by less than this since so many sweeps before, more of them hardly help. Then
+/// this part of what is enough ends them.
+constexpr int kLook = 10;
+constexpr double kFall = 0.5;
+constexpr double kPartOfEnough = 0.2;
 
-void project_in_contact_space(const ContactRows& rows, const ProjectionOptions& options,
-                              Projection& projection) {
-  auto& [V, impulses, residual, iterations] = projection;
-  Extrapolation extrapolation(rows);
-  for (iterations = 0; iterations < options.sweeps;) {
-    // There and back: a stack of n bodies would need n sweeps in one direction.
-    const bool backwards = iterations % 2 == 1;
+/// There and back: a stack of n bodies would need n sweeps in one direction.
+template <class Sweeps>
+void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& projection) {
+  VectorXd state = sweeps.state_of(projection);
+  ConjugateDirection direction(sweeps.weights());
+  double before = std::numeric_limits<double>::infinity();  // Changes at the last look.
+  int& count = projection.iterations;
+  for (count = 0; count < options.sweeps;) {
+    const bool backwards = count % 2 == 1;
     if (!backwards) {
-      extrapolation.begin(projection);
+      direction.begin(state);
     }
-    const double change = std::max(sweep(rows.contacts, backwards, impulses.contacts, V),
-                                   sweep(rows.drives, backwards, impulses.drives, V));
-    ++iterations;
-    if (change <= options.tolerance) {
-      residual = greatest_residual(rows, impulses, V);
-      if (residual <= options.tolerance) {
+    const double change = sweeps.sweep(backwards, state);
+    ++count;
+    double wanted = options.tolerance;
+    if (count % kLook == 0) {
+      if (change > kFall * before) {
+        wanted = std::max(wanted, kPartOfEnough * options.enough);
+      }
+      before = change;
+    }
+    if (change <= wanted) {
+      sweeps.take(state, projection);
+      if (projection.residual <= wanted) {
         return;
       }
     }
-    if (backwards && iterations < options.sweeps) {
-      extrapolation.end(projection);
+    if (backwards && count < options.sweeps) {
+      direction.end(state);
     }
   }
-  residual = greatest_residual(rows, impulses, V);
+  sweeps.take(state, projection);
+}
+
+}  // namespace
+
+void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
+                              const ProjectionOptions& options, Projection& projection) {
+  if (std::optional<ContactBatches> batches = ContactBatches::of(problem, rows)) {
+    project_by(*std::move(batches), options, projection);
+  } else {
+    project_by(RowSweeps(rows), options, projection);
+  }
 }
 
 }  // namespace firstcontact::detail

@@ -24,7 +24,9 @@ class ContactResponse {
 
   /// From the contact's frame to that with the turned tangents.
   [[nodiscard]] const Eigen::Matrix3d& turn() const { return turn_; }
-  [[nodiscard]] const Eigen::Matrix3d& W() const { return W_; }  ///< [1/kg]  Turned.
+  [[nodiscard]] const Eigen::Matrix3d& W() const { return W_; }           ///< [1/kg]  Turned.
+  [[nodiscard]] const Eigen::Vector2d& tangential() const { return a_; }  ///< [1/kg]  A's diagonal.
+  [[nodiscard]] const Eigen::Vector2d& coupling() const { return coupling_; }  ///< [-]  W_tn / W_nn
   /// [1/kg]  Of the diagonal; 0: an impulse moves nothing.
   [[nodiscard]] double greatest() const { return greatest_; }
 

@@ -111,7 +111,10 @@ struct Scaling {
 class InteriorPoint {
  public:
   InteriorPoint(const ContactProblem& problem, const ContactRows& rows)
-      : rows_(rows), coordinates_(problem, rows), matrix_(coordinates_.factorisation()) {
+      : problem_(problem),
+        rows_(rows),
+        coordinates_(problem, rows),
+        matrix_(coordinates_.factorisation()) {
     add_contacts();
   }
 
@@ -124,7 +127,8 @@ class InteriorPoint {
       steps += solve_convex(options);
       Projection swept{.impulses = impulses()};
       swept.velocities = velocities_after(rows_, swept.impulses);
-      project_in_contact_space(rows_, {.tolerance = options.tolerance, .sweeps = kSweeps}, swept);
+      project_in_contact_space(problem_, rows_, {.tolerance = options.tolerance, .sweeps = kSweeps},
+                               swept);
       V = swept.velocities;
       const double residual = swept.residual;
       if (residual < projection.residual) {
@@ -329,6 +333,7 @@ class InteriorPoint {
     return length;
   }
 
+  const ContactProblem& problem_;
   const ContactRows& rows_;
   KineticCoordinates coordinates_;
   BlockCholesky matrix_;

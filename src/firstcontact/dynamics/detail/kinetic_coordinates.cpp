@@ -13,21 +13,10 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-/// A square root S of the inverse inertia, S S^T = M^-1; columns of locked axes are zero.
-Matrix6d square_root(const InverseInertia& inverse) {
-  Matrix6d S = Matrix6d::Zero();
-  S.topLeftCorner<3, 3>() = inverse.mass.cwiseSqrt().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(inverse.rotation);
-  S.bottomRightCorner<3, 3>() =
-      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-  return S;
-}
-
-/// The same of a mechanism: with M^-1 = L L^T, S = L, and columns of zeros up to whole blocks.
+/// S of a mechanism: with M^-1 = L L^T, S = L, and columns of zeros up to whole blocks.
 MatrixXd square_root(const MatrixXd& inverse_mass) {
   const Index n = inverse_mass.rows();
   MatrixXd S = MatrixXd::Zero(n, (n + 5) / 6 * 6);
@@ -36,6 +25,15 @@ MatrixXd square_root(const MatrixXd& inverse_mass) {
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 6, 6> square_root(const InverseInertia& inverse) {
+  Eigen::Matrix<double, 6, 6> S = Eigen::Matrix<double, 6, 6>::Zero();
+  S.topLeftCorner<3, 3>() = inverse.mass.cwiseSqrt().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(inverse.rotation);
+  S.bottomRightCorner<3, 3>() =
+      eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return S;
+}
 
 KineticCoordinates::KineticCoordinates(const ContactProblem& problem, const ContactRows& rows)
     : part_at_(static_cast<std::size_t>(rows.layout.size), kNone) {

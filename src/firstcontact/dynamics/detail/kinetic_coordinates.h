@@ -15,6 +15,9 @@
 
 namespace firstcontact::detail {
 
+/// A square root S of the inverse inertia, S S^T = M^-1; columns of locked axes are zero.
+[[nodiscard]] Eigen::Matrix<double, 6, 6> square_root(const InverseInertia& inverse);
+
 /// x with V = V_free + S x for each body and mechanism, S S^T = M^-1: |V - V_free|_M = |x|, and
 /// bodies that nothing moves fall out.
 class KineticCoordinates {

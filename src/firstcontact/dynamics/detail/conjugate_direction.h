@@ -1,0 +1,43 @@
+/// @file
+/// How pairs of sweeps go on in the direction of those before.
+
+#pragma once
+
+#include <utility>
+
+#include <Eigen/Core>
+
+namespace firstcontact::detail {
+
+/// The direction of nonsmooth conjugate gradients (see project_on_contacts()), after Fletcher and
+/// Reeves: what a pair of sweeps changes takes the place of the gradient.
+class ConjugateDirection {
+ public:
+  /// @param weights  squared lengths are measured with; of each number of the state
+  explicit ConjugateDirection(Eigen::VectorXd weights) : weights_(std::move(weights)) {}
+
+  /// Before a pair of sweeps.
+  void begin(const Eigen::VectorXd& state) { step_ = state; }
+
+  /// After it; moves the state on.
+  void end(Eigen::VectorXd& state) {
+    step_ = state - step_;
+    const double squared = weights_.dot(step_.cwiseAbs2());
+    const double share = squared / last_;
+    last_ = squared;
+    if (!(share <= 1.0) || direction_.size() == 0) {
+      direction_ = step_;  // It grew: start anew.
+      return;
+    }
+    state += share * direction_;
+    direction_ = step_ + share * direction_;
+  }
+
+ private:
+  Eigen::VectorXd weights_;
+  Eigen::VectorXd step_;
+  Eigen::VectorXd direction_;
+  double last_ = 0.0;
+};
+
+}  // namespace firstcontact::detail

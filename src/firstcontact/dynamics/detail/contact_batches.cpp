@@ -1,0 +1,195 @@
+#include <firstcontact/dynamics/detail/contact_batches.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <firstcontact/dynamics/detail/kinetic_coordinates.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t kLanes = ContactBatch::kLanes;
+
+/// Below, rows one by one are as fast.
+constexpr std::size_t kFewContacts = 32;
+constexpr double kLeastFill = 0.375;  // [-]  Of the lanes.
+
+constexpr std::size_t kImpulsesOfBatch = 3 * kLanes;
+constexpr std::size_t kNumbersOfBody = 8;  // In x.
+
+/// Gives out the lanes of batches, each from a batch on; skips many full ones at once.
+class FreeLanes {
+ public:
+  /// @returns the lane, counted through all batches
+  std::size_t take_from(std::size_t batch) {
+    const std::size_t found = first_with_room(batch);
+    while (used_.size() <= found) {
+      next_.push_back(used_.size());
+      used_.push_back(0);
+    }
+    const std::size_t lane = used_[found]++;
+    if (used_[found] == kLanes) {
+      next_[found] = found + 1;
+    }
+    return found * kLanes + lane;
+  }
+  [[nodiscard]] std::size_t batches() const { return used_.size(); }
+
+ private:
+  std::size_t first_with_room(std::size_t batch) {
+    std::size_t found = batch;
+    while (found < next_.size() && next_[found] != found) {
+      found = next_[found];
+    }
+    while (batch < found && batch < next_.size()) {
+      batch = std::exchange(next_[batch], found);
+    }
+    return found;
+  }
+
+  std::vector<std::size_t> next_;  // Of each batch: itself, or a later one where it is full.
+  std::vector<std::size_t> used_;
+};
+
+bool moves(const ContactBody& body) {
+  return body.inverse_inertia.mass.any() || body.inverse_inertia.rotation.any();
+}
+
+/// Where in the state the first impulse of a lane is; the others follow by kLanes each.
+Index place_of(std::size_t lane) {
+  return static_cast<Index>(lane / kLanes * kImpulsesOfBatch + lane % kLanes);
+}
+
+}  // namespace
+
+std::optional<ContactBatches> ContactBatches::of(const ContactProblem& problem,
+                                                 const ContactRows& rows) {
+  ContactBatches made(rows);
+  if (problem.contacts.size() < kFewContacts || !problem.mechanisms.empty() ||
+      !made.assign_lanes(problem)) {
+    return std::nullopt;
+  }
+  made.fill(problem);
+  return made;
+}
+
+/// Whether that leaves few lanes empty.
+bool ContactBatches::assign_lanes(const ContactProblem& problem) {
+  bodies_ = problem.bodies.size();
+  std::vector<std::size_t> first_batch(bodies_, 0);  // After the last one of the body.
+  FreeLanes lanes;
+  for (const ContactPoint& contact : problem.contacts) {
+    const auto [a, b] = contact.bodies;
+    const std::size_t lane = lanes.take_from(std::max(first_batch[a], first_batch[b]));
+    for (const std::size_t body : contact.bodies) {
+      first_batch[body] = moves(problem.bodies[body]) ? lane / kLanes + 1 : 0;
+    }
+    lane_of_.push_back(lane);
+  }
+  batches_.resize(lanes.batches());
+  sliding_.assign(batches_.size() * kLanes, 0.0);
+  return static_cast<double>(lane_of_.size()) >=
+         kLeastFill * static_cast<double>(batches_.size() * kLanes);
+}
+
+void ContactBatches::fill(const ContactProblem& problem) {
+  std::vector<Matrix6d> roots;
+  for (const ContactBody& body : problem.bodies) {
+    roots.push_back(moves(body) ? square_root(body.inverse_inertia) : Matrix6d::Zero());
+  }
+  for (ContactBatch& batch : batches_) {  // Lanes without contact.
+    batch.normal.fill(1.0);
+    batch.inverse_normal.fill(1.0);
+    batch.tangential = {batch.normal, batch.normal};
+    batch.at[0].fill(static_cast<std::int64_t>(kNumbersOfBody * bodies_));
+    batch.at[1] = batch.at[0];
+  }
+  for (std::size_t k = 0; k < lane_of_.size(); ++k) {
+    const ContactRow& row = rows_->contacts[k];
+    if (!(row.greatest() > 0.0)) {
+      continue;  // No impulse would change anything.
+    }
+    ContactBatch& batch = batches_[lane_of_[k] / kLanes];
+    const std::size_t lane = lane_of_[k] % kLanes;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t body = problem.contacts[k].bodies[side];
+      const RowSide::Jacobian J = row.sides[side].J * roots[body];
+      for (int i = 0; i < 3; ++i) {
+        for (int c = 0; c < 6; ++c) {
+          batch.J[side][i][c][lane] = J(i, c);
+        }
+      }
+      batch.at[side][lane] = static_cast<std::int64_t>(kNumbersOfBody * body);
+    }
+    const Vector3d free = row.excess_velocity(rows_->free_velocities);
+    for (int i = 0; i < 3; ++i) {
+      batch.free[i][lane] = free[i];
+    }
+    batch.normal[lane] = row.own.W()(0, 0);
+    batch.inverse_normal[lane] = 1.0 / row.own.W()(0, 0);
+    for (int i = 0; i < 2; ++i) {
+      batch.coupling[i][lane] = row.own.coupling()[i];
+      batch.tangential[i][lane] = row.own.tangential()[i];
+    }
+    batch.friction[lane] = row.friction;
+    batch.greatest[lane] = row.greatest();
+  }
+}
+
+Index ContactBatches::state_size() const {
+  return impulse_count() + static_cast<Index>(kNumbersOfBody * (bodies_ + 1));
+}
+
+VectorXd ContactBatches::weights() const {
+  VectorXd weights = VectorXd::Zero(state_size());
+  Index at = 0;
+  for (const ContactBatch& batch : batches_) {
+    for (int i = 0; i < 3; ++i) {
+      std::ranges::copy(batch.greatest, weights.data() + at);
+      at += kLanes;
+    }
+  }
+  return weights;
+}
+
+VectorXd ContactBatches::state_of(const Projection& projection) const {
+  VectorXd state = VectorXd::Zero(state_size());
+  double* const x = state.data() + impulse_count();
+  for (std::size_t k = 0; k < lane_of_.size(); ++k) {
+    const ContactBatch& batch = batches_[lane_of_[k] / kLanes];
+    const std::size_t lane = lane_of_[k] % kLanes;
+    for (int i = 0; i < 3; ++i) {
+      const double impulse = projection.impulses.contacts[k][i];
+      state[place_of(lane_of_[k]) + static_cast<Index>(kLanes) * i] = impulse;
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (int c = 0; c < 6; ++c) {
+          x[batch.at[side][lane] + c] += batch.J[side][i][c][lane] * impulse;
+        }
+      }
+    }
+  }
+  return state;
+}
+
+void ContactBatches::take(const VectorXd& state, Projection& projection) const {
+  for (std::size_t k = 0; k < lane_of_.size(); ++k) {
+    for (int i = 0; i < 3; ++i) {
+      projection.impulses.contacts[k][i] =
+          state[place_of(lane_of_[k]) + static_cast<Index>(kLanes) * i];
+    }
+  }
+  projection.velocities = velocities_after(*rows_, projection.impulses);
+  projection.residual = greatest_residual(*rows_, projection.impulses, projection.velocities);
+}
+
+double ContactBatches::sweep(bool backwards, VectorXd& state) {
+  return sweep_batches(batches_, backwards, state.data(), sliding_.data(),
+                       state.data() + impulse_count());
+}
+
+}  // namespace firstcontact::detail

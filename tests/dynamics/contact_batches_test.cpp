@@ -1,0 +1,151 @@
+// Contacts eight at a time against one by one, on each instruction set.
+
+#include <algorithm>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/dynamics/detail/contact_batches.h>
+#include <firstcontact/dynamics/detail/contact_rows.h>
+
+#include <dynamics/wall_problem.h>
+#include <query/instruction_sets.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using test::nothing;
+using test::wall;
+
+/// A wall of which one brick moves along one axis only, one is driven by a script, and one touches
+/// what nothing moves.
+ContactProblem odd_wall(std::mt19937& rng, double friction, double speed = 0.3) {
+  ContactProblem problem = wall(rng, 8, 12, friction, speed);
+  problem.bodies[40].inverse_inertia.rotation.setZero();
+  problem.bodies[40].inverse_inertia.mass.head<2>().setZero();
+  problem.bodies[50].inverse_inertia = {};
+  ContactPoint stuck = problem.contacts[0];
+  stuck.bodies = {0, 50};
+  problem.contacts.push_back(stuck);
+  return problem;
+}
+
+class ContactBatchesOn : public test::OnInstructionSet {
+ protected:
+  /// There and back, one by one: the order tells.
+  static void sweep_rows(const ContactRows& rows, Projection& projection) {
+    const std::size_t n = rows.contacts.size();
+    for (std::size_t i = 0; i < 2 * n; ++i) {
+      const std::size_t k = i < n ? i : 2 * n - 1 - i;
+      solve_alone(rows.contacts[k], projection.impulses.contacts[k], projection.velocities);
+    }
+  }
+};
+
+// To the last digits without friction. What slides is found by a few Newton steps in each sweep.
+TEST_P(ContactBatchesOn, SweepAsRowsDoInTheirOrder) {
+  std::mt19937 rng(1);
+  for (const double friction : {0.0, 3.0}) {
+    const ContactProblem problem = odd_wall(rng, friction, friction > 0.0 ? 1e-3 : 0.3);
+    const ContactRows rows(problem);
+    Projection one_by_one = nothing(problem, rows);
+    Projection at_once = one_by_one;
+    std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+    ASSERT_TRUE(batches);
+    VectorXd state = batches->state_of(at_once);
+    for (int k = 0; k < 3; ++k) {
+      sweep_rows(rows, one_by_one);
+      batches->sweep(false, state);
+      batches->sweep(true, state);
+    }
+    batches->take(state, at_once);
+    EXPECT_TRUE(at_once.velocities.allFinite());
+    EXPECT_LE((at_once.velocities - one_by_one.velocities).lpNorm<Eigen::Infinity>(),
+              friction > 0.0 ? 1e-6 : 1e-12);
+    EXPECT_EQ(at_once.residual, greatest_residual(rows, at_once.impulses, at_once.velocities));
+  }
+}
+
+TEST_P(ContactBatchesOn, GoOnFromImpulsesThatActAlready) {
+  std::mt19937 rng(2);
+  const ContactProblem problem = odd_wall(rng, 0.4);
+  const ContactRows rows(problem);
+  Projection projection = nothing(problem, rows);
+  sweep_rows(rows, projection);
+  std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+  ASSERT_TRUE(batches);
+  Projection taken = projection;
+  batches->take(batches->state_of(projection), taken);
+  EXPECT_LE((taken.velocities - projection.velocities).lpNorm<Eigen::Infinity>(), 1e-12);
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    ASSERT_EQ(taken.impulses.contacts[k], projection.impulses.contacts[k]);
+  }
+}
+
+TEST_P(ContactBatchesOn, SlideOnTheConeAndConverge) {
+  std::mt19937 rng(3);
+  for (const double friction : {0.05, 0.3, 0.8}) {
+    const ContactProblem problem = odd_wall(rng, friction);
+    const ContactRows rows(problem);
+    std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+    ASSERT_TRUE(batches);
+    Projection at_once = nothing(problem, rows);
+    VectorXd state = batches->state_of(at_once);
+    Projection one_by_one = at_once;
+    for (int k = 0; k < 200; ++k) {
+      batches->sweep(false, state);
+      batches->sweep(true, state);
+      sweep_rows(rows, one_by_one);
+    }
+    batches->take(state, at_once);
+    int sliding = 0;
+    for (const Vector3d& r : at_once.impulses.contacts) {
+      ASSERT_LE(r.tail<2>().norm(), friction * r[0] * (1.0 + 1e-12));
+      sliding += r[0] > 0.0 && r.tail<2>().norm() >= friction * r[0] * (1.0 - 1e-12) ? 1 : 0;
+    }
+    EXPECT_GE(sliding, 10) << friction;
+    const double others = greatest_residual(rows, one_by_one.impulses, one_by_one.velocities);
+    EXPECT_LE(at_once.residual, 2.0 * others + 1e-10) << friction;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ContactBatchesOn, testing::ValuesIn(test::instruction_sets()),
+                         test::instruction_set_name);
+
+TEST(ContactBatches, AreNotForFewBodiesWithManyContacts) {
+  std::mt19937 rng(4);
+  ContactProblem problem = wall(rng, 1, 1, 0.5);
+  const ContactPoint contact = problem.contacts[0];
+  problem.contacts.resize(1000, contact);
+  EXPECT_FALSE(ContactBatches::of(problem, ContactRows(problem)));
+  problem = wall(rng, 1, 5, 0.5);
+  ASSERT_LE(problem.contacts.size(), 20);
+  EXPECT_FALSE(ContactBatches::of(problem, ContactRows(problem)));
+}
+
+// Impulses of the step before, of which one is far off: it alone leaves more than no impulses at
+// all would.
+TEST(ProjectOnContacts, OneWrongGuessSpoilsNoOthers) {
+  std::mt19937 rng(5);
+  ContactProblem problem = wall(rng, 12, 12, 0.5, 0.0);
+  constexpr ProjectionOptions kGood{
+      .tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 20000};
+  const ContactSolution solved = project_on_contacts(problem, kGood);
+  ASSERT_LE(solved.residual, kGood.tolerance);
+  constexpr ProjectionOptions kFew{
+      .tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 30};
+  const double from_nothing = project_on_contacts(problem, kFew).residual;
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    problem.contacts[k].guess = solved.impulses[k];
+  }
+  problem.contacts[0].guess *= -0.5;
+  problem.contacts[1].guess *= 3.0;
+  EXPECT_LE(project_on_contacts(problem, kFew).residual, 0.1 * from_nothing);
+}
+
+}  // namespace
+}  // namespace firstcontact::detail
