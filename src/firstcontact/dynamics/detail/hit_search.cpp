@@ -102,7 +102,7 @@ const SweptHull& HitSearch::hull_of(std::size_t body, const Move& move) {
       .first->second;
 }
 
-/// A face that touches goes with its body; of edges, either will do.
+/// A face that touches goes with its body; of edges, often one of both will do.
 bool HitSearch::hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>& moves,
                                  double distance) {
   const SweptHull& A = hull_of(pair[0], moves[0]);
@@ -115,7 +115,9 @@ bool HitSearch::hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>
     n = touch.normal;
     sees_B = touch.feature_B.type == FeatureType::face;
   }
-  return sees_B ? stays_apart(B, A, distance, -n) : stays_apart(A, B, distance, n);
+  const auto seen_from_A = [&] { return stays_apart(A, B, distance, n); };
+  const auto seen_from_B = [&] { return stays_apart(B, A, distance, -n); };
+  return sees_B ? seen_from_B() || seen_from_A() : seen_from_A() || seen_from_B();
 }
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not
