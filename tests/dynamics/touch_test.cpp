@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include <firstcontact/dynamics/detail/place_grid.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -54,6 +57,65 @@ TEST(CarryImpulses, AddUpWhereTwoBecomeOne) {
 TEST(CarryImpulses, EndWithTheirTouch) {
   EXPECT_EQ(carried({touch({1, 2}, 7, 0.0, 3.0)}, {touch({1, 2}, 1, 0.02)}), (std::vector{0.0}));
   EXPECT_TRUE(carried({touch({1, 2}, 7, 0.0, 3.0)}, {}).empty());
+}
+
+// Of many touches they are found by features and by place, as in a list looked through in order.
+TEST(CarryImpulses, GoToTheSameOfManyAsInAList) {
+  std::mt19937 rng(1);
+  std::uniform_real_distribution<double> uniform;
+  const auto some = [&](std::uint32_t features, double impulse) {
+    Touch one = touch({1, 2}, static_cast<std::uint32_t>(rng()) % features, 0.0, impulse);
+    one.point = {0.1 * uniform(rng), 0.1 * uniform(rng), 0.1 * uniform(rng)};
+    return one;
+  };
+  std::vector<Touch> before;
+  std::vector<Touch> now;
+  for (int k = 0; k < 500; ++k) {
+    before.push_back(some(1000, 1.0 + k));
+    now.push_back(some(1000, 0.0));
+  }
+  std::ranges::sort(before, comes_before);
+  std::vector<double> expected(now.size(), 0.0);
+  int by_place = 0;
+  int lost = 0;
+  for (const Touch& old : before) {
+    auto next = std::ranges::find_if(now, [&](const Touch& t) { return same_features(t, old); });
+    if (next == now.end()) {
+      next = std::ranges::min_element(now, {},
+                                      [&](const Touch& t) { return (t.point - old.point).norm(); });
+      const bool is_close = (next->point - old.point).norm() <= 0.01 * kSize;
+      ++(is_close ? by_place : lost);
+      if (!is_close) {
+        continue;
+      }
+    }
+    expected[static_cast<std::size_t>(next - now.begin())] += old.impulse.z();
+  }
+  ASSERT_GE(by_place, 20);
+  ASSERT_GE(lost, 20);
+  EXPECT_EQ(carried(before, now), expected);
+}
+
+TEST(PlaceGrid, FindsAllThatAreNear) {
+  std::mt19937 rng(2);
+  for (const double far : {0.0, 1e6}) {
+    for (const std::size_t count : {10U, 300U}) {
+      std::uniform_real_distribution<double> uniform(far - 1.0, far + 1.0);
+      PlaceGrid grid(0.2);
+      std::vector<Vector3d> places;
+      for (std::size_t k = 0; k < count; ++k) {
+        places.emplace_back(uniform(rng), uniform(rng), uniform(rng));
+        grid.add(places.back(), k);
+      }
+      for (const Vector3d& place : places) {
+        std::vector<bool> found(count, false);
+        grid.for_each_near(place, [&](std::size_t k) { found[k] = true; });
+        for (std::size_t k = 0; k < count; ++k) {
+          ASSERT_TRUE(found[k] || (places[k] - place).norm() > 0.2);
+        }
+      }
+    }
+  }
 }
 
 TEST(CarryImpulses, StayWithTheirPair) {

@@ -91,10 +91,13 @@ bool ContactBatches::assign_lanes(const ContactProblem& problem) {
     }
     lane_of_.push_back(lane);
   }
+  const std::size_t all = lanes.batches() * kLanes;
+  if (static_cast<double>(lane_of_.size()) < kLeastFill * static_cast<double>(all)) {
+    return false;
+  }
   batches_.resize(lanes.batches());
-  sliding_.assign(batches_.size() * kLanes, 0.0);
-  return static_cast<double>(lane_of_.size()) >=
-         kLeastFill * static_cast<double>(batches_.size() * kLanes);
+  sliding_.assign(all, 0.0);
+  return true;
 }
 
 void ContactBatches::fill(const ContactProblem& problem) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <tuple>
+#include <utility>
 
+#include <firstcontact/dynamics/detail/place_grid.h>
 #include <firstcontact/query/close_features.h>
 
 namespace firstcontact::detail {
@@ -18,17 +20,52 @@ constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
 /// A touch is taken for what touched before where it is nearer than this part of the smaller body.
 constexpr double kCloseBy = 0.01;
 
-/// Null where there is none.
-Touch* successor(const Touch& before, double close_by, std::vector<Touch>& touches) {
-  const auto same =
-      std::ranges::find_if(touches, [&](const Touch& t) { return same_features(t, before); });
-  if (same != touches.end()) {
-    return &*same;
-  }
-  const auto distance = [&](const Touch& t) { return (t.point - before.point).norm(); };
-  const auto nearest = std::ranges::min_element(touches, {}, distance);
-  return nearest != touches.end() && distance(*nearest) <= close_by ? &*nearest : nullptr;
+auto features_of(const Touch& touch) {
+  return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
+                    touch.feature_B.index);
 }
+
+/// Finds what touches in place of what touched before, among the touches of a pair.
+class Successors {
+ public:
+  /// @param close_by  [m]  how far it may be where it has other features
+  Successors(double close_by, std::vector<Touch>& touches)
+      : touches_(touches), close_by_(close_by), by_place_(close_by) {
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      by_features_.push_back(k);
+      by_place_.add(touches[k].point, k);
+    }
+    std::ranges::stable_sort(by_features_, {},
+                             [&](std::size_t k) { return features_of(touches[k]); });
+  }
+
+  /// Null where there is none.
+  Touch* of(const Touch& before) {
+    const auto same =
+        std::ranges::lower_bound(by_features_, features_of(before), {},
+                                 [&](std::size_t k) { return features_of(touches_[k]); });
+    if (same != by_features_.end() && same_features(touches_[*same], before)) {
+      return &touches_[*same];
+    }
+    Touch* nearest = nullptr;
+    double least = close_by_;
+    by_place_.for_each_near(before.point, [&](std::size_t k) {
+      const double distance = (touches_[k].point - before.point).norm();
+      if (distance < least ||
+          (distance == least && (nearest == nullptr || &touches_[k] < nearest))) {
+        least = distance;
+        nearest = &touches_[k];
+      }
+    });
+    return nearest;
+  }
+
+ private:
+  std::vector<Touch>& touches_;
+  double close_by_;
+  std::vector<std::size_t> by_features_;
+  PlaceGrid by_place_;
+};
 
 /// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
 /// over it the gap is least at the ends of the other edge, or where that leaves the face.
@@ -59,16 +96,24 @@ Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) 
 /// them the nearest.
 void keep_once(double size, std::vector<Touch>& touches) {
   std::vector<Touch> kept;
+  PlaceGrid by_place(kSamePlace * size);
   for (const Touch& touch : touches) {
-    const auto same = std::ranges::find_if(kept, [&](const Touch& other) {
-      return (touch.point - other.point).norm() <= kSamePlace * size &&
-             touch.normal.dot(other.normal) >= kSameNormal;
+    std::size_t same = kept.size();
+    by_place.for_each_near(touch.point, [&](std::size_t k) {
+      if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
+          touch.normal.dot(kept[k].normal) >= kSameNormal) {
+        same = std::min(same, k);
+      }
     });
-    if (same == kept.end()) {
-      kept.push_back(touch);
-    } else if (touch.gap < same->gap) {
-      *same = touch;
+    if (same < kept.size() && !(touch.gap < kept[same].gap)) {
+      continue;
     }
+    if (same == kept.size()) {
+      kept.push_back(touch);
+    } else {
+      kept[same] = touch;
+    }
+    by_place.add(touch.point, same);
   }
   touches = std::move(kept);
 }
@@ -115,19 +160,18 @@ Manifold find_manifold(const World& world, const BodyPair& bodies, const std::ar
 }
 
 bool comes_before(const Touch& x, const Touch& y) {
-  const auto key = [](const Touch& touch) {
-    return std::tuple(touch.bodies, touch.feature_A.type, touch.feature_A.index,
-                      touch.feature_B.type, touch.feature_B.index);
-  };
-  return key(x) < key(y);
+  return std::pair(x.bodies, features_of(x)) < std::pair(y.bodies, features_of(y));
 }
 
 void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold) {
-  const double close_by = kCloseBy * size;
   const auto bodies_of = [](const Touch& touch) { return touch.bodies; };
   auto touch = std::ranges::lower_bound(before, manifold.bodies, {}, bodies_of);
+  if (touch == before.end() || touch->bodies != manifold.bodies) {
+    return;
+  }
+  Successors successors(kCloseBy * size, manifold.touches);
   for (; touch != before.end() && touch->bodies == manifold.bodies; ++touch) {
-    if (Touch* next = successor(*touch, close_by, manifold.touches)) {
+    if (Touch* next = successors.of(*touch)) {
       next->impulse += touch->impulse;
     }
   }

@@ -1,0 +1,97 @@
+/// @file
+/// Places by where they are.
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace firstcontact::detail {
+
+/// Finds those of many places that are near one.
+class PlaceGrid {
+ public:
+  /// @param reach  [m]  near means no farther than this; > 0
+  explicit PlaceGrid(double reach) : reach_(reach) {}
+
+  /// @param key  of the caller
+  void add(const Eigen::Vector3d& place, std::size_t key) {
+    places_.push_back({place, key});
+    if (places_.size() > kFew) {
+      for (; sorted_ < places_.size(); ++sorted_) {
+        cells_[cell_of(places_[sorted_].place)].push_back(places_[sorted_].key);
+      }
+    }
+  }
+
+  /// Calls use(key) for all that are near, and some others.
+  template <class Use>
+  void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
+    if (places_.size() <= kFew) {
+      for (const Place& other : places_) {
+        use(other.key);
+      }
+      return;
+    }
+    const Cell middle = cell_of(place);
+    for (std::int64_t x = -1; x <= 1; ++x) {
+      for (std::int64_t y = -1; y <= 1; ++y) {
+        for (std::int64_t z = -1; z <= 1; ++z) {
+          const auto found = cells_.find({middle[0] + x, middle[1] + y, middle[2] + z});
+          if (found != cells_.end()) {
+            for (const std::size_t key : found->second) {
+              use(key);
+            }
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  /// As many are looked through as they are.
+  static constexpr std::size_t kFew = 24;
+
+  struct Place {
+    Eigen::Vector3d place;
+    std::size_t key;
+  };
+  using Cell = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      std::uint64_t hash = 0;
+      for (const std::int64_t place : cell) {
+        hash = (hash ^ static_cast<std::uint64_t>(place)) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
+  /// A little wider than the reach, for rounding. Places so far out that cells cannot be counted
+  /// share the last one.
+  [[nodiscard]] Cell cell_of(const Eigen::Vector3d& place) const {
+    constexpr double kWider = 1.0 + 0x1p-10;
+    constexpr double kLast = 0x1p52;
+    Cell cell{};
+    for (int i = 0; i < 3; ++i) {
+      const double counted = std::floor(place[i] / (kWider * reach_));
+      cell[static_cast<std::size_t>(i)] =
+          static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kLast), kLast));
+    }
+    return cell;
+  }
+
+  double reach_;
+  std::vector<Place> places_;
+  std::size_t sorted_ = 0;  // Places that are in cells.
+  std::unordered_map<Cell, std::vector<std::size_t>, Hash> cells_;
+};
+
+}  // namespace firstcontact::detail
