@@ -101,10 +101,11 @@ class RowSweeps {
 };
 
 /// Where changes fell by less than this since so many sweeps before, more of them hardly help. Then
-/// this part of what is enough ends them.
+/// this part of what is enough ends them, but near the tolerance: there things come to rest.
 constexpr int kLook = 10;
 constexpr double kFall = 0.5;
 constexpr double kPartOfEnough = 0.2;
+constexpr double kNearTolerance = 10.0;
 
 /// There and back: a stack of n bodies would need n sweeps in one direction.
 template <class Sweeps>
@@ -122,7 +123,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
     ++count;
     double wanted = options.tolerance;
     if (count % kLook == 0) {
-      if (change > kFall * before) {
+      if (change > kFall * before && change > kNearTolerance * options.tolerance) {
         wanted = std::max(wanted, kPartOfEnough * options.enough);
       }
       before = change;
