@@ -38,11 +38,11 @@ struct RowSide {
   Eigen::MatrixX3d response_q = {};
 
   [[nodiscard]] bool is_link() const { return J_q.cols() > 0; }
-  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::Ref<const Eigen::VectorXd>& V) const {
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
     return is_link() ? Eigen::Vector3d(J_q * V.segment(at, J_q.cols()))
                      : Eigen::Vector3d(J * V.segment<6>(at));
   }
-  void apply(const Eigen::Vector3d& impulse, Eigen::Ref<Eigen::VectorXd> V) const {
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
     if (is_link()) {
       V.segment(at, J_q.cols()) += response_q * impulse;
     } else {
@@ -59,15 +59,15 @@ struct ContactRow {
   double least;  // [m/s]  Normal velocity.
 
   [[nodiscard]] double greatest() const { return own.greatest(); }
-  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::Ref<const Eigen::VectorXd>& V) const {
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
     return sides[0].velocity(V) + sides[1].velocity(V);
   }
-  void apply(const Eigen::Vector3d& impulse, Eigen::Ref<Eigen::VectorXd> V) const {
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
     sides[0].apply(impulse, V);
     sides[1].apply(impulse, V);
   }
   /// u - least n
-  [[nodiscard]] Eigen::Vector3d excess_velocity(const Eigen::Ref<const Eigen::VectorXd>& V) const {
+  [[nodiscard]] Eigen::Vector3d excess_velocity(const Eigen::VectorXd& V) const {
     Eigen::Vector3d u = velocity(V);
     u[0] -= least;
     return u;
@@ -75,8 +75,7 @@ struct ContactRow {
 };
 
 /// Solves one contact with all others held. Returns how much its velocity changes [m/s].
-inline double solve_alone(const ContactRow& row, Eigen::Ref<Eigen::Vector3d> impulse,
-                          Eigen::Ref<Eigen::VectorXd> V) {
+inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen::VectorXd& V) {
   if (!(row.greatest() > 0.0)) {
     return 0.0;
   }
@@ -104,11 +103,10 @@ struct DriveRow {
   double greatest;
 
   /// u + compliance r - target
-  [[nodiscard]] double excess_velocity(double impulse,
-                                       const Eigen::Ref<const Eigen::VectorXd>& V) const {
+  [[nodiscard]] double excess_velocity(double impulse, const Eigen::VectorXd& V) const {
     return V[place] + compliance * impulse - target;
   }
-  void apply(double impulse, Eigen::Ref<Eigen::VectorXd> V) const {
+  void apply(double impulse, Eigen::VectorXd& V) const {
     V.segment(at, column.size()) += impulse * column;
   }
 };

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-double solve_alone(const DriveRow& row, double& impulse, Eigen::Ref<VectorXd> V) {
+double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
   const double solved =
       std::clamp(impulse - row.excess_velocity(impulse, V) / row.own, row.least, row.greatest);
   const double change = solved - impulse;
@@ -59,17 +59,19 @@ class RowSweeps {
 
   /// @returns [m/s]  the greatest change of a velocity
   double sweep(bool backwards, VectorXd& state) const {
-    Eigen::Ref<VectorXd> V = state.tail(rows_.layout.size);
+    VectorXd V = state.tail(rows_.layout.size);
     double change = 0.0;
     in_order(rows_.contacts.size(), backwards, [&](Index k) {
-      Eigen::Map<Vector3d> impulse(state.data() + 3 * k);
-      change =
-          std::max(change, solve_alone(rows_.contacts[static_cast<std::size_t>(k)], impulse, V));
+      Vector3d impulse = state.segment<3>(3 * k);
+      const ContactRow& row = rows_.contacts[static_cast<std::size_t>(k)];
+      change = std::max(change, solve_alone(row, impulse, V));
+      state.segment<3>(3 * k) = impulse;
     });
     in_order(rows_.drives.size(), backwards, [&](Index k) {
-      double& impulse = state[drives_at_ + k];
-      change = std::max(change, solve_alone(rows_.drives[static_cast<std::size_t>(k)], impulse, V));
+      const DriveRow& row = rows_.drives[static_cast<std::size_t>(k)];
+      change = std::max(change, solve_alone(row, state[drives_at_ + k], V));
     });
+    state.tail(rows_.layout.size) = V;
     return change;
   }
 
