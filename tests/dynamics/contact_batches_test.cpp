@@ -1,6 +1,5 @@
 // Contacts eight at a time against one by one, on each instruction set.
 
-#include <algorithm>
 #include <optional>
 #include <random>
 
@@ -72,18 +71,21 @@ TEST_P(ContactBatchesOn, SweepAsRowsDoInTheirOrder) {
 
 TEST_P(ContactBatchesOn, GoOnFromImpulsesThatActAlready) {
   std::mt19937 rng(2);
-  const ContactProblem problem = odd_wall(rng, 0.4);
+  const ContactProblem problem = odd_wall(rng, 0.0);
   const ContactRows rows(problem);
-  Projection projection = nothing(problem, rows);
-  sweep_rows(rows, projection);
+  Projection one_by_one = nothing(problem, rows);
+  sweep_rows(rows, one_by_one);
   std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
   ASSERT_TRUE(batches);
-  Projection taken = projection;
-  batches->take(batches->state_of(projection), taken);
-  EXPECT_LE((taken.velocities - projection.velocities).lpNorm<Eigen::Infinity>(), 1e-12);
-  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-    ASSERT_EQ(taken.impulses.contacts[k], projection.impulses.contacts[k]);
-  }
+  Projection at_once = one_by_one;
+  VectorXd state = batches->state_of(at_once);
+  batches->take(state, at_once);
+  ASSERT_EQ(at_once.impulses.contacts, one_by_one.impulses.contacts);
+  sweep_rows(rows, one_by_one);
+  batches->sweep(false, state);
+  batches->sweep(true, state);
+  batches->take(state, at_once);
+  EXPECT_LE((at_once.velocities - one_by_one.velocities).lpNorm<Eigen::Infinity>(), 1e-12);
 }
 
 TEST_P(ContactBatchesOn, SlideOnTheConeAndConverge) {
@@ -125,26 +127,6 @@ TEST(ContactBatches, AreNotForFewBodiesWithManyContacts) {
   problem = wall(rng, 1, 5, 0.5);
   ASSERT_LE(problem.contacts.size(), 20);
   EXPECT_FALSE(ContactBatches::of(problem, ContactRows(problem)));
-}
-
-// Impulses of the step before, of which one is far off: it alone leaves more than no impulses at
-// all would.
-TEST(ProjectOnContacts, OneWrongGuessSpoilsNoOthers) {
-  std::mt19937 rng(5);
-  ContactProblem problem = wall(rng, 12, 12, 0.5, 0.0);
-  constexpr ProjectionOptions kGood{
-      .tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 20000};
-  const ContactSolution solved = project_on_contacts(problem, kGood);
-  ASSERT_LE(solved.residual, kGood.tolerance);
-  constexpr ProjectionOptions kFew{
-      .tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 30};
-  const double from_nothing = project_on_contacts(problem, kFew).residual;
-  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
-    problem.contacts[k].guess = solved.impulses[k];
-  }
-  problem.contacts[0].guess *= -0.5;
-  problem.contacts[1].guess *= 3.0;
-  EXPECT_LE(project_on_contacts(problem, kFew).residual, 0.1 * from_nothing);
 }
 
 }  // namespace

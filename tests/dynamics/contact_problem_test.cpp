@@ -10,6 +10,8 @@
 
 #include <firstcontact/dynamics/contact_problem.h>
 
+#include <dynamics/wall_problem.h>
+
 namespace firstcontact {
 namespace {
 
@@ -246,6 +248,43 @@ TEST(ProjectOnContacts, StartsFromAGoodGuess) {
     problem.contacts[k].guess = first.impulses[k];
   }
   EXPECT_LE(project_on_contacts(problem, {.tolerance = 2.0 * kTolerance}).iterations, 1);
+}
+
+// Of the impulses of the step before two are far off: they leave more than no impulses at all
+// would.
+TEST(ProjectOnContacts, WrongGuessesSpoilNoOthers) {
+  std::mt19937 rng(5);
+  ContactProblem problem = test::wall(rng, 12, 12, 0.5, 0.0);
+  const ContactSolution solved = project_on_contacts(
+      problem, {.tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 20000});
+  ASSERT_LE(solved.residual, 1e-7);
+  constexpr ProjectionOptions kFew{
+      .tolerance = 1e-7, .space = ProjectionSpace::contact, .sweeps = 30};
+  const double from_nothing = project_on_contacts(problem, kFew).residual;
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    problem.contacts[k].guess = solved.impulses[k];
+  }
+  problem.contacts[0].guess.setZero();
+  problem.contacts[1].guess *= 3.0;
+  const detail::ContactRows rows(problem);
+  detail::Impulses guesses;
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    guesses.contacts.emplace_back(rows.contacts[k].own.turn() * problem.contacts[k].guess);
+  }
+  ASSERT_GT(detail::greatest_residual(rows, guesses, detail::velocities_after(rows, guesses)),
+            test::nothing(problem, rows).residual);
+  EXPECT_LE(project_on_contacts(problem, kFew).residual, 0.1 * from_nothing);
+}
+
+// A guess that the objective prefers to nothing, where nothing is the solution.
+TEST(ProjectOnContacts, LeavesAloneWhatOpens) {
+  ContactProblem problem;
+  problem.bodies = {{}, cube(1.0, {1.0, 0.0, 0.001})};
+  problem.contacts = {on_ground(0.0, 0.0, 0.5)};
+  problem.contacts[0].guess = {0.01, -0.005, 0.0};
+  const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
+  EXPECT_EQ(solution.iterations, 0);
+  EXPECT_EQ(solution.bodies[1].v, Vector3d(1.0, 0.0, 0.001));
 }
 
 TEST(ProjectOnContacts, KeepsLockedAxes) {

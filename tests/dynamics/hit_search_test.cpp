@@ -18,7 +18,6 @@
 namespace firstcontact::detail {
 namespace {
 
-using Eigen::Vector3d;
 using test::random_rotation;
 using test::random_vector;
 
@@ -36,7 +35,7 @@ LoadedScene boxes_beside_a_plate(ShapeCache& cache) {
   return load_scene(parse_scene(scene + "]}", "test.json"), cache);
 }
 
-/// An island of all boxes, at random places.
+/// An island of all boxes on a lattice, turned at random.
 class Island {
  public:
   explicit Island(std::mt19937& rng)
@@ -103,6 +102,8 @@ void expect_same(const std::vector<Hit>& found, const std::vector<Hit>& expected
     for (std::size_t i = 0; i < found[k].ahead.size(); ++i) {
       EXPECT_EQ(found[k].ahead[i].least, expected[k].ahead[i].least);
       EXPECT_EQ(found[k].ahead[i].touch.point, expected[k].ahead[i].touch.point);
+      EXPECT_EQ(found[k].ahead[i].touch.normal, expected[k].ahead[i].touch.normal);
+      EXPECT_EQ(found[k].ahead[i].contact.arm_A, expected[k].ahead[i].contact.arm_A);
     }
   }
 }

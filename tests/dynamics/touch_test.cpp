@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/place_grid.h>
-
 namespace firstcontact::detail {
 namespace {
 
@@ -94,28 +92,6 @@ TEST(CarryImpulses, GoToTheSameOfManyAsInAList) {
   ASSERT_GE(by_place, 20);
   ASSERT_GE(lost, 20);
   EXPECT_EQ(carried(before, now), expected);
-}
-
-TEST(PlaceGrid, FindsAllThatAreNear) {
-  std::mt19937 rng(2);
-  for (const double far : {0.0, 1e6}) {
-    for (const std::size_t count : {10U, 300U}) {
-      std::uniform_real_distribution<double> uniform(far - 1.0, far + 1.0);
-      PlaceGrid grid(0.2);
-      std::vector<Vector3d> places;
-      for (std::size_t k = 0; k < count; ++k) {
-        places.emplace_back(uniform(rng), uniform(rng), uniform(rng));
-        grid.add(places.back(), k);
-      }
-      for (const Vector3d& place : places) {
-        std::vector<bool> found(count, false);
-        grid.for_each_near(place, [&](std::size_t k) { found[k] = true; });
-        for (std::size_t k = 0; k < count; ++k) {
-          ASSERT_TRUE(found[k] || (places[k] - place).norm() > 0.2);
-        }
-      }
-    }
-  }
 }
 
 TEST(CarryImpulses, StayWithTheirPair) {

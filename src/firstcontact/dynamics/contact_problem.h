@@ -78,7 +78,7 @@ struct ContactProblem {
 /// Where the problem is solved; the answer is the same.
 enum class ProjectionSpace {
   automatic,  ///< The cheaper one; motion where contact does not get there.
-  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, exact for each contact, as the step
+  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, contact by contact, as the step
               ///< of nonsmooth conjugate gradients.
   motion,     ///< Unknown: the velocities. Newton's method on an augmented Lagrangian.
 };
@@ -86,9 +86,9 @@ enum class ProjectionSpace {
 struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
-  double enough = 0.0;  ///< [m/s]  Of many contacts: a residual that sweeps may leave where an
-                        ///< interior point would come next, and a fifth of it where more of them
-                        ///< hardly help; >= 0.
+  double enough = 0.0;  ///< [m/s]  A residual that sweeps may leave where an interior point would
+                        ///< come next, and a fifth of it where more of them hardly help (if that
+                        ///< is more than ten tolerances); >= 0.
   int sweeps = 200;     ///< At most, of all contacts in contact space; > 0.
   int rounds = 12;      ///< At most, of the interior point; > 0.
 };
@@ -114,7 +114,7 @@ struct ContactSolution {
 /// r_n, the round one; where it is on its side, u_t points against r_t, and where u_t is not
 /// 0, it is on its side. All contacts at once: impacts are simultaneous.
 ///
-/// In contact space each contact is solved exactly in turn, with all others held, until none
+/// In contact space each contact is solved in turn, with all others held, until none
 /// changes, and after each sweep there and back goes on in the direction of the ones before (M.
 /// Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
 /// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in

@@ -20,8 +20,8 @@ using detail::Projection;
 /// get anywhere, but take less memory.
 constexpr std::size_t kMostInMotionSpace = 6000;
 
-/// What sweeps do not do in so many, motion space does better; sooner where contacts are many for
-/// each body.
+/// What sweeps do not do in so many, motion space does better, unless they may leave something;
+/// sooner where contacts are many for each body.
 constexpr int kSweepsBeforeMotionSpace = 100;
 constexpr int kSweepsOfRedundant = 30;
 
@@ -45,8 +45,7 @@ constexpr std::size_t kManyRedundant = 300;
 std::size_t moving_velocities(const ContactProblem& problem) {
   std::size_t count = 0;
   for (const ContactBody& body : problem.bodies) {
-    const InverseInertia& inverse = body.inverse_inertia;
-    count += !body.link && (inverse.mass.any() || inverse.rotation.any()) ? 6 : 0;
+    count += detail::is_movable(body) ? 6 : 0;
   }
   for (const ContactMechanism& mechanism : problem.mechanisms) {
     count += static_cast<std::size_t>(mechanism.velocity.size());
@@ -92,18 +91,21 @@ double dual_objective(const ContactRows& rows, const Projection& projection) {
   return sum;
 }
 
-/// Starts from the guesses where they are better than no impulse at all. As a whole: of many
-/// contacts one may be wrong by much, as where a body came to lie on another feature.
-Projection start(const ContactProblem& problem, const ContactRows& rows) {
-  Projection from{.impulses = guesses(problem, rows)};
-  from.velocities = detail::velocities_after(rows, from.impulses);
-  if (!(dual_objective(rows, from) < 0.0)) {
-    from.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
-    from.impulses.drives.assign(rows.drives.size(), 0.0);
-    from.velocities = rows.free_velocities;
+/// Starts from the guesses where they seem better than no impulse at all, and that is no solution.
+/// They are judged as a whole: of many contacts one may be wrong by much, as where a body came to
+/// lie on another feature. With friction the objective is no more than a sign of it.
+Projection start(const ContactProblem& problem, const ContactRows& rows, double tolerance) {
+  Projection none{.velocities = rows.free_velocities};
+  none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
+  none.impulses.drives.assign(rows.drives.size(), 0.0);
+  none.residual = detail::greatest_residual(rows, none.impulses, none.velocities);
+  Projection guessed{.impulses = guesses(problem, rows)};
+  guessed.velocities = detail::velocities_after(rows, guessed.impulses);
+  if (none.residual <= tolerance || !(dual_objective(rows, guessed) < 0.0)) {
+    return none;
   }
-  from.residual = detail::greatest_residual(rows, from.impulses, from.velocities);
-  return from;
+  guessed.residual = detail::greatest_residual(rows, guessed.impulses, guessed.velocities);
+  return guessed;
 }
 
 template <class Number>
@@ -122,7 +124,7 @@ class Solver {
         options_(options),
         rows_(problem),
         is_automatic_(options.space == ProjectionSpace::automatic),
-        projection_(start(problem, rows_)) {
+        projection_(start(problem, rows_, options.tolerance)) {
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
@@ -172,11 +174,12 @@ class Solver {
   /// By an interior point. Nothing where multipliers are to go on.
   std::optional<ContactSolution> from_inside() {
     Projection inner = projection_;
-    if (is_automatic_) {  // Where hardly anything changed since the guesses, sweeps are enough.
+    if (is_automatic_) {  // Sweeps may be all that it takes.
       ProjectionOptions sweeping = options_;
-      if (!(options_.enough > 0.0)) {
-        sweeping.sweeps = std::min(options_.sweeps,
-                                   are_redundant_ ? kSweepsOfRedundant : kSweepsBeforeMotionSpace);
+      if (are_redundant_) {
+        sweeping.sweeps = std::min(options_.sweeps, kSweepsOfRedundant);
+      } else if (!(options_.enough > 0.0)) {
+        sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
       }
       detail::project_in_contact_space(problem_, rows_, sweeping, inner);
       if (is_solved(inner) && !are_redundant_) {

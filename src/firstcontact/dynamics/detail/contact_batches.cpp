@@ -56,10 +56,6 @@ class FreeLanes {
   std::vector<std::size_t> used_;
 };
 
-bool moves(const ContactBody& body) {
-  return body.inverse_inertia.mass.any() || body.inverse_inertia.rotation.any();
-}
-
 /// Where in the state the first impulse of a lane is; the others follow by kLanes each.
 Index place_of(std::size_t lane) {
   return static_cast<Index>(lane / kLanes * kImpulsesOfBatch + lane % kLanes);
@@ -87,7 +83,7 @@ bool ContactBatches::assign_lanes(const ContactProblem& problem) {
     const auto [a, b] = contact.bodies;
     const std::size_t lane = lanes.take_from(std::max(first_batch[a], first_batch[b]));
     for (const std::size_t body : contact.bodies) {
-      first_batch[body] = moves(problem.bodies[body]) ? lane / kLanes + 1 : 0;
+      first_batch[body] = is_movable(problem.bodies[body]) ? lane / kLanes + 1 : 0;
     }
     lane_of_.push_back(lane);
   }
@@ -103,9 +99,9 @@ bool ContactBatches::assign_lanes(const ContactProblem& problem) {
 void ContactBatches::fill(const ContactProblem& problem) {
   std::vector<Matrix6d> roots;
   for (const ContactBody& body : problem.bodies) {
-    roots.push_back(moves(body) ? square_root(body.inverse_inertia) : Matrix6d::Zero());
+    roots.push_back(is_movable(body) ? square_root(body.inverse_inertia) : Matrix6d::Zero());
   }
-  for (ContactBatch& batch : batches_) {  // Lanes without contact.
+  for (ContactBatch& batch : batches_) {  // As lanes without contact: nothing is divided by zero.
     batch.normal.fill(1.0);
     batch.inverse_normal.fill(1.0);
     batch.tangential = {batch.normal, batch.normal};

@@ -18,7 +18,8 @@ namespace firstcontact::detail {
 
 /// Contacts that share no moving body, one in each lane: solved at once they are solved in any
 /// order. Velocities are those of kinetic coordinates x, V = V_free + S x with S S^T = M^-1, of
-/// which an impulse changes J^T r where the contact sees J x. A lane without contact is zero.
+/// which an impulse changes J^T r where the contact sees J x. A lane without contact, or with one
+/// that no impulse would change, sees nothing and is at a place behind those of all bodies.
 struct alignas(64) ContactBatch {
   static constexpr std::size_t kLanes = 8;
   using Lanes = std::array<double, kLanes>;
@@ -30,26 +31,25 @@ struct alignas(64) ContactBatch {
   Lanes inverse_normal = {};             ///< [kg]
   std::array<Lanes, 2> coupling = {};    ///< [-]     W_tn / W_nn
   std::array<Lanes, 2> tangential = {};  ///< [1/kg]  Diagonal of A, see ContactResponse.
-  Lanes friction = {};
-  Lanes greatest = {};                                      ///< [1/kg]  Of the diagonal of W.
+  Lanes friction = {};                   ///< [-]
+  Lanes greatest = {};                   ///< [1/kg]  Of the diagonal of W.
   std::array<std::array<std::int64_t, kLanes>, 2> at = {};  ///< Where x of A and B begin.
 };
 
-/// One sweep: solves each contact with all others held, as solve_alone() does, batch by batch or in
-/// the reverse order.
+/// One sweep: solves each contact with all others held, batch by batch or in the reverse order. As
+/// solve_alone() where it opens, sticks or has no friction; where it slides, two of Newton's steps
+/// in each sweep take alpha (see ContactResponse::impulse()) to where it belongs.
 ///
 /// @param impulses  [N s]  of each batch: its normal ones, then those along both tangents
-/// @param sliding   [1/kg]  of each contact alpha, see ContactResponse::impulse(), where it slid
-/// last;
-///                  at first 0
+/// @param sliding   [1/kg]  alpha of each lane when it slid last; at first 0
 /// @param x         of each body eight numbers, the first six its kinetic coordinates
 /// @returns [m/s]  the greatest change of a velocity
 double sweep_batches(const std::vector<ContactBatch>& batches, bool backwards, double* impulses,
                      double* sliding, double* x);
 
 /// A problem of bodies that are no links, in batches. Each body meets its contacts in the order of
-/// the rows, so that a sweep does what one over the rows does, up to rounding. The state of its
-/// solution is all impulses, batch by batch, then x.
+/// the rows, so that a sweep does what one over the rows does, but for rounding and what slides.
+/// The state of its solution is all impulses, batch by batch, then x.
 class ContactBatches {
  public:
   /// @param rows  of the problem; to outlive the batches

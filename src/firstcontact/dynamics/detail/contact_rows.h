@@ -15,6 +15,11 @@
 
 namespace firstcontact::detail {
 
+/// Whether impulses move a body that is no link.
+inline bool is_movable(const ContactBody& body) {
+  return !body.link && (body.inverse_inertia.mass.any() || body.inverse_inertia.rotation.any());
+}
+
 /// Where the velocities of a problem stand in one vector: of each body that is no link (v, w), then
 /// the coordinates of each mechanism.
 struct VelocityLayout {
@@ -145,6 +150,7 @@ struct Projection {
 [[nodiscard]] ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
                                           const Projection& projection, ProjectionSpace space);
 
+/// @param rows  of the problem
 void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
                               const ProjectionOptions& options, Projection& projection);
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <firstcontact/dynamics/detail/conjugate_direction.h>
 #include <firstcontact/dynamics/detail/contact_batches.h>

@@ -261,7 +261,7 @@ ContactSolution IslandPlanner::find_push() {
   }
   if (problem.mechanisms.empty()) {  // Most have room: only those around move.
     ContactSolution around = project_again(problem, problem.bodies, too_near, options);
-    if (around.residual <= options.enough) {
+    if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
       return around;
     }
   }

@@ -39,10 +39,6 @@ double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.world.gravity.norm() * state.start.h);
 }
 
-bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
-}
-
 /// [J]  Of the members and their robots.
 double energy_of(const IslandState& state, const ContactProblem& problem,
                  const std::vector<ContactBody>& bodies,
@@ -106,6 +102,10 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 }
 
 }  // namespace
+
+bool is_heap(const IslandState& state, const ContactProblem& problem) {
+  return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
+}
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
   if (is_heap(state, problem)) {

@@ -11,6 +11,9 @@
 
 namespace firstcontact::detail {
 
+/// Whether many bodies touch at many places: such problems are solved less exactly.
+[[nodiscard]] bool is_heap(const IslandState& state, const ContactProblem& problem);
+
 /// How exactly problems of an island are solved: to a part of what gravity adds in a step.
 [[nodiscard]] ProjectionOptions projection_options(const IslandState& state,
                                                    const ContactProblem& problem);

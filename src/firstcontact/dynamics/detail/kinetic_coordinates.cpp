@@ -38,9 +38,8 @@ Eigen::Matrix<double, 6, 6> square_root(const InverseInertia& inverse) {
 KineticCoordinates::KineticCoordinates(const ContactProblem& problem, const ContactRows& rows)
     : part_at_(static_cast<std::size_t>(rows.layout.size), kNone) {
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
-    const InverseInertia& inverse = problem.bodies[b].inverse_inertia;
-    if (!problem.bodies[b].link && (inverse.mass.any() || inverse.rotation.any())) {
-      add_part(rows.layout.body[b], square_root(inverse));
+    if (is_movable(problem.bodies[b])) {
+      add_part(rows.layout.body[b], square_root(problem.bodies[b].inverse_inertia));
     }
   }
   for (std::size_t m = 0; m < problem.mechanisms.size(); ++m) {

@@ -30,7 +30,7 @@ class PlaceGrid {
     }
   }
 
-  /// Calls use(key) for all that are near, and some others.
+  /// Calls use(key) for all that are near, and some others; for one as often as it was added.
   template <class Use>
   void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
     if (places_.size() <= kFew) {
@@ -74,8 +74,8 @@ class PlaceGrid {
     }
   };
 
-  /// A little wider than the reach, for rounding. Places so far out that cells cannot be counted
-  /// share the last one.
+  /// A little wider than the reach, for rounding of places up to 2^42 of it. Places so far out that
+  /// cells cannot be counted share the last one.
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& place) const {
     constexpr double kWider = 1.0 + 0x1p-10;
     constexpr double kLast = 0x1p52;

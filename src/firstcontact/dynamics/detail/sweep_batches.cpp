@@ -147,8 +147,8 @@ class Cones {
   }
 
   /// The root of mu r_n / |r_t| - 1 by a few of Newton's steps from that of the sweep before: along
-  /// with the sweeps they get there. What is left of it is taken off the tangents. In lanes that
-  /// slide.
+  /// with the sweeps they get there. What is missing, the length of the tangential part makes up
+  /// for. In lanes that slide.
   HWY_INLINE void slide(const Vector& pressed, const Vector& c0, const Vector& c1,
                         const Mask& slides, double* sliding, Impulse& r) const {
     const Lanes d;
