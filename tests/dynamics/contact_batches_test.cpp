@@ -118,6 +118,17 @@ TEST_P(ContactBatchesOn, SlideOnTheConeAndConverge) {
 INSTANTIATE_TEST_SUITE_P(All, ContactBatchesOn, testing::ValuesIn(test::instruction_sets()),
                          test::instruction_set_name);
 
+TEST(ContactBatches, LeaveFewLanesEmpty) {
+  std::mt19937 rng(5);
+  const ContactProblem problem = wall(rng, 24, 24, 0.5);
+  const ContactRows rows(problem);
+  const std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+  ASSERT_TRUE(batches);
+  const std::size_t lanes = ContactBatch::kLanes * batches->batch_count();
+  EXPECT_GE(lanes, problem.contacts.size());
+  EXPECT_LE(lanes, problem.contacts.size() + problem.contacts.size() / 4);
+}
+
 TEST(ContactBatches, AreNotForFewBodiesWithManyContacts) {
   std::mt19937 rng(4);
   ContactProblem problem = wall(rng, 1, 1, 0.5);

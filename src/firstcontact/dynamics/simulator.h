@@ -22,7 +22,8 @@ namespace firstcontact {
 /// all of it: free velocities, Gauss' principle at the contacts, first contact over all pairs,
 /// everything placed there, the impact projected, and on with the rest of the step. Bodies that
 /// cannot influence each other within a step advance apart. When a step's events are spent, it ends
-/// at the last time proven free: time is lost, never a distance. The same on every run.
+/// at the last time proven free: time is lost, never a distance. The same on every run
+/// on one kind of processor.
 ///
 /// Motion between contacts is exact in free flight under constant forces (but for turning, which
 /// is of second order in the step); contacts make it of first order.
@@ -61,7 +62,8 @@ class FIRSTCONTACT_API Simulator {
   ///         a quaternion is zero, or a link would meet a body: then nothing is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
-  /// Goes on after a step of a run with the same header, bit for bit as the run did.
+  /// Goes on after a step of a run with the same header, on the same kind of processor bit for bit
+  /// as the run did.
   ///
   /// @throws std::invalid_argument if the step is not of such a run
   void resume(const RunStep& step);

@@ -15,7 +15,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr std::size_t kLanes = ContactBatch::kLanes;
 
-/// Below, rows one by one are as fast.
+/// Fewer are swept one by one.
 constexpr std::size_t kFewContacts = 32;
 constexpr double kLeastFill = 0.375;  // [-]  Of the lanes.
 

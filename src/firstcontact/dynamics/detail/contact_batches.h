@@ -58,6 +58,8 @@ class ContactBatches {
   [[nodiscard]] static std::optional<ContactBatches> of(const ContactProblem& problem,
                                                         const ContactRows& rows);
 
+  [[nodiscard]] std::size_t batch_count() const { return batches_.size(); }
+
   /// Of squared lengths of the state: those of impulses, by what they change.
   [[nodiscard]] Eigen::VectorXd weights() const;
   [[nodiscard]] Eigen::VectorXd state_of(const Projection& projection) const;
