@@ -421,6 +421,31 @@ TEST(ProjectOnContacts, MovesLinksAsItMovesBodies) {
   }
 }
 
+/// Fewer coordinates than the six velocities of a body: a random robot that touched itself in free
+/// space read beyond the end of its velocities.
+TEST(ProjectOnContacts, TwoSlidersOfOneMechanismMeetAlone) {
+  const Eigen::Vector2d masses(1.0, 3.0);
+  ContactProblem problem;
+  problem.mechanisms.push_back(
+      {masses.cwiseInverse().asDiagonal().toDenseMatrix(), Eigen::Vector2d(1.0, -1.0)});
+  for (int k = 0; k < 2; ++k) {
+    ContactBody slider;
+    slider.link = MechanismLink{.mechanism = 0, .J = Eigen::Matrix<double, 6, 2>::Zero()};
+    slider.link->J(0, k) = 1.0;
+    problem.bodies.push_back(slider);
+  }
+  problem.contacts.push_back({.bodies = {0, 1}});
+  for (const ProjectionSpace space :
+       {ProjectionSpace::automatic, ProjectionSpace::contact, ProjectionSpace::motion}) {
+    const ContactSolution solution = solve(problem, space);
+    ASSERT_LE(solution.residual, kTolerance);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(solution.mechanisms[0][k], (1.0 * 1.0 - 3.0 * 1.0) / 4.0, 1e-9);
+    }
+    EXPECT_NEAR(solution.impulses[0].x(), 1.5, 1e-9);
+  }
+}
+
 /// A mechanism of coordinates with random inertia and velocities, each driven.
 ContactProblem random_drives(std::mt19937& rng, Eigen::Index n) {
   std::normal_distribution<double> normal;

@@ -55,7 +55,7 @@ ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
                                make_side(problem, layout, contact, 1)};
   if (sides[0].is_link() && sides[1].is_link() && sides[0].at == sides[1].at) {
     sides[0].J_q += sides[1].J_q;
-    sides[1] = {};
+    sides[1].J_q.setZero();
   }
   Matrix3d W = Matrix3d::Zero();
   for (int s = 0; s < 2; ++s) {

@@ -58,8 +58,9 @@ struct RowSide {
 
 /// u = J_A V_A + J_B V_B, in the contact's frame with the tangents of its response.
 struct ContactRow {
-  std::array<RowSide, 2> sides;  // Two links of one mechanism are one side, the other one is zero.
-  ContactResponse own;           // To its own impulse, J M^-1 J^T.
+  /// Two links of one mechanism are one side, and the other one has Jacobians of zeros.
+  std::array<RowSide, 2> sides;
+  ContactResponse own;  // To its own impulse, J M^-1 J^T.
   double friction;
   double least;  // [m/s]  Normal velocity.
 

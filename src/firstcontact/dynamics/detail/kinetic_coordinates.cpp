@@ -72,7 +72,7 @@ const KineticCoordinates::Part* KineticCoordinates::part_of(Index in_V) const {
 
 void KineticCoordinates::add_side(const RowSide& side) {
   const Part* part = part_of(side.at);
-  const bool is_there = side.is_link() || side.J.any();  // Two links may be one side.
+  const bool is_there = side.J_q.any() || side.J.any();  // Two links may be one side.
   if (part != nullptr && is_there) {
     contacts_.add(part->in_x, side.is_link() ? Eigen::Matrix3Xd(side.J_q * part->root)
                                              : Eigen::Matrix3Xd(side.J * part->root));
