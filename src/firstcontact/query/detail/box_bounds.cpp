@@ -413,8 +413,7 @@ struct Pairs {
   }
 
   struct Best {
-    V<D> estimate;  // of the time, only to choose a direction by
-    V<D> gap;       // along that direction, net of slack
+    V<D> gap;  // net of slack, along the direction that seems to stay open longest
     V<D> speed;
     V<D> twice_acceleration;
     V<D> largest_gap;  // of any direction, net of slack
@@ -434,30 +433,74 @@ struct Pairs {
     V<D> doubt_middle;
   };
 
-  /// Takes in a direction n, |n| within kRoughness of 1; its length does not enter the time, as
-  /// gap, speed and acceleration are all in proportion to it.
-  ///
-  /// @param opening  by the centres
-  /// @param swing    how fast the extents grow; of bodies that deform without their turning
-  HWY_INLINE void consider(const Sizes& s, V<D> raw_gap, V<D> opening, V<D> swing, V<D> turn_a,
-                           V<D> turn_b, Best& best) const {
-    const V<D> gap = hn::Sub(raw_gap, s.charge);
-    const V<D> least = hn::Add(swing, hn::Sub(s.slip, opening));
-    const V<D> speed = hn::MulAdd(turn_a, s.spread_a, hn::MulAdd(turn_b, s.spread_b, least));
-    const V<D> twice_acceleration =
-        hn::MulAdd(turn_a, s.reach_a, hn::MulAdd(turn_b, s.reach_b, s.slip_acceleration));
-    const V<D> twice_open = hn::Max(hn::Add(gap, gap), hn::Zero(d));
-    const V<D> square = hn::MulAdd(twice_acceleration, twice_open, hn::Mul(speed, speed));
-    const V<D> closing = hn::Max(hn::Add(speed, root_up(d, square)),
-                                 hn::MulAdd(hn::Abs(speed), hn::Set(d, 1e-3f), hn::Set(d, kTiny)));
-    const V<D> estimate = hn::Mul(twice_open, reciprocal(d, closing));
-    const auto better = hn::Gt(estimate, best.estimate);
-    best.estimate = hn::IfThenElse(better, estimate, best.estimate);
-    best.gap = hn::IfThenElse(better, gap, best.gap);
-    best.speed = hn::IfThenElse(better, speed, best.speed);
-    best.twice_acceleration = hn::IfThenElse(better, twice_acceleration, best.twice_acceleration);
-    best.largest_gap = hn::Max(best.largest_gap, gap);
-    best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap, s.doubt_middle)));
+  /// A direction n, |n| within kRoughness of 1; its length does not enter the time, as gap, speed
+  /// and acceleration are all in proportion to it.
+  struct Direction {
+    V<D> raw_gap;
+    V<D> opening;  // by the centres
+    V<D> swing;    // how fast the extents grow; of bodies that deform without their turning
+    V<D> turn_a;
+    V<D> turn_b;
+  };
+  static constexpr int kDirections = 5;
+
+  /// Each line is written for all directions before the next one, as processors wait for one
+  /// direction's results otherwise.
+  HWY_INLINE Best best_of(const Sizes& s, const Direction* n) const {
+    V<D> gap[kDirections];
+    V<D> speed[kDirections];
+    V<D> twice_acceleration[kDirections];
+    V<D> twice_open[kDirections];
+    V<D> root[kDirections];
+    V<D> estimate[kDirections];
+    HWY_UNROLL(5)
+    for (int k = 0; k < kDirections; ++k) {
+      gap[k] = hn::Sub(n[k].raw_gap, s.charge);
+      speed[k] = hn::Add(n[k].swing, hn::Sub(s.slip, n[k].opening));
+      twice_acceleration[k] = hn::MulAdd(n[k].turn_b, s.reach_b, s.slip_acceleration);
+    }
+    HWY_UNROLL(5)
+    for (int k = 0; k < kDirections; ++k) {
+      speed[k] = hn::MulAdd(n[k].turn_b, s.spread_b, speed[k]);
+      twice_open[k] = hn::Max(hn::Add(gap[k], gap[k]), hn::Zero(d));
+      twice_acceleration[k] = hn::MulAdd(n[k].turn_a, s.reach_a, twice_acceleration[k]);
+    }
+    HWY_UNROLL(5)
+    for (int k = 0; k < kDirections; ++k) {
+      speed[k] = hn::MulAdd(n[k].turn_a, s.spread_a, speed[k]);
+    }
+    HWY_UNROLL(5)
+    for (int k = 0; k < kDirections; ++k) {
+      root[k] =
+          root_up(d, hn::MulAdd(twice_acceleration[k], twice_open[k], hn::Mul(speed[k], speed[k])));
+    }
+    HWY_UNROLL(5)
+    for (int k = 0; k < kDirections; ++k) {
+      const V<D> closing =
+          hn::Max(hn::Add(speed[k], root[k]),
+                  hn::MulAdd(hn::Abs(speed[k]), hn::Set(d, 1e-3f), hn::Set(d, kTiny)));
+      estimate[k] = hn::Mul(twice_open[k], reciprocal(d, closing));
+    }
+    const V<D> longest = hn::Max(
+        hn::Max(hn::Max(estimate[0], estimate[1]), hn::Max(estimate[2], estimate[3])), estimate[4]);
+    Best best;
+    best.gap = best.speed = best.twice_acceleration = hn::Zero(d);
+    HWY_UNROLL(5)
+    for (int k = kDirections - 1; k >= 0; --k) {
+      const auto is_best = hn::Eq(estimate[k], longest);
+      best.gap = hn::IfThenElse(is_best, gap[k], best.gap);
+      best.speed = hn::IfThenElse(is_best, speed[k], best.speed);
+      best.twice_acceleration =
+          hn::IfThenElse(is_best, twice_acceleration[k], best.twice_acceleration);
+    }
+    best.largest_gap = gap[0];
+    best.nearness = hn::Abs(hn::Add(gap[0], s.doubt_middle));
+    HWY_UNROLL(5)
+    for (int k = 1; k < kDirections; ++k) {
+      best.largest_gap = hn::Max(best.largest_gap, gap[k]);
+      best.nearness = hn::Min(best.nearness, hn::Abs(hn::Add(gap[k], s.doubt_middle)));
+    }
+    return best;
   }
 
   /// The extent of boxes along n; or, of the rates of their half extents, its rate.
@@ -551,13 +594,6 @@ struct Pairs {
       }
     }
 
-    Best best;
-    best.estimate = hn::Zero(d);
-    best.gap = hn::Zero(d);
-    best.speed = hn::Zero(d);
-    best.twice_acceleration = hn::Zero(d);
-    best.largest_gap = hn::Set(d, -1e38f);
-    best.nearness = hn::Set(d, 1e38f);
     V<D> extent_b_along[2] = {hn::Zero(d), hn::Zero(d)};
     V<D> extent_a_along[2] = {hn::Zero(d), hn::Zero(d)};
     V<D> growth_along_a[2] = {growth_a[0], growth_a[1]};  // Of both boxes, along A's axes.
@@ -582,6 +618,8 @@ struct Pairs {
         }
       }
     }
+    Direction directions[kDirections];
+    HWY_UNROLL(2)
     for (int k = 0; k < 2; ++k) {
       V<D> swing_a = growth_along_a[k];
       V<D> swing_b = growth_along_b[k];
@@ -598,16 +636,17 @@ struct Pairs {
                                                        extent_along(seen_by_a, axes_a, extent_a)));
       }
       const V<D> along_a = dot(d, axes_a[k], between);
-      consider(s, hn::Sub(hn::Abs(along_a), hn::Add(extent_a[k], extent_b_along[k])),
-               with_sign(dot(d, axes_a[k], velocity), along_a), swing_a, of_a(placed.own_turn[k]),
-               of_a(placed.turn_of_other[k]), best);
+      directions[2 * k] = {hn::Sub(hn::Abs(along_a), hn::Add(extent_a[k], extent_b_along[k])),
+                           with_sign(dot(d, axes_a[k], velocity), along_a), swing_a,
+                           of_a(placed.own_turn[k]), of_a(placed.turn_of_other[k])};
       const V<D> along_b = dot(d, axes_b[k], between);
-      consider(s, hn::Sub(hn::Abs(along_b), hn::Add(extent_b[k], extent_a_along[k])),
-               with_sign(dot(d, axes_b[k], velocity), along_b), swing_b,
-               of_b(placed.turn_of_other[k]), of_b(placed.own_turn[k]), best);
+      directions[2 * k + 1] = {hn::Sub(hn::Abs(along_b), hn::Add(extent_b[k], extent_a_along[k])),
+                               with_sign(dot(d, axes_b[k], velocity), along_b), swing_b,
+                               of_b(placed.turn_of_other[k]), of_b(placed.own_turn[k])};
     }
-    consider_centre_line(frame, s, between, velocity, axes_a, axes_b, extent_a, extent_b, growth_a,
-                         growth_b, best);
+    directions[4] = centre_line(frame, between, velocity, axes_a, axes_b, extent_a, extent_b,
+                                growth_a, growth_b);
+    const Best best = best_of(s, directions);
 
     const V<D> time = time_to_close(frame, best);
     hn::Store(time, d, bounds.time + first);
@@ -628,11 +667,10 @@ struct Pairs {
     store_bits(hn::Not(sure), first, bounds.unsure);
   }
 
-  HWY_INLINE void consider_centre_line(const BoxFrame& frame, const Sizes& s, const V<D>* between,
-                                       const V<D>* velocity, const V<D> (*axes_a)[3],
-                                       const V<D> (*axes_b)[3], const V<D>* extent_a,
-                                       const V<D>* extent_b, const V<D>* growth_a,
-                                       const V<D>* growth_b, Best& best) const {
+  HWY_INLINE Direction centre_line(const BoxFrame& frame, const V<D>* between, const V<D>* velocity,
+                                   const V<D> (*axes_a)[3], const V<D> (*axes_b)[3],
+                                   const V<D>* extent_a, const V<D>* extent_b, const V<D>* growth_a,
+                                   const V<D>* growth_b) const {
     const V<D> square = dot(d, between, between);
     const V<D> scale = reciprocal_root(d, hn::Add(square, hn::Set(d, kTiny * kTiny)));
     V<D> n[3];
@@ -658,8 +696,7 @@ struct Pairs {
                     hn::Add(extent_along(seen[0], axes_a, extent_a),
                             extent_along(seen[1], axes_b, extent_b)));
     }
-    consider(s, hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), swing, turn[0], turn[1],
-             best);
+    return {hn::Sub(dot(d, n, between), extent), dot(d, n, velocity), swing, turn[0], turn[1]};
   }
 };
 
