@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,6 +18,7 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/dynamics/load_scene_of.h>
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run_page.h>
 #include <firstcontact/geometry/parse_error.h>
@@ -84,7 +86,14 @@ std::string page_of_run(const std::string& page, const std::string& path) {
     throw ParseError(path, "expected steps after the header; there is nothing to play");
   }
   ShapeCache cache;
-  return collected.write(page, load_scene(run.header().scene, cache));
+  const LoadedScene loaded = [&] {
+    try {
+      return load_scene_of(run.header(), cache);
+    } catch (const std::invalid_argument& error) {
+      throw ParseError(path, error.what());
+    }
+  }();
+  return collected.write(page, loaded);
 }
 
 std::string page_of_result(const std::string& page, const std::string& path) {

@@ -169,8 +169,8 @@ class Verify(ToolTest):
     SCENE = {"firstcontact": 1, "simulation": {"duration": 0.9}, "bodies": [
         {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, 1]}, "dynamics": {}},
         {"name": "floor", "shape": {"box": {"size": [9, 9, 0.2]}}, "pose": {"position": [0, 0, -0.1]}}]}
-    HEADER = {"firstcontact_run": 1, "scene": SCENE, "version": "0.1.0", "input_digest": "", "masses": [1, 0],
-              "centres_of_mass": [[0, 0, 0], [0, 0, 0]]}
+    HEADER = {"firstcontact_run": 1, "scene": SCENE, "version": "0.1.0", "scene_digest": "", "input_digest": "",
+              "masses": [1, 0], "centres_of_mass": [[0, 0, 0], [0, 0, 0]]}
 
     def step(self, index: int, begin: float, lasted: float, height: float, fall: float, **more) -> dict:
         end = [0, 0, height - fall]
@@ -238,6 +238,31 @@ $""")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("verified   1 step, 500 ms of 900 ms", result.stdout)
         self.assertIn("the file ends in the middle of a line, which was left out", result.stdout)
+
+    def test_refuses_a_run_whose_mesh_has_changed(self):
+        plate = "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n"
+        self.file("plate.obj", plate)
+        self.file("rod.urdf", '<robot name="rod"><link name="base"/><joint name="turn" type="continuous">'
+                  '<parent link="base"/><child link="rod"/></joint><link name="rod"><inertial><mass value="1"/><inertia ixx="1" iyy="1"'
+                  ' izz="1"/></inertial><collision><geometry><mesh filename="rod.obj"/></geometry></collision></link>'
+                  "</robot>")
+        self.file("rod.srdf", '<robot name="rod"/>')
+        self.file("rod.csv", "time,turn\n0,0\n1,0.1\n")
+        rod = "v 5 0 0\nv 6 0 0\nv 5 0 1\nv 5 1 1\nf 1 2 3\nf 2 3 4\n"
+        self.file("rod.obj", rod)
+        scene = {**self.SCENE, "simulation": {"duration": 0.02}, "robots": [{
+            "name": "rod", "urdf": "rod.urdf", "srdf": "rod.srdf", "trajectory": "rod.csv"}]}
+        scene["bodies"] = [scene["bodies"][0], {"name": "plate", "shape": {"mesh": "plate.obj"}}]
+        self.assertEqual(self.run_tool("simulate", self.file("s.json", json.dumps(scene)), "-o", "run.jsonl").returncode, 0)
+        self.file("rod.csv", "gone")  # The run holds what it said.
+        for name, text in (("plate.obj", plate), ("rod.obj", rod)):
+            self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+            self.file(name, text.replace("9", "8").replace("6", "7"))
+            for command in (["verify"], ["view", "--no-open"]):
+                self.assert_refused(self.run_tool(*command, "run.jsonl"),
+                                    "run.jsonl: header.input_digest: a mesh or robot file of its scene is not what "
+                                    "it was when the run was made; restore the file, or simulate again")
+            self.file(name, text)
 
     def test_says_what_is_not_proven(self):
         self.steps = []

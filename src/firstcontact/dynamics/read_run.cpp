@@ -180,11 +180,12 @@ RunHeader read_header(const std::string& text, const std::string& path) {
   if (version == root.end() || *version != 1) {
     line.fail(root, "the header of a run, an object with \"firstcontact_run\": 1");
   }
-  line.require_keys(
-      root, {"firstcontact_run", "scene", "version", "input_digest", "masses", "centres_of_mass"});
+  line.require_keys(root, {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
+                           "masses", "centres_of_mass"});
   RunHeader header;
   header.scene = parse_embedded_scene(text, path);
   header.version = line.string(root["version"]);
+  header.scene.text_digest = line.string(root["scene_digest"]);
   header.input_digest = line.string(root["input_digest"]);
   const std::size_t count = names_with_links(header.scene).size();
   for (const json& mass : line.array(root["masses"], count)) {

@@ -87,9 +87,10 @@ struct RunStep {
 
 /// What a run begins with.
 struct RunHeader {
-  Scene scene;  ///< With its simulation, resolved: `contact_distance` is given.
+  Scene scene;  ///< With its simulation, resolved: `contact_distance` is given. Its text_digest is
+                ///< that of the text that was simulated.
   std::string version;
-  std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal.
+  std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal; may be empty.
   std::vector<double> masses = {};  ///< [kg]  Of every body, pieces of links too; 0: not free.
   std::vector<Eigen::Vector3d> centres_of_mass =
       {};  ///< [m]  p_BC of every body; pivots of the pieces.

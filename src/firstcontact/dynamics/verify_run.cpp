@@ -17,6 +17,7 @@
 #include <firstcontact/dynamics/detail/pair_cover.h>
 #include <firstcontact/dynamics/detail/piece_motion.h>
 #include <firstcontact/dynamics/detail/run_follower.h>
+#include <firstcontact/dynamics/load_scene_of.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/parallel_for.h>
 #include <firstcontact/scene/links_as_bodies.h>
@@ -70,7 +71,7 @@ std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& 
 LoadedScene load(const RunHeader& header) {
   require_plain(header.scene);
   ShapeCache cache;
-  return links_as_bodies(load_scene(header.scene, cache)).loaded;
+  return links_as_bodies(load_scene_of(header, cache)).loaded;
 }
 
 class Verification {

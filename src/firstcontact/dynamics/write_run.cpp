@@ -209,6 +209,7 @@ Json to_json(const std::vector<T>& elements) {
 
 std::string write_run_header(const RunHeader& header) {
   const Json rest = {{"version", header.version},
+                     {"scene_digest", header.scene.text_digest},
                      {"input_digest", header.input_digest},
                      {"masses", to_json(header.masses)},
                      {"centres_of_mass", to_json(header.centres_of_mass)}};

@@ -297,7 +297,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& source,
   const std::string name = source.string();
   const JsonValue root = detail::parse_json(text, name, first_line);
   Scene scene = to_scene(root, source, JsonReader(root, name));
-  scene.text_digest = detail::sha256(text);
+  const std::string own_digest = detail::sha256(text);
+  scene.text_digest = scene.text_digest.empty()
+                          ? own_digest
+                          : detail::sha256(own_digest + '\n' + scene.text_digest);
   return scene;
 }
 

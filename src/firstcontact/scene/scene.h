@@ -71,8 +71,10 @@ struct Scene {
   std::vector<GroupMargin> group_margins;  ///< Of several the greatest holds.
   SceneOptions options;
   std::optional<Simulation> simulation = {};
-  double duration = 1.0;    ///< [s]  Of the step; t = 1 there.
-  std::string text_digest;  ///< SHA-256 of the text that was read, in hexadecimal; may be empty.
+  double duration = 1.0;  ///< [s]  Of the step; t = 1 there.
+  /// SHA-256, in hexadecimal, of the text that was read and of the trajectory files that it names,
+  /// which write_scene() writes out; may be empty.
+  std::string text_digest;
   std::vector<std::string> warnings = {};  ///< What a user should know of what was read.
 };
 

@@ -56,7 +56,7 @@ struct SceneRobot {
   std::map<std::size_t, TrackingError> tracking_error = {};  ///< By joint.
   /// In a simulation it moves under forces; else as its trajectory says.
   std::optional<RobotDynamics> dynamics = {};
-  std::string files_digest = {};  ///< SHA-256 of the SRDF and the trajectory file; may be empty.
+  std::string srdf_digest = {};  ///< SHA-256 of the SRDF; may be empty.
 };
 
 /// The collision model of a file without shapes: enough for names and limits.

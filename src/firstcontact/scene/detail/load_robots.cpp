@@ -67,7 +67,7 @@ class RobotLoader {
 
   void add(const SceneRobot& robot) {
     CachedRobot cached = cache_.load(robot.file);
-    digests_ += cached.digest + '\n' + robot.files_digest + '\n';
+    digests_ += cached.digest + '\n' + robot.srdf_digest + '\n';
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);

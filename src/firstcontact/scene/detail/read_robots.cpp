@@ -26,7 +26,7 @@ namespace {
 /// Reads one robot.
 class RobotReader {
  public:
-  RobotReader(const SceneFolders& folders, const Scene& scene, const JsonReader& read)
+  RobotReader(const SceneFolders& folders, Scene& scene, const JsonReader& read)
       : folders_(folders), scene_(scene), read_(read) {}
 
   SceneRobot robot(const JsonValue& value) const {
@@ -41,7 +41,7 @@ class RobotReader {
       robot.srdf = read_path(*srdf, "an SRDF file", folders_, read_);
       const std::string text = read_file(robot.srdf, "an SRDF file");
       robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
-      robot.files_digest = sha256(text);
+      robot.srdf_digest = sha256(text);
     }
     robot.base = base(object);
     take_motion(object, robot);
@@ -103,7 +103,7 @@ class RobotReader {
     const std::filesystem::path path = read_path(value, "a trajectory file", folders_, read_);
     const std::string text = read_file(path, "a trajectory file");
     robot.trajectory = parse_trajectory(text, path, robot.model);
-    robot.files_digest = sha256(robot.files_digest + '\n' + text);
+    scene_.text_digest += sha256(text) + '\n';
   }
 
   void take_motion(const JsonObject& object, SceneRobot& robot) const {
@@ -269,7 +269,7 @@ class RobotReader {
   }
 
   const SceneFolders& folders_;
-  const Scene& scene_;
+  Scene& scene_;
   const JsonReader& read_;
 };
 
