@@ -123,6 +123,42 @@ RigidState turned(const Inertia& inertia, RigidState state, int steps) {
   return state;
 }
 
+// A rod whose moments differ by a factor of 250,000 once gained 13,600 times its energy.
+TEST(FreeTurn, OfAnyBodyKeepsEnergyAndMomentum) {
+  std::mt19937 rng(7);
+  for (int i = 0; i < 60; ++i) {
+    Inertia inertia = random_inertia(rng);
+    if (i % 3 > 0) {  // A box of sides of 1, 1e-3 and 1e-3 or 1e-4.
+      const Vector3d squares(1.0, 1e-6, i % 3 == 1 ? 1e-6 : 1e-8);
+      inertia.about_C_B = Matrix3d((squares.sum() * Vector3d::Ones() - squares).asDiagonal());
+    }
+    RigidState begin{.X_WB = random_pose(rng), .w_WB = 5.0 * random_vector(rng)};
+    begin.X_WB.rotation.normalize();
+    const Vector3d momentum = rotational_inertia(inertia, begin.X_WB) * begin.w_WB;
+    const RigidState end = turned(inertia, begin, 20);
+    ASSERT_NEAR(kinetic_energy(inertia, end) / kinetic_energy(inertia, begin), 1.0, 1e-9) << i;
+    ASSERT_LE((rotational_inertia(inertia, end.X_WB) * end.w_WB - momentum).norm(),
+              1e-11 * momentum.norm())
+        << i;
+  }
+}
+
+TEST(FreeTurn, UnderATorqueAddsItToTheMomentum) {
+  std::mt19937 rng(8);
+  for (int i = 0; i < 20; ++i) {
+    const Inertia inertia = random_inertia(rng);
+    RigidState state{.X_WB = random_pose(rng), .w_WB = random_vector(rng)};
+    state.X_WB.rotation.normalize();
+    const Vector3d torque = random_vector(rng);
+    const Vector3d momentum = rotational_inertia(inertia, state.X_WB) * state.w_WB + 0.5 * torque;
+    const FreeTurn turn = free_turn(inertia, state, torque, 0.5);
+    const Eigen::Quaterniond by(
+        Eigen::AngleAxisd(turn.rotation_vector.norm(), turn.rotation_vector.normalized()));
+    const Pose end{Vector3d::Zero(), by * state.X_WB.rotation};
+    ASSERT_LE((rotational_inertia(inertia, end) * turn.w_WB - momentum).norm(), 1e-11) << i;
+  }
+}
+
 // Nothing turns the body but what holds the locked axis: that does no work, and leaves the momentum
 // about the others.
 TEST(FreeTurn, AboutTwoAxesKeepsEnergyAndMomentum) {

@@ -48,14 +48,29 @@ struct InverseInertia {
 [[nodiscard]] FIRSTCONTACT_API double kinetic_energy(const Inertia& inertia,
                                                      const RigidState& state);  ///< [J]
 
+/// [rad/s]  An angular velocity after the body turned and took it along. As the body sees it it is
+/// what it was, and so is the kinetic energy; a difference of two of the same orientation changes
+/// the energy as it would there. Where axes are locked or all are principal ones, it stays what it
+/// is in the world.
+[[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d turned_along(const Inertia& inertia,
+                                                            const Eigen::Vector3d& w_WB,
+                                                            const Eigen::Vector3d& rotation_vector);
+
+/// [rad/s^2]  How fast the angular velocity changes without torque; 0 where locked axes do not let
+/// it.
+[[nodiscard]] FIRSTCONTACT_API double tumbling_acceleration(const Inertia& inertia,
+                                                            const RigidState& state);
+
 /// How a body turns over a time without contacts.
 struct FreeTurn {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Over the time.
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();             ///< [rad/s]  At its end.
 };
 
-/// Keeps the angular momentum, but for what the torque adds, and follows the implicit midpoint rule
-/// in sub-steps of at most kSubStep rad: time-reversible, so that energy does not drift. The body
+/// Keeps the angular momentum and the energy, but for what the torque adds: follows the implicit
+/// midpoint rule for the angular velocity that the body sees, in sub-steps of at most 0.1 rad (some
+/// thousands at most; a body that spins faster goes on about the same axis), and turns the body so
+/// that its momentum is what it was. The body
 /// gets from the first to the last orientation by one rotation at a constant rate, the one of those
 /// between the two that is nearest to the mean angular velocity. Where axes are locked it turns by
 /// that mean, which is about none of them.

@@ -1,6 +1,7 @@
 #include <firstcontact/dynamics/detail/island.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -22,8 +23,12 @@ constexpr std::size_t kMostStalls = 10;
 /// A plan that was stopped is followed by one of at least this part of its span.
 constexpr double kLeastShare = 0.1;
 
-/// Links that turn fast make plans shorter, down to this part of the step.
-constexpr double kLeastShareOfLinks = 0.01;
+/// Links that turn fast and bodies that tumble make plans shorter, down to this part of the step.
+constexpr double kLeastShareOfFast = 0.01;
+
+/// [rad]  So far from where it would be may a body that tumbles be halfway through a plan, as it
+/// turns at a constant rate then: an impact in between finds it there, with another inertia.
+constexpr double kMostAstray = 0.01;
 
 class Island {
  public:
@@ -70,9 +75,23 @@ class Island {
  private:
   /// [s]  Of the next plan.
   [[nodiscard]] double span() const {
-    const double of_links =
-        std::max(state_.robots.longest_span(), kLeastShareOfLinks * state_.start.h);
-    return std::min({span_, state_.start.h - state_.reached, of_links});
+    const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
+                                    kLeastShareOfFast * state_.start.h);
+    return std::min({span_, state_.start.h - state_.reached, of_fast});
+  }
+
+  /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
+  /// the angular acceleration a of gyroscopic moments.
+  [[nodiscard]] double tumbling_span() const {
+    double greatest = 0.0;  // [rad/s^2]
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      if (!state_.member(k).piece) {
+        greatest = std::max(greatest,
+                            tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
+      }
+    }
+    return greatest > 0.0 ? std::sqrt(8.0 * kMostAstray / greatest)
+                          : std::numeric_limits<double>::infinity();
   }
 
   /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
@@ -130,7 +149,9 @@ class Island {
       end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
       end.X_WB.rotation.normalize();
       end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
-      end.w_WB = begin.w_WB + t * (plan.at_end[k].w - begin.w_WB);
+      end.w_WB = turned_along(state_.member(k).inertia,
+                              begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
+                              t * plan.moves[k].rotation_vector);
       if (state_.member(k).piece) {
         const ContactBody body = state_.robots.body(k);
         end.v_WC = body.v;

@@ -40,7 +40,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
     }
     flight.at_end[k].v += span_ * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
     const FreeTurn turn = free_turn(body.inertia, state_.states[k], torque, span_);
-    flight.at_end[k].w = turn.w_WB;
+    flight.at_end[k].w = turned_along(body.inertia, turn.w_WB, -turn.rotation_vector);
     flight.rotation_vectors.push_back(turn.rotation_vector);
   }
   return flight;

@@ -23,7 +23,9 @@ struct TouchAhead {
 /// What the bodies do over its span: the rest of the step, or less.
 struct Plan {
   std::vector<Move> moves = {};     ///< Of each member.
-  std::vector<ContactBody> at_end;  ///< Velocities of each member.
+  /// Velocities of each member, angular ones as its body sees them, told in its axes of now: so that
+  /// what contacts do to its energy now is what they do to it at the end.
+  std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
   std::vector<Touch> touches = {};  ///< With their impulses.
   double residual = 0.0;            ///< [m/s]
@@ -52,7 +54,7 @@ class IslandPlanner {
     std::optional<std::array<Eigen::Vector3d, 2>> arms = {};  // [m]  In place of those of now.
     bool is_new = true;                                       // Since the plan before.
   };
-  /// Velocities without contacts, and how far they lead.
+  /// Velocities without contacts, as those of Plan, and how far they lead.
   struct FreeFlight {
     std::vector<ContactBody> at_end;
     std::vector<Eigen::Vector3d> rotation_vectors;
