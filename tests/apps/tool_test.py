@@ -132,6 +132,25 @@ class Simulate(ToolTest):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(cut.read_bytes(), text)
 
+    def test_begins_anew_where_the_header_was_cut_off(self):
+        scene = self.scene({"firstcontact": 1, "simulation": {"duration": 0.02}, "bodies": [self.BALL, self.FLOOR]})
+        run = self.folder / "run.jsonl"
+        self.assertEqual(self.run_tool("simulate", scene, "-o", str(run)).returncode, 0)
+        whole = run.read_bytes()
+        for size in (0, 100):
+            run.write_bytes(whole[:size])
+            result = self.run_tool("simulate", scene, "-o", str(run), "--resume")
+            self.assertEqual(result.returncode, 0, result)
+            self.assertEqual(run.read_bytes(), whole)
+
+    def test_refuses_more_steps_than_anyone_waits_for(self):
+        scene = self.scene({"firstcontact": 1, "bodies": [self.BALL, self.FLOOR]})
+        for option, value in (("--duration", "1e300"), ("--step", "1e-320")):
+            result = self.run_tool("simulate", scene, option, value, "-o", "run.jsonl")
+            self.assertEqual(result.returncode, 2, result)
+            self.assertIn("scene.json: simulation: expected at most 1e+08 steps, got ", result.stderr)
+            self.assertFalse((self.folder / "run.jsonl").exists())
+
     def test_refuses_to_go_on_with_another_run(self):
         run = (self.folder / "run.jsonl")
         scene = self.scene(self.SCENE)
@@ -166,7 +185,7 @@ class Simulate(ToolTest):
 class Verify(ToolTest):
     """A ball that falls towards a floor at 1 m/s and comes to rest at a height of 0.1 m over it."""
 
-    SCENE = {"firstcontact": 1, "simulation": {"duration": 0.9}, "bodies": [
+    SCENE = {"firstcontact": 1, "simulation": {"duration": 0.9, "step": 0.5}, "bodies": [
         {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, 1]}, "dynamics": {}},
         {"name": "floor", "shape": {"box": {"size": [9, 9, 0.2]}}, "pose": {"position": [0, 0, -0.1]}}]}
     HEADER = {"firstcontact_run": 1, "scene": SCENE, "version": "0.1.0", "scene_digest": "", "input_digest": "",
@@ -177,7 +196,7 @@ class Verify(ToolTest):
         piece = [lasted, 0, 0, height, 1, 0, 0, 0, 0, 0, -fall, 0, 0, 0]
         body = {"body": 0, "pieces": [piece], "position": end, "quaternion_wxyz": [1, 0, 0, 0],
                 "linear_velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]}
-        return {"step": index, "time": begin + lasted, "lasted": lasted, "time_lost": 0.125, "bodies": [body],
+        return {"step": index, "time": begin + lasted, "lasted": lasted, "time_lost": 0.5 - lasted, "bodies": [body],
                 "contacts": [], "clearance": 0.1, "kinetic_energy": 0, "potential_energy": 0,
                 "linear_momentum": [0, 0, 0], "angular_momentum": [0, 0, 0], "residual": 0, "events": 0, **more}
 
@@ -238,6 +257,11 @@ $""")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("verified   1 step, 500 ms of 900 ms", result.stdout)
         self.assertIn("the file ends in the middle of a line, which was left out", result.stdout)
+
+    def test_refuses_times_that_do_not_add_up(self):
+        self.steps[1]["time_lost"] = 0.125
+        self.assert_refused(self.verify(), "run.jsonl: Step 2: the step lasted 0.25 s and lost 0.125 s, but a step of the "
+                            "scene is one of 0.5 s.")
 
     def test_refuses_a_run_whose_mesh_has_changed(self):
         plate = "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n"

@@ -225,6 +225,26 @@ TEST_F(SimulateRobots, EffortsAreWhatChangesTheMomentum) {
   }
 }
 
+// Beyond a limit two laws that nothing yields to would have no solution, and none of them was kept.
+TEST_F(SimulateRobots, MotorsWithoutBoundStopAtLimits) {
+  const std::string urdf =
+      robot_of("<link name=\"base\"/>" + link("sled", 2.0, "0 0 0", "<box size=\"0.1 0.1 0.1\"/>") +
+               joint("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
+                     R"(<limit lower="-0.1" upper="0.1" effort="0" velocity="9"/>)"));
+  for (const std::string motor :
+       {R"({"velocity": 5})", R"({"position": 5})", R"({"torque": 1e6})"}) {
+    for (const std::string gravity : {"[0, 0, 0]", "[0, 0, -9.81]"}) {
+      Simulator s = simulator(scene(urdf, R"("dynamics": {"motors": {"rail": )" + motor + "}}", "",
+                                    R"("step": 0.01, "gravity": )" + gravity));
+      const auto steps = run(s, 10);
+      for (const RunStep& step : steps) {
+        ASSERT_LE(step.robots[0].positions[0], 0.1 + 1e-6) << motor << gravity;
+      }
+      EXPECT_NEAR(steps.back().robots[0].positions[0], 0.1, 1e-6) << motor << gravity;
+    }
+  }
+}
+
 TEST_F(SimulateRobots, LimitsStopAndFrictionHolds) {
   const auto swing = [&](const std::string& more, const std::string& state) {
     const std::string urdf = robot_of(

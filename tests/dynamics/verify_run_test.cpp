@@ -338,6 +338,18 @@ TEST(VerifyRun, ComparesScriptedBodiesWithTheScene) {
   }
 }
 
+// The sine of a large angle is as far from that of the exact one as the angle is rounded.
+TEST(VerifyRun, ProvesBodiesThatSpinHundredsOfTimesInAStep) {
+  RecordedRun run(R"({"firstcontact": 1, "bodies": [
+    {"name": "rod", "shape": {"box": {"size": [1, 0.1, 0.01]}}},
+    {"name": "wall", "shape": {"box": {"size": [1, 9, 9]}}, "pose": {"position": [3, 0, 0]}}]})");
+  for (int k = 0; k < 5; ++k) {
+    run.add({{0, {{.lasts = 1.0, .angular_velocity = {400.0, 3000.0, -900.0}}}}}, 1e-6);
+  }
+  const RunVerification found = run.verify();
+  EXPECT_EQ(found.verdict, RunVerdict::proven) << found.problem;
+}
+
 TEST(VerifyRun, KnowsStepsThatLastNoTime) {
   RecordedRun run = fly_by(0.0999);
   RunStep stuck = run.steps[0];

@@ -11,6 +11,7 @@
 #include <firstcontact/dynamics/detail/islands.h>
 #include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene/version.h>
 
 namespace firstcontact {
@@ -37,6 +38,7 @@ void require_simulation(const LoadedScene& loaded) {
   if (!scene.simulation) {
     throw std::invalid_argument("the scene has no \"simulation\"");
   }
+  (void)simulation_step_count(*scene.simulation);
   for (const Body& body : scene.bodies) {
     if (std::holds_alternative<VertexMotion>(body.motion)) {
       throw std::invalid_argument("body \"" + body.name +

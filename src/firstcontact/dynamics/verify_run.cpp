@@ -80,7 +80,7 @@ class Verification {
       : options_(options),
         loaded_(load(header)),
         members_(make_members(header, loaded_)),
-        follower_(members_, loaded_.scene.duration, options.scripted_tolerance) {
+        follower_(members_, header.scene, options.scripted_tolerance) {
     result_.verdict = RunVerdict::proven;
     result_.least_distance = kInfinity;
   }

@@ -1,6 +1,8 @@
 #include <firstcontact/scene/simulation_duration.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <variant>
 
@@ -55,8 +57,16 @@ void set_simulation_duration(Scene& scene, double duration) {
 
 std::size_t simulation_step_count(const Simulation& simulation) {
   constexpr double kRounding = 1e-12;  // [-]  Of a quotient of whole steps, generously.
-  return static_cast<std::size_t>(
-      std::ceil(simulation.duration / simulation.step * (1.0 - kRounding)));
+  constexpr double kMost = 1e8;
+  const double count = std::ceil(simulation.duration / simulation.step * (1.0 - kRounding));
+  if (!(count <= kMost)) {
+    std::array<char, 128> text{};
+    (void)std::snprintf(text.data(), text.size(),
+                        "simulation: expected at most %g steps, got %g s in steps of %g s", kMost,
+                        simulation.duration, simulation.step);
+    throw std::invalid_argument(text.data());
+  }
+  return static_cast<std::size_t>(count);
 }
 
 }  // namespace firstcontact

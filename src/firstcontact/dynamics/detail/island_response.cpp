@@ -34,6 +34,21 @@ constexpr double kLeastTolerance = 1e-9;  // [m/s]
 /// was found.
 constexpr double kUnsolved = 1e-2;
 
+/// The same of a part of the velocities themselves, where there is no gravity: well above rounding.
+constexpr double kUnsolvedOfSpeed = 1e-9;
+
+/// [m/s, rad/s]  The greatest part of any velocity.
+double fastest(const ContactSolution& solution) {
+  double greatest = 0.0;
+  for (const ContactBody& body : solution.bodies) {
+    greatest = std::max({greatest, body.v.cwiseAbs().maxCoeff(), body.w.cwiseAbs().maxCoeff()});
+  }
+  for (const Eigen::VectorXd& velocities : solution.mechanisms) {
+    greatest = std::max(greatest, velocities.cwiseAbs().maxCoeff());
+  }
+  return greatest;
+}
+
 /// [m/s]  A part of what gravity adds in a step.
 double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.world.gravity.norm() * state.start.h);
@@ -63,7 +78,8 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const bool is_solved = solution.residual <= of_gravity(state, kUnsolved);
+  const bool is_solved = solution.residual <= std::max(of_gravity(state, kUnsolved),
+                                                       kUnsolvedOfSpeed * fastest(solution));
   if (is_solved && state.robots.has_motors()) {
     return false;
   }

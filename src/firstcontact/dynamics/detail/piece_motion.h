@@ -38,6 +38,9 @@ class PieceMotion {
   /// Where the stored pose puts the body frame; a good origin.
   [[nodiscard]] const Eigen::Vector3d& position() const { return position_; }
 
+  /// [rad]  Over the whole piece, rounded.
+  [[nodiscard]] double angle() const { return angle_.midpoint(); }
+
   /// Contains R_WB and the pivot's position at a time.
   ///
   /// @param time    [s]  from from() to to()

@@ -28,9 +28,12 @@ IntervalTransform at_rest(const Pose& X_WB, const Eigen::Vector3d& p_BC,
 
 }  // namespace
 
-RunFollower::RunFollower(const std::vector<RunMember>& members, double duration,
+RunFollower::RunFollower(const std::vector<RunMember>& members, const Scene& scene,
                          double scripted_tolerance)
-    : members_(members), duration_(duration), scripted_tolerance_(scripted_tolerance) {
+    : members_(members), duration_(scene.duration), scripted_tolerance_(scripted_tolerance) {
+  if (scene.simulation) {
+    step_length_ = scene.simulation->step;
+  }
   for (const RunMember& member : members) {
     poses_.push_back(member.start);
   }
@@ -72,6 +75,12 @@ void RunFollower::require_times(const RunStep& step) const {
   if (!(std::abs(step.time - end) <= kTimeRounding * end)) {
     throw BrokenRun("the step ends at " + number(step.time) + " s, but " + number(step.lasted) +
                     " s after " + number(time_) + " s it is " + number(end) + " s");
+  }
+  const double whole = step.lasted + step.time_lost;
+  if (step_length_ && !(std::abs(whole - *step_length_) <= kTimeRounding * *step_length_)) {
+    throw BrokenRun("the step lasted " + number(step.lasted) + " s and lost " +
+                    number(step.time_lost) + " s, but a step of the scene is one of " +
+                    number(*step_length_) + " s");
   }
   if (!(step.clearance >= 0.0)) {
     throw BrokenRun("the clearance is " + number(step.clearance) + " m");
@@ -117,7 +126,8 @@ double RunFollower::jump(std::size_t body, const PieceMotion& from, double from_
   const double reach = member.tree.nodes[0].reach;
   const double deviation =
       deviation_bound(from.enclosure(from_time, origin), to.enclosure(to_time, origin), reach);
-  const double size = to.position().norm() + origin.norm() + member.p_BC.norm() + reach;
+  const double turn = 1.0 + from.angle() + to.angle();  // As sines of large angles err by more.
+  const double size = to.position().norm() + origin.norm() + turn * (member.p_BC.norm() + reach);
   if (!(deviation <= kPoseRounding * size)) {
     throw BrokenRun("\"" + member.name + "\" jumps by " + number(deviation) + " m at " +
                     number(time_ + to_time) + " s");

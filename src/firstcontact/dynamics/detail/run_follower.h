@@ -52,9 +52,8 @@ class BrokenRun : public std::runtime_error {
 class RunFollower {
  public:
   /// @param members             outlive the follower
-  /// @param duration            [s]  of the scene
   /// @param scripted_tolerance  [m]
-  RunFollower(const std::vector<RunMember>& members, double duration, double scripted_tolerance);
+  RunFollower(const std::vector<RunMember>& members, const Scene& scene, double scripted_tolerance);
 
   /// @throws BrokenRun
   [[nodiscard]] FollowedStep follow(const RunStep& step);
@@ -71,7 +70,8 @@ class RunFollower {
   void require_scripted(std::size_t body, const PieceMotion& piece, const RunStep& step);
 
   const std::vector<RunMember>& members_;
-  double duration_;
+  double duration_;                         // [s]  Of the scene.
+  std::optional<double> step_length_ = {};  // [s]  Of a scene with a simulation.
   double scripted_tolerance_;
   std::vector<Pose> poses_;  // As last recorded.
   std::size_t step_ = 0;

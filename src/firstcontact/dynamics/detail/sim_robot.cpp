@@ -41,6 +41,14 @@ bool is_rigid(const JointLaw& law) {
          !std::isfinite(bound(law, 1.0));
 }
 
+/// A velocity that leads no farther than the limits: two laws that nothing yields to, against each
+/// other, have no solution.
+double within_limits(const JointLaw& law, double velocity, double q, double span) {
+  const double least = law.limits.lower ? (*law.limits.lower - q) / span : velocity;
+  const double greatest = law.limits.upper ? (*law.limits.upper - q) / span : velocity;
+  return std::min(std::max(velocity, least), greatest);
+}
+
 JointDrive motor_drive(const JointLaw& law, double q, double from, double span) {
   const JointMotor& motor = *law.motor;
   const double to = from + span;
@@ -53,12 +61,12 @@ JointDrive motor_drive(const JointLaw& law, double q, double from, double span) 
       break;
     }
     case JointMotor::Kind::velocity:
-      drive.target = value_at(motor.target, to);
+      drive.target = within_limits(law, value_at(motor.target, to), q, span);
       break;
     case JointMotor::Kind::position: {
       const double missing = value_at(motor.target, to) - q;
       if (!motor.stiffness) {
-        drive.target = missing / span;
+        drive.target = within_limits(law, missing / span, q, span);
         break;
       }
       // r = span (k (missing - span u) + d (rate - u))
