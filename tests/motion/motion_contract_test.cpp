@@ -235,5 +235,16 @@ TEST(MotionContract, PlacesABodyAfterAThousandTurns) {
   }
 }
 
+// The reciprocal of such a time is infinite, and where a body is then was not a number.
+TEST(MotionContract, RefusesTimesWithoutAReciprocal) {
+  const std::vector<Pose> poses(2);
+  const auto made = [&](double first) {
+    return Motion::waypoints(std::vector<double>{first, 1.0}, poses, Between::constant_velocity);
+  };
+  EXPECT_THROW((void)made(1e-320), std::invalid_argument);
+  EXPECT_NO_THROW((void)made(1e-200));
+  EXPECT_NO_THROW((void)made(0.0));
+}
+
 }  // namespace
 }  // namespace firstcontact::oracle

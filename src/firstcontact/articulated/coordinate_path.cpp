@@ -90,6 +90,7 @@ void require_numbers(std::span<const double> values, const char* name) {
 void require_times(std::span<const double> times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     require(times[k] >= 0.0 && times[k] <= 1.0, "times must lie in [0, 1]");
+    require(times[k] == 0.0 || times[k] >= 1e-200, "times must be 0 or at least 1e-200");
     require(k == 0 || times[k - 1] < times[k], "times must increase strictly");
   }
 }

@@ -19,6 +19,9 @@ constexpr double kConstructionError = 0x1p-98;
 /// below the smallest normal number.
 constexpr double kMaximumCoordinate = 1e60;  // [m]
 
+/// Its reciprocal must not overflow.
+constexpr double kLeastTime = 1e-200;
+
 struct Quaternion {
   DoubleDouble w;
   DoubleDoubleVector3 v;
@@ -338,6 +341,8 @@ Motion Motion::waypoints(std::span<const double> times, std::span<const Pose> po
           "waypoints need as many times as poses, and at least one");
   for (std::size_t i = 0; i < times.size(); ++i) {
     require(times[i] >= 0.0 && times[i] <= 1.0, "waypoint times must lie in [0, 1]");
+    require(times[i] == 0.0 || times[i] >= kLeastTime,
+            "a waypoint time must be 0 or at least 1e-200 of the step");
     require(i == 0 || times[i] > times[i - 1], "waypoint times must increase");
     require_pose(poses[i]);
   }

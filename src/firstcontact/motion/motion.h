@@ -71,7 +71,7 @@ class FIRSTCONTACT_API Motion {
 
   /// Runs through `poses` at `times`; rests before the first and after the last.
   ///
-  /// @param times  [-]  in [0, 1], strictly increasing, as many as poses
+  /// @param times  [-]  in [0, 1], strictly increasing, as many as poses; 0 or at least 1e-200
   static Motion waypoints(std::span<const double> times, std::span<const Pose> poses,
                           Between between = Between::constant_velocity);
 
