@@ -3,7 +3,6 @@
 #include <charconv>
 #include <chrono>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -26,6 +25,7 @@
 #include "question_options.h"
 #include "results_file.h"
 #include "scene_answer.h"
+#include "standard_streams.h"
 
 namespace firstcontact::app {
 namespace {
@@ -132,9 +132,7 @@ class Batch {
       throw ParseError(arguments_.jobs, "changed while its scenes were answered");
     }
     fmt::print("{}", tally_.summary(seconds()));
-    if (std::fflush(stdout) != 0) {
-      throw std::runtime_error("standard output: cannot write all of the summary");
-    }
+    flush_stdout();
     return tally_.status();
   }
 

@@ -25,6 +25,7 @@
 #include "robot_options.h"
 #include "scene_answer.h"
 #include "scene_source.h"
+#include "standard_streams.h"
 #include "viewer_page.h"
 
 namespace firstcontact::app {
@@ -80,9 +81,7 @@ class Check {
     if (output_ && (batch_ || answered_ > 0)) {
       output_->commit();
     }
-    if (std::fflush(stdout) != 0) {
-      throw std::runtime_error("standard output: cannot write all of the answer");
-    }
+    flush_stdout();
     return status_;
   }
 

@@ -17,6 +17,7 @@
 #include "info_json.h"
 #include "print_robot.h"
 #include "quantity_text.h"
+#include "standard_streams.h"
 
 namespace firstcontact::app {
 namespace {
@@ -174,6 +175,7 @@ void add_info_command(CLI::App& app) {
     for (const std::string& file : arguments->files) {
       inform(file, *arguments);
     }
+    flush_stdout();
   });
 }
 

@@ -1,6 +1,5 @@
 // The command line tool: parse, call, print.
 
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -15,6 +14,7 @@
 #include "exit_status.h"
 #include "info_command.h"
 #include "simulate_command.h"
+#include "standard_streams.h"
 #include "verify_command.h"
 #include "view_command.h"
 
@@ -26,7 +26,7 @@ void complain(std::string message) {
   for (char& c : message) {
     c = c == '\n' || c == '\r' ? ' ' : c;
   }
-  fmt::print(stderr, "firstcontact: {}\n", message);
+  say_on_stderr("firstcontact: " + message + '\n');
 }
 
 ExitStatus run(int argc, char** argv) {
@@ -46,6 +46,7 @@ ExitStatus run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // Help or version was asked for.
       app.exit(error);
+      flush_stdout();
       return kSuccess;
     }
     const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
@@ -62,6 +63,7 @@ ExitStatus run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using firstcontact::app::ExitStatus;
+  firstcontact::app::occupy_closed_streams();
   try {
     return static_cast<int>(firstcontact::app::run(argc, argv));
   } catch (const std::bad_alloc&) {

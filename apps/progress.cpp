@@ -3,10 +3,11 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/core.h>
+
+#include "standard_streams.h"
 
 namespace firstcontact::app {
 
@@ -26,7 +27,7 @@ void Progress::doing(std::string text) {
 void Progress::say(std::string_view line) {
   const std::scoped_lock lock(mutex_);
   wipe();
-  fmt::print(stderr, "{}\n", line);
+  say_on_stderr(fmt::format("{}\n", line));
 }
 
 void Progress::show(const std::stop_token& over) {
@@ -36,8 +37,7 @@ void Progress::show(const std::stop_token& over) {
   for (auto pause = 1000ms;
        !wake_.wait_for(lock, over, pause, [&] { return over.stop_requested(); }); pause = 200ms) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    fmt::print(stderr, "\r\x1b[K{} ... {:.1f} s", text_, elapsed.count());
-    std::fflush(stderr);
+    say_on_stderr(fmt::format("\r\x1b[K{} ... {:.1f} s", text_, elapsed.count()));
     shown_ = true;
   }
   wipe();
@@ -45,8 +45,7 @@ void Progress::show(const std::stop_token& over) {
 
 void Progress::wipe() {
   if (shown_) {
-    fmt::print(stderr, "\r\x1b[K");
-    std::fflush(stderr);
+    say_on_stderr("\r\x1b[K");
     shown_ = false;
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -26,6 +25,7 @@
 #include "progress.h"
 #include "quantity_text.h"
 #include "run_file.h"
+#include "standard_streams.h"
 #include "viewer_page.h"
 
 namespace firstcontact::app {
@@ -199,9 +199,7 @@ class Run {
     if (page_) {
       line("page", page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play");
     }
-    if (std::fflush(stdout) != 0) {
-      throw std::runtime_error("standard output: cannot write all of the answer");
-    }
+    flush_stdout();
   }
 
   const Interrupt interrupt_;  // First: other threads inherit what it blocks.

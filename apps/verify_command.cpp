@@ -1,6 +1,5 @@
 #include "verify_command.h"
 
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "quantity_text.h"
+#include "standard_streams.h"
 
 namespace firstcontact::app {
 namespace {
@@ -135,9 +135,7 @@ ExitStatus verify(const Arguments& arguments) {
   } else {
     fmt::print("{}", Description(arguments.run, run, found).write());
   }
-  if (std::fflush(stdout) != 0) {
-    throw std::runtime_error("standard output: cannot write all of the answer");
-  }
+  flush_stdout();
   return status_of(found.verdict);
 }
 

@@ -28,6 +28,7 @@
 
 #include "atomic_file.h"
 #include "interrupt.h"
+#include "standard_streams.h"
 #include "viewer_page.h"
 
 extern char** environ;
@@ -61,7 +62,8 @@ void open(const std::string& page) {
     waitpid(process, &status, 0);
   }
   if (status != 0) {
-    fmt::print(stderr, "firstcontact: cannot open a browser here; open {} yourself\n", page);
+    say_on_stderr(
+        fmt::format("firstcontact: cannot open a browser here; open {} yourself\n", page));
   }
 }
 
@@ -122,6 +124,7 @@ void view(const Arguments& arguments) {
   }
   write_file(output, is_run(path) ? page_of_run(page, path) : page_of_result(page, path));
   fmt::print("{}\n", output);
+  flush_stdout();
   if (!arguments.no_open) {
     open(output);
   }

@@ -41,6 +41,11 @@ class ToolTest(unittest.TestCase):
         return subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True,
                               timeout=120, check=False)
 
+    def run_in_shell(self, command: str) -> subprocess.CompletedProcess:
+        """With redirections, which a shell does."""
+        return subprocess.run(["sh", "-c", f'"$0" {command}', TOOL], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+
     def start(self, *arguments: str, **more) -> subprocess.Popen:
         process = subprocess.Popen([TOOL, *arguments], cwd=self.folder, text=True, stdout=subprocess.PIPE,
                                    **{"stderr": subprocess.PIPE, **more})
@@ -468,6 +473,31 @@ class Errors(ToolTest):
         scene = self.file("s.json", scenes.scene({"name": "a", "shape": {"mesh": "no.obj"}}))
         self.assert_refused(self.run_tool("check", scene), "s.json:1: bodies[0].shape.mesh: "
                             'expected a mesh file, found none at "no.obj"')
+
+    def test_are_status_2_even_where_nobody_can_be_told(self):
+        """Standard error is full, then closed."""
+        for stream in ("2>/dev/full", "2>&-"):
+            for arguments in ("check no.json", "check --fast"):
+                self.assertEqual(self.run_in_shell(f"{arguments} {stream}").returncode, 2, (arguments, stream))
+        self.file("bad.json", scenes.BAD)
+        self.file("free.json", scenes.FREE)
+        result = self.run_in_shell("check bad.json free.json 2>/dev/full")
+        self.assertEqual((result.returncode, len(result.stdout.splitlines())), (2, 2), result)
+
+    def test_are_kept_out_of_the_files_that_are_written(self):
+        """A file must not get the number of a stream that is closed."""
+        self.file("s.jsonl", scenes.BAD + "\n" + scenes.FREE)
+        self.assertEqual(self.run_in_shell("check s.jsonl -o out.jsonl 2>&-").returncode, 2)
+        answers = [json.loads(line) for line in (self.folder / "out.jsonl").read_text().splitlines()]
+        self.assertEqual([a.get("verdict", "error") for a in answers], ["error", "free"])
+
+    def test_tell_of_an_answer_that_could_not_be_written(self):
+        self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.file("s.json", scenes.FREE)
+        for arguments in ("check s.json", "info m.obj", "info --json m.obj", "--help"):
+            for stream in (">/dev/full", ">&-"):
+                self.assert_refused(self.run_in_shell(f"{arguments} {stream}"),
+                                    "standard output: cannot write all of the answer")
 
     def test_are_one_line_even_where_a_name_has_two(self):
         result = self.run_tool("check", "no\nsuch.json")

@@ -1,0 +1,22 @@
+/// @file
+/// The standard streams, which may be closed, or full as a disk is.
+
+#pragma once
+
+#include <string_view>
+
+namespace firstcontact::app {
+
+/// Call before any file is opened: it would get the number of a stream that is closed, and what
+/// is meant for the stream would go into the file. After this such a write fails.
+void occupy_closed_streams();
+
+/// Writes to standard error. Throws nothing: where nobody can be told, the exit status says it.
+void say_on_stderr(std::string_view text);
+
+/// Writes out what is buffered of the answer.
+///
+/// @throws std::runtime_error where any of it could not be written
+void flush_stdout();
+
+}  // namespace firstcontact::app
