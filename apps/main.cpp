@@ -29,6 +29,17 @@ void complain(std::string message) {
   say_on_stderr("firstcontact: " + message + '\n');
 }
 
+/// With the help to look at: that of the command, where the first argument is one.
+std::string describe(const CLI::ParseError& error, const CLI::App& app, const std::string& first) {
+  const auto is_first = [&first](const CLI::App* command) { return command->get_name() == first; };
+  if (!app.get_subcommands(is_first).empty()) {
+    return fmt::format("{} (see firstcontact {} --help)", error.what(), first);
+  }
+  const bool unknown = !first.empty() && first[0] != '-' && app.get_subcommands().empty();
+  return (unknown ? fmt::format("unknown command \"{}\"", first) : std::string(error.what())) +
+         " (see firstcontact --help)";
+}
+
 ExitStatus run(int argc, char** argv) {
   ExitStatus status = kSuccess;
   CLI::App app("When do moving bodies touch for the first time? Proven, not sampled.",
@@ -49,10 +60,7 @@ ExitStatus run(int argc, char** argv) {
       flush_stdout();
       return kSuccess;
     }
-    const bool unknown = argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty();
-    complain(
-        (unknown ? fmt::format("unknown command \"{}\"", argv[1]) : std::string(error.what())) +
-        " (see firstcontact --help)");
+    complain(describe(error, app, argc > 1 ? argv[1] : ""));
     return ExitStatus::bad_input;
   }
   return status;

@@ -125,7 +125,7 @@ class Shards(BatchTest):
         self.file("jobs.jsonl", scenes.FREE)
         for text in ("0/3", "4/3", "1", "1/", "/3", "-1/3", "1/3x", "1.5/3", "1/0"):
             self.assert_refused(self.batch(f"--shard={text}"), "--shard: expected i/N, such as 1/4, with i from "
-                                f'1 to N, got "{text}" (see firstcontact --help)')
+                                f'1 to N, got "{text}" (see firstcontact batch --help)')
 
 
 class Resume(BatchTest):
