@@ -214,6 +214,9 @@ class Check {
 
 /// A scene, or a robot.
 void require_one_question(const Arguments& arguments) {
+  if (!arguments.files.empty() && arguments.robot.robot.empty()) {
+    require_no_option_of_a_robot(arguments.robot);
+  }
   if (arguments.robot.robot.empty() && !files_of(arguments.robot).empty()) {
     throw std::invalid_argument("expected --robot ROBOT.urdf beside " +
                                 files_of(arguments.robot).front());

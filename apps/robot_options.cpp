@@ -1,5 +1,10 @@
 #include "robot_options.h"
 
+#include <array>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
 #include <firstcontact/scene/robot_question.h>
 
 #include "command_line_number.h"
@@ -54,6 +59,32 @@ std::vector<std::string> files_of(const RobotArguments& arguments) {
     }
   }
   return files;
+}
+
+void require_no_option_of_a_robot(const RobotArguments& arguments) {
+  struct Option {
+    bool is_given;
+    const char* name;
+    const char* in_a_scene;
+  };
+  const std::array options{
+      Option{!arguments.srdf.empty(), "--srdf", "robots[].srdf"},
+      Option{!arguments.trajectory.empty(), "--trajectory", "robots[].trajectory"},
+      Option{!arguments.request.empty(), "--request", "robots[].trajectory"},
+      Option{!arguments.start.empty(), "--start", "robots[].trajectory"},
+      Option{!arguments.goal.empty(), "--goal", "robots[].trajectory"},
+      Option{!arguments.state.empty(), "--state", "robots[].state"},
+      Option{!arguments.environment.empty(), "--environment", "bodies"},
+      Option{!arguments.package_roots.empty(), "--package-root", "package_roots"},
+      Option{arguments.padding.has_value(), "--padding", "robots[].padding"},
+      Option{arguments.tracking_error.has_value(), "--tracking-error", "robots[].tracking_error"},
+      Option{arguments.visual, "--visual", "robots[].surface"}};
+  for (const Option& option : options) {
+    if (option.is_given) {
+      throw std::invalid_argument(fmt::format("{} belongs to --robot; in a scene, say it in {}",
+                                              option.name, option.in_a_scene));
+    }
+  }
 }
 
 const std::string& named_in_errors(const RobotArguments& arguments) {

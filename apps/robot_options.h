@@ -34,6 +34,11 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments);
 /// All files that the arguments name.
 [[nodiscard]] std::vector<std::string> files_of(const RobotArguments& arguments);
 
+/// A scene says of its robots itself what these options say: they must not be lost in silence.
+///
+/// @throws std::invalid_argument, the first that is given beside a scene
+void require_no_option_of_a_robot(const RobotArguments& arguments);
+
 /// The file that errors without a file of their own are about: the motion's, or the robot's.
 [[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);
 

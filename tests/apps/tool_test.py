@@ -410,6 +410,9 @@ class Robot(ToolTest):
                  "upper limit of 1.5 rad by 0.5 rad at 4 s"),
                 (["--trajectory", self.move, "--goal", "elbow=1"],
                  f"{self.move}: expected one of a trajectory, a request and a goal, got 2"),
+                (["--trajectory", self.move, "--start", "elbow=1"],
+                 f"{self.move}: expected a start beside a goal alone; where joints rest that the motion does not "
+                 "name is the state"),
                 (["--environment", "none.stl"],
                  "none.stl: expected surroundings (a mesh, a planning scene in .yaml, or a scene in .json), "
                  "found no such file")]:
@@ -417,6 +420,20 @@ class Robot(ToolTest):
         self.assert_refused(self.run_tool("check"), "expected a SCENE, or --robot (see firstcontact check --help)")
         self.assert_refused(self.run_tool("check", "--trajectory", "x.csv"),
                             "expected --robot ROBOT.urdf beside x.csv")
+
+
+    def test_has_options_that_are_refused_beside_a_scene(self):
+        """Where they were ignored, the answer would be of another question."""
+        scene = self.file("s.json", scenes.FREE)
+        for option, value, place in [
+                ("--srdf", "r.srdf", "robots[].srdf"), ("--trajectory", "t.csv", "robots[].trajectory"),
+                ("--request", "r.yaml", "robots[].trajectory"), ("--start", "elbow=0", "robots[].trajectory"),
+                ("--goal", "elbow=1", "robots[].trajectory"), ("--state", "elbow=1", "robots[].state"),
+                ("--environment", "m.obj", "bodies"), ("--package-root", ".", "package_roots"),
+                ("--padding", "0", "robots[].padding"), ("--tracking-error", "1", "robots[].tracking_error"),
+                ("--visual", "", "robots[].surface")]:
+            self.assert_refused(self.run_tool("check", scene, option, *filter(None, [value])),
+                                f"{option} belongs to --robot; in a scene, say it in {place}")
 
 
 class ExitStatus(ToolTest):

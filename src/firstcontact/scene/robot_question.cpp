@@ -115,6 +115,11 @@ class SceneBuilder {
     if (ways > 1) {
       refuse("expected one of a trajectory, a request and a goal, got " + std::to_string(ways));
     }
+    if (ways == 1 && question_.goal.empty() && !question_.start.empty()) {
+      refuse(
+          "expected a start beside a goal alone; where joints rest that the motion does not name "
+          "is the state");
+    }
     robot.state = positions_of(question_.state, robot);
     put(positions_of(question_.start, robot), robot.state);
     scene_.id = robot.name;

@@ -21,8 +21,9 @@ struct RobotQuestion {
   Pose base = {};                         ///< Of the root link; a request says its own.
   std::filesystem::path trajectory = {};  ///< As read_trajectory.
   std::filesystem::path request = {};     ///< Straight from its start to its goal.
-  std::vector<std::string> start = {};    ///< States, the later ones prevail: see `state`.
-  std::vector<std::string> goal = {};     ///< Straight from the start to there.
+  /// States, the later ones prevail: see `state`. None beside a trajectory or request.
+  std::vector<std::string> start = {};
+  std::vector<std::string> goal = {};  ///< Straight from the start to there.
   /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION.
   std::vector<std::string> state = {};
   /// Meshes; planning scenes (.yaml); scenes (.json), with the rules for their bodies and options.
