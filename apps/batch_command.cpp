@@ -19,6 +19,7 @@
 #include <firstcontact/scene/version.h>
 
 #include "batch_tally.h"
+#include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -216,7 +217,7 @@ void add_batch_command(CLI::App& app, ExitStatus& status) {
   auto arguments = std::make_shared<Arguments>();
   command->add_option("JOBS", arguments->jobs, "A file with one scene in each line (JSON Lines)")
       ->required();
-  command->add_option("-o,--output", arguments->results, "Where the results go, one in each line")
+  add_file(*command, "-o,--output", arguments->results, "Where the results go, one in each line")
       ->required()
       ->type_name("RESULTS");
   command->add_flag("--resume", arguments->resume, "Goes on with the results that are there");

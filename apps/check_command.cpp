@@ -15,6 +15,7 @@
 #include <firstcontact/scene/write_page.h>
 
 #include "atomic_file.h"
+#include "command_line_file.h"
 #include "command_line_number.h"
 #include "gap_plot.h"
 #include "gap_table.h"
@@ -246,17 +247,13 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   command->add_option("SCENE", arguments->files,
                       ".json: one scene. .jsonl: one scene in each line; the answers are one line "
                       "each, in order, and a bad line gets an error as its answer");
-  command->add_option("-o,--output", arguments->output, "Writes the result as JSON to a file")
-      ->type_name("FILE");
+  add_file(*command, "-o,--output", arguments->output, "Writes the result as JSON to a file");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
-  command->add_option("--svg", arguments->plot, "Draws the gap over time (one scene)")
-      ->type_name("FILE");
-  command
-      ->add_option("--gap", arguments->gap,
-                   "Writes the gap over time and its proven lower bound as a table (one scene)")
+  add_file(*command, "--svg", arguments->plot, "Draws the gap over time (one scene)");
+  add_file(*command, "--gap", arguments->gap,
+           "Writes the gap over time and its proven lower bound as a table (one scene)")
       ->type_name("FILE.csv");
-  command->add_option("--html", arguments->page, "Makes a page that plays the answer (one scene)")
-      ->type_name("FILE");
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the answer (one scene)");
   add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
              "[1/s] Also says what sampling at this rate would have seen");

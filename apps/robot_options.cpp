@@ -7,13 +7,14 @@
 
 #include <firstcontact/scene/robot_question.h>
 
+#include "command_line_file.h"
 #include "command_line_number.h"
 
 namespace firstcontact::app {
 
 void add_robot_options(CLI::App& command, RobotArguments& arguments) {
   const auto file = [&](const char* name, std::string& value, const char* text) {
-    command.add_option(name, value, text)->type_name("FILE")->group("Robot");
+    add_file(command, name, value, text)->group("Robot");
   };
   const auto list = [&](const char* name, std::vector<std::string>& values, const char* type,
                         const char* text) {

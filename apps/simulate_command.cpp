@@ -20,6 +20,7 @@
 #include <firstcontact/scene/simulation_duration.h>
 
 #include "atomic_file.h"
+#include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -229,10 +230,9 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
       "simulate", "Moves bodies under forces and contacts; nothing ever interpenetrates");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "The scene, .json")->required();
-  CLI::Option* output = command->add_option("-o,--output", arguments->output,
-                                            "Records the run: JSON Lines, a line a step");
-  command->add_option("--html", arguments->page, "Makes a page that plays the run")
-      ->type_name("FILE");
+  CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
+                                 "Records the run: JSON Lines, a line a step");
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_number(*command, "--duration", arguments->duration, Range::positive,
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,

@@ -27,6 +27,7 @@
 #include <firstcontact/scene/write_page.h>
 
 #include "atomic_file.h"
+#include "command_line_file.h"
 #include "interrupt.h"
 #include "standard_streams.h"
 #include "viewer_page.h"
@@ -142,10 +143,8 @@ void add_view_command(CLI::App& app) {
           "What `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote; run "
           "this in the same folder as that, its mesh files are read again")
       ->required();
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Where the page goes; beside the result where this is not given")
-      ->type_name("FILE");
+  add_file(*command, "-o,--output", arguments->output,
+           "Where the page goes; beside the result where this is not given");
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
   command->callback([arguments] { view(*arguments); });
 }

@@ -621,6 +621,15 @@ class OutputFile(ToolTest):
                                 "./s.json: this would overwrite the scene")
         self.assertEqual((self.folder / "s.json").read_text(), scenes.FREE)
 
+    def test_needs_a_name(self):
+        """An empty one is a shell's variable that is not set."""
+        scene = self.file("s.json", scenes.FREE)
+        for command, options in (("check", ["-o", "--svg", "--gap", "--html", "--robot", "--trajectory"]),
+                                 ("simulate", ["-o", "--html"]), ("view", ["-o"]), ("batch", ["-o"])):
+            for option in options:
+                self.assert_refused(self.run_tool(command, scene, option, ""),
+                                    f"{option} expects a file, got an empty name")
+
     def test_that_cannot_be_written_is_said_so(self):
         result = self.run_tool("check", "-o", "no/out.json", self.file("s.json", scenes.FREE))
         self.assert_refused(result, "no/out.json: cannot write this file: No such file or directory")
