@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -22,6 +21,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "progress.h"
 #include "question_options.h"
 #include "results_file.h"
@@ -140,10 +140,8 @@ class Batch {
  private:
   /// Nobody wants the results in the place of the jobs.
   ResultsFile open_results() const {
-    std::error_code missing;
-    if (std::filesystem::equivalent(arguments_.jobs, arguments_.results, missing)) {
-      throw std::invalid_argument(arguments_.results + ": this would overwrite the jobs");
-    }
+    require_no_input({{"-o", arguments_.results}, {"-o", arguments_.results + ".batch"}},
+                     {arguments_.jobs});
     return {arguments_.results, origin_of(arguments_, survey_), arguments_.resume};
   }
 

@@ -1,12 +1,10 @@
 #include "check_command.h"
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
@@ -20,6 +18,7 @@
 #include "gap_plot.h"
 #include "gap_table.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "print_result.h"
 #include "progress.h"
 #include "question_options.h"
@@ -47,7 +46,13 @@ struct Arguments {
 class Check {
  public:
   explicit Check(const Arguments& arguments)
-      : arguments_(arguments), question_(arguments.question), batch_(is_batch(arguments)) {
+      : arguments_(arguments),
+        outputs_{{"-o", arguments.output},
+                 {"--svg", arguments.plot},
+                 {"--gap", arguments.gap},
+                 {"--html", arguments.page}},
+        question_(arguments.question),
+        batch_(is_batch(arguments)) {
     if (batch_ && !arguments_.plot.empty()) {
       throw std::invalid_argument("--svg draws one scene; give one .json file");
     }
@@ -60,7 +65,7 @@ class Check {
     if (!arguments_.page.empty()) {
       page_ = viewer_page();  // Missing is better known before the work than after it.
     }
-    keep_scenes();
+    keep_inputs();
     if (!arguments_.output.empty()) {
       output_.emplace(arguments_.output);
     }
@@ -93,21 +98,11 @@ class Check {
            (arguments.files.size() == 1 && is_json_lines(arguments.files.front()));
   }
 
-  /// Nobody wants an answer in the place of the question.
-  void keep_scenes() const {
-    std::vector<std::string> inputs = files_of(arguments_.robot);
-    inputs.insert(inputs.end(), arguments_.files.begin(), arguments_.files.end());
-    for (const std::string& file : inputs) {
-      for (const std::string& written :
-           {arguments_.output, arguments_.plot, arguments_.gap, arguments_.page}) {
-        std::error_code missing;
-        if (std::filesystem::equivalent(file, written, missing)) {
-          throw std::invalid_argument(written + (arguments_.files.empty()
-                                                     ? ": this would overwrite an input"
-                                                     : ": this would overwrite the scene"));
-        }
-      }
-    }
+  void keep_inputs() const {
+    require_different(outputs_);
+    const std::vector<std::string> named = files_of(arguments_.robot);
+    require_no_input(outputs_, {named.begin(), named.end()});
+    require_no_input(outputs_, {arguments_.files.begin(), arguments_.files.end()});
   }
 
   void check_file(const std::string& file) {
@@ -136,6 +131,7 @@ class Check {
     try {
       Scene scene = source.read();
       id = scene.id;
+      require_no_input(outputs_, files_of(scene));
       take_answer(source, answer_scene(std::move(scene), question_, cache_, workspace_));
     } catch (const std::invalid_argument& error) {
       take_error(id, source.file, source.line, ParseError(source.file, error.what()));
@@ -203,6 +199,7 @@ class Check {
   Interrupt interrupt_;  // First: other threads inherit what it blocks.
   Progress progress_;
   const Arguments& arguments_;
+  std::vector<OutputFile> outputs_;
   Question question_;
   bool batch_;
   std::string page_;  // Without a result.

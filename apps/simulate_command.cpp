@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -23,6 +23,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "run_file.h"
@@ -42,7 +43,11 @@ struct Arguments {
 };
 
 Simulator load(const Arguments& arguments) {
+  const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
+  require_different(outputs);
+  require_no_input(outputs, {arguments.scene});
   Scene scene = read_simulation_scene(arguments.scene);
+  require_no_input(outputs, files_of(scene));
   if (!scene.simulation) {
     throw ParseError(arguments.scene,
                      "expected \"simulation\" or a body with \"dynamics\"; without them nothing "
@@ -90,12 +95,6 @@ struct Tally {
 class Run {
  public:
   explicit Run(const Arguments& arguments) : arguments_(arguments), simulator_(load(arguments)) {
-    for (const std::string& file : {arguments.output, arguments.page}) {
-      std::error_code missing;
-      if (std::filesystem::equivalent(arguments.scene, file, missing)) {
-        throw std::invalid_argument(file + ": this would overwrite the scene");
-      }
-    }
     if (!arguments.page.empty()) {
       template_ = viewer_page();  // Missing is better known before the work than after it.
       page_.emplace(simulator_.header());

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -29,6 +28,7 @@
 #include "atomic_file.h"
 #include "command_line_file.h"
 #include "interrupt.h"
+#include "output_files.h"
 #include "standard_streams.h"
 #include "viewer_page.h"
 
@@ -78,9 +78,11 @@ bool is_run(const std::string& path) {
 }
 
 /// Holds one line of the run at a time: it may be as large as a disk allows.
-std::string page_of_run(const std::string& page, const std::string& path) {
+std::string page_of_run(const std::string& page, const std::string& path,
+                        const OutputFile& output) {
   std::ifstream stream(path, std::ios::binary);
   RunReader run(stream, path);
+  require_no_input({output}, files_of(run.header().scene));
   RunPage collected(run.header());
   while (const std::optional<RunStep> step = run.next()) {
     collected.add(*step);
@@ -99,9 +101,11 @@ std::string page_of_run(const std::string& page, const std::string& path) {
   return collected.write(page, loaded);
 }
 
-std::string page_of_result(const std::string& page, const std::string& path) {
+std::string page_of_result(const std::string& page, const std::string& path,
+                           const OutputFile& output) {
   const std::string text = read_text(path);
   StoredResult stored = read_result(text, path);
+  require_no_input({output}, files_of(stored.scene));
   const Interrupt interrupt;
   ShapeCache cache;
   const LoadedScene loaded = load_scene(std::move(stored.scene), cache);
@@ -119,11 +123,10 @@ void view(const Arguments& arguments) {
   const std::string output = arguments.output.empty()
                                  ? std::filesystem::path(path).replace_extension(".html").string()
                                  : arguments.output;
-  std::error_code missing;
-  if (std::filesystem::equivalent(path, output, missing)) {
-    throw std::invalid_argument(output + ": this would overwrite the result");
-  }
-  write_file(output, is_run(path) ? page_of_run(page, path) : page_of_result(page, path));
+  const OutputFile file{.option = "-o", .path = output};
+  require_no_input({file}, {path});
+  write_file(output,
+             is_run(path) ? page_of_run(page, path, file) : page_of_result(page, path, file));
   fmt::print("{}\n", output);
   flush_stdout();
   if (!arguments.no_open) {

@@ -226,10 +226,13 @@ class Files(BatchTest):
                 ({"jobs": "no.jsonl"}, "no.jsonl: expected a file of scenes, found none"),
                 ({"jobs": "fifo.jsonl"}, "fifo.jsonl: expected a plain file of scenes, which can be read twice"),
                 ({"jobs": "empty.jsonl"}, "empty.jsonl: expected at least one scene, got none"),
-                ({"results": "./jobs.jsonl"}, "./jobs.jsonl: this would overwrite the jobs"),
+                ({"results": "./jobs.jsonl"}, "-o ./jobs.jsonl: this would overwrite an input, jobs.jsonl"),
                 ({"results": "/dev/null"}, "/dev/null: expected a plain file for the results, got something else"),
                 ({"results": "no/out"}, "no/out: cannot write this file: No such file or directory")]:
             self.assert_refused(self.batch(**arguments), message)
+        jobs = self.file("out.batch", scenes.FREE)  # Where it is written what the results in `out` are of.
+        self.assert_refused(self.batch(jobs=jobs, results="out"),
+                            "-o out.batch: this would overwrite an input, out.batch")
 
     def test_have_one_writer(self):
         self.file("jobs.jsonl", scenes.ENDLESS)

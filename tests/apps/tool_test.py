@@ -618,8 +618,70 @@ class OutputFile(ToolTest):
         scene = self.file("s.json", scenes.FREE)
         for option in ("-o", "--svg"):
             self.assert_refused(self.run_tool("check", scene, option, "./s.json"),
-                                "./s.json: this would overwrite the scene")
+                                f"{option} ./s.json: this would overwrite an input, s.json")
         self.assertEqual((self.folder / "s.json").read_text(), scenes.FREE)
+
+    def inputs(self) -> dict:
+        """Name and content of the files of a scene, and of a robot."""
+        mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+        link = '<link name="{}"><{}><geometry><mesh filename="{}"/></geometry></{}></link>'
+        self.file("m.obj", mesh)
+        self.file("hull.obj", mesh)
+        self.file("link.obj", mesh)
+        self.file("looks.obj", mesh)
+        self.file("c.xyz", "0 0 0\n")
+        self.file("h.txt", "0 0\n0 0\n")
+        self.file("r.urdf", '<robot name="r">' + link.format("a", "collision", "link.obj", "collision") +
+                  link.format("b", "visual", "looks.obj", "visual") + '<joint name="j" type="continuous">'
+                  '<parent link="a"/><child link="b"/></joint></robot>')
+        self.file("r.srdf", '<robot name="r"/>')
+        self.file("t.csv", "time,j\n0,0\n1,1\n")
+        shapes = [{"mesh": "m.obj"}, {"convex_hull": {"mesh": "hull.obj"}}, {"points": "c.xyz"},
+                  {"heightmap": {"heights": "h.txt", "cell": [1, 1]}}]
+        bodies = [{"name": f"body {k}", "shape": shape, "pose": {"position": [0, 0, 9 * k]}}
+                  for k, shape in enumerate(shapes)]
+        robot = {"name": "r", "urdf": "r.urdf", "srdf": "r.srdf", "trajectory": "t.csv",
+                 "base": {"position": [0, 0, -9]}}
+        self.file("s.json", json.dumps({"firstcontact": 1, "bodies": bodies, "robots": [robot]}))
+        result = self.run_tool("check", "s.json")
+        self.assertEqual(result.returncode, 0, result)
+        return {path.name: path.read_bytes() for path in self.folder.iterdir()}
+
+    def test_is_never_a_file_that_the_scene_names(self):
+        before = self.inputs()
+        (self.folder / "link").symlink_to("m.obj")
+        for name in before:
+            self.assert_refused(self.run_tool("check", "s.json", "-o", f"./{name}"),
+                                f"-o ./{name}: this would overwrite an input, {name}")
+        for option in ("--svg", "--gap"):
+            self.assert_refused(self.run_tool("check", "s.json", option, "link"),
+                                f"{option} link: this would overwrite an input, m.obj")
+        self.assert_refused(self.run_tool("simulate", "s.json", "-o", "t.csv"),
+                            "-o t.csv: this would overwrite an input, t.csv")
+        robot = ["check", "--robot", "r.urdf", "--srdf", "r.srdf", "--trajectory", "t.csv", "--environment", "m.obj"]
+        for name in ("r.urdf", "r.srdf", "t.csv", "m.obj", "link.obj"):
+            self.assert_refused(self.run_tool(*robot, "-o", name), f"-o {name}: this would overwrite an input, {name}")
+        for name, content in before.items():
+            self.assertEqual((self.folder / name).read_bytes(), content)
+
+    def test_is_never_a_file_of_any_of_many_scenes(self):
+        """Those before it have an answer, but none in the place of the mesh."""
+        self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        line = scenes.scene({"name": "a", "shape": {"mesh": "m.obj"}}, scenes.falling(9))
+        result = self.run_tool("check", self.file("s.jsonl", scenes.FREE + "\n" + line), "-o", "m.obj")
+        self.assertEqual((result.returncode, result.stderr),
+                         (2, "firstcontact: -o m.obj: this would overwrite an input, m.obj\n"))
+        self.assertTrue((self.folder / "m.obj").read_text().startswith("v "))
+
+    def test_is_never_another_output(self):
+        scene = self.file("s.json", scenes.FREE)
+        drop = self.file("drop.json", scenes.DROP)
+        before = self.names()
+        for command in (["check", scene, "-o", "a", "--gap", "./a"], ["simulate", drop, "-o", "a", "--html", "./a"]):
+            self.assert_refused(self.run_tool(*command), f"{command[4]} ./a: this would overwrite the file of -o")
+        self.assertEqual(self.names(), before)
+        result = self.run_tool("check", scene, "-o", "/dev/null", "--gap", "/dev/null")
+        self.assertEqual(result.returncode, 0, result)
 
     def test_needs_a_name(self):
         """An empty one is a shell's variable that is not set."""
@@ -811,7 +873,23 @@ class ViewerPage(ToolTest):
         self.assert_refused(self.run_tool("view", self.file("none.jsonl", header), "--no-open"),
                             "none.jsonl: expected steps after the header; there is nothing to play")
         self.assert_refused(self.run_tool("simulate", "scene.json", "--html", "scene.json"),
-                            "scene.json: this would overwrite the scene")
+                            "--html scene.json: this would overwrite an input, scene.json")
+
+    def test_is_never_an_input(self):
+        if not self.template.exists():
+            self.skipTest("built without the viewer's page")
+        mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+        self.file("m.obj", mesh)
+        stone = {**json.loads(scenes.DROP)["bodies"][0], "pose": {"position": [0, 0, 9]}}
+        scene = self.file("s.json", json.dumps({"firstcontact": 1, "simulation": {"duration": 0.02}, "bodies": [
+            stone, {"name": "floor", "shape": {"mesh": "m.obj"}}]}))
+        self.assertEqual(self.run_tool("check", scene, "-o", "result.json").returncode, 0)
+        self.assertEqual(self.run_tool("simulate", scene, "-o", "run.jsonl").returncode, 0)
+        for option, command in (("--html", ["check", scene]), ("--html", ["simulate", scene]),
+                                ("-o", ["view", "result.json"]), ("-o", ["view", "run.jsonl"])):
+            self.assert_refused(self.run_tool(*command, option, "m.obj"),
+                                f"{option} m.obj: this would overwrite an input, m.obj")
+        self.assertEqual((self.folder / "m.obj").read_text(), mesh)
 
     def test_shows_one_scene(self):
         lines = self.file("scenes.jsonl", scenes.FREE + "\n" + scenes.CONTACT)

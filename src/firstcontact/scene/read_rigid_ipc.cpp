@@ -73,6 +73,7 @@ class FixtureReader {
     }
     detail::name_and_group(origins_, scene_);
     scene_.warnings = keys_.warnings();
+    scene_.files_read = meshes_.files();
     return std::move(scene_);
   }
 

@@ -106,6 +106,7 @@ class SceneBuilder {
   std::string text_of(const std::filesystem::path& path, const std::string& what) {
     std::string text = detail::read_file(path, what);
     texts_ += detail::sha256(text) + '\n';
+    scene_.files_read.push_back(path);
     return text;
   }
 

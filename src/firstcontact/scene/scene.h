@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -76,6 +77,9 @@ struct Scene {
   /// which write_scene() writes out; may be empty.
   std::string text_digest;
   std::vector<std::string> warnings = {};  ///< What a user should know of what was read.
+  /// Files that were read into what stands above, such as trajectories and the meshes of Rigid IPC;
+  /// as MeshFile::path.
+  std::vector<std::filesystem::path> files_read = {};
 };
 
 /// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.

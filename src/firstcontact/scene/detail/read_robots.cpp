@@ -104,6 +104,7 @@ class RobotReader {
     const std::string text = read_file(path, "a trajectory file");
     robot.trajectory = parse_trajectory(text, path, robot.model);
     scene_.text_digest += sha256(text) + '\n';
+    scene_.files_read.push_back(path);
   }
 
   void take_motion(const JsonObject& object, SceneRobot& robot) const {

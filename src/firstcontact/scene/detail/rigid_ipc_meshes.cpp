@@ -103,6 +103,14 @@ std::string RigidIpcMeshes::digests() const {
   return lines;
 }
 
+std::vector<fs::path> RigidIpcMeshes::files() const {
+  std::vector<fs::path> files;
+  for (const auto& [path, loaded] : loaded_) {
+    files.push_back(path);
+  }
+  return files;
+}
+
 Eigen::Vector3d extent(const Mesh& mesh) {
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {

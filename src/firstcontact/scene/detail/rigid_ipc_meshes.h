@@ -36,6 +36,9 @@ class RigidIpcMeshes {
   /// SHA-256 of what was read, a line for each file.
   [[nodiscard]] std::string digests() const;
 
+  /// What was read.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
  private:
   struct Loaded {
     Mesh mesh;
