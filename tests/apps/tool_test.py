@@ -749,6 +749,12 @@ class Interrupt(ToolTest):
         self.assertEqual(json.loads(result.stdout)["reason"], "deadline")
 
 
+    def test_a_deadline_beyond_the_clock_is_none(self):
+        scene = self.file("s.json", scenes.CONTACT)
+        for deadline in ("1e10", "1e300"):
+            self.assertEqual(self.run_tool("check", "--deadline", deadline, scene).returncode, 1, deadline)
+
+
 class Progress(ToolTest):
     def test_is_shown_on_a_terminal(self):
         ours, theirs = pty.openpty()

@@ -19,7 +19,8 @@ using Clock = std::chrono::steady_clock;
 WorkBudget budget_of(const Scene& scene, const CheckOptions& options) {
   WorkBudget budget;
   budget.stop = options.stop;
-  if (scene.options.deadline) {
+  constexpr double kYear = 3e7;  // [s]  Longer deadlines are none, and would overflow the clock.
+  if (scene.options.deadline && *scene.options.deadline <= kYear) {
     budget.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                          std::chrono::duration<double>(*scene.options.deadline));
   }
