@@ -924,6 +924,12 @@ class Info(ToolTest):
                          "size                   1 m x 2 m x 3 m"):
                 self.assertIn(line, result.stdout)
 
+    def test_passes_over_a_byte_order_mark(self):
+        for name, text in (("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ("c.xyz", "0 0 0\n1 2 3\n")):
+            plain = self.run_tool("info", self.file(name, text))
+            marked = self.run_tool("info", self.file(name, "\ufeff" + text))
+            self.assertEqual((marked.returncode, marked.stdout), (0, plain.stdout), marked)
+
     def test_asks_whether_the_unit_is_right(self):
         for size, asks in ((999, False), (1000, True)):
             mesh = self.file("big.obj", f"v 0 0 0\nv {size} 0 0\nv 0 1 0\nf 1 2 3\n")

@@ -131,7 +131,8 @@ void read_statement(TextCursor& text, MeshBuilder& mesh) {
 }  // namespace
 
 Mesh parse_obj(std::string_view data, const std::string& source) {
-  TextCursor text(data, source, {.comments = true, .continuation = true});
+  TextCursor text(detail::without_byte_order_mark(data), source,
+                  {.comments = true, .continuation = true});
   MeshBuilder mesh;
   while (text.find_line()) {
     read_statement(text, mesh);

@@ -15,7 +15,7 @@ constexpr detail::TextSyntax kComments{.comments = true, .continuation = false};
 }  // namespace
 
 std::vector<Eigen::Vector3d> parse_xyz(std::string_view text, const std::string& source) {
-  TextCursor cursor(text, source, kComments);
+  TextCursor cursor(detail::without_byte_order_mark(text), source, kComments);
   std::vector<Eigen::Vector3d> points;
   while (cursor.find_line()) {
     Eigen::Vector3d p;
@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3d> parse_xyz(std::string_view text, const std::string&
 
 HeightMap parse_heights(std::string_view text, const std::string& source,
                         const Eigen::Vector2d& cell) {
-  TextCursor cursor(text, source, kComments);
+  TextCursor cursor(detail::without_byte_order_mark(text), source, kComments);
   HeightMap map{.cell = cell, .columns = 0, .heights = {}};
   std::size_t rows = 0;
   for (; cursor.find_line(); ++rows) {

@@ -18,6 +18,13 @@ namespace firstcontact::detail {
 /// Text in quotes for an error: cut short, and printable.
 std::string quoted(std::string_view text);
 
+/// Without the mark that some editors put at the begin of a text in UTF-8.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  return text;
+}
+
 /// What differs between the text formats.
 struct TextSyntax {
   bool comments = false;      ///< '#' to the end of the line.
