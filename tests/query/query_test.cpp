@@ -312,5 +312,41 @@ TEST(QueryThreads, ShareShapesAndAgree) {
   }
 }
 
+// The search ends with the first pair that it finds there, and most others were not looked at.
+TEST(FirstContact, AtTheStartListsAllThatOverlaps) {
+  const Shape A(waves(8, 0.1).mesh(), 0.3);
+  const Shape B(waves(8, 0.2).mesh(), 0.1);
+  const Motion rest = Motion::fixed(at(0.2));
+  Workspace workspace;
+  FirstContactOptions options;
+  const FirstContactResult exact =
+      first_contact({A, Motion::fixed()}, {B, rest}, workspace, options);
+  options.contact_band = 1e-12;
+  const FirstContactResult wider =
+      first_contact({A, Motion::fixed()}, {B, rest}, workspace, options);
+  ASSERT_EQ(exact.verdict, Verdict::contact_at_start);
+  EXPECT_EQ(exact.clearance, 0.0);
+  EXPECT_GT(exact.contacts.size(), 10u);
+  EXPECT_EQ(exact.contacts.size(), wider.contacts.size());
+}
+
+// Searches for what is closer by a tolerance at a time would take half a minute.
+TEST(ClosestApproach, FindsAShortDipBetweenPlateaus) {
+  const Shape A(waves(2, 0.0).mesh(), 0.0);
+  const Shape B(waves(2, 0.0).mesh(), 0.1);
+  const std::vector<double> times{0.0, 0.432, 0.43201, 0.43202, 1.0};
+  const std::vector<Pose> poses{at(2.0), at(2.0), at(1.0), at(2.0), at(2.0)};
+  const Motion dip = Motion::waypoints(times, poses, Between::constant_velocity);
+  Workspace workspace;
+  ClosestApproachOptions options;
+  options.budget.steps = 20'000;
+  const ClosestApproachResult result =
+      closest_approach({A, Motion::fixed()}, {B, dip}, workspace, options);
+  EXPECT_EQ(result.reason, UndecidedReason::none);
+  EXPECT_NEAR(result.distance, 0.9, 1e-6);
+  EXPECT_LE(result.distance - result.lower_bound, 1.1e-6);
+  EXPECT_NEAR(result.t, 0.43201, 1e-9);
+}
+
 }  // namespace
 }  // namespace firstcontact

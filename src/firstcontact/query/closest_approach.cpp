@@ -110,14 +110,18 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
     descent.sample(static_cast<double>(i) / kSamples);
   }
   descent.improve(best.t, 1.0 / kSamples, options.tolerance);
-  // Proves that nothing is closer than distance - tolerance, or finds what is.
+  // Proves that nothing is closer than distance - tolerance, or finds what is: in between, where
+  // what it found led hardly any farther, as from a plateau above a short dip.
   query.tolerance = 0.5 * options.tolerance;
-  while (best.distance > options.tolerance) {
-    query.margin = best.distance - options.tolerance;
+  bool is_slow = false;
+  while (best.lower_bound < best.distance - options.tolerance) {
+    const double middle = 0.5 * (best.lower_bound + best.distance);
+    query.margin = is_slow ? std::min(middle, best.distance - options.tolerance)
+                           : best.distance - options.tolerance;
     const FirstContactResult& closer = search();
     if (closer.verdict == Verdict::free) {
       best.lower_bound = query.margin;
-      return best;
+      continue;
     }
     if (closer.verdict == Verdict::undecided) {
       return best;
@@ -129,6 +133,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
       best.reason = UndecidedReason::precision;
       return best;
     }
+    is_slow = best.distance > 0.5 * (best.lower_bound + before);
   }
   return best;
 }

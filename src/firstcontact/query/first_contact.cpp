@@ -124,6 +124,7 @@ bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Relative
   }
   if (found.contact) {
     result.verdict = found.t > 0.0 ? Verdict::contact : Verdict::contact_at_start;
+    result.clearance = found.t > 0.0 ? result.clearance : 0.0;
     report_contacts(shapes, pair, found, options, workspace, result);
   }
   return found.contact;
@@ -153,6 +154,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
                       const detail::Containment& found, const FirstContactOptions& options,
                       FirstContactResult& result) {
   result.verdict = Verdict::contact_at_start;
+  result.clearance = 0.0;
   result.t = 0.0;
   result.t_upper = 0.0;
   result.tolerance_used = options.tolerance;

@@ -196,7 +196,8 @@ class Search {
     PieceResult result = best_;
     if (best_.contact) {
       result.t = proven_free();
-      result.all_remembered = all_remembered_;
+      // Where the search began, a pair of boxes that is left is merely one that was not looked at.
+      result.all_remembered = all_remembered_ && result.t > t_begin_;
     } else {
       result.t = t_end_;
       result.finished = true;
