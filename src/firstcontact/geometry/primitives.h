@@ -46,7 +46,7 @@ inline constexpr double kLeastEnclosureError = 1e-8;
 /// @param radius           [m]  > 0
 /// @param length           [m]  along z; > 0
 /// @param enclosure_error  [m]  the corners stand out by at most this, and Shape::enclosure_error
-///                         by how much they do; 1e-4 of the radius if none is given, at least 1e-9
+///                         by how much they do; 1e-4 of the radius if none is given, at least 1e-8
 ///                         of it
 [[nodiscard]] FIRSTCONTACT_API Shape make_cylinder(double radius, double length,
                                                    std::optional<double> enclosure_error = {});

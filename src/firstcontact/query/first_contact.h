@@ -35,7 +35,8 @@ struct WorkBudget {
 
 enum class StartContacts {
   report,     ///< A start within margin + tolerance is `contact_at_start`.
-  keep_half,  ///< A feature pair that starts there, but apart, is held to half its start distance.
+  /// A pair of triangles that starts there, but apart, is held to half its start distance.
+  keep_half,
 };
 
 enum class ContactState {
