@@ -34,7 +34,7 @@ struct WorkBudget {
 };
 
 enum class StartContacts {
-  report,     ///< A start within margin + tolerance is `contact_at_start`.
+  report,  ///< A start within margin + tolerance is `contact_at_start`.
   /// A pair of triangles that starts there, but apart, is held to half its start distance.
   keep_half,
 };
