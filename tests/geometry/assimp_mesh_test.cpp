@@ -218,6 +218,18 @@ TEST_F(Dae, ThatNamesWhatIsNotThereIsRefused) {
   EXPECT_FALSE(is_read(".dae", dae("0 0 0 1 0 0 0 1 0", "0 1 9")));
   EXPECT_FALSE(is_read(".dae", dae("0 0 0 1 0 0")));
   EXPECT_FALSE(is_read(".dae", dae("0 0 0 1 0 0 0 1 nan")));
+  EXPECT_FALSE(is_read(".dae", dae("0 0 0 1 0 0 0 1 0", "1e308 1 2")));
+  EXPECT_FALSE(is_read(".dae", dae("0 0 0 1 0 0 0 1 0", "0 1 -2")));
+  // An accessor that goes past its array.
+  for (const char* const wrong :
+       {"count=\"3\" stride=\"999999999\"", "count=\"4\" stride=\"3\"", "count=\"3\" stride=\"4\"",
+        "count=\"3\" stride=\"3\" offset=\"1\"", "count=\"9\" stride=\"1\"", "stride=\"3\"",
+        "count=\"3\" stride=\"-3\"", "count=\"18446744073709551615\" stride=\"3\""}) {
+    std::string text = dae();
+    constexpr std::string_view kRight = "count=\"3\" stride=\"3\"";
+    text.replace(text.find(kRight), kRight.size(), wrong);
+    EXPECT_FALSE(is_read(".dae", text)) << wrong;
+  }
 }
 
 }  // namespace
