@@ -56,8 +56,8 @@ struct InverseInertia {
                                                             const Eigen::Vector3d& w_WB,
                                                             const Eigen::Vector3d& rotation_vector);
 
-/// [rad/s^2]  How fast the angular velocity changes without torque; 0 where locked axes do not let
-/// it.
+/// [rad/s^2]  How fast the angular velocity changes without torque, by gyroscopic moments alone,
+/// Euler's I dw/dt = (I w) x w; 0 where locked axes do not let it.
 [[nodiscard]] FIRSTCONTACT_API double tumbling_acceleration(const Inertia& inertia,
                                                             const RigidState& state);
 
@@ -67,10 +67,12 @@ struct FreeTurn {
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();             ///< [rad/s]  At its end.
 };
 
-/// Keeps the angular momentum and the energy, but for what the torque adds: follows the implicit
-/// midpoint rule for the angular velocity that the body sees, in sub-steps of at most 0.1 rad (some
-/// thousands at most; a body that spins faster goes on about the same axis), and turns the body so
-/// that its momentum is what it was. The body
+/// Keeps the angular momentum and the energy to rounding, but for what the torque adds: follows the
+/// implicit midpoint rule for the angular velocity that the body sees, in sub-steps of at most 0.1
+/// rad (some thousands at most; a body that spins faster goes on about the same axis), and turns the
+/// body so that its momentum is what it was (the rule keeps its length; M. Austin, P.
+/// Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body systems", Journal of
+/// Computational Physics 107 (1993)). Where axes are locked, energy is of second order. The body
 /// gets from the first to the last orientation by one rotation at a constant rate, the one of those
 /// between the two that is nearest to the mean angular velocity. Where axes are locked it turns by
 /// that mean, which is about none of them.
