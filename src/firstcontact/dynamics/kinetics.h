@@ -69,8 +69,8 @@ struct FreeTurn {
 
 /// Keeps the angular momentum and the energy to rounding, but for what the torque adds: follows the
 /// implicit midpoint rule for the angular velocity that the body sees, in sub-steps of at most 0.1
-/// rad (some thousands at most; a body that spins faster goes on about the same axis), and turns the
-/// body so that its momentum is what it was (the rule keeps its length; M. Austin, P.
+/// rad (some thousands at most; a body that spins faster goes on about the same axis), and turns
+/// the body so that its momentum is what it was (the rule keeps its length; M. Austin, P.
 /// Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body systems", Journal of
 /// Computational Physics 107 (1993)). Where axes are locked, energy is of second order. The body
 /// gets from the first to the last orientation by one rotation at a constant rate, the one of those
