@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include <benchmark/benchmark.h>
 #include <hwy/targets.h>
@@ -24,8 +25,9 @@ void choose(std::int64_t targets) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-/// Nodes of two knots that move and turn, different ones each time, all of them in the cache.
-void bound_knots(benchmark::State& state, std::int64_t target) {
+/// Nodes of two knots that move and turn, different ones each time, all of them in the cache; one
+/// pair of nodes at a time or two.
+void bound_knots(benchmark::State& state, std::int64_t target, std::size_t at_once) {
   choose(target);
   const Hierarchy knot = build_hierarchy(normalised(torus_knot(1'000)));
   const Motion motion_A = Motion::constant_velocity({}, Vector3d::Zero(), {0.3, 0.2, 1.0});
@@ -37,15 +39,21 @@ void bound_knots(benchmark::State& state, std::int64_t target) {
   detail::BoxFrame frame = pair.box_frame();
   pair.place(motion.state(0.5), 1e-9, frame);
   frame.horizon = 0.5f;
-  detail::BoxBounds bounds;
+  detail::BoxBounds bounds[2];
   std::size_t i = 0;
+  const std::size_t count = knot.nodes.size();
+  const auto a = [&](std::size_t k) -> const HierarchyNode& { return knot.nodes[k % count]; };
+  const auto b = [&](std::size_t k) -> const HierarchyNode& { return knot.nodes[k * 7 % count]; };
   for (auto _ : state) {
-    const std::size_t count = knot.nodes.size();
-    detail::bound_boxes(frame, knot.nodes[i % count], knot.nodes[i * 7 % count], bounds);
+    if (at_once == 1) {
+      detail::bound_boxes(frame, a(i), b(i), bounds[0]);
+    } else {
+      detail::bound_boxes(frame, a(i), b(i), bounds[0], a(i + 1), b(i + 1), bounds[1]);
+    }
     benchmark::DoNotOptimize(bounds);
-    ++i;
+    i += at_once;
   }
-  state.SetItemsProcessed(state.iterations() * 16);
+  state.SetItemsProcessed(state.iterations() * 16 * static_cast<std::int64_t>(at_once));
   choose(0);  // All that the processor has.
 }
 
@@ -55,9 +63,13 @@ void bound_knots(benchmark::State& state, std::int64_t target) {
 int main(int argc, char** argv) {
   for (std::int64_t all = firstcontact::detail::box_bounds_targets(); all != 0; all &= all - 1) {
     const std::int64_t target = all & -all;
-    benchmark::RegisterBenchmark(hwy::TargetName(target), [target](benchmark::State& state) {
-      firstcontact::benchmarks::bound_knots(state, target);
-    });
+    const std::string name = hwy::TargetName(target);
+    for (const std::size_t at_once : {1, 2}) {
+      benchmark::RegisterBenchmark((at_once == 1 ? name : name + ", two at once").c_str(),
+                                   [target, at_once](benchmark::State& state) {
+                                     firstcontact::benchmarks::bound_knots(state, target, at_once);
+                                   });
+    }
   }
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();

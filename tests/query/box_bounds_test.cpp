@@ -248,6 +248,38 @@ TEST_P(BoxBoundsOn, BoxesThatDeformByNothingAreRigid) {
   }
 }
 
+// A law: two pairs of nodes at once are bounded as they are one by one, bit for bit, as a search
+// must not depend on what happened to be bounded along with a pair.
+TEST_P(BoxBoundsOn, TwoAtOnceAreAsOneByOne) {
+  Random random(29);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const MovingBoxes c = random_moving_boxes(random);
+    const MovingBoxes other = random_moving_boxes(random);
+    const BoxFrame frame = frame_of(c);
+    const auto compare = [&](const BoxBounds& x, const BoxBounds& y) {
+      for (int lane = 0; lane < 16; ++lane) {
+        ASSERT_EQ(x.time[lane], y.time[lane]) << trial << ", " << lane;
+        ASSERT_EQ(x.gap[lane], y.gap[lane]) << trial << ", " << lane;
+      }
+      ASSERT_EQ(x.live, y.live) << trial;
+      ASSERT_EQ(x.far, y.far) << trial;
+      ASSERT_EQ(x.larger_a, y.larger_a) << trial;
+      ASSERT_EQ(x.larger_b, y.larger_b) << trial;
+      ASSERT_EQ(x.unsure, y.unsure) << trial;
+    };
+    BoxBounds first;
+    BoxBounds second;
+    bound_boxes(frame, c.A.node(), c.B.node(), first);
+    bound_boxes(frame, other.A.node(), other.B.node(), second);
+    BoxBounds first_of_two;
+    BoxBounds second_of_two;
+    bound_boxes(frame, c.A.node(), c.B.node(), first_of_two, other.A.node(), other.B.node(),
+                second_of_two);
+    compare(first_of_two, first);
+    compare(second_of_two, second);
+  }
+}
+
 // Sound: also where only a part of the step is asked about, and extents are followed for that.
 TEST_P(BoxBoundsOn, TimeIsNeverLateWithinAShorterHorizon) {
   Random random(23);
@@ -467,7 +499,7 @@ TEST_P(BoxBoundsOn, NothingIsProvenOfNaN) {
     BoxFrame frame = frame_of(c);
     double* const doubles[] = {&frame.rotation[1][4], &frame.origin[1][0], &frame.ratio[0]};
     float* const floats[] = {
-        &frame.axis[1][1], &frame.rate[0], &frame.velocity[1][2],      &frame.threshold,
+        &frame.spin[1][1], &frame.rate[0], &frame.velocity[1][2],      &frame.threshold,
         &frame.drift,      &frame.bend,    &frame.bend_by_distance[0], &frame.bend_by_distance[1]};
     if (field < 3) {
       *doubles[field] = kNaN;

@@ -18,8 +18,8 @@ struct BoxFrame {
   double origin[2][3];    ///< Centres of the hierarchies.
   double pivot[2][3];
   double ratio[2];       ///< Unit of the hierarchy.
-  float axis[2][3];      ///< Zero where the body does not turn.
-  float rate[2];         ///< [rad per step]
+  float spin[2][3];      ///< [rad per step]
+  float rate[2];         ///< Its length.
   float velocity[2][3];  ///< Of the pivots: zero for A, relative to A's for B.
   float speed;           ///< At least the length of the latter.
   float drift;           ///< At least those of RelativeState.
@@ -51,6 +51,11 @@ struct BoxBounds {
 /// slots that are not used hold anything.
 void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
                  BoxBounds& bounds);
+
+/// The same of two pairs of nodes in less than twice the time.
+void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& b,
+                 BoxBounds& bounds, const HierarchyNode& other_a, const HierarchyNode& other_b,
+                 BoxBounds& other_bounds);
 
 /// The same of bodies that deform, with each node as it is at t = 0 and at t = 1; of a body that
 /// does not, the same node twice.

@@ -212,6 +212,18 @@ void MovingPair::bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_
                         at_end(B_, node_b), bounds);
 }
 
+void MovingPair::bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b,
+                       BoxBounds& bounds, std::uint32_t other_a, std::uint32_t other_b,
+                       BoxBounds& other_bounds) const {
+  if (!deforms()) {
+    bound_boxes(frame, A_.nodes[node_a], B_.nodes[node_b], bounds, A_.nodes[other_a],
+                B_.nodes[other_b], other_bounds);
+    return;
+  }
+  bound(frame, node_a, node_b, bounds);
+  bound(frame, other_a, other_b, other_bounds);
+}
+
 double MovingPair::gap(const PlacedBox& a, const PlacedBox& b) {
   double best = -std::numeric_limits<double>::infinity();
   for_each_direction(a, b, [&](const Separation& s) {
@@ -262,8 +274,8 @@ void MovingPair::place(const RelativeState& state, double threshold, BoxFrame& f
     frame.origin[1][i] = state.p_AB[i] * scale;
     frame.pivot[0][i] = state.p_AQa[i] * scale;
     frame.pivot[1][i] = state.p_AQb[i] * scale;
-    frame.axis[0][i] = static_cast<float>(state.axis_A[i]);
-    frame.axis[1][i] = static_cast<float>(state.axis_B[i]);
+    frame.spin[0][i] = static_cast<float>(state.rate_A * state.axis_A[i]);
+    frame.spin[1][i] = static_cast<float>(state.rate_B * state.axis_B[i]);
     frame.velocity[1][i] = static_cast<float>(state.pivot_velocity[i] * scale);
   }
   frame.rate[0] = static_cast<float>(state.rate_A);
