@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <firstcontact/narrowphase/advance_deforming.h>
 #include <firstcontact/narrowphase/separating_direction.h>
@@ -113,7 +114,7 @@ class Search {
     queue_.clear();
     groups_.clear();
     triangle_pairs_.clear();
-    open(t, root(pair_.A()), root(pair_.B()), 0);
+    bound(new_group(t, root(pair_.A()), root(pair_.B()), 0));
   }
 
   /// Many pairs come into the band together: they are sooner found again, by distance, than opened
@@ -126,28 +127,20 @@ class Search {
   }
 
   void push_triangles(const TriangleEntry& entry) {
-    queue_.push({entry.key, triangle_pairs_.add(entry), true});
+    const std::uint32_t index = triangle_pairs_.add();
+    triangle_pairs_[index] = entry;
+    queue_.push({entry.key, index, true});
   }
 
-  /// The group's place in the queue, by its earliest lane.
-  [[nodiscard]] QueueItem item(std::uint32_t index, LaneTime earliest) const {
-    const BoxGroup& group = groups_[index];
-    return {key(group, earliest) - lag(group.level), index, false};
-  }
-
-  /// Moves the group at the top of the queue to its new place, or forgets it when no lane is left.
-  void replace_top_group(std::uint32_t index) {
-    const std::int32_t earliest = groups_[index].earliest();
-    if (earliest == LaneTime::kNone) {
-      queue_.pop();
-      groups_.release(index);
-    } else {
-      queue_.replace_top(item(index, LaneTime(earliest)));
-    }
-  }
-
-  static double key(const BoxGroup& group, LaneTime lane) {
+  /// No contact of a lane before this time is proven.
+  static double due(const BoxGroup& group, LaneTime lane) {
     return after(group.base, static_cast<double>(lane.time()));
+  }
+
+  /// The group's place in the queue.
+  [[nodiscard]] QueueItem item(std::uint32_t index) const {
+    const BoxGroup& group = groups_[index];
+    return {group.due - lag(group.level), index, false};
   }
 
   /// Each level comes a little earlier than the last, so that ties are searched depth-first.
@@ -212,31 +205,84 @@ class Search {
     return tau > 0.0 && (best_.contact ? t + tau > best_.t : t + tau * (1.0 - 0x1p-50) >= t_end_);
   }
 
+  /// A group that the kernel is to bound: a new one, or again one of pairs that were well
+  /// separated.
+  struct Bounding {
+    std::uint32_t index;
+    double t;      // Until then all lanes are proven.
+    int far_lane;  // Because of which it is bound again, or none.
+  };
+  static constexpr int kNew = -1;
+
   void process_group(std::uint32_t index) {
-    BoxGroup& group = groups_[index];
-    const LaneTime earliest(group.earliest());
-    const int lane = earliest.lane();
-    const double t = key(group, earliest);
-    if (group.far >> lane & 1u) {
-      bound_again(index, lane, t);
+    const double t = groups_[index].due;
+    if (is_far(groups_[index])) {
+      bound(take_again(index));
       return;
     }
-    const BoxPair inside =
-        open_lane(pair_, group.node_a, group.node_b, lane, (group.larger_a >> lane & 1u) != 0,
-                  (group.larger_b >> lane & 1u) != 0);
-    const unsigned level = group.level + 1u;
-    group.lanes[lane] = LaneTime::kNone;
-    replace_top_group(index);
-    if (inside.is_triangle_pair) {
-      TriangleEntry entry;
-      entry.key = t;
-      entry.threshold = limits_.margin;
-      entry.a = inside.triangle_A;
-      entry.b = inside.triangle_B;
-      entry.opened = remember(entry);
-      follow_triangles(entry);
+    const BoxPair inside = next_inside(groups_[index]);
+    if (!inside.is_triangle_pair) {
+      bound(take_inside(index, inside));
+      return;
+    }
+    drop_next(index);
+    TriangleEntry entry;
+    entry.key = t;
+    entry.threshold = limits_.margin;
+    entry.a = inside.triangle_A;
+    entry.b = inside.triangle_B;
+    entry.opened = remember(entry);
+    follow_triangles(entry);
+  }
+
+  static bool is_far(const BoxGroup& group) { return (group.far >> group.next.lane() & 1u) != 0; }
+
+  /// What the earliest lane of a group holds.
+  [[nodiscard]] BoxPair next_inside(const BoxGroup& group) const {
+    const int lane = group.next.lane();
+    return open_lane(pair_, group.node_a, group.node_b, lane, (group.larger_a >> lane & 1u) != 0,
+                     (group.larger_b >> lane & 1u) != 0);
+  }
+
+  /// Takes the group at the top of the queue away, to be bound again.
+  [[nodiscard]] Bounding take_again(std::uint32_t index) {
+    queue_.pop();
+    return {index, groups_[index].due, groups_[index].next.lane()};
+  }
+
+  /// Takes the boxes in the earliest lane of the group at the top of the queue.
+  [[nodiscard]] Bounding take_inside(std::uint32_t index, const BoxPair& inside) {
+    const double t = groups_[index].due;
+    const unsigned level = groups_[index].level + 1u;
+    drop_next(index);
+    return new_group(t, inside.A, inside.B, level);
+  }
+
+  [[nodiscard]] Bounding new_group(double t, const NodeBoxes& a, const NodeBoxes& b,
+                                   unsigned level) {
+    const std::uint32_t index = groups_.add();
+    BoxGroup& group = groups_[index];
+    group.lanes = kNoTimes;
+    group.base = t;
+    group.node_a = a.node;
+    group.node_b = b.node;
+    group.live = lanes_of(a.used, b.used);
+    group.level = static_cast<std::uint16_t>(std::min(level, 0xffffu));
+    return {index, t, kNew};
+  }
+
+  /// Drops the earliest lane of the group at the top of the queue.
+  void drop_next(std::uint32_t index) {
+    BoxGroup& group = groups_[index];
+    const int lane = group.next.lane();
+    group.live = static_cast<std::uint16_t>(group.live & ~(1u << lane));
+    if (group.live == 0) {
+      queue_.pop();
+      groups_.release(index);
     } else {
-      open(t, inside.A, inside.B, level);
+      group.next = drop(group.lanes, lane);
+      group.due = due(group, group.next);
+      queue_.replace_top(item(index));
     }
   }
 
@@ -248,42 +294,55 @@ class Search {
     return static_cast<std::uint32_t>(opened_.size() - (all_remembered_ ? 1 : 0));
   }
 
-  /// Queues the pairs of boxes that may meet after t.
-  void open(double t, const NodeBoxes& a, const NodeBoxes& b, unsigned level) {
-    BoxGroup group;
-    group.node_a = a.node;
-    group.node_b = b.node;
-    group.level = static_cast<std::uint16_t>(std::min(level, 0xffffu));
-    bound(t, lanes_of(a.used, b.used), group);
-    const std::int32_t earliest = group.earliest();
-    if (earliest != LaneTime::kNone) {
-      queue_.push(item(groups_.add(group), LaneTime(earliest)));
+  /// Bounds a group at the time until which it is proven, and the next one along with it if that
+  /// can be done at the same instant: two take less than twice the time of one. Queues both.
+  void bound(const Bounding& first) {
+    go_to(first.t);
+    const std::optional<Bounding> second = take_after(first.t);
+    const BoxGroup& group = groups_[first.index];
+    BoxBounds bounds;
+    if (!second) {
+      pair_.bound(frame_, group.node_a, group.node_b, bounds);
+      take(first, bounds);
+      return;
     }
+    const BoxGroup& other = groups_[second->index];
+    BoxBounds other_bounds;
+    pair_.bound(frame_, group.node_a, group.node_b, bounds, other.node_a, other.node_b,
+                other_bounds);
+    take(first, bounds);
+    take(*second, other_bounds);
   }
 
-  /// Takes a group of well separated pairs further instead of opening them.
-  void bound_again(std::uint32_t index, int lane, double t) {
-    BoxGroup& group = groups_[index];
-    const BoxGroup before = group;
-    bound(t, before.live(), group);
-    const double elapsed = group.base - before.base;
-    for (unsigned live = group.live(); live != 0; live &= live - 1) {
-      const int k = std::countr_zero(live);
-      const double old = static_cast<double>(LaneTime(before.lanes[k]).time()) - elapsed;
-      group.lanes[k] = std::max(group.lanes[k], LaneTime(k, round_down(old)).code());
+  /// What comes next in the queue, if it is to be bounded, and can be where the boxes are placed.
+  /// Not what is due as early as t: of ties one may turn out to be the contact.
+  [[nodiscard]] std::optional<Bounding> take_after(double t) {
+    if (queue_.empty() || queue_.top().is_triangle_pair) {
+      return std::nullopt;
     }
-    // A step that does not move the key would repeat for ever: such a pair is opened instead.
-    if (!(key(group, LaneTime(group.lanes[lane])) > t)) {
-      group.far &= static_cast<std::uint16_t>(~(1u << lane));
+    const std::uint32_t index = queue_.top().index;
+    const BoxGroup& group = groups_[index];
+    if (!(t < group.due && group.due < horizon() && serves(group.due))) {
+      return std::nullopt;
     }
-    replace_top_group(index);
+    if (is_far(group)) {
+      return take_again(index);
+    }
+    const BoxPair inside = next_inside(group);
+    if (inside.is_triangle_pair) {
+      return std::nullopt;
+    }
+    return take_inside(index, inside);
   }
 
-  /// Bounds some lanes of a group, which are proven free until t; those free for good are done
-  /// with.
-  void bound(double t, unsigned lanes, BoxGroup& group) {
-    ++work_.node_groups;
-    if (!(state_t_ <= t && t < state_t_ + boxes_window_)) {
+  /// Whether boxes as they are placed may be bounded for a group that is proven until t.
+  [[nodiscard]] bool serves(double t) const {
+    return state_t_ <= t && t < state_t_ + boxes_window_;
+  }
+
+  /// Places boxes at t, or a little before.
+  void go_to(double t) {
+    if (!serves(t)) {
       move_to(t);
     }
     if (frame_t_ != state_t_) {
@@ -291,9 +350,13 @@ class Search {
       pair_.place(state_, box_threshold_ + error_, frame_);
     }
     frame_.horizon = round_up(horizon() - state_t_);
-    BoxBounds bounds;
-    pair_.bound(frame_, group.node_a, group.node_b, bounds);
-    unsigned live = lanes & bounds.live;
+  }
+
+  /// Keeps the lanes of a group that are not free for good, and queues them.
+  void take(const Bounding& bounding, BoxBounds& bounds) {
+    ++work_.node_groups;
+    BoxGroup& group = groups_[bounding.index];
+    unsigned live = group.live & bounds.live;
     const unsigned doubt =
         in_doubt(pair_.A().nodes[group.node_a], pair_.B().nodes[group.node_b], bounds);
     if ((live & doubt) != 0) {
@@ -302,11 +365,22 @@ class Search {
     if (!all_remembered_ && freed_ > kManyFreed) {
       live &= ~free_triangles(group, live, bounds);
     }
-    group.base = state_t_;
+    if (live == 0) {
+      groups_.release(bounding.index);
+      return;
+    }
     group.larger_a = bounds.larger_a;
     group.larger_b = bounds.larger_b;
     group.far = bounds.far;
-    group.set_times(bounds.time, round_down(t - state_t_), ~live);
+    group.live = static_cast<std::uint16_t>(live);
+    group.next = prove(group.lanes, bounds.time, below(group.base - state_t_), live);
+    group.base = state_t_;
+    group.due = due(group, group.next);
+    // A step that does not take the pair further would repeat for ever: it is opened instead.
+    if (bounding.far_lane != kNew && !(due(group, group.lanes[bounding.far_lane]) > bounding.t)) {
+      group.far &= static_cast<std::uint16_t>(~(1u << bounding.far_lane));
+    }
+    queue_.push(item(bounding.index));
   }
 
   /// Bodies that graze each other come near in many pairs of triangles, most of which one step

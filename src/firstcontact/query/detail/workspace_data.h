@@ -15,79 +15,24 @@
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/query/detail/lane_times.h>
 
 namespace firstcontact::detail {
-
-/// A lane with the time for which its boxes are proven apart, in one number that sorts by the time:
-/// the code of the float, its last four bits the lane.
-class LaneTime {
- public:
-  static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();
-
-  LaneTime() = default;
-  explicit LaneTime(std::int32_t code) : code_(code) {}
-  LaneTime(int lane, float time) : code_((std::bit_cast<std::int32_t>(time) & ~15) | lane) {}
-
-  [[nodiscard]] std::int32_t code() const { return code_; }
-  [[nodiscard]] int lane() const { return code_ & 15; }
-  [[nodiscard]] float time() const { return std::bit_cast<float>(code_ & ~15); }
-
- private:
-  std::int32_t code_ = kNone;
-};
-
-/// For each mask of four lanes what turns the codes of those lanes into kNone.
-inline constexpr std::array<std::array<std::int32_t, 4>, 16> kNoneOf = [] {
-  std::array<std::array<std::int32_t, 4>, 16> table{};
-  for (unsigned mask = 0; mask < 16; ++mask) {
-    for (unsigned k = 0; k < 4; ++k) {
-      table[mask][k] = (mask >> k & 1u) != 0 ? LaneTime::kNone : 0;
-    }
-  }
-  return table;
-}();
 
 /// Pairs of boxes that still may come into contact: box i of node a with box j of node b in lane
 /// 4 i + j. No contact of a lane before base + its time is proven.
 struct BoxGroup {
-  std::array<std::int32_t, 16> lanes{};  ///< Codes of LaneTime, kNone where done with.
-  double base = 0.0;
-  std::uint32_t node_a = 0;
-  std::uint32_t node_b = 0;
-  std::uint16_t far = 0;  ///< Were well apart at their last bound: bound again before opening.
-  std::uint16_t larger_a = 0;
-  std::uint16_t larger_b = 0;
-  std::uint16_t level = 0;  ///< How often boxes were opened to get here.
-
-  [[nodiscard]] unsigned live() const {
-    unsigned live = 0;
-    for (unsigned k = 0; k < lanes.size(); ++k) {
-      live |= lanes[k] != LaneTime::kNone ? 1u << k : 0u;
-    }
-    return live;
-  }
-
-  /// Sets all lanes, to `proven` where that is later; without branches, as this is done for each
-  /// group.
-  void set_times(const float* time, float proven, unsigned dead) {
-    for (int k = 0; k < 16; ++k) {
-      lanes[k] = LaneTime(k, time[k] > proven ? time[k] : proven).code();
-    }
-    for (unsigned four = 0; four < 4; ++four) {
-      for (unsigned k = 0; k < 4; ++k) {
-        lanes[4 * four + k] |= kNoneOf[dead >> (4 * four) & 15u][k];
-      }
-    }
-  }
-
-  /// The lane with the least time; kNone where all are done with.
-  [[nodiscard]] std::int32_t earliest() const {
-    std::int32_t least = LaneTime::kNone;
-    for (const std::int32_t lane : lanes) {
-      least = std::min(least, lane);
-    }
-    return least;
-  }
+  LaneTimes lanes;
+  double base;
+  double due;  ///< No contact of any lane before this time is proven.
+  std::uint32_t node_a;
+  std::uint32_t node_b;
+  LaneTime next;       ///< The lane with the least time; kNone where all are done with.
+  std::uint16_t live;  ///< Lanes that are not done with.
+  std::uint16_t far;   ///< Were well apart at their last bound: bound again before opening.
+  std::uint16_t larger_a;
+  std::uint16_t larger_b;
+  std::uint16_t level;  ///< How often boxes were opened to get here.
 };
 
 /// A pair of triangles that still may come into contact, as indices in the hierarchies' order.
@@ -222,14 +167,14 @@ class Pool {
     free_.clear();
   }
 
-  [[nodiscard]] std::uint32_t add(const Entry& entry) {
+  /// An entry with any content.
+  [[nodiscard]] std::uint32_t add() {
     if (free_.empty()) {
-      entries_.push_back(entry);
+      entries_.emplace_back();
       return static_cast<std::uint32_t>(entries_.size() - 1);
     }
     const std::uint32_t index = free_.back();
     free_.pop_back();
-    entries_[index] = entry;
     return index;
   }
 
