@@ -415,6 +415,14 @@ class Robot(ToolTest):
                 (["--trajectory", self.move, "--start", "elbow=1"],
                  f"{self.move}: expected a start beside a goal alone; where joints rest that the motion does not "
                  "name is the state"),
+                (["--start", "elbow=nan", "--goal", "elbow=1"],
+                 f'{self.robot}: start: expected NAME=POSITION with a finite number, such as elbow=0.1, got '
+                 '"elbow=nan"'),
+                (["--start", "elbow=0", "--goal", "elbow=1", "--goal", "elbow=2"],
+                 f'{self.robot}: goal: expected joint "elbow" once, got it again in "elbow=2"'),
+                (["--start", "0", "--goal", "1"],
+                 f'{self.robot}: start: expected NAME=POSITION of a joint, got "0"; names of states are those '
+                 "of an SRDF"),
                 (["--environment", "none.stl"],
                  "none.stl: expected surroundings (a mesh, a planning scene in .yaml, or a scene in .json), "
                  "found no such file")]:
@@ -1013,7 +1021,7 @@ class Info(ToolTest):
         result = self.run_tool("info", robot, "--package-root", roots)
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr, r"arm.urdf:2: <mesh>: no package root holds a folder 'pack' "
-                                        r"\(roots: [^\n]*roots\); name the folder that holds it\n$")
+                                        r"\(roots: [^\n]*roots\); name the folder that holds it: --package-root[^\n]*\n$")
 
     def test_refuses_a_cut_off_cloud(self):
         cloud = self.file("c.pcd", "FIELDS x y z\nPOINTS 2\nDATA ascii\n0 0 0\n")

@@ -189,7 +189,8 @@ TEST(ReadUrdf, SaysWhichMeshIsMissing) {
   EXPECT_EQ(error("filename='a.stl'"), "dir/r.urdf:1: <mesh>: mesh file dir/a.stl does not exist");
   EXPECT_EQ(error("filename='package://no_such_package/a.stl'"),
             "dir/r.urdf:1: <mesh>: no package root holds a folder 'no_such_package' (roots: "
-            "no/such/root); name the folder that holds it");
+            "no/such/root); name the folder that holds it: --package-root, or "
+            "\"package_roots\" in a scene");
   EXPECT_EQ(error("filename='http://a.stl'"),
             "dir/r.urdf:1: <mesh>: expected package://, file:// or a path, got 'http://a.stl'");
   EXPECT_EQ(error("filename='a.stl' scale='1 0 1'"),

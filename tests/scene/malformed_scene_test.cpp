@@ -83,6 +83,8 @@ TEST(MalformedScene, IsNamedByLineAndField) {
        "s:1: expected a scene, an object with \"firstcontact\": 1 and \"bodies\", "
        "got an array of 0"},
       {"{}", "s:1: expected \"firstcontact\": 1, the version of the scene format"},
+      {R"({"rigid_body_problem": {}})",
+       "s:1: this is a scene of Rigid IPC: such are for \"firstcontact simulate\" alone"},
       {R"({"firstcontact": 2})",
        "s:1: firstcontact: expected 1, the only version of the scene format that is known here, "
        "got 2"},

@@ -174,6 +174,9 @@ TEST(MalformedDynamics, SaysWhatIsWrong) {
        a + ".restitution: expected a number from 0 to 1, got 1.5"},
       {free_body(R"("linear_velocity": [0, 0])"),
        a + ".linear_velocity: expected three numbers, got an array of 2"},
+      {free_body(R"("angular_velocity": [0, 2e8, 0])"),
+       a + ".angular_velocity: expected an angular velocity of at most 1e8 rad/s, got an array of "
+           "3"},
       {free_body(R"("locked_rotation": [true, false])"),
        a + ".locked_rotation: expected three of true and false, for the axes x, y, z of the "
            "world, got an array of 2"},

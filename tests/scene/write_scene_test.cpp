@@ -48,7 +48,7 @@ FreeBody random_free_body(std::mt19937_64& rng) {
       .centre_of_mass = random_vector(rng),
       .inertia = inertia,
       .linear_velocity = random_vector(rng),
-      .angular_velocity = random_vector(rng),
+      .angular_velocity = random_vector(rng).cwiseMin(1e7).cwiseMax(-1e7),
       .locked_translation = {true, false, false},
       .locked_rotation = {false, false, true},
       .forces = {{.from = 0.1, .to = one(), .force = random_vector(rng)},

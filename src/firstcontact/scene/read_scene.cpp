@@ -42,6 +42,9 @@ void require_version(const JsonValue& root, const JsonReader& read) {
     read.fail_expected("a scene, an object with \"firstcontact\": 1 and \"bodies\"", root);
   }
   const JsonValue* version = find(*object, "firstcontact");
+  if (version == nullptr && find(*object, "rigid_body_problem") != nullptr) {
+    read.fail(root, "this is a scene of Rigid IPC: such are for \"firstcontact simulate\" alone");
+  }
   if (version == nullptr) {
     read.fail(root, "expected \"firstcontact\": 1, the version of the scene format");
   }

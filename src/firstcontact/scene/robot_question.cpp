@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <system_error>
@@ -30,6 +32,10 @@ using detail::in_quotes;
 /// A state of the SRDF, or NAME=POSITION.
 JointPositions positions_of(const std::string& text, const SceneRobot& robot) {
   const std::size_t sign = text.find('=');
+  if (sign == std::string::npos && robot.semantics.states.empty()) {
+    refuse("expected NAME=POSITION of a joint, got " + in_quotes(text) +
+           "; names of states are those of an SRDF");
+  }
   if (sign == std::string::npos) {
     return group_state(robot.model, robot.semantics, text);
   }
@@ -38,20 +44,29 @@ JointPositions positions_of(const std::string& text, const SceneRobot& robot) {
   double position = 0.0;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, position);
-  if (error != std::errc() || stop != end) {
-    refuse("expected NAME=POSITION, such as " + name + "=0.1, got " + in_quotes(text));
+  if (error != std::errc() || stop != end || !std::isfinite(position)) {
+    refuse("expected NAME=POSITION with a finite number, such as " + name + "=0.1, got " +
+           in_quotes(text));
   }
   return {{name, position}};
 }
 
-JointPositions positions_of(const std::vector<std::string>& texts, const SceneRobot& robot) {
+/// @param what  whose positions these are, for errors
+JointPositions positions_of(const std::vector<std::string>& texts, const std::string& what,
+                            const SceneRobot& robot) try {
   JointPositions positions;
+  std::set<std::string> told;  // One by one, as states may be amended.
   for (const std::string& text : texts) {
     for (const auto& [name, position] : positions_of(text, robot)) {
       positions[name] = position;
+      if (text.find('=') != std::string::npos && !told.insert(name).second) {
+        refuse("expected joint " + in_quotes(name) + " once, got it again in " + in_quotes(text));
+      }
     }
   }
   return positions;
+} catch (const std::invalid_argument& error) {
+  refuse(what + ": " + error.what());
 }
 
 void put(const JointPositions& later, JointPositions& positions) {
@@ -121,8 +136,8 @@ class SceneBuilder {
           "expected a start beside a goal alone; where joints rest that the motion does not name "
           "is the state");
     }
-    robot.state = positions_of(question_.state, robot);
-    put(positions_of(question_.start, robot), robot.state);
+    robot.state = positions_of(question_.state, "state", robot);
+    put(positions_of(question_.start, "start", robot), robot.state);
     scene_.id = robot.name;
     if (!question_.trajectory.empty()) {
       robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
@@ -135,7 +150,7 @@ class SceneBuilder {
         refuse("expected a start beside the goal, got none");
       }
       robot.trajectory =
-          straight_motion(robot.model, robot.state, positions_of(question_.goal, robot));
+          straight_motion(robot.model, robot.state, positions_of(question_.goal, "goal", robot));
     } else {
       robot.trajectory.points = {TrajectoryPoint{}};
     }

@@ -58,7 +58,9 @@ std::filesystem::path resolve_mesh(const std::string& uri, const std::filesystem
     }
   }
   throw std::invalid_argument("no package root holds a folder '" + package +
-                              "' (roots: " + listed(roots) + "); name the folder that holds it");
+                              "' (roots: " + listed(roots) +
+                              "); name the folder that holds it: "
+                              "--package-root, or \"package_roots\" in a scene");
 }
 
 }  // namespace firstcontact::detail

@@ -104,6 +104,16 @@ void read_mass(const JsonObject& object, FreeBody& body, const JsonReader& read)
   }
 }
 
+/// Within what motions of a step of 1 s can turn by.
+Eigen::Vector3d read_angular_velocity(const JsonValue& value, const JsonReader& read) {
+  constexpr double kLargest = 1e8;
+  const Eigen::Vector3d velocity = read.vector3(value);
+  if (!(velocity.norm() <= kLargest)) {
+    read.fail_expected("an angular velocity of at most 1e8 rad/s", value);
+  }
+  return velocity;
+}
+
 }  // namespace
 
 void read_dynamics(const JsonValue& value, Body& body, const JsonReader& read) {
@@ -117,7 +127,7 @@ void read_dynamics(const JsonValue& value, Body& body, const JsonReader& read) {
     free.linear_velocity = read.vector3(*velocity);
   }
   if (const JsonValue* velocity = find(object, "angular_velocity")) {
-    free.angular_velocity = read.vector3(*velocity);
+    free.angular_velocity = read_angular_velocity(*velocity, read);
   }
   body.surface = read_surface(object, read);
   if (const JsonValue* locks = find(object, "locked_translation")) {

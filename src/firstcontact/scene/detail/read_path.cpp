@@ -26,12 +26,12 @@ std::filesystem::path find_in_packages(const JsonValue& value, const std::string
     }
   }
   if (folders.package_roots.empty()) {
-    read.fail(value, "expected \"package_roots\" in the scene, to find " + in_quotes(uri));
+    read.fail(value, "expected \"package_roots\" in the scene, to find " + write_json(uri));
   }
-  read.fail(value, "expected a file, found " + in_quotes(uri) + " in none of the " +
+  read.fail(value, "expected a file, found " + write_json(uri) + " in none of the " +
                        std::to_string(folders.package_roots.size()) +
                        " package_roots (looked for " +
-                       in_quotes((folders.package_roots.front() / below).string()) + ")");
+                       write_json((folders.package_roots.front() / below).string()) + ")");
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::filesystem::path read_path(const JsonValue& value, const std::string& what,
   }
   std::filesystem::path path = folders.scene / name;
   if (!is_file(path)) {
-    read.fail(value, "expected " + what + ", found none at " + in_quotes(path.string()));
+    read.fail(value, "expected " + what + ", found none at " + write_json(path.string()));
   }
   return path;
 }

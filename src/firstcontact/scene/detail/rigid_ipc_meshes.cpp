@@ -64,7 +64,7 @@ fs::path RigidIpcMeshes::find(const JsonValue& name, const JsonReader& read) con
   if (is_file(beside)) {
     return beside;
   }
-  std::string looked = in_quotes(beside.string());
+  std::string looked = write_json(beside.string());
   for (fs::path folder = fs::absolute(fixture_, ignored).parent_path();;
        folder = folder.parent_path()) {
     const fs::path meshes = folder / "meshes";
@@ -72,7 +72,7 @@ fs::path RigidIpcMeshes::find(const JsonValue& name, const JsonReader& read) con
       if (is_file(meshes / text)) {
         return fs::proximate(meshes / text, ignored);
       }
-      looked += ", " + in_quotes((meshes / text).string());
+      looked += ", " + write_json((meshes / text).string());
     }
     if (folder == folder.root_path() || folder.empty()) {
       break;
