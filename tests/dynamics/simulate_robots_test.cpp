@@ -245,6 +245,31 @@ TEST_F(SimulateRobots, MotorsWithoutBoundStopAtLimits) {
   }
 }
 
+// What a limit and a script ask for cannot both be had: as of a body that is crushed, time is lost.
+TEST_F(SimulateRobots, LimitsDoNotGiveWayToAPress) {
+  const std::string urdf =
+      robot_of("<link name=\"base\"/>" + link("sled", 2.0, "0 0 0", "<box size=\"0.1 0.1 0.1\"/>") +
+               joint("rail", "prismatic", "base", "sled", "1 0 0", "0 0 0",
+                     R"(<limit lower="-0.1" upper="0.1" effort="0" velocity="9"/>)"));
+  for (const bool from_left : {true, false}) {
+    const std::string sign = from_left ? "" : "-";
+    const std::string press = R"({"name": "press", "shape": {"box": {"size": [0.1, 0.3, 0.3]}},
+        "motion": {"type": "waypoints", "times": [0, 1], "poses": [
+          {"position": [)" + std::string(from_left ? "-0.2" : "0.2") +
+                              R"(, 0, 0]}, {"position": [)" + sign + R"(0.8, 0, 0]}]}})";
+    Simulator s = simulator(scene(urdf, R"("dynamics": {})", press, R"("step": 0.01)"));
+    const auto steps = run(s, 40);
+    double lost = 0.0;
+    for (const RunStep& step : steps) {
+      ASSERT_LE(std::abs(step.robots[0].positions[0]), 0.1 + 1.1e-3) << step.index;
+      lost += step.time_lost;
+    }
+    EXPECT_GT(std::abs(steps.back().robots[0].positions[0]), 0.099);
+    EXPECT_GT(lost, 0.1);
+    EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+  }
+}
+
 TEST_F(SimulateRobots, LimitsStopAndFrictionHolds) {
   const auto swing = [&](const std::string& more, const std::string& state) {
     const std::string urdf = robot_of(

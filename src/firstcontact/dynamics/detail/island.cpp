@@ -86,8 +86,8 @@ class Island {
     double greatest = 0.0;  // [rad/s^2]
     for (std::size_t k = 0; k < state_.size(); ++k) {
       if (!state_.member(k).piece) {
-        greatest = std::max(greatest,
-                            tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
+        greatest =
+            std::max(greatest, tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
       }
     }
     return greatest > 0.0 ? std::sqrt(8.0 * kMostAstray / greatest)
@@ -115,12 +115,11 @@ class Island {
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
       const std::vector<Hit> hits = search.find(plan);
-      if (hits.empty()) {
-        move_to(plan, 1.0, search.clearance());
-        return 1.0;
-      }
-      if (round == kRounds || std::ranges::none_of(hits, &Hit::is_slight)) {
-        const double t = std::ranges::min(hits, {}, &Hit::t).t;
+      if (hits.empty() || round == kRounds || std::ranges::none_of(hits, &Hit::is_slight)) {
+        double t = state_.robots.share_within_limits(plan.robots);
+        for (const Hit& hit : hits) {
+          t = std::min(t, hit.t);
+        }
         move_to(plan, t, search.clearance());
         return t;
       }
@@ -149,9 +148,9 @@ class Island {
       end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
       end.X_WB.rotation.normalize();
       end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
-      end.w_WB = turned_along(state_.member(k).inertia,
-                              begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
-                              t * plan.moves[k].rotation_vector);
+      end.w_WB =
+          turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
+                       t * plan.moves[k].rotation_vector);
       if (state_.member(k).piece) {
         const ContactBody body = state_.robots.body(k);
         end.v_WC = body.v;

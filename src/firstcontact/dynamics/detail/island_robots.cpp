@@ -223,6 +223,15 @@ void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
   }
 }
 
+double IslandRobots::share_within_limits(const std::vector<RobotPlan>& plans) const {
+  double share = 1.0;
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    share = std::min(
+        share, robots_[r].robot->share_within_limits(robots_[r].state, plans[r].end.positions));
+  }
+  return share;
+}
+
 void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, double to) {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     Robot& robot = robots_[r];

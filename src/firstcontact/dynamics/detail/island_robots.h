@@ -91,6 +91,9 @@ class IslandRobots {
   void set_moves(const std::vector<RobotPlan>& plans, const std::vector<RigidState>& states,
                  double span, std::vector<Move>& moves) const;
 
+  /// [-]  How far plans may be followed before a joint leaves its limits.
+  [[nodiscard]] double share_within_limits(const std::vector<RobotPlan>& plans) const;
+
   /// Goes a share of the way to a plan. `to` is the time since the step began.
   void move_to(const std::vector<RobotPlan>& plans, double share, double to);
 

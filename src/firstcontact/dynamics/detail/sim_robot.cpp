@@ -16,6 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A coordinate this near to its limit, or beyond it, is stopped there.
 constexpr double kAtLimit = 1e-9;  // [rad or m]
 
+/// So far beyond a limit a plan may lead. What pushes a link against its limit and yields as little
+/// has no solution together with it, and then neither law is kept.
+constexpr double kMostBeyond = 1e-3;  // [rad or m]
+
 double value_at(const std::vector<TimedNumber>& target, double time) {
   const auto next = std::ranges::upper_bound(target, time, {}, &TimedNumber::time);
   if (next == target.begin()) {
@@ -265,6 +269,26 @@ std::vector<JointDrive> SimRobot::drives(const MechanismState& state, const Eige
     }
   }
   return drives;
+}
+
+double SimRobot::share_within_limits(const MechanismState& from, const Eigen::VectorXd& to) const {
+  double share = 1.0;
+  const auto stop_at = [&](double q, double end, double farthest) {
+    if (end > farthest) {
+      share = std::min(share, std::max(0.0, (farthest - q) / (end - q)));
+    }
+  };
+  for (const JointLaw& law : laws) {
+    const double q = from.positions[law.position];
+    const double end = to[law.position];
+    if (law.limits.upper) {
+      stop_at(q, end, std::max(*law.limits.upper + kMostBeyond, q + kAtLimit));
+    }
+    if (law.limits.lower) {
+      stop_at(-q, -end, std::max(-*law.limits.lower + kMostBeyond, -q + kAtLimit));
+    }
+  }
+  return share;
 }
 
 std::vector<JointDrive> SimRobot::drives_at_impact(const MechanismState& state,

@@ -50,6 +50,10 @@ struct SimRobot {
                                                const Eigen::VectorXd& origin, std::size_t mechanism,
                                                double from, double span) const;
 
+  /// [-]  How far the positions of a plan may be followed before a coordinate leaves its limits.
+  [[nodiscard]] double share_within_limits(const MechanismState& from,
+                                           const Eigen::VectorXd& to) const;
+
   /// The drives of an impact, which takes no time: what no bounded effort answers. Joints at their
   /// limits stop there, and motors without bound keep their velocity; these come first.
   [[nodiscard]] std::vector<JointDrive> drives_at_impact(const MechanismState& state,
