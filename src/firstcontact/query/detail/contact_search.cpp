@@ -28,6 +28,10 @@ constexpr double kNearlyCoinciding = 0x1p-40;
 /// Opened pairs of triangles; a dozen times what most queries open.
 constexpr std::size_t kMostRemembered = 256;
 
+/// A group that is bounded along with another one may be due so many times later as a group alone
+/// after the bodies were placed: it loses little by that, and saves more.
+constexpr double kWindowsOfSecond = 8.0;
+
 /// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
 /// expected to be so, too.
 constexpr std::uint64_t kManyFreed = 256;
@@ -314,15 +318,16 @@ class Search {
     take(*second, other_bounds);
   }
 
-  /// What comes next in the queue, if it is to be bounded, and can be where the boxes are placed.
-  /// Not what is due as early as t: of ties one may turn out to be the contact.
+  /// What comes next in the queue, if it is to be bounded and due soon after the bodies were
+  /// placed. Not what is due as early as t: of ties one may turn out to be the contact.
   [[nodiscard]] std::optional<Bounding> take_after(double t) {
     if (queue_.empty() || queue_.top().is_triangle_pair) {
       return std::nullopt;
     }
     const std::uint32_t index = queue_.top().index;
     const BoxGroup& group = groups_[index];
-    if (!(t < group.due && group.due < horizon() && serves(group.due))) {
+    const double latest = std::min(horizon(), state_t_ + kWindowsOfSecond * boxes_window_);
+    if (!(t < group.due && group.due < latest)) {
       return std::nullopt;
     }
     if (is_far(group)) {
