@@ -1,5 +1,5 @@
 /// @file
-/// The times for which the pairs of boxes of a group are proven apart, sorted by reduction.
+/// For how long the 16 pairs of boxes of a group are proven apart, and which of them is the first.
 
 #pragma once
 

@@ -104,7 +104,7 @@ void read_mass(const JsonObject& object, FreeBody& body, const JsonReader& read)
   }
 }
 
-/// Within what motions of a step of 1 s can turn by.
+/// Motions turn by 1e8 rad at most, and steps are hardly longer than a second.
 Eigen::Vector3d read_angular_velocity(const JsonValue& value, const JsonReader& read) {
   constexpr double kLargest = 1e8;
   const Eigen::Vector3d velocity = read.vector3(value);
