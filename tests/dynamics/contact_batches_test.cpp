@@ -10,7 +10,7 @@
 #include <firstcontact/dynamics/detail/contact_rows.h>
 
 #include <dynamics/wall_problem.h>
-#include <query/instruction_sets.h>
+#include "support/instruction_sets.h"
 
 namespace firstcontact::detail {
 namespace {

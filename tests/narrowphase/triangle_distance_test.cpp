@@ -1,4 +1,5 @@
-// Distance and closest features of two triangles against brute force in exact rational numbers.
+// Distance and closest features of two triangles, for every instruction set that this processor
+// has, against brute force in exact rational numbers.
 
 #include <firstcontact/narrowphase/triangle_distance.h>
 
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "support/closest_points.h"
+#include "support/instruction_sets.h"
 #include "support/rational.h"
 
 namespace firstcontact {
@@ -184,7 +186,10 @@ void for_each_pair(int count, const Judge& judge) {
 
 constexpr int kPairs = 300;
 
-TEST(TriangleDistance, IsExactUpToRounding) {
+using TriangleDistanceOn = test::OnInstructionSet;
+using FeaturePairsWithinOn = test::OnInstructionSet;
+
+TEST_P(TriangleDistanceOn, IsExactUpToRounding) {
   for_each_pair(kPairs, [](const Kind& kind, const Triangle& A, const Triangle& B) {
     const double truth = exact_distance(A, B);
     const double error = std::abs(triangle_distance(A, B).distance - truth);
@@ -192,7 +197,7 @@ TEST(TriangleDistance, IsExactUpToRounding) {
   });
 }
 
-TEST(TriangleDistance, IsThatOfItsPointsWhichLieOnTheTriangles) {
+TEST_P(TriangleDistanceOn, IsThatOfItsPointsWhichLieOnTheTriangles) {
   for_each_pair(kPairs / 2, [](const Kind&, const Triangle& A, const Triangle& B) {
     const ClosestFeatures c = triangle_distance(A, B);
     const double rounding = 1e-15 * size(A, B);
@@ -203,7 +208,7 @@ TEST(TriangleDistance, IsThatOfItsPointsWhichLieOnTheTriangles) {
 }
 
 /// Where the closest points are unique: none of the tie-ridden kinds.
-TEST(TriangleDistance, NamesTheFeaturesThatHoldTheClosestPoints) {
+TEST_P(TriangleDistanceOn, NamesTheFeaturesThatHoldTheClosestPoints) {
   Random random;
   std::array<int, 6> met{};  // Of each pair of types.
   for (int i = 0; i < 8 * kPairs; ++i) {
@@ -228,7 +233,7 @@ TEST(TriangleDistance, NamesTheFeaturesThatHoldTheClosestPoints) {
   }
 }
 
-TEST(TriangleDistance, IsZeroWhereTheTrianglesPierce) {
+TEST_P(TriangleDistanceOn, IsZeroWhereTheTrianglesPierce) {
   Random random;
   int pierced = 0;
   for (int i = 0; i < 4 * kPairs; ++i) {
@@ -245,7 +250,7 @@ TEST(TriangleDistance, IsZeroWhereTheTrianglesPierce) {
   EXPECT_GE(pierced, kPairs / 2);
 }
 
-TEST(TriangleDistance, IsTheSameForSwappedTriangles) {
+TEST_P(TriangleDistanceOn, IsTheSameForSwappedTriangles) {
   for_each_pair(kPairs, [](const Kind&, const Triangle& A, const Triangle& B) {
     const double rounding = 1e-15 * size(A, B);
     EXPECT_NEAR(triangle_distance(A, B).distance, triangle_distance(B, A).distance,
@@ -253,7 +258,7 @@ TEST(TriangleDistance, IsTheSameForSwappedTriangles) {
   });
 }
 
-TEST(FeaturePairsWithin, HoldsTheClosestAndNothingBeyondTheBand) {
+TEST_P(FeaturePairsWithinOn, HoldsTheClosestAndNothingBeyondTheBand) {
   for_each_pair(kPairs / 2, [](const Kind& kind, const Triangle& A, const Triangle& B) {
     const double truth = exact_distance(A, B);
     const double band = 1.5 * truth + 1e-12 * size(A, B);
@@ -268,7 +273,7 @@ TEST(FeaturePairsWithin, HoldsTheClosestAndNothingBeyondTheBand) {
 }
 
 // Asked one feature of each triangle at a time, they say together what they say at once.
-TEST(FeaturePairsWithin, AskedFeatureByFeatureHoldsTheSame) {
+TEST_P(FeaturePairsWithinOn, AskedFeatureByFeatureHoldsTheSame) {
   for_each_pair(200, [](const Kind&, const Triangle& A, const Triangle& B) {
     const double band = 2.0 * triangle_distance(A, B).distance + 1e-3 * size(A, B);
     const FeaturePairs all = feature_pairs_within(A, B, band);
@@ -303,7 +308,7 @@ TEST(FeaturePairsWithin, AskedFeatureByFeatureHoldsTheSame) {
 }
 
 // Two triangles with a common corner: nine pairs of edges and corners meet there, at distance 0.
-TEST(FeaturePairsWithin, HoldsEachPairOfFeaturesOnce) {
+TEST_P(FeaturePairsWithinOn, HoldsEachPairOfFeaturesOnce) {
   const Triangle A{Vector3d(0.0, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 1.0, 0.0)};
   const Triangle B{Vector3d(0.0, 0.0, 0.0), Vector3d(-1.0, 0.0, 1.0), Vector3d(0.0, -1.0, 1.0)};
   const FeaturePairs found = feature_pairs_within(A, B, 10.0);
@@ -319,6 +324,11 @@ TEST(FeaturePairsWithin, HoldsEachPairOfFeaturesOnce) {
   EXPECT_EQ(meeting, 1u);
   EXPECT_GE(found.count, 4u);
 }
+
+INSTANTIATE_TEST_SUITE_P(, TriangleDistanceOn, testing::ValuesIn(test::instruction_sets()),
+                         test::instruction_set_name);
+INSTANTIATE_TEST_SUITE_P(, FeaturePairsWithinOn, testing::ValuesIn(test::instruction_sets()),
+                         test::instruction_set_name);
 
 }  // namespace
 }  // namespace firstcontact

@@ -15,8 +15,8 @@
 #include <firstcontact/query/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
-#include "query/instruction_sets.h"
 #include "query/moving_boxes.h"
+#include "support/instruction_sets.h"
 
 namespace firstcontact::detail {
 namespace {

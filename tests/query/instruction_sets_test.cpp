@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "query/instruction_sets.h"
+#include "support/instruction_sets.h"
 #include "support/library_case.h"
 #include "support/truth_file.h"
 

@@ -9,7 +9,7 @@
 
 #include <firstcontact/query/detail/lane_times.h>
 
-#include "query/instruction_sets.h"
+#include "support/instruction_sets.h"
 #include "support/random.h"
 
 namespace firstcontact::detail {
