@@ -72,12 +72,15 @@ std::array<Vector3d, 2> IslandPlanner::arms_of(const Constraint& constraint) con
 
 /// Whether a constraint is about the same place of one of the bodies, seen from there.
 bool IslandPlanner::is_at(const TouchAhead& ahead, const Constraint& constraint) const {
+  // Features and normals tell most apart, and cost least.
+  if (!same_features(constraint.touch, ahead.touch) ||
+      !(constraint.touch.normal.dot(ahead.touch.normal) >= kReplacedNormal)) {
+    return false;
+  }
   const std::array<Vector3d, 2> arms = arms_of(constraint);
   const double apart =
       std::min((arms[0] - ahead.contact.arm_A).norm(), (arms[1] - ahead.contact.arm_B).norm());
-  return same_features(constraint.touch, ahead.touch) &&
-         constraint.touch.normal.dot(ahead.touch.normal) >= kReplacedNormal &&
-         apart <= kReplacedWithin * smaller_reach(state_.world, ahead.touch.bodies);
+  return apart <= kReplacedWithin * smaller_reach(state_.world, ahead.touch.bodies);
 }
 
 void IslandPlanner::add(const TouchAhead& ahead) {
