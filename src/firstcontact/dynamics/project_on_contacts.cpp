@@ -7,6 +7,7 @@
 #include <firstcontact/dynamics/contact_problem.h>
 #include <firstcontact/dynamics/detail/contact_rows.h>
 #include <firstcontact/dynamics/detail/coulomb_cone.h>
+#include <firstcontact/dynamics/detail/deciding_contacts.h>
 
 namespace firstcontact {
 namespace {
@@ -129,6 +130,7 @@ class Solver {
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
     are_redundant_ = 6 * contacts >= kManyContacts * moving;
+    are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= kManyRedundant;
     has_interior_ = is_small_ && problem.drives.empty() &&
                     contacts >= (are_redundant_ ? kManyRedundant : kManyForInteriorPoint);
     // Along a chain of links impulses would have to travel from joint to joint.
@@ -137,6 +139,10 @@ class Solver {
 
   ContactSolution solve() {
     if (is_solved(projection_) || sweep_first()) {
+      return solution(projection_, ProjectionSpace::contact);
+    }
+    if (are_many_redundant_ &&
+        detail::project_by_deciding_contacts(problem_, rows_, options_, projection_)) {
       return solution(projection_, ProjectionSpace::contact);
     }
     if (has_interior_) {
@@ -218,6 +224,7 @@ class Solver {
   ContactRows rows_;
   bool is_automatic_;
   bool are_redundant_ = false;
+  bool are_many_redundant_ = false;
   bool is_small_ = false;
   bool has_interior_ = false;
   bool has_many_ = false;
