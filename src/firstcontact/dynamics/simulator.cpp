@@ -412,7 +412,7 @@ class Simulator::Implementation {
     double size = 0.0;
     std::vector<VectorXd> efforts;
     for (const MechanismState& robot : robots_) {
-      efforts.push_back(VectorXd::Zero(robot.velocities.size()));
+      efforts.emplace_back(VectorXd::Zero(robot.velocities.size()));
     }
     for (const IslandTrack& track : tracks) {
       step.clearance = std::min(step.clearance, track.clearance);

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -261,8 +262,10 @@ class SceneBuilder {
       const auto entry =
           around.allowed.entries.find({std::min(link, other), std::max(link, other)});
       if (entry != around.allowed.entries.end() && !entry->second) {
-        scene_.warnings.push_back(robot.name + ": the planning scene wants " + link + " and " +
-                                  other + " tested; the SRDF disables them, and that holds");
+        std::string warning = robot.name;
+        warning.append(": the planning scene wants ").append(link).append(" and ").append(other);
+        warning.append(" tested; the SRDF disables them, and that holds");
+        scene_.warnings.push_back(std::move(warning));
       }
     }
     allowed_.push_back(std::move(around.allowed));

@@ -107,7 +107,7 @@ void read_mass(const JsonObject& object, FreeBody& body, const JsonReader& read)
 /// Motions turn by 1e8 rad at most, and steps are hardly longer than a second.
 Eigen::Vector3d read_angular_velocity(const JsonValue& value, const JsonReader& read) {
   constexpr double kLargest = 1e8;
-  const Eigen::Vector3d velocity = read.vector3(value);
+  Eigen::Vector3d velocity = read.vector3(value);
   if (!(velocity.norm() <= kLargest)) {
     read.fail_expected("an angular velocity of at most 1e8 rad/s", value);
   }
