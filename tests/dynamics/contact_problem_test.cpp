@@ -245,7 +245,8 @@ TEST(ProjectOnContacts, SolvesThousandsOfContactsByTheFewThatDecide) {
     for (int trial = 0; trial < 10; ++trial) {
       const ContactProblem problem = in_a_bowl(rng, friction);
       const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
-      // With friction neither way gets much nearer in some.
+      // With friction the few themselves are not solved nearer in some, nor are all in motion
+      // space.
       EXPECT_LE(contact_residual(problem, solution), friction > 0.0 ? 5e-5 : 2.0 * kTolerance);
       const auto pressing = std::ranges::count_if(
           solution.impulses, [](const Vector3d& impulse) { return impulse.norm() > 0.0; });
@@ -462,6 +463,26 @@ TEST(ProjectOnContacts, MovesLinksAsItMovesBodies) {
       ASSERT_LE(greatest_difference(expected, solution), 1e-5) << i;
       ASSERT_LE(contact_residual(linked, solution), solution.residual + 1e-12) << i;
     }
+  }
+}
+
+// The same of a link, and from guesses that many contacts press, as an interior point leaves them.
+TEST(ProjectOnContacts, SolvesThousandsOfContactsOfALinkAndFromAnyGuess) {
+  std::mt19937 rng(12);
+  std::uniform_real_distribution<double> press(0.0, 0.1);
+  for (int trial = 0; trial < 5; ++trial) {
+    ContactProblem problem = in_a_bowl(rng, 0.0);
+    const ContactSolution expected = solve(problem, ProjectionSpace::motion);
+    const ContactSolution linked = solve(as_mechanism(rng, problem), ProjectionSpace::automatic);
+    EXPECT_LE(greatest_difference(expected, linked), 1e-6) << trial;
+    for (ContactPoint& contact : problem.contacts) {
+      contact.guess = {press(rng), 0.0, 0.0};
+    }
+    const ContactSolution guessed = solve(problem, ProjectionSpace::automatic);
+    EXPECT_LE(greatest_difference(expected, guessed), 1e-6) << trial;
+    EXPECT_LE(std::ranges::count_if(guessed.impulses,
+                                    [](const Vector3d& impulse) { return impulse.norm() > 0.0; }),
+              6);
   }
 }
 

@@ -325,6 +325,59 @@ TEST_P(FeaturePairsWithinOn, HoldsEachPairOfFeaturesOnce) {
   EXPECT_GE(found.count, 4u);
 }
 
+// Of a corner that lies on a face to the last bit no edge pierces it: the corner touches.
+TEST_P(TriangleDistanceOn, NamesTheCornerThatTouchesAFace) {
+  const Triangle face{Vector3d(-1, -1, 0), Vector3d(2, -1, 0), Vector3d(-1, 2, 0)};
+  const Triangle upright{Vector3d(0.125, 0.125, 0), Vector3d(1, 0, 1), Vector3d(0, 1, 1)};
+  for (int k = 0; k < 3; ++k) {
+    for (const double side : {1.0, -1.0}) {
+      Triangle T;
+      for (int i = 0; i < 3; ++i) {
+        T[(i + k) % 3] = upright[i].cwiseProduct(Vector3d(1, 1, side));
+      }
+      const ClosestFeatures c = triangle_distance(T, face);
+      EXPECT_EQ(c.distance, 0.0);
+      EXPECT_EQ(c.feature_A, (TriangleFeature{Type::vertex, k}));
+      EXPECT_EQ(c.feature_B.type, Type::face);
+      EXPECT_EQ(triangle_distance(face, T).feature_B, (TriangleFeature{Type::vertex, k}));
+    }
+  }
+}
+
+// Beside a triangle a thousand times their size, rounding moves the points of thin needles along
+// them.
+TEST_P(TriangleDistanceOn, ClaimsNoPiercingOfNeedlesThatAreApart) {
+  Random random;
+  int claimed = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const double thin = std::pow(10.0, random.uniform(-12.0, -9.0));
+    const Vector3d a = random.vector();
+    const Vector3d b = random.vector();
+    const Triangle T{a, b, a + random.uniform(-0.5, 1.0) * (b - a) + thin * random.vector()};
+    const Vector3d beyond = b + std::pow(10.0, random.uniform(-12.0, -3.0)) * (b - a);
+    const Vector3d across = 1000.0 * random.vector();
+    const Triangle S{beyond - across, beyond + across, beyond + across + random.vector()};
+    if (triangle_distance(S, T).distance == 0.0) {
+      ++claimed;
+      EXPECT_LE(exact_distance(S, T), 4e-12 * size(S, T)) << i;
+    }
+  }
+  EXPECT_GT(claimed, 0);
+}
+
+TEST_P(FeaturePairsWithinOn, HoldsOnlyPointsOnTheTrianglesWhateverTheBand) {
+  for (const double band : {1e200, std::numeric_limits<double>::infinity()}) {
+    for_each_pair(20, [&](const Kind&, const Triangle& A, const Triangle& B) {
+      const FeaturePairs all = feature_pairs_within(A, B, band);
+      EXPECT_GE(all.count, 1u);
+      for (std::size_t k = 0; k < all.count; ++k) {
+        EXPECT_LE(exact_distance(A, point(all.pairs[k].p_A)), 4e-15 * size(A, B));
+        EXPECT_LE(exact_distance(B, point(all.pairs[k].p_B)), 4e-15 * size(A, B));
+      }
+    });
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, TriangleDistanceOn, testing::ValuesIn(test::instruction_sets()),
                          test::instruction_set_name);
 INSTANTIATE_TEST_SUITE_P(, FeaturePairsWithinOn, testing::ValuesIn(test::instruction_sets()),

@@ -101,7 +101,7 @@ struct ContactSolution {
   std::vector<double> drives = {};             ///< [N m s or N s]  r of each drive.
   double residual = 0.0;  ///< [m/s]  See contact_residual(); above the tolerance: not converged.
   ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
-  int iterations = 0;                                ///< Sweeps, or factorisations.
+  int iterations = 0;                                ///< Sweeps and factorisations.
 };
 
 /// Projects velocities on what contacts allow, in the kinetic metric.
@@ -126,8 +126,8 @@ struct ContactSolution {
 /// (300 where there are two for each velocity), without drives, an interior point comes before it,
 /// in rounds: each solves the convex problem in which |u_t| is what the round before left, and
 /// sweeps contact space. The automatic choice takes what its rounds leave. Where there are 300
-/// contacts and two for each velocity, it first solves a few, joined by those that the answer
-/// closes fastest until there are none.
+/// contacts and two for each velocity, it first solves a few alone, with all drives, joined by
+/// those that the answer closes fastest until none is left or these are no longer few.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.

@@ -141,9 +141,11 @@ class Solver {
     if (is_solved(projection_) || sweep_first()) {
       return solution(projection_, ProjectionSpace::contact);
     }
-    if (are_many_redundant_ &&
-        detail::project_by_deciding_contacts(problem_, rows_, options_, projection_)) {
-      return solution(projection_, ProjectionSpace::contact);
+    if (are_many_redundant_) {
+      if (const std::optional<ProjectionSpace> space =
+              detail::project_by_deciding_contacts(problem_, rows_, options_, projection_)) {
+        return solution(projection_, *space);
+      }
     }
     if (has_interior_) {
       if (std::optional<ContactSolution> found = from_inside()) {

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/math/root_isolation.h>
 #include <firstcontact/motion/relative_state.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 

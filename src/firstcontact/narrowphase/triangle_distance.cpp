@@ -61,9 +61,16 @@ ClosestFeatures corner_face(const Triangle& S, int k, const Triangle& T,
   return in_order({(foot - S[k]).norm(), S[k], foot, {Type::vertex, k}, {Type::face, 0}}, swapped);
 }
 
-/// Where edge k of a triangle, between two heights over T's plane, pierces T.
-std::optional<ClosestFeatures> piercing(int k, const Triangle& T,
+/// [m]  At least the greatest coordinate.
+double size(const Triangle& T) {
+  return (T[0].cwiseAbs() + T[1].cwiseAbs() + T[2].cwiseAbs()).maxCoeff();
+}
+
+/// Where edge k of S, between two heights over T's plane, pierces T. Of a needle, rounding may have
+/// put the point on T elsewhere: then they are as far apart as they are.
+std::optional<ClosestFeatures> piercing(const Triangle& S, int k, const Triangle& T,
                                         const ElementaryPairs::Corners& corners, bool swapped) {
+  constexpr double kRounding = 0x1p-40;  // Of the size, with room.
   const int end = (k + 1) % 3;
   const double above = corners.height[k];
   const double below = corners.height[end];
@@ -76,17 +83,28 @@ std::optional<ClosestFeatures> piercing(int k, const Triangle& T,
   if (!(u > 0.0 && v > 0.0 && u + v < 1.0)) {
     return std::nullopt;
   }
-  const Vector3d point = point_on_face(T, u, v);
-  return in_order({0.0, point, point, {Type::edge, k}, {Type::face, 0}}, swapped);
+  const Vector3d on_S = point_on_edge(S, k, part);
+  const Vector3d on_T = point_on_face(T, u, v);
+  const double apart = (on_T - on_S).norm();
+  const bool pierces = apart <= kRounding * (size(S) + size(T));
+  return in_order(
+      {pierces ? 0.0 : apart, pierces ? on_T : on_S, on_T, edge_or_end(k, part), {Type::face, 0}},
+      swapped);
+}
+
+/// But for piercings.
+ClosestFeatures nearest(const Triangle& A, const Triangle& B, const ElementaryPairs& pairs) {
+  const int row = pairs.nearest / kStride;
+  const int k = std::min(pairs.nearest % kStride, 2);
+  if (row < 3) {
+    return edge_edge(A, row, B, k, pairs.edges);
+  }
+  return row == 3 ? corner_face(A, k, B, pairs.corners[0], false)
+                  : corner_face(B, k, A, pairs.corners[1], true);
 }
 
 bool has_corner(unsigned features, int i) { return (features & 1u << i) != 0; }
 bool has_edge(unsigned features, int i) { return (features & 8u << i) != 0; }
-
-/// [m]  At least the greatest coordinate.
-double size(const Triangle& T) {
-  return (T[0].cwiseAbs() + T[1].cwiseAbs() + T[2].cwiseAbs()).maxCoeff();
-}
 
 /// A number below kFeatures.
 constexpr std::size_t kFeatures = 7;
@@ -99,21 +117,17 @@ std::size_t number_of(const TriangleFeature& feature) {
 ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
   ElementaryPairs pairs;
   find_elementary_pairs(A, B, pairs);
+  ClosestFeatures best = nearest(A, B, pairs);
+  const auto pierce = [&](const std::optional<ClosestFeatures>& through) {
+    if (through && through->distance < best.distance) {
+      best = *through;
+    }
+  };
   for (int k = 0; k < 3; ++k) {
-    if (const auto through = piercing(k, B, pairs.corners[0], false)) {
-      return *through;
-    }
-    if (const auto through = piercing(k, A, pairs.corners[1], true)) {
-      return *through;
-    }
+    pierce(piercing(A, k, B, pairs.corners[0], false));
+    pierce(piercing(B, k, A, pairs.corners[1], true));
   }
-  const int row = pairs.nearest / kStride;
-  const int k = std::min(pairs.nearest % kStride, 2);
-  if (row < 3) {
-    return edge_edge(A, row, B, k, pairs.edges);
-  }
-  return row == 3 ? corner_face(A, k, B, pairs.corners[0], false)
-                  : corner_face(B, k, A, pairs.corners[1], true);
+  return best;
 }
 
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band,
@@ -147,11 +161,12 @@ FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double b
   const auto use_corners_and_edges = [&](const Triangle& S, unsigned features, const Triangle& T,
                                          const ElementaryPairs::Corners& corners, bool swapped) {
     for (int k = 0; k < 3; ++k) {
-      if (has_corner(features, k) && corners.square[k] <= reach2) {
+      const bool is_over_face = corners.square[k] < ElementaryPairs::kNone;
+      if (has_corner(features, k) && is_over_face && corners.square[k] <= reach2) {
         use(corner_face(S, k, T, corners, swapped));
       }
       if (has_edge(features, k)) {
-        if (const auto through = piercing(k, T, corners, swapped)) {
+        if (const auto through = piercing(S, k, T, corners, swapped)) {
           use(*through);
         }
       }

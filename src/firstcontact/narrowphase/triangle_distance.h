@@ -38,7 +38,8 @@ struct ClosestFeatures {
 /// whatever the shape of the triangles: needles, points, parallel, coplanar and piercing ones.
 ///
 /// Least over the nine pairs of edges and the six projections of a corner into a face; a pair that
-/// none of these decides pierces, which is tested by itself.
+/// none of these decides pierces, which is tested by itself. Coordinates and sizes between 1e-70
+/// and 1e70 are meant: beyond, products overflow, and `distance` may be too large.
 FIRSTCONTACT_API ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B);
 
 /// Up to 21 feature pairs: nine of edges, six of a corner and a face, six piercings.

@@ -23,16 +23,26 @@ unsigned octant(const Vector3d& v) {
 
 class DecidingContacts {
  public:
-  DecidingContacts(const ContactProblem& problem, const ContactRows& rows, const Impulses& impulses)
-      : problem_(problem), rows_(rows), is_chosen_(rows.contacts.size(), false) {
-    for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-      if (!impulses.contacts[k].isZero(0.0)) {
+  DecidingContacts(const ContactProblem& problem, const ContactRows& rows)
+      : problem_(problem), rows_(rows), is_chosen_(rows.contacts.size(), false) {}
+
+  /// Adds those with an impulse, if they are few; or takes all impulses away.
+  void add_acting(Projection& projection) {
+    std::vector<Vector3d>& impulses = projection.impulses.contacts;
+    const auto count = std::ranges::count_if(
+        impulses, [](const Vector3d& impulse) { return !impulse.isZero(0.0); });
+    if (!are_few(static_cast<std::size_t>(count))) {
+      std::ranges::fill(impulses, Vector3d::Zero());
+      projection.velocities = velocities_after(rows_, projection.impulses);
+    }
+    for (std::size_t k = 0; k < impulses.size(); ++k) {
+      if (!impulses[k].isZero(0.0)) {
         choose(k);
       }
     }
   }
 
-  [[nodiscard]] bool are_few() const { return kPartOfAll * chosen_.size() < is_chosen_.size(); }
+  [[nodiscard]] bool are_few() const { return are_few(chosen_.size()); }
 
   /// Adds those that close fastest: of each two bodies one from each side of them that faces
   /// another way, for neighbours say much the same. False if none closes faster than that.
@@ -51,8 +61,8 @@ class DecidingContacts {
     return !fastest.empty();
   }
 
-  /// Solves them alone, from the projection's impulses on. Returns the residual.
-  double solve(const ProjectionOptions& options, Projection& projection) const {
+  /// Solves them alone, from the projection's impulses on.
+  ContactSolution solve(const ProjectionOptions& options, Projection& projection) const {
     ContactProblem part{
         .bodies = problem_.bodies, .mechanisms = problem_.mechanisms, .drives = problem_.drives};
     for (const std::size_t k : chosen_) {
@@ -63,7 +73,7 @@ class DecidingContacts {
     for (std::size_t k = 0; k < part.drives.size(); ++k) {
       part.drives[k].guess = projection.impulses.drives[k];
     }
-    const ContactSolution solution = project_on_contacts(part, options);
+    ContactSolution solution = project_on_contacts(part, options);
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       projection.impulses.contacts[chosen_[i]] =
           rows_.contacts[chosen_[i]].own.turn() * solution.impulses[i];
@@ -71,15 +81,20 @@ class DecidingContacts {
     projection.impulses.drives = solution.drives;
     projection.velocities = velocities_after(rows_, projection.impulses);
     projection.iterations += solution.iterations;
-    return solution.residual;
+    return solution;
   }
 
  private:
   using Side = std::array<std::size_t, 4>;
 
+  [[nodiscard]] bool are_few(std::size_t count) const {
+    return kPartOfAll * count < is_chosen_.size();
+  }
+
   [[nodiscard]] Side side_of(const ContactPoint& contact) const {
-    const bool A_moves = is_movable(problem_.bodies[contact.bodies[0]]);
-    return {contact.bodies[0], contact.bodies[1], octant(A_moves ? contact.arm_A : contact.arm_B),
+    const ContactBody& A = problem_.bodies[contact.bodies[0]];
+    return {contact.bodies[0], contact.bodies[1],
+            octant(A.link || is_movable(A) ? contact.arm_A : contact.arm_B),
             octant(contact.frame.row(0))};
   }
 
@@ -96,25 +111,33 @@ class DecidingContacts {
 
 }  // namespace
 
-bool project_by_deciding_contacts(const ContactProblem& problem, const ContactRows& rows,
-                                  const ProjectionOptions& options, Projection& projection) {
+std::optional<ProjectionSpace> project_by_deciding_contacts(const ContactProblem& problem,
+                                                            const ContactRows& rows,
+                                                            const ProjectionOptions& options,
+                                                            Projection& projection) {
   Projection found = projection;
-  DecidingContacts deciding(problem, rows, found.impulses);
-  double closing = options.tolerance;
+  DecidingContacts deciding(problem, rows);
+  deciding.add_acting(found);
+  ProjectionSpace space = ProjectionSpace::contact;
+  double left = options.tolerance;
   for (int round = 0; round < kMostRounds; ++round) {
-    if (!deciding.add_closing(found.velocities, closing) && round > 0) {
+    const bool are_more = deciding.add_closing(found.velocities, left);
+    if ((!are_more && round > 0) || !deciding.are_few()) {
       break;
     }
-    if (!deciding.are_few()) {
-      return false;
-    }
-    closing = std::max(options.tolerance, deciding.solve(options, found));
+    const ContactSolution solution = deciding.solve(options, found);
+    left = std::max(options.tolerance, solution.residual);
+    space = solution.space;
   }
   found.residual = greatest_residual(rows, found.impulses, found.velocities);
   if (found.residual < projection.residual) {
     projection = std::move(found);
   }
-  return projection.residual <= std::max(options.tolerance, options.enough);
+  const double enough = problem.drives.empty() ? options.enough : 0.0;
+  if (projection.residual <= std::max(options.tolerance, enough)) {
+    return space;
+  }
+  return std::nullopt;
 }
 
 }  // namespace firstcontact::detail

@@ -171,9 +171,11 @@ HWY_INLINE V corners_over_face(const Prepared& S, const Prepared& T, std::size_t
   return square;
 }
 
-/// Squares with their place in the last bits: of the least, the place is known.
+/// Squares with their place in the last bits: of the least, the place is known. Neither infinity
+/// nor what flushes to zero could hold it.
 HWY_INLINE V with_place(V square, std::size_t place) {
   const D d;
+  square = hn::Min(hn::Max(square, hn::Set(d, kTiny)), hn::Set(d, ElementaryPairs::kNone));
   const hn::RebindToSigned<D> di;
   return hn::BitCast(d, hn::Or(hn::AndNot(hn::Set(di, kPlaceBits), hn::BitCast(di, square)),
                                hn::Iota(di, static_cast<std::int64_t>(place))));

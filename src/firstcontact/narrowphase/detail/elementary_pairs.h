@@ -20,7 +20,7 @@ struct ElementaryPairs {
 
   /// Edge i of A and edge j of B at [kStride i + j].
   struct Edges {
-    alignas(64) std::array<double, 3 * kStride> square;  // [m^2]  of the distance
+    alignas(32) std::array<double, 3 * kStride> square;  // [m^2]  of the distance
     std::array<double, 3 * kStride> s;                   // [-]  where on A's edge
     std::array<double, 3 * kStride> t;                   // [-]  where on B's
   };

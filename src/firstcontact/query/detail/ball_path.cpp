@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <firstcontact/narrowphase/advance.h>
+#include <firstcontact/math/root_isolation.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -559,7 +559,7 @@ struct Pairs {
   /// x with its sign turned where y is negative.
   HWY_INLINE V<D> with_sign(V<D> x, V<D> y) const { return hn::Xor(x, hn::And(y, hn::SignBit(d))); }
 
-  /// time_to_close() of narrowphase/advance.h for half the acceleration, in single precision:
+  /// time_to_close() of math/root_isolation.h for half the acceleration, in single precision:
   /// 2 g / (m + sqrt(m^2 + 2 K g)); 0 where the gap is not open, or not a number. Exact roots and
   /// quotients, as tied pairs must stay tied.
   HWY_INLINE V<D> time_to_close(const BoxFrame& frame, const Best& best) const {

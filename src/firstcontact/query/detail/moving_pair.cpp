@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/math/root_isolation.h>
+
 namespace firstcontact::detail {
 namespace {
 
