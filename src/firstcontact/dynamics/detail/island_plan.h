@@ -22,9 +22,9 @@ struct TouchAhead {
 
 /// What the bodies do over its span: the rest of the step, or less.
 struct Plan {
-  std::vector<Move> moves = {};     ///< Of each member.
-  /// Velocities of each member, angular ones as its body sees them, told in its axes of now: so that
-  /// what contacts do to its energy now is what they do to it at the end.
+  std::vector<Move> moves = {};  ///< Of each member.
+  /// Velocities of each member, angular ones as its body sees them, told in its axes of now: so
+  /// that what contacts do to its energy now is what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
   std::vector<Touch> touches = {};  ///< With their impulses.

@@ -13,8 +13,8 @@ namespace firstcontact::detail {
 /// @throws ParseError
 void check_glb_chunks(const std::string& path, std::string_view bytes);
 
-/// The lists of numbers of a COLLADA file hold numbers, and at least one, those of indices whole ones
-/// that are not negative; accessors stay within the array before them.
+/// The lists of numbers of a COLLADA file hold numbers, and at least one, those of indices whole
+/// ones that are not negative; accessors stay within the array before them.
 ///
 /// @throws ParseError
 void check_dae_numbers(const std::string& path, std::string_view text);
