@@ -17,9 +17,8 @@ std::string feature_text(const Feature& feature) {
 }
 
 std::string contact_text(const Contact& contact, double duration) {
-  const std::string text =
-      fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", contact.p_WA.x(), contact.p_WA.y(),
-                  contact.p_WA.z(), length_text(contact.distance));
+  std::string text = fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m, distance {}", contact.p_WA.x(),
+                                 contact.p_WA.y(), contact.p_WA.z(), length_text(contact.distance));
   if (!contact.n_AB_W) {
     return text;
   }

@@ -274,7 +274,7 @@ class AsfReader {
     root.name = "root";
     skeleton_.figure.bones.push_back(root);
     axes_.push_back(Eigen::Quaterniond::Identity());
-    reaches_.push_back(Eigen::Vector3d::Zero());
+    reaches_.emplace_back(Eigen::Vector3d::Zero());
     placed_as_.emplace("root", 0);
   }
 

@@ -25,7 +25,7 @@ PassedJoint pass(const JointState& joint, bool is_first, const DoubleDoubleVecto
   }
   const Vector3d axis = walk.R * joint.axis;
   const Vector3d lever = walk.R * joint.p_QL;  // In the parent's axes: before the turn.
-  const PassedJoint passed{walk.p, axis, step.norm(), lever.norm(), walk.p + lever};
+  PassedJoint passed{walk.p, axis, step.norm(), lever.norm(), walk.p + lever};
   walk.turn(joint, axis);
   walk.move(lever);
   ++walk.joints;

@@ -196,8 +196,8 @@ ContactSolution solution_of(const ContactProblem& problem, const ContactRows& ro
     body.w = V.tail<3>();
   }
   for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
-    solution.impulses.push_back(rows.contacts[k].own.turn().transpose() *
-                                projection.impulses.contacts[k]);
+    solution.impulses.emplace_back(rows.contacts[k].own.turn().transpose() *
+                                   projection.impulses.contacts[k]);
   }
   solution.drives = projection.impulses.drives;
   solution.residual = projection.residual;

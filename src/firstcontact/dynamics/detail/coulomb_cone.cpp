@@ -90,7 +90,7 @@ Vector3d ContactResponse::impulse(const Vector3d& u_free, double friction) const
   if (friction == 0.0) {
     return {-u_free[0] / W_(0, 0), 0.0, 0.0};
   }
-  const Vector3d sticking = -inverse_ * u_free;
+  Vector3d sticking = -inverse_ * u_free;
   if (sticking[0] >= 0.0 && sticking.tail<2>().norm() <= friction * sticking[0]) {
     return sticking;
   }

@@ -96,14 +96,14 @@ ContactSolution project_impact(
     problem.contacts[k].least_normal_velocity = 0.0;
   }
   const double before = energy(problem.bodies, velocities_of(problem.mechanisms));
-  const ContactSolution plastic = project_on_contacts(problem, options);
+  ContactSolution plastic = project_on_contacts(problem, options);
   if (!bounces) {
     return plastic;
   }
   for (std::size_t k = 0; k < rebound.size(); ++k) {
     problem.contacts[k].least_normal_velocity = rebound[k];
   }
-  const ContactSolution bounced = project_on_contacts(problem, options);
+  ContactSolution bounced = project_on_contacts(problem, options);
   if (touches_scripted(problem, members)) {
     return bounced;  // A body that nothing stops may add energy.
   }
@@ -133,6 +133,7 @@ ContactSolution unchanged(const ContactProblem& problem) {
 
 std::vector<Eigen::VectorXd> velocities_of(const std::vector<ContactMechanism>& mechanisms) {
   std::vector<Eigen::VectorXd> velocities;
+  velocities.reserve(mechanisms.size());
   for (const ContactMechanism& mechanism : mechanisms) {
     velocities.push_back(mechanism.velocity);
   }

@@ -16,6 +16,7 @@ std::vector<std::size_t> bodies_that_are_not_free(const World& world) {
 std::vector<Eigen::AlignedBox3d> boxes_over_step(const World& world, const StepStart& start,
                                                  const std::vector<std::size_t>& bodies) {
   std::vector<Eigen::AlignedBox3d> boxes;
+  boxes.reserve(bodies.size());
   for (const std::size_t b : bodies) {
     boxes.push_back(swept_box(world.bodies[b], start.states[b].X_WB, start.scripted[b]));
   }

@@ -64,7 +64,7 @@ Vector3d rate_at(const Triangle& T, const Triangle& rates, const TriangleFeature
 Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
                           std::uint32_t triangle_A, std::uint32_t triangle_B,
                           const ClosestFeatures& closest) {
-  const Vector3d velocity = relative_velocity(state, closest.p_A, closest.p_B);
+  Vector3d velocity = relative_velocity(state, closest.p_A, closest.p_B);
   if (!pair.deforms()) {
     return velocity;
   }

@@ -41,7 +41,7 @@ std::array<double, N> read_components(const JsonValue& value, const JsonReader& 
 
 Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& read) {
   const std::array<double, 4> q = read_components<4>(value, read);
-  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
   // Further off is a mistake, such as w in the first place of a list.
   constexpr double kSlack = 1e-2;
   if (!(std::abs(rotation.norm() - 1.0) <= kSlack)) {
@@ -70,7 +70,7 @@ const JsonValue* find_filled(const JsonValue& object, std::string_view key) {
 Eigen::Vector3d read_point(const JsonValue& value, const JsonReader& read) {
   constexpr double kLargest = 1e60;
   const std::array<double, 3> p = read_components<3>(value, read);
-  const Eigen::Vector3d point(p[0], p[1], p[2]);
+  Eigen::Vector3d point(p[0], p[1], p[2]);
   if (!(point.cwiseAbs().maxCoeff() <= kLargest)) {
     read.fail(value, "expected numbers of at most 1e60 in size");
   }
