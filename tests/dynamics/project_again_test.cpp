@@ -82,7 +82,7 @@ TEST(ProjectAgain, LeavesAloneWhatIsNotReached) {
   Solved c;
   c.problem.contacts[0].least_normal_velocity = 0.05;
   const ContactSolution again =
-      project_again(c.problem, c.solution.bodies, {0}, {.tolerance = 1e-4, .sweeps = 100});
+      project_again(c.problem, c.solution, {0}, {.tolerance = 1e-4, .sweeps = 100});
   EXPECT_GT(difference(again.bodies[1], c.solution.bodies[1]), 0.01);
   for (std::size_t b = 1 + kLevels; b < c.problem.bodies.size(); ++b) {
     EXPECT_EQ(again.bodies[b].v, c.solution.bodies[b].v) << b;
@@ -96,7 +96,7 @@ TEST(ProjectAgain, MeetsTheLawsOfTheWhole) {
     c.problem.contacts[k].least_normal_velocity = 0.05;
   }
   const ContactSolution again =
-      project_again(c.problem, c.solution.bodies, {0, 1}, {.tolerance = 1e-9, .sweeps = 10000});
+      project_again(c.problem, c.solution, {0, 1}, {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_LE(again.residual, 1e-7);
   EXPECT_NEAR(contact_residual(c.problem, again), again.residual, 1e-12);
   EXPECT_LE(imbalance(c.problem, again), 1e-12);
@@ -112,7 +112,7 @@ TEST(ProjectAgain, BalancesContactsThatMovedOrOpen) {
   c.problem.contacts[6].frame.row(0).swap(c.problem.contacts[6].frame.row(1));
   c.problem.contacts[6].frame.row(2) *= -1.0;
   const ContactSolution again =
-      project_again(c.problem, c.solution.bodies, {0, 5, 6}, {.tolerance = 1e-9, .sweeps = 10000});
+      project_again(c.problem, c.solution, {0, 5, 6}, {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_EQ(again.impulses[5], Vector3d::Zero());
   EXPECT_LE(imbalance(c.problem, again), 1e-12);
   EXPECT_LE(again.residual, 1e-7);
@@ -129,7 +129,7 @@ TEST(ProjectAgain, TakesNewContactsAndBodies) {
   contact.friction = 0.3;
   c.problem.contacts.push_back(contact);
   const ContactSolution again =
-      project_again(c.problem, c.solution.bodies, {c.problem.contacts.size() - 1},
+      project_again(c.problem, c.solution, {c.problem.contacts.size() - 1},
                     {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_LE(again.residual, 1e-7);
   EXPECT_GT(again.bodies[kLevels].v.x(), 0.03);
@@ -140,7 +140,7 @@ TEST(ProjectAgain, StopsAfterSoManySweeps) {
   Solved c;
   c.problem.contacts[0].least_normal_velocity = 0.05;
   const auto residual = [&](int sweeps) {
-    return project_again(c.problem, c.solution.bodies, {0}, {.tolerance = 1e-300, .sweeps = sweeps})
+    return project_again(c.problem, c.solution, {0}, {.tolerance = 1e-300, .sweeps = sweeps})
         .residual;
   };
   EXPECT_LT(residual(1), 0.05);  // As it was at first.

@@ -126,6 +126,7 @@ class Solver {
         rows_(problem),
         is_automatic_(options.space == ProjectionSpace::automatic),
         projection_(start(problem, rows_, options.tolerance)) {
+    options_.tolerance = std::max(options.tolerance, options.of_start * projection_.residual);
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
@@ -222,7 +223,7 @@ class Solver {
   }
 
   const ContactProblem& problem_;
-  const ProjectionOptions& options_;
+  ProjectionOptions options_;
   ContactRows rows_;
   bool is_automatic_;
   bool are_redundant_ = false;
@@ -240,6 +241,10 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   require_positive(options.tolerance, "tolerance");
   require_positive(options.sweeps, "sweeps");
   require_positive(options.rounds, "rounds");
+  if (!(options.of_start >= 0.0)) {
+    throw std::invalid_argument("ProjectionOptions::of_start must be >= 0, got " +
+                                std::to_string(options.of_start));
+  }
   if (!(options.enough >= 0.0)) {
     throw std::invalid_argument("ProjectionOptions::enough must be >= 0, got " +
                                 std::to_string(options.enough));

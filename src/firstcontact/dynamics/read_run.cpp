@@ -209,7 +209,8 @@ RunPiece read_piece(const json& row, const Line& line) {
 
 RunBody read_body(const json& value, std::size_t bodies, double lasted, const Line& line) {
   line.require_keys(value, {"body", "pieces", "position", "quaternion_wxyz", "linear_velocity",
-                            "angular_velocity"});
+                            "angular_velocity"},
+                    {"rests"});
   RunBody body;
   body.body = line.index(value["body"], bodies);
   double from = 0.0;
@@ -228,6 +229,12 @@ RunBody read_body(const json& value, std::size_t bodies, double lasted, const Li
                line.quaternion(line.array(value["quaternion_wxyz"], 4), 0)};
   body.linear_velocity = line.vector3(value["linear_velocity"]);
   body.angular_velocity = line.vector3(value["angular_velocity"]);
+  if (const auto rests = value.find("rests"); rests != value.end()) {
+    if (*rests != true || body.linear_velocity.any() || body.angular_velocity.any()) {
+      line.fail(*rests, "true, of a body without velocity");
+    }
+    body.rests = true;
+  }
   return body;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <firstcontact/dynamics/detail/islands.h>
@@ -19,6 +20,7 @@ namespace firstcontact {
 using detail::BodyKind;
 using detail::IslandTrack;
 using detail::Move;
+using detail::Rest;
 using detail::SimBody;
 using detail::StepStart;
 using detail::Touch;
@@ -45,6 +47,15 @@ void require_simulation(const LoadedScene& loaded) {
                                   "\": a deforming body is not simulated; leave it out");
     }
   }
+}
+
+/// The order of contacts in a step.
+bool comes_before(const RunContact& x, const RunContact& y) {
+  const auto key = [](const RunContact& c) {
+    return std::tuple(c.bodies, c.feature_A.type, c.feature_A.index, c.feature_B.type,
+                      c.feature_B.index);
+  };
+  return key(x) < key(y);
 }
 
 /// Whether a quaternion can be made a unit one.
@@ -111,6 +122,7 @@ class Simulator::Implementation {
       }
       states_.push_back(state);
     }
+    rests_.assign(states_.size(), false);
     follow_robots(states_);
     require_apart(states_, [](std::size_t) { return true; });
   }
@@ -139,6 +151,7 @@ class Simulator::Implementation {
     lock(world_.bodies[body].inertia, states[body]);
     require_apart(states, [body](std::size_t b) { return b == body; });
     states_ = std::move(states);
+    rests_.assign(states_.size(), false);  // What it held may fall.
   }
 
   const std::vector<MechanismState>& robot_states() const { return robots_; }
@@ -169,6 +182,7 @@ class Simulator::Implementation {
       throw;
     }
     states_ = std::move(states);
+    rests_.assign(states_.size(), false);
   }
 
   void resume(const RunStep& step) {
@@ -192,19 +206,16 @@ class Simulator::Implementation {
     robots_ = std::move(robots);
     time_ = step.time;
     count_ = step.index;
-    touches_.clear();
-    for (const RunContact& contact : step.contacts) {
-      touches_.push_back({.bodies = contact.bodies,
-                          .feature_A = contact.feature_A,
-                          .feature_B = contact.feature_B,
-                          .impulse = contact.impulse});
+    for (const RunBody& body : step.bodies) {
+      rests_[body.body] = body.rests;
     }
+    contacts_ = step.contacts;
   }
 
   std::optional<RunStep> step(const std::stop_token& stop) {
     const StepStart start = step_start();
     std::optional<std::vector<IslandTrack>> tracks =
-        detail::advance_islands(world_, start, touches_, workspace_, stop);
+        detail::advance_islands(world_, start, guesses(), workspace_, stop);
     if (!tracks) {
       return std::nullopt;
     }
@@ -213,22 +224,54 @@ class Simulator::Implementation {
       lasted = std::min(lasted, track.reached);
     }
     RunStep step = record(start, *tracks, lasted);
-    touches_.clear();
-    for (const IslandTrack& track : *tracks) {
-      touches_.insert(touches_.end(), track.touches.begin(), track.touches.end());
-    }
-    std::ranges::sort(touches_, detail::comes_before);
-    for (const Touch& touch : touches_) {
-      step.contacts.push_back({touch.bodies, touch.feature_A, touch.feature_B, touch.point,
-                               touch.normal, touch.gap + world_.laws.margin(touch.bodies).value(),
-                               touch.impulse});
-    }
+    add_contacts(*tracks, step);
+    contacts_ = step.contacts;
     time_ = step.time;
     count_ = step.index;
     return step;
   }
 
  private:
+  /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
+  [[nodiscard]] std::vector<Touch> guesses() const {
+    std::vector<Touch> touches;
+    touches.reserve(contacts_.size());
+    for (const RunContact& contact : contacts_) {
+      touches.push_back({.bodies = contact.bodies,
+                         .feature_A = contact.feature_A,
+                         .feature_B = contact.feature_B,
+                         .point = contact.point,
+                         .normal = contact.normal,
+                         .impulse = contact.impulse});
+    }
+    return touches;
+  }
+
+  /// Those of bodies that stay at rest are those of the step before.
+  void add_contacts(const std::vector<IslandTrack>& tracks, RunStep& step) const {
+    std::vector<bool> stays(states_.size(), false);
+    std::vector<Touch> touches;
+    for (const IslandTrack& track : tracks) {
+      if (track.rests == Rest::goes_on) {
+        for (const std::size_t b : track.members) {
+          stays[b] = true;
+        }
+      }
+      touches.insert(touches.end(), track.touches.begin(), track.touches.end());
+    }
+    for (const RunContact& contact : contacts_) {
+      if (stays[contact.bodies[0]] || stays[contact.bodies[1]]) {
+        step.contacts.push_back(contact);
+      }
+    }
+    for (const Touch& touch : touches) {
+      step.contacts.push_back({touch.bodies, touch.feature_A, touch.feature_B, touch.point,
+                               touch.normal, touch.gap + world_.laws.margin(touch.bodies).value(),
+                               touch.impulse});
+    }
+    std::ranges::stable_sort(step.contacts, comes_before);
+  }
+
   static void lock(const Inertia& inertia, RigidState& state) {
     for (int k = 0; k < 3; ++k) {
       state.v_WC[k] = inertia.locked_translation[k] ? 0.0 : state.v_WC[k];
@@ -311,7 +354,11 @@ class Simulator::Implementation {
 
   [[nodiscard]] StepStart step_start() {
     const Simulation& simulation = *loaded_.scene.simulation;
-    StepStart start{.time = time_, .h = simulation.step, .states = states_, .robots = robots_};
+    StepStart start{.time = time_,
+                    .h = simulation.step,
+                    .states = states_,
+                    .robots = robots_,
+                    .rests = rests_};
     start.scripted.resize(states_.size());
     for (std::size_t b = 0; b < states_.size(); ++b) {
       if (world_.bodies[b].kind != BodyKind::scripted) {
@@ -421,7 +468,11 @@ class Simulator::Implementation {
       std::ranges::copy_if(track.impacts, std::back_inserter(step.impacts),
                            [&](const RunImpact& impact) { return impact.at <= lasted; });
       for (std::size_t k = 0; k < track.members.size(); ++k) {
-        step.bodies.push_back(recorded(track.members[k], track.pieces[k], lasted));
+        RunBody body = recorded(track.members[k], track.pieces[k], lasted);
+        body.rests = track.rests == Rest::goes_on ||
+                     (track.rests == Rest::begins && lasted == start.h);
+        rests_[body.body] = body.rests;
+        step.bodies.push_back(std::move(body));
       }
       for (const detail::RobotTrack& robot : track.robots) {
         const VectorXd impulses = follow(robot, lasted);
@@ -487,8 +538,9 @@ class Simulator::Implementation {
   RunHeader header_;
   std::vector<RigidState> states_;
   std::vector<MechanismState> robots_;
-  std::vector<Touch> touches_;  // Of the last step, sorted.
-  double time_ = 0.0;           // [s]
+  std::vector<bool> rests_;           // Of each body, since the last step.
+  std::vector<RunContact> contacts_;  // Of the last step, sorted.
+  double time_ = 0.0;                 // [s]
   std::size_t count_ = 0;
   Workspace workspace_;
 };

@@ -50,6 +50,10 @@ class StepText {
     enclose('{', fields, '}');
   }
 
+  void add(bool value) {
+    begin_next();
+    text_ += value ? "true" : "false";
+  }
   /// With a digit behind the point, which keeps the sign of zero: shortest, and read as it was.
   void add(double number) {
     begin_next();
@@ -102,6 +106,9 @@ class StepText {
       field("quaternion_wxyz", body.X_WB.rotation);
       field("linear_velocity", body.linear_velocity);
       field("angular_velocity", body.angular_velocity);
+      if (body.rests) {
+        field("rests", true);
+      }
     });
   }
   void add(const RunRobot& robot) {

@@ -49,35 +49,6 @@ RowSide make_side(const ContactProblem& problem, const VelocityLayout& layout,
   return made;
 }
 
-ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
-                    const ContactPoint& contact) {
-  std::array<RowSide, 2> sides{make_side(problem, layout, contact, 0),
-                               make_side(problem, layout, contact, 1)};
-  if (sides[0].is_link() && sides[1].is_link() && sides[0].at == sides[1].at) {
-    sides[0].J_q += sides[1].J_q;
-    sides[1].J_q.setZero();
-  }
-  Matrix3d W = Matrix3d::Zero();
-  for (int s = 0; s < 2; ++s) {
-    RowSide& side = sides[s];
-    if (side.is_link()) {
-      const MechanismLink& link = *problem.bodies[contact.bodies[s]].link;
-      side.response_q = problem.mechanisms[link.mechanism].inverse_mass * side.J_q.transpose();
-      W += side.J_q * side.response_q;
-    } else {
-      W += side.J * side.response;
-    }
-  }
-  const ContactResponse own(W);
-  for (RowSide& side : sides) {
-    side.J = (own.turn() * side.J).eval();
-    side.response = (side.response * own.turn().transpose()).eval();
-    side.J_q = (own.turn() * side.J_q).eval();
-    side.response_q = (side.response_q * own.turn().transpose()).eval();
-  }
-  return {std::move(sides), own, contact.friction, contact.least_normal_velocity};
-}
-
 DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
                   const JointDrive& drive) {
   const auto k = static_cast<Eigen::Index>(drive.coordinate);
@@ -108,6 +79,42 @@ VectorXd free_velocities(const ContactProblem& problem, const VelocityLayout& la
   return V;
 }
 
+double residual_of(const DriveRow& row, double impulse, const VectorXd& V) {
+  const double wanted = impulse - row.excess_velocity(impulse, V) / row.own;
+  return std::abs(impulse - std::clamp(wanted, row.least, row.greatest)) * row.own;
+}
+
+}  // namespace
+
+ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
+                    const ContactPoint& contact) {
+  std::array<RowSide, 2> sides{make_side(problem, layout, contact, 0),
+                               make_side(problem, layout, contact, 1)};
+  if (sides[0].is_link() && sides[1].is_link() && sides[0].at == sides[1].at) {
+    sides[0].J_q += sides[1].J_q;
+    sides[1].J_q.setZero();
+  }
+  Matrix3d W = Matrix3d::Zero();
+  for (int s = 0; s < 2; ++s) {
+    RowSide& side = sides[s];
+    if (side.is_link()) {
+      const MechanismLink& link = *problem.bodies[contact.bodies[s]].link;
+      side.response_q = problem.mechanisms[link.mechanism].inverse_mass * side.J_q.transpose();
+      W += side.J_q * side.response_q;
+    } else {
+      W += side.J * side.response;
+    }
+  }
+  const ContactResponse own(W);
+  for (RowSide& side : sides) {
+    side.J = (own.turn() * side.J).eval();
+    side.response = (side.response * own.turn().transpose()).eval();
+    side.J_q = (own.turn() * side.J_q).eval();
+    side.response_q = (side.response_q * own.turn().transpose()).eval();
+  }
+  return {std::move(sides), own, contact.friction, contact.least_normal_velocity};
+}
+
 double residual_of(const ContactRow& row, const Vector3d& impulse, const VectorXd& V) {
   if (!(row.greatest() > 0.0)) {
     return 0.0;  // No impulse would change anything.
@@ -117,13 +124,6 @@ double residual_of(const ContactRow& row, const Vector3d& impulse, const VectorX
   const Vector3d change = impulse - project_on_cone(impulse - u / row.greatest(), row.friction);
   return change.norm() * row.greatest();
 }
-
-double residual_of(const DriveRow& row, double impulse, const VectorXd& V) {
-  const double wanted = impulse - row.excess_velocity(impulse, V) / row.own;
-  return std::abs(impulse - std::clamp(wanted, row.least, row.greatest)) * row.own;
-}
-
-}  // namespace
 
 VelocityLayout::VelocityLayout(const ContactProblem& problem) {
   for (const ContactBody& b : problem.bodies) {

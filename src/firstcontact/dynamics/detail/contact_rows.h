@@ -80,6 +80,10 @@ struct ContactRow {
   }
 };
 
+/// @param layout  of the problem
+[[nodiscard]] ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
+                                  const ContactPoint& contact);
+
 /// Solves one contact with all others held. Returns how much its velocity changes [m/s].
 inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen::VectorXd& V) {
   if (!(row.greatest() > 0.0)) {
@@ -132,6 +136,10 @@ struct Impulses {
   std::vector<double> drives;             // [N m s or N s]
 };
 
+/// [m/s]  As contact_residual(), of one contact; not finite where that could not be told.
+[[nodiscard]] double residual_of(const ContactRow& row, const Eigen::Vector3d& impulse,
+                                 const Eigen::VectorXd& V);
+
 /// [m/s]  As contact_residual().
 [[nodiscard]] double greatest_residual(const ContactRows& rows, const Impulses& impulses,
                                        const Eigen::VectorXd& V);
@@ -154,15 +162,6 @@ struct Projection {
 /// @param rows  of the problem
 void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
                               const ProjectionOptions& options, Projection& projection);
-
-/// Contacts that changed are solved anew, and in turn those of which the bodies then move otherwise
-/// by more than the tolerance, until there are none or `options.sweeps` times as many were solved
-/// as there are contacts. What is far away from the change stays as it is, to the last bit.
-///
-/// @param rows     without links and drives
-/// @param changed  contacts
-void project_around(const ContactRows& rows, const std::vector<std::size_t>& changed,
-                    const ProjectionOptions& options, Projection& projection);
 
 /// For many contacts and no drives. In rounds: mu |u_t| is taken to be what it was after the round
 /// before, at first that of the projection. With P = diag(1, mu, mu) it is then y = P u + mu |u_t|

@@ -13,105 +13,151 @@ using Eigen::Vector3d;
 /// radius over the span of the plan, and would not bounce.
 constexpr double kSlightApproach = 0.4;
 
+/// Where plans are made again bodies move otherwise by little: so much room they have, of their reach
+/// and of their way, before all pairs are looked for anew.
+constexpr double kRoomOfReach = 0.03;
+constexpr double kRoomOfWay = 0.1;
+
 }  // namespace
 
-/// Of a member, or of a body around the island, over the span.
-Move HitSearch::move_of(std::size_t body, const Plan& plan) const {
-  return state_.world.bodies[body].kind == BodyKind::free
-             ? plan.moves[state_.place.at(body)]
-             : state_.start.scripted[body].part(span_ / state_.start.h);
-}
-
 std::vector<Hit> HitSearch::find(const Plan& plan) {
-  hulls_.clear();
-  std::vector<AlignedBox3d> boxes;
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    boxes.push_back(swept_box(state_.member(k), state_.states[k].X_WB, plan.moves[k]));
-  }
-  std::vector<Hit> hits;
+  follow(plan);
   const double reach = state_.world.distances.least + state_.world.distances.tolerance;
   clearance_ = state_.world.distances.least;
-  const auto find_hit = [&](const BodyPair& pair, double margin) {
-    if (!moves_as_before(pair[0], plan) || !moves_as_before(pair[1], plan)) {
-      ask(pair, margin, {move_of(pair[0], plan), move_of(pair[1], plan)}, hits);
-      return;
+  std::vector<Hit> hits;
+  for (Candidate& pair : candidates_) {
+    if (mover(pair, 0).is_changed || mover(pair, 1).is_changed) {
+      pair.is_near = widened(mover(pair, 0).box, reach).exteriorDistance(mover(pair, 1).box) <=
+                     pair.margin;
+      pair.hit = pair.is_near ? ask(pair) : std::nullopt;
     }
-    const HeldDistance held = held_distance(state_.world.distances, margin, gap_of(pair));
-    clearance_ = std::min(clearance_, held.margin);
-    if (const auto found = hits_.find(pair); found != hits_.end()) {
-      hits.push_back(found->second);
+    if (pair.is_near) {
+      const double gap = pair.manifold == nullptr ? std::numeric_limits<double>::infinity()
+                                                  : pair.manifold->gap;
+      clearance_ =
+          std::min(clearance_, held_distance(state_.world.distances, pair.margin, gap).margin);
     }
-  };
-  state_.for_each_pair(boxes, reach, span_ / state_.start.h, find_hit);
-  moves_ = plan.moves;
-  hits_.clear();
-  for (const Hit& hit : hits) {
-    hits_.emplace(hit.bodies, hit);
+    if (pair.hit) {
+      hits.push_back(*pair.hit);
+    }
   }
   return hits;
 }
 
-/// What was found of two such bodies still holds.
-bool HitSearch::moves_as_before(std::size_t body, const Plan& plan) const {
-  if (moves_.empty() || state_.world.bodies[body].kind != BodyKind::free) {
-    return !moves_.empty();
+/// Takes the plan's motions, and the pairs that they may bring near each other.
+void HitSearch::follow(const Plan& plan) {
+  const bool is_first = movers_.empty();
+  bool have_room = !is_first;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (is_first) {
+      movers_.push_back({.body = state_.members[k]});
+    }
+    Mover& mover = movers_[k];
+    const Move& move = plan.moves[k];
+    mover.is_changed = is_first || move.translation != mover.move.translation ||
+                       move.rotation_vector != mover.move.rotation_vector;
+    if (mover.is_changed) {
+      mover.move = move;
+      mover.box = swept_box(state_.member(k), state_.states[k].X_WB, move);
+      mover.hull.reset();
+      have_room = have_room && mover.room.contains(mover.box);
+    }
   }
-  const std::size_t k = state_.place.at(body);
-  return moves_[k].translation == plan.moves[k].translation &&
-         moves_[k].rotation_vector == plan.moves[k].rotation_vector;
+  if (!have_room) {
+    look_around();
+  } else {
+    std::for_each(movers_.begin() + static_cast<std::ptrdiff_t>(state_.size()), movers_.end(),
+                  [](Mover& mover) { mover.is_changed = false; });
+  }
 }
 
-/// [m]  Beyond its margin, now; infinite beyond the band.
-double HitSearch::gap_of(const BodyPair& pair) const {
-  const auto found = state_.manifolds.find(pair);
-  return found == state_.manifolds.end() ? std::numeric_limits<double>::infinity()
-                                         : found->second.gap;
+/// Finds all pairs that are near while their boxes stay in their rooms. All of them are to be asked.
+void HitSearch::look_around() {
+  std::vector<AlignedBox3d> rooms;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    Mover& mover = movers_[k];
+    mover.is_changed = true;
+    mover.room = widened(mover.box, kRoomOfReach * state_.member(k).reach +
+                                        kRoomOfWay * mover.move.translation.norm());
+    rooms.push_back(mover.room);
+  }
+  candidates_.clear();
+  const double reach = state_.world.distances.least + state_.world.distances.tolerance;
+  state_.for_each_pair(rooms, reach, span_ / state_.start.h,
+                       [&](const BodyPair& pair, double margin) {
+                         const auto found = state_.manifolds.find(pair);
+                         candidates_.push_back(
+                             {.movers = {mover_of(pair[0]), mover_of(pair[1])},
+                              .margin = margin,
+                              .manifold = found == state_.manifolds.end() ? nullptr
+                                                                          : &found->second});
+                       });
 }
 
-void HitSearch::ask(const BodyPair& pair, double margin, const std::array<Move, 2>& moves,
-                    std::vector<Hit>& hits) {
-  const double gap = gap_of(pair);
-  const HeldDistance held = held_distance(state_.world.distances, margin, gap);
-  clearance_ = std::min(clearance_, held.margin);
-  if (cannot_reach(pair, std::min(gap, state_.world.distances.band) + margin - held.margin,
-                   moves)) {
-    return;
+/// Those of members come first.
+std::size_t HitSearch::mover_of(std::size_t body) {
+  if (state_.world.bodies[body].kind == BodyKind::free) {
+    return state_.place.at(body);
   }
+  const auto [found, is_new] = around_.try_emplace(body, movers_.size());
+  if (is_new) {
+    const Move move = state_.start.scripted[body].part(span_ / state_.start.h);
+    movers_.push_back({.body = body,
+                       .move = move,
+                       .box = swept_box(state_.world.bodies[body], state_.pose_of(body), move)});
+  }
+  movers_[found->second].is_changed = true;
+  return found->second;
+}
+
+/// A hit, if they come into contact.
+std::optional<Hit> HitSearch::ask(const Candidate& pair) {
+  const double gap = pair.manifold == nullptr ? std::numeric_limits<double>::infinity()
+                                              : pair.manifold->gap;
+  const HeldDistance held = held_distance(state_.world.distances, pair.margin, gap);
+  if (cannot_reach(pair, std::min(gap, state_.world.distances.band) + pair.margin - held.margin)) {
+    return std::nullopt;
+  }
+  const BodyPair bodies = bodies_of(pair);
   if (!(held.tolerance > 0.0)) {
-    hits.push_back({.bodies = pair});  // Rounding left no gap that could be halved: no time passes.
-    return;
+    return Hit{.bodies = bodies};  // Rounding left no gap that could be halved: no time passes.
   }
-  if (hulls_stay_apart(pair, moves, held.margin)) {
-    return;
+  if (hulls_stay_apart(pair, held.margin)) {
+    return std::nullopt;
   }
   FirstContactOptions options;
   options.margin = held.margin;
   options.tolerance = held.tolerance;
-  const Motion A = motion_of(state_.world.bodies[pair[0]], state_.pose_of(pair[0]), moves[0]);
-  const Motion B = motion_of(state_.world.bodies[pair[1]], state_.pose_of(pair[1]), moves[1]);
-  first_contact({state_.world.bodies[pair[0]].shape, A}, {state_.world.bodies[pair[1]].shape, B},
-                workspace_, options, answer_);
+  const auto motion = [&](int side) {
+    return motion_of(state_.world.bodies[bodies[side]], state_.pose_of(bodies[side]),
+                     mover(pair, side).move);
+  };
+  const Motion A = motion(0);
+  const Motion B = motion(1);
+  first_contact({state_.world.bodies[bodies[0]].shape, A},
+                {state_.world.bodies[bodies[1]].shape, B}, workspace_, options, answer_);
   if (answer_.verdict == Verdict::free) {
-    return;
+    return std::nullopt;
   }
-  hits.push_back(hit_of(pair, margin, {A.pose(answer_.t), B.pose(answer_.t)}, moves));
+  return hit_of(pair, {A.pose(answer_.t), B.pose(answer_.t)});
 }
 
-const SweptHull& HitSearch::hull_of(std::size_t body, const Move& move) {
-  return hulls_.try_emplace(body, state_.world.bodies[body], state_.pose_of(body), move)
-      .first->second;
+const SweptHull& HitSearch::hull_of(std::size_t k) {
+  Mover& mover = movers_[k];
+  if (!mover.hull) {
+    mover.hull.emplace(state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move);
+  }
+  return *mover.hull;
 }
 
 /// A face that touches goes with its body; of edges, often one of both will do.
-bool HitSearch::hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>& moves,
-                                 double distance) {
-  const SweptHull& A = hull_of(pair[0], moves[0]);
-  const SweptHull& B = hull_of(pair[1], moves[1]);
+bool HitSearch::hulls_stay_apart(const Candidate& pair, double distance) {
+  const SweptHull& A = hull_of(pair.movers[0]);
+  const SweptHull& B = hull_of(pair.movers[1]);
   Vector3d n = (B.p_WC - A.p_WC).normalized();
   bool sees_B = false;
-  const auto found = state_.manifolds.find(pair);
-  if (found != state_.manifolds.end() && !found->second.touches.empty()) {
-    const Touch& touch = found->second.touches[0];
+  if (pair.manifold != nullptr && !pair.manifold->touches.empty()) {
+    const Touch& touch = pair.manifold->touches[0];
     n = touch.normal;
     sees_B = touch.feature_B.type == FeatureType::face;
   }
@@ -122,31 +168,30 @@ bool HitSearch::hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not
 /// searched.
-bool HitSearch::cannot_reach(const BodyPair& pair, double distance,
-                             const std::array<Move, 2>& moves) {
+bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
   double way = 0.0;
   double size = 0.0;
   for (int side = 0; side < 2; ++side) {
-    const double reach = state_.world.bodies[pair[side]].reach;
-    way += moves[side].translation.norm() + reach * moves[side].rotation_vector.norm();
-    size += state_.pose_of(pair[side]).position.norm() + reach;
+    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
+    const double reach = state_.world.bodies[body].reach;
+    way += move.translation.norm() + reach * move.rotation_vector.norm();
+    size += state_.pose_of(body).position.norm() + reach;
   }
   constexpr double kRounding = 0x1p-44;  // Of the distance and of the way, with room.
   return way + kRounding * size < distance;
 }
 
 /// The contact that was just found, as a constraint on the span.
-Hit HitSearch::hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
-                      const std::array<Move, 2>& moves) {
-  Hit hit{.bodies = pair, .t = answer_.t};
+Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
+  Hit hit{.bodies = bodies_of(pair), .t = answer_.t};
   ProblemBodies bodies;
   for (int side = 0; side < 2; ++side) {
-    const Move& move = moves[side];
-    bodies.add(pair[side], {{}, move.translation / span_, move.rotation_vector / span_},
-               centre_of_mass(state_.world.bodies[pair[side]].inertia, poses[side]));
+    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
+    bodies.add(body, {{}, move.translation / span_, move.rotation_vector / span_},
+               centre_of_mass(state_.world.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
-  for (Touch& touch : touches_among(state_.world, pair, poses, margin, answer_.contacts)) {
+  for (Touch& touch : touches_among(state_.world, hit.bodies, poses, pair.margin, answer_.contacts)) {
     TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.
@@ -155,8 +200,8 @@ Hit HitSearch::hit_of(const BodyPair& pair, double margin, const std::array<Pose
     closing = std::max(closing, -u_n);
     hit.ahead.push_back(std::move(ahead));
   }
-  hit.is_slight = !hit.ahead.empty() && !state_.bounces(pair, closing) &&
-                  closing * span_ <= kSlightApproach * smaller_free_reach(pair);
+  hit.is_slight = !hit.ahead.empty() && !state_.bounces(hit.bodies, closing) &&
+                  closing * span_ <= kSlightApproach * smaller_free_reach(hit.bodies);
   return hit;
 }
 

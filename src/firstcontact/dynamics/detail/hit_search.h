@@ -4,7 +4,8 @@
 #pragma once
 
 #include <array>
-#include <map>
+#include <cstddef>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct Hit {
   std::vector<TouchAhead> ahead = {};
 };
 
-/// Asks the motions of plans for first contacts.
+/// Asks the motions of plans for first contacts. Of plans after the first one only pairs are asked
+/// of which a body moves otherwise than in the plan before.
 class HitSearch {
  public:
   /// @param span  [s]  of the plans
@@ -36,26 +38,46 @@ class HitSearch {
   [[nodiscard]] double clearance() const { return clearance_; }
 
  private:
-  [[nodiscard]] Move move_of(std::size_t body, const Plan& plan) const;
-  void ask(const BodyPair& pair, double margin, const std::array<Move, 2>& moves,
-           std::vector<Hit>& hits);
-  [[nodiscard]] bool cannot_reach(const BodyPair& pair, double distance,
-                                  const std::array<Move, 2>& moves);
-  [[nodiscard]] Hit hit_of(const BodyPair& pair, double margin, const std::array<Pose, 2>& poses,
-                           const std::array<Move, 2>& moves);
+  /// A member, or a body around the island, in the plan.
+  struct Mover {
+    std::size_t body;
+    Move move = {};
+    Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
+    Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
+    bool is_changed = true;    // It moves otherwise than in the plan before.
+    std::optional<SweptHull> hull = {};  // Where one was needed.
+  };
+  /// Two bodies that may come near each other.
+  struct Candidate {
+    std::array<std::size_t, 2> movers;
+    double margin;             // [m]
+    const Manifold* manifold;  // Null beyond the band.
+    bool is_near = false;      // The boxes of the plan are.
+    std::optional<Hit> hit = {};
+  };
+
+  void follow(const Plan& plan);
+  void look_around();
+  [[nodiscard]] std::size_t mover_of(std::size_t body);
+  [[nodiscard]] const Mover& mover(const Candidate& pair, int side) const {
+    return movers_[pair.movers[side]];
+  }
+  [[nodiscard]] BodyPair bodies_of(const Candidate& pair) const {
+    return {mover(pair, 0).body, mover(pair, 1).body};
+  }
+  [[nodiscard]] std::optional<Hit> ask(const Candidate& pair);
+  [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
+  [[nodiscard]] Hit hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
-  [[nodiscard]] const SweptHull& hull_of(std::size_t body, const Move& move);
-  [[nodiscard]] bool hulls_stay_apart(const BodyPair& pair, const std::array<Move, 2>& moves,
-                                      double distance);
-  [[nodiscard]] double gap_of(const BodyPair& pair) const;
-  [[nodiscard]] bool moves_as_before(std::size_t body, const Plan& plan) const;
+  [[nodiscard]] const SweptHull& hull_of(std::size_t mover);
+  [[nodiscard]] bool hulls_stay_apart(const Candidate& pair, double distance);
 
   IslandState& state_;
   double span_;
   Workspace& workspace_;
-  std::unordered_map<std::size_t, SweptHull> hulls_ = {};  // Of this plan.
-  std::vector<Move> moves_ = {};                           // Of the plan before.
-  std::map<BodyPair, Hit> hits_ = {};                      // In it.
+  std::vector<Mover> movers_ = {};  // The members, then bodies around the island.
+  std::unordered_map<std::size_t, std::size_t> around_ = {};  // Where these are among the movers.
+  std::vector<Candidate> candidates_ = {};
   FirstContactResult answer_;
   double clearance_ = 0.0;
 };

@@ -9,6 +9,7 @@
 #include <firstcontact/dynamics/detail/hit_search.h>
 #include <firstcontact/dynamics/detail/island_plan.h>
 #include <firstcontact/dynamics/detail/island_response.h>
+#include <firstcontact/dynamics/detail/rest.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -120,7 +121,7 @@ class Island {
         for (const Hit& hit : hits) {
           t = std::min(t, hit.t);
         }
-        move_to(plan, t, search.clearance());
+        move_to(plan, planner.touches(), t, search.clearance());
         return t;
       }
       for (const Hit& hit : hits) {
@@ -136,7 +137,7 @@ class Island {
 
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
   /// little to be told from now.
-  void move_to(const Plan& plan, double t, double clearance) {
+  void move_to(const Plan& plan, std::vector<Touch> touches, double t, double clearance) {
     const double planned = span();
     const bool is_last = planned >= state_.start.h - state_.reached;
     const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned;
@@ -161,18 +162,33 @@ class Island {
         track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
       }
     }
+    if (t == 1.0 && planned == state_.start.h && track_.events == 0 &&
+        comes_to_rest(state_, plan, touches)) {
+      come_to_rest();
+    }
     state_.reached = to;
-    track_.touches = plan.touches;
     track_.residual = std::max(track_.residual, plan.residual);
     track_.clearance = std::min(track_.clearance, clearance);
     state_.poses_around.clear();
     if (to < state_.start.h) {
-      acted_ = plan.touches;
+      acted_ = touches;
       for (Touch& touch : acted_) {
         touch.impulse *= state_.start.h / planned;
       }
       std::ranges::stable_sort(acted_, comes_before);
       state_.find_manifolds(acted_, workspace_);
+    }
+    track_.touches = std::move(touches);
+  }
+
+  /// What is left of the velocities at the end of the step is no motion.
+  void come_to_rest() {
+    track_.rests = Rest::begins;
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      for (RigidState* end : {&state_.states[k], &track_.pieces[k].back().end}) {
+        end->v_WC.setZero();
+        end->w_WB.setZero();
+      }
     }
   }
 

@@ -21,6 +21,13 @@ struct TrackPiece {
   RigidState end;    ///< Pose and velocities at its end.
 };
 
+/// Whether the bodies of an island are at rest.
+enum class Rest {
+  no,
+  begins,   ///< From the end of the step on: their velocities are none there.
+  goes_on,  ///< Since a step before.
+};
+
 /// How the bodies of an island move over a step, or over as much of it as could be proven free.
 struct IslandTrack {
   std::vector<std::size_t> members;             ///< Free bodies.
@@ -32,6 +39,7 @@ struct IslandTrack {
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
   double residual = 0.0;   ///< [m/s]
   std::size_t events = 0;
+  Rest rests = Rest::no;
 };
 
 /// Advances the free bodies `members`, of a robot all its links or none, with all fixed and

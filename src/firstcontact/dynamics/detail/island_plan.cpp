@@ -47,117 +47,135 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
 }
 
 IslandPlanner::IslandPlanner(IslandState& state, double span)
-    : state_(state), span_(span), bodies_(state.problem_bodies()) {
+    : state_(state), span_(span), bodies_(state.problem_bodies()), flight_(free_flight()) {
   for (const auto& [pair, manifold] : state_.manifolds) {
     state_.add_others(pair, bodies_);
+  }
+  set_bodies();
+  for (const auto& [pair, manifold] : state_.manifolds) {
     for (const Touch& touch : manifold.touches) {
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        constraints_.emplace(
-            pair, Constraint{touch, -state_.world.distances.way_to_rest(touch.gap) / span_});
+        append(touch, contact_of(touch, -state_.world.distances.way_to_rest(touch.gap) / span_));
       }
     }
   }
-  flight_ = free_flight();
+  first_ahead_ = touches_.size();
+  free_robots_ = state_.robots.fly(problem_, state_.start.time + state_.reached, span_);
 }
 
-std::array<Vector3d, 2> IslandPlanner::arms_of(const Constraint& constraint) const {
-  if (constraint.arms) {
-    return *constraint.arms;
+/// Those of the problem, with their free velocities. Others that contacts ahead bring come last.
+void IslandPlanner::set_bodies() {
+  for (std::size_t b = problem_.bodies.size(); b < bodies_.bodies().size(); ++b) {
+    problem_.bodies.push_back(b < state_.size() ? flight_.at_end[b] : bodies_.bodies()[b]);
   }
-  const ContactPoint contact = contact_at(constraint.touch, bodies_, 0.0, 0.0);
-  return {contact.arm_A, contact.arm_B};
 }
 
-/// Whether a constraint is about the same place of one of the bodies, seen from there.
-bool IslandPlanner::is_at(const TouchAhead& ahead, const Constraint& constraint) const {
+/// Its guess is the impulse of the touch, of a whole step.
+ContactPoint IslandPlanner::contact_of(const Touch& touch, double least) const {
+  ContactPoint contact =
+      contact_at(touch, bodies_, state_.world.laws.friction(touch.bodies), least);
+  contact.guess *= span_ / state_.start.h;
+  contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span_;
+  return contact;
+}
+
+void IslandPlanner::append(const Touch& touch, const ContactPoint& contact) {
+  changed_.push_back(touches_.size());
+  touches_.push_back(touch);
+  problem_.contacts.push_back(contact);
+}
+
+/// Whether a contact is about the same place of one of the bodies, seen from there.
+bool IslandPlanner::is_at(const TouchAhead& ahead, std::size_t k) const {
   // Features and normals tell most apart, and cost least.
-  if (!same_features(constraint.touch, ahead.touch) ||
-      !(constraint.touch.normal.dot(ahead.touch.normal) >= kReplacedNormal)) {
+  const Touch& touch = touches_[k];
+  if (!same_features(touch, ahead.touch) ||
+      !(touch.normal.dot(ahead.touch.normal) >= kReplacedNormal)) {
     return false;
   }
-  const std::array<Vector3d, 2> arms = arms_of(constraint);
-  const double apart =
-      std::min((arms[0] - ahead.contact.arm_A).norm(), (arms[1] - ahead.contact.arm_B).norm());
+  const ContactPoint& contact = problem_.contacts[k];
+  const double apart = std::min((contact.arm_A - ahead.contact.arm_A).norm(),
+                                (contact.arm_B - ahead.contact.arm_B).norm());
   return apart <= kReplacedWithin * smaller_reach(state_.world, ahead.touch.bodies);
+}
+
+/// The contact whose place a touch ahead takes.
+std::optional<std::size_t> IslandPlanner::find(const TouchAhead& ahead) const {
+  const BodyPair& pair = ahead.touch.bodies;
+  const auto begin = touches_.begin();
+  const auto touching =
+      std::ranges::equal_range(begin, begin + static_cast<std::ptrdiff_t>(first_ahead_), pair, {},
+                               [](const Touch& touch) { return touch.bodies; });
+  for (auto touch = touching.begin(); touch != touching.end(); ++touch) {
+    const auto k = static_cast<std::size_t>(touch - begin);
+    if (is_at(ahead, k)) {
+      return k;
+    }
+  }
+  const auto [first, end] = ahead_.equal_range(pair);
+  const auto found =
+      std::find_if(first, end, [&](const auto& entry) { return is_at(ahead, entry.second); });
+  return found == end ? std::nullopt : std::optional(found->second);
 }
 
 void IslandPlanner::add(const TouchAhead& ahead) {
   const BodyPair& pair = ahead.touch.bodies;
   state_.add_others(pair, bodies_);
-  Constraint constraint{.touch = ahead.touch,
-                        .least = ahead.least,
-                        .arms = {{ahead.contact.arm_A, ahead.contact.arm_B}}};
-  const auto [first, end] = constraints_.equal_range(pair);
-  const auto found =
-      std::find_if(first, end, [&](const auto& entry) { return is_at(ahead, entry.second); });
-  if (found == end) {
-    constraints_.emplace(pair, std::move(constraint));
+  set_bodies();
+  ContactPoint contact = ahead.contact;
+  contact.bodies = {bodies_.place(pair[0]), bodies_.place(pair[1])};
+  contact.friction = state_.world.laws.friction(pair);
+  contact.least_normal_velocity = ahead.least - drift_along(pair, contact) / span_;
+  const std::optional<std::size_t> k = find(ahead);
+  if (!k) {
+    ahead_.emplace(pair, touches_.size());
+    append(ahead.touch, contact);
     return;
   }
-  constraint.touch.impulse = found->second.touch.impulse;
-  found->second = std::move(constraint);
-}
-
-ContactProblem IslandPlanner::problem_now() const {
-  ContactProblem problem{.bodies = bodies_.bodies()};
-  std::ranges::copy(flight_.at_end, problem.bodies.begin());
-  for (const auto& [pair, constraint] : constraints_) {
-    ContactPoint contact =
-        contact_at(constraint.touch, bodies_, state_.world.laws.friction(pair), constraint.least);
-    if (constraint.arms) {
-      contact.arm_A = (*constraint.arms)[0];
-      contact.arm_B = (*constraint.arms)[1];
-    }
-    contact.guess *= span_ / state_.start.h;
-    contact.least_normal_velocity -= drift_along(pair, contact) / span_;
-    problem.contacts.push_back(contact);
-  }
-  return problem;
+  const ContactPoint& before = problem_.contacts[*k];
+  contact.guess = contact.frame * (before.frame.transpose() * before.guess);
+  touches_[*k] = ahead.touch;
+  problem_.contacts[*k] = contact;
+  changed_.push_back(*k);
 }
 
 /// All of it, or what changed since the last plan.
-PlanSolution IslandPlanner::solve(const ContactProblem& problem) {
-  std::vector<std::size_t> changed;
-  std::size_t k = 0;
-  for (auto& [pair, constraint] : constraints_) {
-    if (constraint.is_new) {
-      changed.push_back(k);
-      constraint.is_new = false;
-    }
-    ++k;
-  }
+void IslandPlanner::solve() {
+  std::optional<PlanSolution> again;
   if (last_) {
-    if (std::optional<PlanSolution> again = project_plan_again(state_, problem, *last_, changed)) {
-      return std::move(*again);
-    }
+    again = project_plan_again(state_, problem_, *last_, changed_);
   }
-  return project_plan(state_, problem);
+  last_ = again ? std::move(*again) : project_plan(state_, problem_);
+  changed_.clear();
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    problem_.contacts[k].guess = last_->velocities.impulses[k];
+  }
 }
 
 Plan IslandPlanner::plan() {
-  ContactProblem problem = problem_now();
-  const std::vector<RobotPlan> free =
-      state_.robots.fly(problem, state_.start.time + state_.reached, span_);
-  last_ = solve(problem);
+  solve();
   const ContactSolution& solution = last_->velocities;
-  Plan made{.at_end = solution.bodies, .residual = solution.residual};
-  std::size_t k = 0;
-  for (auto& [pair, constraint] : constraints_) {
-    Touch acting = constraint.touch;
-    acting.impulse = problem.contacts[k].frame.transpose() * solution.impulses[k];
-    constraint.touch.impulse = acting.impulse / (span_ / state_.start.h);
-    made.touches.push_back(acting);
-    ++k;
-  }
+  Plan made{.at_end = solution.bodies,
+            .residual = solution.residual,
+            .tolerance = projection_options(state_, problem_).tolerance};
   made.at_end.resize(state_.size());
-  const std::vector<bool> by_end = led_by_end(problem, bodies_.bodies(), solution);
-  set_moves(bodies_.bodies(), solution, by_end, made);
-  made.robots = state_.robots.plan(problem, solution, free, by_end, span_);
+  const std::vector<bool> by_end = led_by_end();
+  set_moves(by_end, made);
+  made.robots = state_.robots.plan(problem_, solution, free_robots_, by_end, span_);
   push_apart(made);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;
+}
+
+std::vector<Touch> IslandPlanner::touches() const {
+  std::vector<Touch> touches = touches_;
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    touches[k].impulse = contact.frame.transpose() * contact.guess;
+  }
+  return touches;
 }
 
 /// [m]  What the drift of links adds to the way along a contact's normal.
@@ -178,22 +196,21 @@ double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& cont
 /// The mean of the velocities at both ends is exact under constant forces; where it would break a
 /// constraint, as at one that only begins to act, or somewhere in nearly any heap, those at the end
 /// lead the bodies in contact.
-std::vector<bool> IslandPlanner::led_by_end(const ContactProblem& problem,
-                                            const std::vector<ContactBody>& before,
-                                            const ContactSolution& solution) const {
-  std::vector<ContactBody> mean = solution.bodies;
+std::vector<bool> IslandPlanner::led_by_end() const {
+  const std::vector<ContactBody>& before = bodies_.bodies();
+  std::vector<ContactBody> mean = last_->velocities.bodies;
   for (std::size_t b = 0; b < mean.size(); ++b) {
-    mean[b].v = 0.5 * (before[b].v + solution.bodies[b].v);
-    mean[b].w = 0.5 * (before[b].w + solution.bodies[b].w);
+    mean[b].v = 0.5 * (before[b].v + mean[b].v);
+    mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
-  const double slack = 2.0 * projection_options(state_, problem).tolerance;
+  const double slack = 2.0 * projection_options(state_, problem_).tolerance;
   const bool mean_is_allowed =
-      std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
+      std::ranges::all_of(problem_.contacts, [&](const ContactPoint& contact) {
         return normal_velocity(contact, mean) >= contact.least_normal_velocity - slack;
       });
   std::vector<bool> by_end(before.size(), false);
   if (!mean_is_allowed) {
-    for (const ContactPoint& contact : problem.contacts) {
+    for (const ContactPoint& contact : problem_.contacts) {
       by_end[contact.bodies[0]] = true;
       by_end[contact.bodies[1]] = true;
     }
@@ -202,15 +219,15 @@ std::vector<bool> IslandPlanner::led_by_end(const ContactProblem& problem,
 }
 
 /// Those of pieces of links are their robots' matter.
-void IslandPlanner::set_moves(const std::vector<ContactBody>& before,
-                              const ContactSolution& solution, const std::vector<bool>& by_end,
-                              Plan& plan) const {
+void IslandPlanner::set_moves(const std::vector<bool>& by_end, Plan& plan) const {
+  const std::vector<ContactBody>& before = bodies_.bodies();
+  const std::vector<ContactBody>& after = last_->velocities.bodies;
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const Vector3d& w_free = flight_.at_end[k].w;
-    const Vector3d& w = solution.bodies[k].w;
+    const Vector3d& w = after[k].w;
     const Vector3d turn =
         by_end[k] ? Vector3d(w - 0.5 * (before[k].w + w_free)) : Vector3d(0.5 * (w - w_free));
-    const Vector3d& v = solution.bodies[k].v;
+    const Vector3d& v = after[k].v;
     plan.moves.push_back({span_ * (by_end[k] ? v : Vector3d(0.5 * (before[k].v + v))),
                           flight_.rotation_vectors[k] + span_ * turn});
   }
@@ -263,7 +280,8 @@ ContactSolution IslandPlanner::find_push() {
     mechanism.velocity.setZero();
   }
   if (problem.mechanisms.empty()) {  // Most have room: only those around move.
-    ContactSolution around = project_again(problem, problem.bodies, too_near, options);
+    ContactSolution around =
+        project_again(problem, {.bodies = problem.bodies}, too_near, options);
     if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
       return around;
     }

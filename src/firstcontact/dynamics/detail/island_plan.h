@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <vector>
@@ -27,8 +28,8 @@ struct Plan {
   /// that what contacts do to its energy now is what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
-  std::vector<Touch> touches = {};  ///< With their impulses.
   double residual = 0.0;            ///< [m/s]
+  double tolerance = 0.0;  ///< [m/s]  That was asked for.
 };
 
 /// Makes plans from where an island is now, each with more or tighter constraints than the one
@@ -43,43 +44,44 @@ class IslandPlanner {
   /// Starts from the impulses of the plan before.
   [[nodiscard]] Plan plan();
 
+  /// What the last plan holds apart, with its impulses.
+  [[nodiscard]] std::vector<Touch> touches() const;
+
   /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
   /// takes its place: between two that say nearly the same impulses would only slowly go over.
   void add(const TouchAhead& ahead);
 
  private:
-  struct Constraint {
-    Touch touch;                                              // With its impulse of a whole step.
-    double least = 0.0;                                       // [m/s]  Normal velocity.
-    std::optional<std::array<Eigen::Vector3d, 2>> arms = {};  // [m]  In place of those of now.
-    bool is_new = true;                                       // Since the plan before.
-  };
   /// Velocities without contacts, as those of Plan, and how far they lead.
   struct FreeFlight {
     std::vector<ContactBody> at_end;
     std::vector<Eigen::Vector3d> rotation_vectors;
   };
 
-  [[nodiscard]] std::array<Eigen::Vector3d, 2> arms_of(const Constraint& constraint) const;
-  [[nodiscard]] bool is_at(const TouchAhead& ahead, const Constraint& constraint) const;
   [[nodiscard]] FreeFlight free_flight() const;
-  [[nodiscard]] ContactProblem problem_now() const;
-  [[nodiscard]] PlanSolution solve(const ContactProblem& problem);
+  void set_bodies();
+  [[nodiscard]] ContactPoint contact_of(const Touch& touch, double least) const;
+  void append(const Touch& touch, const ContactPoint& contact);
+  [[nodiscard]] bool is_at(const TouchAhead& ahead, std::size_t contact) const;
+  [[nodiscard]] std::optional<std::size_t> find(const TouchAhead& ahead) const;
+  void solve();
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
-  [[nodiscard]] std::vector<bool> led_by_end(const ContactProblem& problem,
-                                             const std::vector<ContactBody>& before,
-                                             const ContactSolution& solution) const;
-  void set_moves(const std::vector<ContactBody>& before, const ContactSolution& solution,
-                 const std::vector<bool>& by_end, Plan& plan) const;
+  [[nodiscard]] std::vector<bool> led_by_end() const;
+  void set_moves(const std::vector<bool>& by_end, Plan& plan) const;
   void push_apart(Plan& plan);
   [[nodiscard]] ContactSolution find_push();
 
   IslandState& state_;
   double span_;  // [s]
   ProblemBodies bodies_;
-  std::multimap<BodyPair, Constraint> constraints_;
   FreeFlight flight_;
+  ContactProblem problem_;               // Its guesses are the impulses of the last plan.
+  std::vector<Touch> touches_;           // Of each contact of the problem.
+  std::size_t first_ahead_ = 0;          // Those before it are in the order of their pairs.
+  std::multimap<BodyPair, std::size_t> ahead_;  // The others.
+  std::vector<RobotPlan> free_robots_;
   std::optional<PlanSolution> last_ = {};
+  std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
   std::optional<ContactSolution> push_ = {};  // Of all plans from now.
 };
 

@@ -17,6 +17,11 @@ constexpr double kHeapTolerance = 1e-3;
 constexpr std::size_t kHeap = 120;       // Contacts.
 constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
 constexpr std::size_t kManyContacts = 300;
+
+/// Where several bodies are hit, to this part of what that asks for: things at rest start from what
+/// they were left with, and hardly ask for anything.
+constexpr std::size_t kSeveralBodies = 6;
+constexpr double kPartOfStart = 1e-3;
 constexpr int kRoundsOfMany = 2;
 
 /// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
@@ -133,7 +138,9 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
   if (problem.contacts.size() >= kManyContacts) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = of_gravity(state, kTolerance), .rounds = kRoundsOfMany};
+  return {.tolerance = of_gravity(state, kTolerance),
+          .of_start = state.size() >= kSeveralBodies ? kPartOfStart : 0.0,
+          .rounds = kRoundsOfMany};
 }
 
 PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
@@ -153,7 +160,7 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
     return std::nullopt;
   }
   PlanSolution plan{
-      project_again(problem, before.velocities.bodies, changed,
+      project_again(problem, before.velocities, changed,
                     {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
   if (plan.velocities.residual > projection_options(state, problem).enough) {
     return std::nullopt;

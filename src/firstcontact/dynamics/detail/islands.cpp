@@ -5,6 +5,8 @@
 #include <limits>
 
 #include <firstcontact/dynamics/detail/overlap_tree.h>
+#include <firstcontact/dynamics/detail/rest.h>
+#include <firstcontact/dynamics/detail/swept_hull.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -85,17 +87,50 @@ class Islands {
     }
   }
 
+  /// Those that are near each other, and those that would meet if nothing else were in their way:
+  /// most that will be found to meet, so that few islands are advanced twice.
   void join_near() {
+    std::vector<Move> moves;
     std::vector<AlignedBox3d> boxes;
     for (const std::size_t b : free_) {
-      boxes.push_back(
-          widened(swept_box(world_.bodies[b], start_.states[b].X_WB, {}), world_.distances.band));
+      moves.push_back(inertial_move(b));
+      boxes.push_back(widened(swept_box(world_.bodies[b], start_.states[b].X_WB, moves.back()),
+                              world_.distances.band));
     }
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
-      if (may_touch(free_[i], free_[k])) {
-        join(free_[i], free_[k]);
+      const std::size_t a = free_[i];
+      const std::size_t b = free_[k];
+      if (may_touch(a, b) && set_of(a) != set_of(b) &&
+          (are_near(a, b) || !pass_by(a, moves[i], b, moves[k]))) {
+        join(a, b);
       }
     }
+  }
+
+  /// As the body moves over the step by itself. Links rest: their joints lead them.
+  [[nodiscard]] Move inertial_move(std::size_t b) const {
+    const RigidState& state = start_.states[b];
+    if (world_.bodies[b].piece || start_.rests[b]) {
+      return {};
+    }
+    return {start_.h * (state.v_WC + 0.5 * start_.h * world_.gravity), start_.h * state.w_WB};
+  }
+
+  /// Whether the bodies' boxes are within the band now.
+  [[nodiscard]] bool are_near(std::size_t a, std::size_t b) const {
+    const auto box_of = [&](std::size_t body) {
+      return widened(swept_box(world_.bodies[body], start_.states[body].X_WB, {}),
+                     world_.distances.band);
+    };
+    return box_of(a).intersects(box_of(b));
+  }
+
+  /// Whether a plane tells that the hulls do not meet on their ways.
+  [[nodiscard]] bool pass_by(std::size_t a, const Move& move_a, std::size_t b,
+                             const Move& move_b) const {
+    const SweptHull A(world_.bodies[a], start_.states[a].X_WB, move_a);
+    const SweptHull B(world_.bodies[b], start_.states[b].X_WB, move_b);
+    return stays_apart(A, B, world_.distances.band, (B.p_WC - A.p_WC).normalized());
   }
 
   /// Advances the sets that are new. Returns false if it was stopped.
@@ -115,7 +150,9 @@ class Islands {
         continue;
       }
       is_new_[s] = true;
-      tracks_[s] = advance_island(step_, std::move(members[s]), workspace_);
+      tracks_[s] = stays_at_rest(step_, members[s])
+                       ? track_at_rest(step_, std::move(members[s]))
+                       : advance_island(step_, std::move(members[s]), workspace_);
       if (!tracks_[s]) {
         return false;
       }

@@ -94,6 +94,7 @@ struct StepStart {
   std::vector<RigidState> states = {};  ///< Velocities of free bodies.
   std::vector<Move> scripted = {};      ///< Over the step; zero but for scripted bodies.
   std::vector<MechanismState> robots = {};
+  std::vector<bool> rests = {};  ///< Of every body: found at rest in the step before.
 };
 
 /// Where a scripted or fixed body is, a share of the step after its begin.
