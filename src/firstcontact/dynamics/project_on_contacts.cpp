@@ -117,6 +117,13 @@ void require_positive(Number value, const std::string& option) {
   }
 }
 
+void require_not_negative(double value, const std::string& option) {
+  if (!(value >= 0.0)) {
+    throw std::invalid_argument("ProjectionOptions::" + option + " must be >= 0, got " +
+                                std::to_string(value));
+  }
+}
+
 /// Tries what is cheap for the problem before what is dear.
 class Solver {
  public:
@@ -126,7 +133,9 @@ class Solver {
         rows_(problem),
         is_automatic_(options.space == ProjectionSpace::automatic),
         projection_(start(problem, rows_, options.tolerance)) {
-    options_.tolerance = std::max(options.tolerance, options.of_start * projection_.residual);
+    if (projection_.residual > options.hit) {
+      options_.tolerance = std::max(options.tolerance, options.of_hits * projection_.residual);
+    }
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
     is_small_ = moving <= kMostInMotionSpace;
@@ -241,14 +250,9 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
   require_positive(options.tolerance, "tolerance");
   require_positive(options.sweeps, "sweeps");
   require_positive(options.rounds, "rounds");
-  if (!(options.of_start >= 0.0)) {
-    throw std::invalid_argument("ProjectionOptions::of_start must be >= 0, got " +
-                                std::to_string(options.of_start));
-  }
-  if (!(options.enough >= 0.0)) {
-    throw std::invalid_argument("ProjectionOptions::enough must be >= 0, got " +
-                                std::to_string(options.enough));
-  }
+  require_not_negative(options.of_hits, "of_hits");
+  require_not_negative(options.hit, "hit");
+  require_not_negative(options.enough, "enough");
   return Solver(problem, options).solve();
 }
 

@@ -22,39 +22,50 @@ constexpr double kLeastFill = 0.375;  // [-]  Of the lanes.
 constexpr std::size_t kImpulsesOfBatch = 3 * kLanes;
 constexpr std::size_t kNumbersOfBody = 8;  // In x.
 
-/// Gives out the lanes of batches, each from a batch on; skips many full ones at once.
+/// So many contacts of a pair in turn are solved before other pairs.
+constexpr std::size_t kMostOfPair = 4;
+
+/// Gives out the lanes of pair batches, each from a batch on.
 class FreeLanes {
  public:
-  /// @returns the lane, counted through all batches
-  std::size_t take_from(std::size_t batch) {
-    const std::size_t found = first_with_room(batch);
-    while (used_.size() <= found) {
-      next_.push_back(used_.size());
+  /// @param count  of contacts: pairs in one batch have as many
+  PairPlace take_from(std::size_t batch, std::size_t count) {
+    std::vector<std::size_t>& with_room = with_room_[count - 1];
+    auto found = std::ranges::lower_bound(with_room, batch);
+    if (found == with_room.end()) {
+      found = with_room.insert(found, used_.size());
       used_.push_back(0);
+      counts_.push_back(count);
     }
-    const std::size_t lane = used_[found]++;
-    if (used_[found] == kLanes) {
-      next_[found] = found + 1;
+    const PairPlace place{*found, used_[*found]++};
+    if (used_[place.batch] == kLanes) {
+      with_room.erase(found);
     }
-    return found * kLanes + lane;
+    return place;
   }
-  [[nodiscard]] std::size_t batches() const { return used_.size(); }
+  /// Of the contacts of each batch.
+  [[nodiscard]] const std::vector<std::size_t>& counts() const { return counts_; }
 
  private:
-  std::size_t first_with_room(std::size_t batch) {
-    std::size_t found = batch;
-    while (found < next_.size() && next_[found] != found) {
-      found = next_[found];
-    }
-    while (batch < found && batch < next_.size()) {
-      batch = std::exchange(next_[batch], found);
-    }
-    return found;
-  }
-
-  std::vector<std::size_t> next_;  // Of each batch: itself, or a later one where it is full.
+  std::array<std::vector<std::size_t>, kMostOfPair> with_room_;  // Of each count, in order.
   std::vector<std::size_t> used_;
+  std::vector<std::size_t> counts_;
 };
+
+/// How many contacts from one on are of the same pair, up to kMostOfPair.
+std::size_t count_of_pair(const std::vector<ContactPoint>& contacts, std::size_t first) {
+  std::size_t count = 1;
+  while (count < kMostOfPair && first + count < contacts.size() &&
+         contacts[first + count].bodies == contacts[first].bodies) {
+    ++count;
+  }
+  return count;
+}
+
+/// Where in x a body begins.
+std::int64_t place_of_body(std::size_t body) {
+  return static_cast<std::int64_t>(kNumbersOfBody * body);
+}
 
 /// Where in the state the first impulse of a lane is; the others follow by kLanes each.
 Index place_of(std::size_t lane) {
@@ -76,24 +87,54 @@ std::optional<ContactBatches> ContactBatches::of(const ContactProblem& problem,
 
 /// Whether that leaves few lanes empty.
 bool ContactBatches::assign_lanes(const ContactProblem& problem) {
+  const std::vector<ContactPoint>& contacts = problem.contacts;
   bodies_ = problem.bodies.size();
   std::vector<std::size_t> first_batch(bodies_, 0);  // After the last one of the body.
+  std::vector<PairPlace> places(contacts.size());
   FreeLanes lanes;
-  for (const ContactPoint& contact : problem.contacts) {
-    const auto [a, b] = contact.bodies;
-    const std::size_t lane = lanes.take_from(std::max(first_batch[a], first_batch[b]));
-    for (const std::size_t body : contact.bodies) {
-      first_batch[body] = is_movable(problem.bodies[body]) ? lane / kLanes + 1 : 0;
+  for (std::size_t k = 0; k < contacts.size(); k += count_of_pair(contacts, k)) {
+    const auto [a, b] = contacts[k].bodies;
+    places[k] =
+        lanes.take_from(std::max(first_batch[a], first_batch[b]), count_of_pair(contacts, k));
+    for (const std::size_t body : contacts[k].bodies) {
+      first_batch[body] = is_movable(problem.bodies[body]) ? places[k].batch + 1 : 0;
     }
-    lane_of_.push_back(lane);
   }
-  const std::size_t all = lanes.batches() * kLanes;
-  if (static_cast<double>(lane_of_.size()) < kLeastFill * static_cast<double>(all)) {
+  std::size_t batches = 0;
+  for (const std::size_t count : lanes.counts()) {
+    pairs_.push_back({.first = batches, .count = count});
+    batches += count;
+  }
+  if (static_cast<double>(contacts.size()) < kLeastFill * static_cast<double>(batches * kLanes)) {
     return false;
   }
-  batches_.resize(lanes.batches());
-  sliding_.assign(all, 0.0);
+  place_pairs(contacts, places);
+  batches_.resize(batches);
+  sliding_.assign(batches * kLanes, 0.0);
   return true;
+}
+
+/// @param places  of the first contact of each pair
+void ContactBatches::place_pairs(const std::vector<ContactPoint>& contacts,
+                                 const std::vector<PairPlace>& places) {
+  const std::int64_t nowhere = place_of_body(bodies_);
+  for (PairBatch& pair : pairs_) {
+    pair.at[0].fill(nowhere);
+    pair.at[1].fill(nowhere);
+  }
+  for (std::size_t first = 0; first < contacts.size();) {
+    const auto [batch, lane] = places[first];
+    PairBatch& pair = pairs_[batch];
+    for (std::size_t side = 0; side < 2; ++side) {
+      pair.at[side][lane] = place_of_body(contacts[first].bodies[side]);
+    }
+    const std::size_t count = count_of_pair(contacts, first);
+    for (std::size_t k = 0; k < count; ++k) {
+      lane_of_.push_back((pair.first + k) * kLanes + lane);
+      bodies_of_.push_back(contacts[first].bodies);
+    }
+    first += count;
+  }
 }
 
 void ContactBatches::fill(const ContactProblem& problem) {
@@ -105,8 +146,6 @@ void ContactBatches::fill(const ContactProblem& problem) {
     batch.normal.fill(1.0);
     batch.inverse_normal.fill(1.0);
     batch.tangential = {batch.normal, batch.normal};
-    batch.at[0].fill(static_cast<std::int64_t>(kNumbersOfBody * bodies_));
-    batch.at[1] = batch.at[0];
   }
   for (std::size_t k = 0; k < lane_of_.size(); ++k) {
     const ContactRow& row = rows_->contacts[k];
@@ -123,7 +162,6 @@ void ContactBatches::fill(const ContactProblem& problem) {
           batch.J[side][i][c][lane] = J(i, c);
         }
       }
-      batch.at[side][lane] = static_cast<std::int64_t>(kNumbersOfBody * body);
     }
     const Vector3d free = row.excess_velocity(rows_->free_velocities);
     for (int i = 0; i < 3; ++i) {
@@ -166,8 +204,8 @@ VectorXd ContactBatches::state_of(const Projection& projection) const {
       const double impulse = projection.impulses.contacts[k][i];
       state[place_of(lane_of_[k]) + static_cast<Index>(kLanes) * i] = impulse;
       for (std::size_t side = 0; side < 2; ++side) {
-        for (int c = 0; c < 6; ++c) {
-          x[batch.at[side][lane] + c] += batch.J[side][i][c][lane] * impulse;
+        for (std::int64_t c = 0; c < 6; ++c) {
+          x[place_of_body(bodies_of_[k][side]) + c] += batch.J[side][i][c][lane] * impulse;
         }
       }
     }
@@ -187,7 +225,7 @@ void ContactBatches::take(const VectorXd& state, Projection& projection) const {
 }
 
 double ContactBatches::sweep(bool backwards, VectorXd& state) {
-  return sweep_batches(batches_, backwards, state.data(), sliding_.data(),
+  return sweep_batches(pairs_, batches_, backwards, state.data(), sliding_.data(),
                        state.data() + impulse_count());
 }
 

@@ -49,6 +49,17 @@ RowSide make_side(const ContactProblem& problem, const VelocityLayout& layout,
   return made;
 }
 
+/// To a frame with other tangents.
+void turn(const Matrix3d& by, RowSide& side) {
+  if (side.is_link()) {
+    side.J_q = (by * side.J_q).eval();
+    side.response_q = (side.response_q * by.transpose()).eval();
+  } else {
+    side.J = (by * side.J).eval();
+    side.response = (side.response * by.transpose()).eval();
+  }
+}
+
 DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
                   const JointDrive& drive) {
   const auto k = static_cast<Eigen::Index>(drive.coordinate);
@@ -107,10 +118,7 @@ ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
   }
   const ContactResponse own(W);
   for (RowSide& side : sides) {
-    side.J = (own.turn() * side.J).eval();
-    side.response = (side.response * own.turn().transpose()).eval();
-    side.J_q = (own.turn() * side.J_q).eval();
-    side.response_q = (side.response_q * own.turn().transpose()).eval();
+    turn(own.turn(), side);
   }
   return {std::move(sides), own, contact.friction, contact.least_normal_velocity};
 }

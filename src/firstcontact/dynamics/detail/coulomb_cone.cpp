@@ -22,9 +22,18 @@ constexpr double kConeTolerance = 1e-13;
 
 /// The rotation about the normal to axes along which a tangential system is diagonal.
 Matrix3d principal_turn(const Matrix2d& A) {
-  const double angle = 0.5 * std::atan2(2.0 * A(0, 1), A(0, 0) - A(1, 1));
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
+  // Half the angle of (x, y), by sums of what has one sign.
+  const double x = A(0, 0) - A(1, 1);
+  const double y = 2.0 * A(0, 1);
+  const double length = std::sqrt(x * x + y * y);
+  double c = 1.0;
+  double s = 0.0;
+  if (length > 0.0) {
+    const double greater = std::sqrt(0.5 * (1.0 + std::abs(x) / length));
+    const double lesser = 0.5 * std::abs(y) / length / greater;
+    c = x >= 0.0 ? greater : lesser;
+    s = std::copysign(x >= 0.0 ? lesser : greater, y);
+  }
   Matrix3d turn = Matrix3d::Identity();
   turn.bottomRightCorner<2, 2>() << c, s, -s, c;
   return turn;

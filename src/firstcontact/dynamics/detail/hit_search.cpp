@@ -59,7 +59,7 @@ void HitSearch::follow(const Plan& plan) {
     if (mover.is_changed) {
       mover.move = move;
       mover.box = swept_box(state_.member(k), state_.states[k].X_WB, move);
-      mover.hull.reset();
+      mover.hulls = {};
       have_room = have_room && mover.room.contains(mover.box);
     }
   }
@@ -111,7 +111,7 @@ std::size_t HitSearch::mover_of(std::size_t body) {
 }
 
 /// A hit, if they come into contact.
-std::optional<Hit> HitSearch::ask(const Candidate& pair) {
+std::optional<Hit> HitSearch::ask(Candidate& pair) {
   const double gap = pair.manifold == nullptr ? std::numeric_limits<double>::infinity()
                                               : pair.manifold->gap;
   const HeldDistance held = held_distance(state_.world.distances, pair.margin, gap);
@@ -142,28 +142,59 @@ std::optional<Hit> HitSearch::ask(const Candidate& pair) {
   return hit_of(pair, {A.pose(answer_.t), B.pose(answer_.t)});
 }
 
-const SweptHull& HitSearch::hull_of(std::size_t k) {
+/// @param part  0: the whole plan; 1, 2: its halves
+const SweptHull& HitSearch::hull_of(std::size_t k, std::size_t part) {
+  constexpr std::array<std::array<double, 2>, 3> kParts{{{0.0, 1.0}, {0.0, 0.5}, {0.5, 1.0}}};
   Mover& mover = movers_[k];
-  if (!mover.hull) {
-    mover.hull.emplace(state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move);
+  std::optional<SweptHull>& hull = mover.hulls[part];
+  if (!hull) {
+    hull.emplace(state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move,
+                 kParts[part][0], kParts[part][1]);
   }
-  return *mover.hull;
+  return *hull;
 }
 
-/// A face that touches goes with its body; of edges, often one of both will do.
-bool HitSearch::hulls_stay_apart(const Candidate& pair, double distance) {
-  const SweptHull& A = hull_of(pair.movers[0]);
-  const SweptHull& B = hull_of(pair.movers[1]);
-  Vector3d n = (B.p_WC - A.p_WC).normalized();
-  bool sees_B = false;
+/// The one of the plan before, or of what touches. A face that touches goes with its body; of edges,
+/// often one of both will do.
+HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
+  if (pair.plane) {
+    return *pair.plane;
+  }
   if (pair.manifold != nullptr && !pair.manifold->touches.empty()) {
     const Touch& touch = pair.manifold->touches[0];
-    n = touch.normal;
-    sees_B = touch.feature_B.type == FeatureType::face;
+    return {touch.normal, touch.feature_B.type == FeatureType::face};
   }
-  const auto seen_from_A = [&] { return stays_apart(A, B, distance, n); };
-  const auto seen_from_B = [&] { return stays_apart(B, A, distance, -n); };
-  return sees_B ? seen_from_B() || seen_from_A() : seen_from_A() || seen_from_B();
+  const auto centre = [&](int side) {
+    const Eigen::AlignedBox3d& box = mover(pair, side).box;
+    return Vector3d(0.5 * (box.min() + box.max()));
+  };
+  return {(centre(1) - centre(0)).normalized(), false};
+}
+
+/// One that tells that the bodies stay apart in a part of the plan; of either of both.
+std::optional<HitSearch::Plane> HitSearch::plane_of(const Candidate& pair, double distance,
+                                                    std::size_t part, const Plane& likely) {
+  const SweptHull& A = hull_of(pair.movers[0], part);
+  const SweptHull& B = hull_of(pair.movers[1], part);
+  for (const bool is_of_second : {likely.is_of_second, !likely.is_of_second}) {
+    const std::optional<Vector3d> n = is_of_second ? plane_between(B, A, distance, -likely.n)
+                                                   : plane_between(A, B, distance, likely.n);
+    if (n) {
+      return Plane{is_of_second ? Vector3d(-*n) : *n, is_of_second};
+    }
+  }
+  return std::nullopt;
+}
+
+/// In halves of the plan what bends away from a plane does so by a quarter.
+bool HitSearch::hulls_stay_apart(Candidate& pair, double distance) {
+  const Plane likely = likely_plane(pair);
+  pair.plane = plane_of(pair, distance, 0, likely);
+  if (pair.plane) {
+    return true;
+  }
+  const std::optional<Plane> first = plane_of(pair, distance, 1, likely);
+  return first && plane_of(pair, distance, 2, *first);
 }
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not
@@ -172,7 +203,7 @@ bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
   double way = 0.0;
   double size = 0.0;
   for (int side = 0; side < 2; ++side) {
-    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
+    const auto& [body, move, box, room, is_changed, hulls] = mover(pair, side);
     const double reach = state_.world.bodies[body].reach;
     way += move.translation.norm() + reach * move.rotation_vector.norm();
     size += state_.pose_of(body).position.norm() + reach;
@@ -186,7 +217,7 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   Hit hit{.bodies = bodies_of(pair), .t = answer_.t};
   ProblemBodies bodies;
   for (int side = 0; side < 2; ++side) {
-    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
+    const auto& [body, move, box, room, is_changed, hulls] = mover(pair, side);
     bodies.add(body, {{}, move.translation / span_, move.rotation_vector / span_},
                centre_of_mass(state_.world.bodies[body].inertia, poses[side]));
   }

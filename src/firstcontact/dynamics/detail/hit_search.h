@@ -45,7 +45,12 @@ class HitSearch {
     Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
     Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
     bool is_changed = true;    // It moves otherwise than in the plan before.
-    std::optional<SweptHull> hull = {};  // Where one was needed.
+    std::array<std::optional<SweptHull>, 3> hulls = {};  // Where needed: whole, first, second half.
+  };
+  /// Between two bodies.
+  struct Plane {
+    Eigen::Vector3d n;  // [-]  From the first to the second, when the plan begins.
+    bool is_of_second;  // It moves with the second body.
   };
   /// Two bodies that may come near each other.
   struct Candidate {
@@ -54,6 +59,7 @@ class HitSearch {
     const Manifold* manifold;  // Null beyond the band.
     bool is_near = false;      // The boxes of the plan are.
     std::optional<Hit> hit = {};
+    std::optional<Plane> plane = {};  // That kept them apart in the plan before.
   };
 
   void follow(const Plan& plan);
@@ -65,12 +71,15 @@ class HitSearch {
   [[nodiscard]] BodyPair bodies_of(const Candidate& pair) const {
     return {mover(pair, 0).body, mover(pair, 1).body};
   }
-  [[nodiscard]] std::optional<Hit> ask(const Candidate& pair);
+  [[nodiscard]] std::optional<Hit> ask(Candidate& pair);
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
   [[nodiscard]] Hit hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
-  [[nodiscard]] const SweptHull& hull_of(std::size_t mover);
-  [[nodiscard]] bool hulls_stay_apart(const Candidate& pair, double distance);
+  [[nodiscard]] const SweptHull& hull_of(std::size_t mover, std::size_t part);
+  [[nodiscard]] Plane likely_plane(const Candidate& pair) const;
+  [[nodiscard]] std::optional<Plane> plane_of(const Candidate& pair, double distance,
+                                              std::size_t part, const Plane& likely);
+  [[nodiscard]] bool hulls_stay_apart(Candidate& pair, double distance);
 
   IslandState& state_;
   double span_;

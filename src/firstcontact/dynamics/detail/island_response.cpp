@@ -18,10 +18,11 @@ constexpr std::size_t kHeap = 120;       // Contacts.
 constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
 constexpr std::size_t kManyContacts = 300;
 
-/// Where several bodies are hit, to this part of what that asks for: things at rest start from what
-/// they were left with, and hardly ask for anything.
+/// Where several bodies are hit, to this part of what that asks for: weight alone asks for what
+/// gravity adds, and at rest for next to nothing beyond the step before.
 constexpr std::size_t kSeveralBodies = 6;
-constexpr double kPartOfStart = 1e-3;
+constexpr double kPartOfHits = 1e-3;
+constexpr double kHit = 2.0;
 constexpr int kRoundsOfMany = 2;
 
 /// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
@@ -139,7 +140,8 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
   return {.tolerance = of_gravity(state, kTolerance),
-          .of_start = state.size() >= kSeveralBodies ? kPartOfStart : 0.0,
+          .of_hits = state.size() >= kSeveralBodies ? kPartOfHits : 0.0,
+          .hit = of_gravity(state, kHit),
           .rounds = kRoundsOfMany};
 }
 

@@ -34,11 +34,11 @@ struct Part {
   }
 };
 
-/// x of the bodies on one side.
+/// x of the bodies on one side, of some lanes from one on.
 struct Bodies {
-  HWY_INLINE Bodies(const Part& part, std::size_t side, const double* all) {
+  HWY_INLINE Bodies(const PairBatch& pair, std::size_t side, std::size_t from, const double* all) {
     const Lanes d;
-    at = hn::LoadU(Places(), part.batch.at[side].data() + part.from);
+    at = hn::LoadU(Places(), pair.at[side].data() + from);
     x0 = hn::GatherIndex(d, all, at);
     x1 = hn::GatherIndex(d, all + 1, at);
     x2 = hn::GatherIndex(d, all + 2, at);
@@ -207,12 +207,11 @@ HWY_INLINE void keep_greatest_change(const Part& part, const Impulse& change, Ve
   greatest = hn::Max(greatest, hn::Mul(part.of(part.batch.greatest), hn::Sqrt(squared)));
 }
 
-HWY_INLINE void solve_part(const Part& part, double* impulses, double* sliding, double* x,
-                           Vector& greatest) {
+/// Solves a contact of each pair. Whether that changed anything.
+HWY_INLINE bool solve_contact(const Part& part, double* impulses, double* sliding, Bodies& A,
+                              Bodies& B, Vector& greatest) {
   const Lanes d;
   const Vector zero = hn::Zero(d);
-  Bodies A(part, 0, x);
-  Bodies B(part, 1, x);
   const auto& [J_A, J_B] = part.batch.J;
   const Velocity u{seen(part, J_B[0], B, seen(part, J_A[0], A, part.of(part.batch.free[0]))),
                    seen(part, J_B[1], B, seen(part, J_A[1], A, part.of(part.batch.free[1]))),
@@ -224,7 +223,7 @@ HWY_INLINE void solve_part(const Part& part, double* impulses, double* sliding, 
   const Mask acts = hn::Or(
       hn::Lt(u.n, zero), hn::Or(hn::Ne(r.n, zero), hn::Or(hn::Ne(r.t0, zero), hn::Ne(r.t1, zero))));
   if (hn::AllFalse(d, acts)) {
-    return;
+    return false;
   }
   const Cones cones(part);
   const Impulse solved = cones.impulse(cones.without(r, u), sliding + part.from);
@@ -234,20 +233,45 @@ HWY_INLINE void solve_part(const Part& part, double* impulses, double* sliding, 
   hn::StoreU(solved.t1, d, r_t1);
   change(part, J_A, by, A);
   change(part, J_B, by, B);
-  A.put(x);
-  B.put(x);
   keep_greatest_change(part, by, greatest);
+  return true;
 }
 
-double SweepBatches(const ContactBatch* batches, std::size_t count, bool backwards,
-                    double* impulses, double* sliding, double* x) {
+/// A sweep and its data.
+struct Sweep {
+  const ContactBatch* batches;
+  bool backwards;
+  double* impulses;
+  double* sliding;
+  double* x;
+};
+
+HWY_INLINE void solve_pairs(const Sweep& sweep, const PairBatch& pair, std::size_t from,
+                            Vector& greatest) {
+  Bodies A(pair, 0, from, sweep.x);
+  Bodies B(pair, 1, from, sweep.x);
+  bool changed = false;
+  for (std::size_t i = 0; i < pair.count; ++i) {
+    const std::size_t k = pair.first + (sweep.backwards ? pair.count - 1 - i : i);
+    changed |= solve_contact({sweep.batches[k], from},
+                             sweep.impulses + 3 * ContactBatch::kLanes * k,
+                             sweep.sliding + ContactBatch::kLanes * k, A, B, greatest);
+  }
+  if (changed) {
+    A.put(sweep.x);
+    B.put(sweep.x);
+  }
+}
+
+double SweepBatches(const PairBatch* pairs, std::size_t count, const ContactBatch* batches,
+                    bool backwards, double* impulses, double* sliding, double* x) {
   const Lanes d;
+  const Sweep sweep{batches, backwards, impulses, sliding, x};
   Vector greatest = hn::Zero(d);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t k = backwards ? count - 1 - i : i;
     for (std::size_t from = 0; from < ContactBatch::kLanes; from += hn::Lanes(d)) {
-      solve_part({batches[k], from}, impulses + 3 * ContactBatch::kLanes * k,
-                 sliding + ContactBatch::kLanes * k, x, greatest);
+      solve_pairs(sweep, pairs[k], from, greatest);
     }
   }
   return hn::GetLane(hn::MaxOfLanes(d, greatest));
@@ -264,10 +288,10 @@ HWY_EXPORT(SweepBatches);
 
 }  // namespace
 
-double sweep_batches(const std::vector<ContactBatch>& batches, bool backwards, double* impulses,
-                     double* sliding, double* x) {
-  return HWY_DYNAMIC_DISPATCH(SweepBatches)(batches.data(), batches.size(), backwards, impulses,
-                                            sliding, x);
+double sweep_batches(const std::vector<PairBatch>& pairs, const std::vector<ContactBatch>& batches,
+                     bool backwards, double* impulses, double* sliding, double* x) {
+  return HWY_DYNAMIC_DISPATCH(SweepBatches)(pairs.data(), pairs.size(), batches.data(), backwards,
+                                            impulses, sliding, x);
 }
 
 }  // namespace firstcontact::detail

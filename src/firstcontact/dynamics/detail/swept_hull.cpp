@@ -31,20 +31,26 @@ double error_seen(const SweptHull& A, const SweptHull& B) {
 
 }  // namespace
 
-SweptHull::SweptHull(const SimBody& body, const Pose& X_WB, const Move& move)
+SweptHull::SweptHull(const SimBody& body, const Pose& X_WB, const Move& move, double from,
+                     double to)
     : bounds(&body.shape.bounds()),
       p_BC(body.inertia.p_BC),
-      p_WC(centre_of_mass(body.inertia, X_WB)),
-      translation(move.translation),
-      rate(move.rotation_vector.norm()),
+      p_WC(centre_of_mass(body.inertia, X_WB) + from * move.translation),
+      translation((to - from) * move.translation),
+      rate((to - from) * move.rotation_vector.norm()),
       reach(body.reach),
       thickness(body.shape.radius() + bounds->error) {
-  R_WB[0] = X_WB.rotation.normalized().toRotationMatrix();
-  R_WB[1] = turn(0.5 * move.rotation_vector).toRotationMatrix() * R_WB[0];
-  R_WB[2] = turn(move.rotation_vector).toRotationMatrix() * R_WB[0];
+  const Matrix3d begin = X_WB.rotation.normalized().toRotationMatrix();
+  const std::array<double, 3> shares{from, 0.5 * (from + to), to};
+  for (std::size_t k = 0; k < 3; ++k) {
+    R_WB[k] = shares[k] == 0.0
+                  ? begin
+                  : Matrix3d(turn(shares[k] * move.rotation_vector).toRotationMatrix() * begin);
+  }
 }
 
-bool stays_apart(const SweptHull& A, const SweptHull& B, double distance, const Vector3d& n) {
+std::optional<Vector3d> plane_between(const SweptHull& A, const SweptHull& B, double distance,
+                                      const Vector3d& n) {
   std::array<Matrix3d, 3> R_AB;
   std::array<Vector3d, 3> p_AB;  // From C of A to the middle of B's hull.
   for (std::size_t k = 0; k < 3; ++k) {
@@ -61,8 +67,9 @@ bool stays_apart(const SweptHull& A, const SweptHull& B, double distance, const 
                                               {B.bounds->corners, R_AB[2], p_AB[2]}}};
   const double needed =
       (distance + A.thickness + B.thickness + error_seen(A, B)) * (1.0 + kRounding);
-  return separate(std::span(&hull_A, 1), hull_B, A.R_WB[0].transpose() * n, {needed, needed}).gap >
-         needed;
+  const Separation found =
+      separate(std::span(&hull_A, 1), hull_B, A.R_WB[0].transpose() * n, {needed, needed});
+  return found.gap > needed ? std::optional<Vector3d>(A.R_WB[0] * found.n) : std::nullopt;
 }
 
 }  // namespace firstcontact::detail
