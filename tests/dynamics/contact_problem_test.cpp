@@ -343,7 +343,7 @@ TEST(ProjectOnContacts, SweepsEndEarlyButNearTheTolerance) {
   EXPECT_LE(project_on_contacts(problem, some).residual, some.tolerance);
   guess(0.3);
   const ContactSolution ended = project_on_contacts(problem, some);
-  EXPECT_LE(ended.residual, 0.2 * some.enough);
+  EXPECT_LE(ended.residual, 0.5 * some.enough);
   EXPECT_LE(2 * ended.iterations, project_on_contacts(problem, kAll).iterations);
 }
 

@@ -128,9 +128,8 @@ TEST(ProjectAgain, TakesNewContactsAndBodies) {
   contact.frame << 1, 0, 0, 0, 1, 0, 0, 0, 1;
   contact.friction = 0.3;
   c.problem.contacts.push_back(contact);
-  const ContactSolution again =
-      project_again(c.problem, c.solution, {c.problem.contacts.size() - 1},
-                    {.tolerance = 1e-9, .sweeps = 10000});
+  const ContactSolution again = project_again(
+      c.problem, c.solution, {c.problem.contacts.size() - 1}, {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_LE(again.residual, 1e-7);
   EXPECT_GT(again.bodies[kLevels].v.x(), 0.03);
   EXPECT_EQ(again.impulses.size(), c.problem.contacts.size());

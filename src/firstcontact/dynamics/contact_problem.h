@@ -86,9 +86,9 @@ enum class ProjectionSpace {
 struct ProjectionOptions {
   double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
   ProjectionSpace space = ProjectionSpace::automatic;
-  double of_hits = 0.0;  ///< [-]  Part of the residual of the guesses that may be left where that is
-                         ///< beyond `hit`; >= 0.
-  double hit = 0.0;      ///< [m/s]  >= 0.
+  double of_hits = 0.0;  ///< [-]  Part of the residual of the guesses that may be left where that
+                         ///< is beyond `hit`; >= 0.
+  double hit = 0.0;     ///< [m/s]  >= 0.
   double enough = 0.0;  ///< [m/s]  A residual that sweeps may leave where an interior point would
                         ///< come next, and a fifth of it where more of them hardly help (if that
                         ///< is more than ten tolerances); >= 0.

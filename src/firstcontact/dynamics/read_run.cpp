@@ -208,9 +208,10 @@ RunPiece read_piece(const json& row, const Line& line) {
 }
 
 RunBody read_body(const json& value, std::size_t bodies, double lasted, const Line& line) {
-  line.require_keys(value, {"body", "pieces", "position", "quaternion_wxyz", "linear_velocity",
-                            "angular_velocity"},
-                    {"rests"});
+  line.require_keys(
+      value,
+      {"body", "pieces", "position", "quaternion_wxyz", "linear_velocity", "angular_velocity"},
+      {"rests"});
   RunBody body;
   body.body = line.index(value["body"], bodies);
   double from = 0.0;

@@ -36,8 +36,8 @@ struct RunBody {
   Pose X_WB = {};
   Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
-  bool rests = false;  ///< Contacts hold it where it is: until something disturbs them, steps are as
-                       ///< this one.
+  bool rests = false;  ///< Contacts hold it where it is: until something disturbs them, steps are
+                       ///< as this one.
 };
 
 /// The coordinates of a robot at the end of a step. Its links are among the bodies.

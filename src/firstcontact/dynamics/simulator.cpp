@@ -354,11 +354,8 @@ class Simulator::Implementation {
 
   [[nodiscard]] StepStart step_start() {
     const Simulation& simulation = *loaded_.scene.simulation;
-    StepStart start{.time = time_,
-                    .h = simulation.step,
-                    .states = states_,
-                    .robots = robots_,
-                    .rests = rests_};
+    StepStart start{
+        .time = time_, .h = simulation.step, .states = states_, .robots = robots_, .rests = rests_};
     start.scripted.resize(states_.size());
     for (std::size_t b = 0; b < states_.size(); ++b) {
       if (world_.bodies[b].kind != BodyKind::scripted) {
@@ -469,8 +466,8 @@ class Simulator::Implementation {
                            [&](const RunImpact& impact) { return impact.at <= lasted; });
       for (std::size_t k = 0; k < track.members.size(); ++k) {
         RunBody body = recorded(track.members[k], track.pieces[k], lasted);
-        body.rests = track.rests == Rest::goes_on ||
-                     (track.rests == Rest::begins && lasted == start.h);
+        body.rests =
+            track.rests == Rest::goes_on || (track.rests == Rest::begins && lasted == start.h);
         rests_[body.body] = body.rests;
         step.bodies.push_back(std::move(body));
       }

@@ -33,8 +33,9 @@ class ConjugateDirection {
       direction_ = step_;
       return;
     }
-    state += share * direction_;
-    direction_ = step_ + share * direction_;
+    direction_ *= share;
+    state += direction_;
+    direction_ += step_;
   }
 
  private:

@@ -25,29 +25,56 @@ constexpr std::size_t kNumbersOfBody = 8;  // In x.
 /// So many contacts of a pair in turn are solved before other pairs.
 constexpr std::size_t kMostOfPair = 4;
 
-/// Gives out the lanes of pair batches, each from a batch on.
+/// Gives out the lanes of pair batches, each from a batch on; skips many full ones at once.
 class FreeLanes {
  public:
-  /// @param count  of contacts: pairs in one batch have as many
+  /// @param count  of the pair's contacts
   PairPlace take_from(std::size_t batch, std::size_t count) {
-    std::vector<std::size_t>& with_room = with_room_[count - 1];
-    auto found = std::ranges::lower_bound(with_room, batch);
-    if (found == with_room.end()) {
-      found = with_room.insert(found, used_.size());
+    const std::size_t found = likest_with_room(batch, count);
+    while (used_.size() <= found) {
+      next_.push_back(used_.size());
       used_.push_back(0);
-      counts_.push_back(count);
+      counts_.push_back(0);
     }
-    const PairPlace place{*found, used_[*found]++};
-    if (used_[place.batch] == kLanes) {
-      with_room.erase(found);
+    const PairPlace place{found, used_[found]++};
+    counts_[found] = std::max(counts_[found], count);
+    if (used_[found] == kLanes) {
+      next_[found] = found + 1;
     }
     return place;
   }
-  /// Of the contacts of each batch.
+  /// The most contacts that a pair has, of each batch.
   [[nodiscard]] const std::vector<std::size_t>& counts() const { return counts_; }
 
  private:
-  std::array<std::vector<std::size_t>, kMostOfPair> with_room_;  // Of each count, in order.
+  /// Pairs with as many contacts leave no lane empty: of a few batches the one whose pairs have, or
+  /// else the first.
+  std::size_t likest_with_room(std::size_t batch, std::size_t count) {
+    const std::size_t first = first_with_room(batch);
+    std::size_t found = first;
+    for (int look = 0; look < kLooks && found < used_.size(); ++look) {
+      if (counts_[found] == count) {
+        return found;
+      }
+      found = first_with_room(found + 1);
+    }
+    return first;
+  }
+
+  std::size_t first_with_room(std::size_t batch) {
+    std::size_t found = batch;
+    while (found < next_.size() && next_[found] != found) {
+      found = next_[found];
+    }
+    while (batch < found && batch < next_.size()) {
+      batch = std::exchange(next_[batch], found);
+    }
+    return found;
+  }
+
+  static constexpr int kLooks = 16;
+
+  std::vector<std::size_t> next_;  // Of each batch: itself, or a later one where it is full.
   std::vector<std::size_t> used_;
   std::vector<std::size_t> counts_;
 };

@@ -86,8 +86,7 @@ class ContactBatches {
   explicit ContactBatches(const ContactRows& rows) : rows_(&rows) {}
 
   [[nodiscard]] bool assign_lanes(const ContactProblem& problem);
-  void place_pairs(const std::vector<ContactPoint>& contacts,
-                   const std::vector<PairPlace>& places);
+  void place_pairs(const std::vector<ContactPoint>& contacts, const std::vector<PairPlace>& places);
   void fill(const ContactProblem& problem);
   [[nodiscard]] Eigen::Index impulse_count() const {
     return static_cast<Eigen::Index>(3 * ContactBatch::kLanes * batches_.size());

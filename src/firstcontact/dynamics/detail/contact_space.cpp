@@ -104,11 +104,13 @@ class RowSweeps {
 };
 
 /// Where changes fell by less than this since so many sweeps before, more of them hardly help. Then
-/// this part of what is enough ends them, but near the tolerance: there things come to rest.
+/// this part of what is enough ends them, but near the tolerance: there things come to rest. It
+/// ends them, too, where things are hit, by so many times what is enough.
 constexpr int kLook = 10;
 constexpr double kFall = 0.5;
-constexpr double kPartOfEnough = 0.2;
+constexpr double kPartOfEnough = 0.5;
 constexpr double kNearTolerance = 10.0;
+constexpr double kHit = 10.0;
 
 /// There and back: a stack of n bodies would need n sweeps in one direction.
 template <class Sweeps>
@@ -116,6 +118,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
   VectorXd state = sweeps.state_of(projection);
   ConjugateDirection direction(sweeps.weights());
   double before = std::numeric_limits<double>::infinity();  // Changes at the last look.
+  const bool is_hit = projection.residual > kHit * options.enough;
   int& count = projection.iterations;
   for (count = 0; count < options.sweeps;) {
     const bool backwards = count % 2 == 1;
@@ -126,7 +129,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
     ++count;
     double wanted = options.tolerance;
     if (count % kLook == 0) {
-      if (change > kFall * before && change > kNearTolerance * options.tolerance) {
+      if (is_hit || (change > kFall * before && change > kNearTolerance * options.tolerance)) {
         wanted = std::max(wanted, kPartOfEnough * options.enough);
       }
       before = change;

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 /// radius over the span of the plan, and would not bounce.
 constexpr double kSlightApproach = 0.4;
 
-/// Where plans are made again bodies move otherwise by little: so much room they have, of their reach
-/// and of their way, before all pairs are looked for anew.
+/// Where plans are made again bodies move otherwise by little: so much room they have, of their
+/// reach and of their way, before all pairs are looked for anew.
 constexpr double kRoomOfReach = 0.03;
 constexpr double kRoomOfWay = 0.1;
 
@@ -27,13 +27,13 @@ std::vector<Hit> HitSearch::find(const Plan& plan) {
   std::vector<Hit> hits;
   for (Candidate& pair : candidates_) {
     if (mover(pair, 0).is_changed || mover(pair, 1).is_changed) {
-      pair.is_near = widened(mover(pair, 0).box, reach).exteriorDistance(mover(pair, 1).box) <=
-                     pair.margin;
+      pair.is_near =
+          widened(mover(pair, 0).box, reach).exteriorDistance(mover(pair, 1).box) <= pair.margin;
       pair.hit = pair.is_near ? ask(pair) : std::nullopt;
     }
     if (pair.is_near) {
-      const double gap = pair.manifold == nullptr ? std::numeric_limits<double>::infinity()
-                                                  : pair.manifold->gap;
+      const double gap =
+          pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
       clearance_ =
           std::min(clearance_, held_distance(state_.world.distances, pair.margin, gap).margin);
     }
@@ -71,7 +71,8 @@ void HitSearch::follow(const Plan& plan) {
   }
 }
 
-/// Finds all pairs that are near while their boxes stay in their rooms. All of them are to be asked.
+/// Finds all pairs that are near while their boxes stay in their rooms. All of them are to be
+/// asked.
 void HitSearch::look_around() {
   std::vector<AlignedBox3d> rooms;
   for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -83,15 +84,14 @@ void HitSearch::look_around() {
   }
   candidates_.clear();
   const double reach = state_.world.distances.least + state_.world.distances.tolerance;
-  state_.for_each_pair(rooms, reach, span_ / state_.start.h,
-                       [&](const BodyPair& pair, double margin) {
-                         const auto found = state_.manifolds.find(pair);
-                         candidates_.push_back(
-                             {.movers = {mover_of(pair[0]), mover_of(pair[1])},
-                              .margin = margin,
-                              .manifold = found == state_.manifolds.end() ? nullptr
-                                                                          : &found->second});
-                       });
+  state_.for_each_pair(
+      rooms, reach, span_ / state_.start.h, [&](const BodyPair& pair, double margin) {
+        const auto found = state_.manifolds.find(pair);
+        candidates_.push_back(
+            {.movers = {mover_of(pair[0]), mover_of(pair[1])},
+             .margin = margin,
+             .manifold = found == state_.manifolds.end() ? nullptr : &found->second});
+      });
 }
 
 /// Those of members come first.
@@ -112,8 +112,8 @@ std::size_t HitSearch::mover_of(std::size_t body) {
 
 /// A hit, if they come into contact.
 std::optional<Hit> HitSearch::ask(Candidate& pair) {
-  const double gap = pair.manifold == nullptr ? std::numeric_limits<double>::infinity()
-                                              : pair.manifold->gap;
+  const double gap =
+      pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
   const HeldDistance held = held_distance(state_.world.distances, pair.margin, gap);
   if (cannot_reach(pair, std::min(gap, state_.world.distances.band) + pair.margin - held.margin)) {
     return std::nullopt;
@@ -154,8 +154,8 @@ const SweptHull& HitSearch::hull_of(std::size_t k, std::size_t part) {
   return *hull;
 }
 
-/// The one of the plan before, or of what touches. A face that touches goes with its body; of edges,
-/// often one of both will do.
+/// The one of the plan before, or of what touches. A face that touches goes with its body; of
+/// edges, often one of both will do.
 HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
   if (pair.plane) {
     return *pair.plane;
@@ -222,7 +222,8 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
                centre_of_mass(state_.world.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
-  for (Touch& touch : touches_among(state_.world, hit.bodies, poses, pair.margin, answer_.contacts)) {
+  for (Touch& touch :
+       touches_among(state_.world, hit.bodies, poses, pair.margin, answer_.contacts)) {
     TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.

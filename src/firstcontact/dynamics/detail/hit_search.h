@@ -44,7 +44,7 @@ class HitSearch {
     Move move = {};
     Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
     Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
-    bool is_changed = true;    // It moves otherwise than in the plan before.
+    bool is_changed = true;         // It moves otherwise than in the plan before.
     std::array<std::optional<SweptHull>, 3> hulls = {};  // Where needed: whole, first, second half.
   };
   /// Between two bodies.

@@ -280,8 +280,7 @@ ContactSolution IslandPlanner::find_push() {
     mechanism.velocity.setZero();
   }
   if (problem.mechanisms.empty()) {  // Most have room: only those around move.
-    ContactSolution around =
-        project_again(problem, {.bodies = problem.bodies}, too_near, options);
+    ContactSolution around = project_again(problem, {.bodies = problem.bodies}, too_near, options);
     if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
       return around;
     }

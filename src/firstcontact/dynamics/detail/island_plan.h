@@ -28,7 +28,7 @@ struct Plan {
   /// that what contacts do to its energy now is what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
-  double residual = 0.0;            ///< [m/s]
+  double residual = 0.0;   ///< [m/s]
   double tolerance = 0.0;  ///< [m/s]  That was asked for.
 };
 
@@ -75,9 +75,9 @@ class IslandPlanner {
   double span_;  // [s]
   ProblemBodies bodies_;
   FreeFlight flight_;
-  ContactProblem problem_;               // Its guesses are the impulses of the last plan.
-  std::vector<Touch> touches_;           // Of each contact of the problem.
-  std::size_t first_ahead_ = 0;          // Those before it are in the order of their pairs.
+  ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
+  std::vector<Touch> touches_;                  // Of each contact of the problem.
+  std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
   std::vector<RobotPlan> free_robots_;
   std::optional<PlanSolution> last_ = {};

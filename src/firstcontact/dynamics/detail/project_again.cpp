@@ -100,8 +100,7 @@ class Neighbourhood {
   void solve(const std::vector<std::size_t>& changed, const ProjectionOptions& options) {
     WaitingContacts waiting(problem_.contacts.size());
     std::ranges::for_each(changed, [&](std::size_t k) { waiting.add(k); });
-    const std::size_t most =
-        static_cast<std::size_t>(options.sweeps) * problem_.contacts.size();
+    const std::size_t most = static_cast<std::size_t>(options.sweeps) * problem_.contacts.size();
     for (std::size_t solved = 0; !waiting.empty() && solved < most; ++solved) {
       const std::size_t k = waiting.take();
       Row& at = row(k);

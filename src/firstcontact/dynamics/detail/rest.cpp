@@ -57,8 +57,7 @@ bool is_disturbed(const StepContext& step, std::size_t member) {
 
 }  // namespace
 
-bool comes_to_rest(const IslandState& state, const Plan& plan,
-                   const std::vector<Touch>& touches) {
+bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
   if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= plan.tolerance)) {
     return false;
   }

@@ -253,9 +253,9 @@ HWY_INLINE void solve_pairs(const Sweep& sweep, const PairBatch& pair, std::size
   bool changed = false;
   for (std::size_t i = 0; i < pair.count; ++i) {
     const std::size_t k = pair.first + (sweep.backwards ? pair.count - 1 - i : i);
-    changed |= solve_contact({sweep.batches[k], from},
-                             sweep.impulses + 3 * ContactBatch::kLanes * k,
-                             sweep.sliding + ContactBatch::kLanes * k, A, B, greatest);
+    changed |=
+        solve_contact({sweep.batches[k], from}, sweep.impulses + 3 * ContactBatch::kLanes * k,
+                      sweep.sliding + ContactBatch::kLanes * k, A, B, greatest);
   }
   if (changed) {
     A.put(sweep.x);
