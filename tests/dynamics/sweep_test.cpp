@@ -86,19 +86,40 @@ TEST(OverlapTree, FindsAllThatOverlapOrTouch) {
   }
 }
 
+std::vector<std::array<std::size_t, 2>> overlapping_among_all(
+    const std::vector<AlignedBox3d>& boxes) {
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (boxes[a].intersects(boxes[b])) {
+        pairs.push_back({a, b});
+      }
+    }
+  }
+  return pairs;
+}
+
 TEST(OverlappingPairs, AreAllThatOverlap) {
   std::mt19937 rng(3);
   for (int i = 0; i < 50; ++i) {
-    const std::vector<AlignedBox3d> boxes = random_boxes(rng, 40);
-    std::vector<std::array<std::size_t, 2>> expected;
-    for (std::size_t a = 0; a < boxes.size(); ++a) {
-      for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-        if (boxes[a].intersects(boxes[b])) {
-          expected.push_back({a, b});
-        }
-      }
+    const std::vector<AlignedBox3d> boxes = random_boxes(rng, i);
+    ASSERT_EQ(overlapping_pairs(boxes), overlapping_among_all(boxes)) << i;
+  }
+}
+
+// Boxes on a lattice, whose faces just touch; a few are large, many without volume.
+TEST(OverlappingPairs, AreAllThatTouch) {
+  std::mt19937 rng(4);
+  for (const double far : {0.0, 1e6}) {
+    const auto on_lattice = [&](unsigned most) { return 0.25 * static_cast<double>(rng() % most); };
+    std::vector<AlignedBox3d> boxes;
+    for (int k = 0; k < 700; ++k) {
+      const Vector3d least(far + on_lattice(40), far + on_lattice(40), on_lattice(8));
+      const unsigned most = k % 50 == 0 ? 40 : 5;
+      boxes.emplace_back(least,
+                         least + Vector3d(on_lattice(most), on_lattice(most), on_lattice(most)));
     }
-    ASSERT_EQ(overlapping_pairs(boxes), expected) << i;
+    EXPECT_EQ(overlapping_pairs(boxes), overlapping_among_all(boxes));
   }
 }
 

@@ -190,6 +190,8 @@ struct LazyBounds {
 struct LazyFeatures {
   std::once_flag found;
   std::vector<std::uint8_t> of_triangles;
+  std::once_flag tabled;
+  FeatureTable table;
 };
 
 }  // namespace
@@ -297,6 +299,12 @@ std::span<const std::uint8_t> Shape::own_features() const {
   std::call_once(data_->own_features->found,
                  [&] { data_->own_features->of_triangles = find_own_features(*this); });
   return data_->own_features->of_triangles;
+}
+
+const FeatureTable& Shape::feature_table() const {
+  std::call_once(data_->own_features->tabled,
+                 [&] { data_->own_features->table = firstcontact::feature_table(*this); });
+  return data_->own_features->table;
 }
 
 const ShapeBounds& Shape::bounds() const {

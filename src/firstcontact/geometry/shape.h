@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape_bounds.h>
@@ -79,6 +80,10 @@ class FIRSTCONTACT_API Shape {
   /// each counts once: bit k its corner k, bit 3 + k its edge from there; all of a degenerate one
   /// whose corners repeat. Found when they are first asked for.
   [[nodiscard]] std::span<const std::uint8_t> own_features() const;
+
+  /// The same features with all that pairing them needs, of a shape of few triangles
+  /// (FeatureTable::kMostTriangles). Made when it is first asked for.
+  [[nodiscard]] const FeatureTable& feature_table() const;
 
   /// A box and a polytope around the triangles, found when they are first asked for. Of a shape
   /// that does not deform.

@@ -64,20 +64,22 @@ DoubleDoubleVector3 unit(int axis) {
   return e;
 }
 
-/// Columns of the rotation matrix of q / |q|.
+/// Columns of the rotation matrix of q / |q|: of R e = e + 2 (w v x e + v x (v x e)) / |q|^2 all
+/// that is not zero.
 std::array<DoubleDoubleVector3, 3> rotation_columns(const Eigen::Quaterniond& rotation) {
   if (rotation.vec().isZero(0.0)) {
     return {unit(0), unit(1), unit(2)};
   }
   const Quaternion q = exact(rotation);
-  const DoubleDouble length2 = q.w * q.w + dot(q.v, q.v);
+  const auto& v = q.v.c;
+  const DoubleDouble scale = DoubleDouble(2.0) / (q.w * q.w + dot(q.v, q.v));
   std::array<DoubleDoubleVector3, 3> columns;
-  for (int j = 0; j < 3; ++j) {
-    const DoubleDoubleVector3 e = unit(j);
-    // R e = e + 2 (w v x e + v x (v x e)) / |q|^2.
-    const DoubleDoubleVector3 vxe = cross(q.v, e);
-    const DoubleDoubleVector3 sum = q.w * vxe + cross(q.v, vxe);
-    columns[j] = e + (DoubleDouble(2.0) / length2) * sum;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const std::size_t k = (j + 1) % 3;
+    const std::size_t l = (j + 2) % 3;
+    columns[j].c[j] = DoubleDouble(1.0) + scale * (-(v[k] * v[k]) - v[l] * v[l]);
+    columns[j].c[k] = scale * (q.w * v[l] + v[j] * v[k]);
+    columns[j].c[l] = scale * (v[j] * v[l] - q.w * v[k]);
   }
   return columns;
 }
@@ -262,6 +264,35 @@ ConstantRateSegment over(ConstantRateSegment s, double t_begin, double t_end) {
 
 int compare_values(double a, double b) { return a < b ? -1 : (b < a ? 1 : 0); }
 
+int compare_vectors(const DoubleDoubleVector3& a, const DoubleDoubleVector3& b) {
+  int order = 0;
+  for (std::size_t k = 0; k < 3 && order == 0; ++k) {
+    order = compare_values(a.c[k].hi, b.c[k].hi);
+    order = order != 0 ? order : compare_values(a.c[k].lo, b.c[k].lo);
+  }
+  return order;
+}
+
+/// The third column of a rotation follows from the others.
+int compare_segments(const ConstantRateSegment& a, const ConstantRateSegment& b) {
+  for (const auto number : {&ConstantRateSegment::t_begin, &ConstantRateSegment::t_end}) {
+    if (const int order = compare_values(a.*number, b.*number); order != 0) {
+      return order;
+    }
+  }
+  if (const int order = compare_vectors({a.rate, {}, {}}, {b.rate, {}, {}}); order != 0) {
+    return order;
+  }
+  for (const auto vector : {&ConstantRateSegment::p_WQ, &ConstantRateSegment::p_BQ,
+                            &ConstantRateSegment::velocity, &ConstantRateSegment::axis}) {
+    if (const int order = compare_vectors(a.*vector, b.*vector); order != 0) {
+      return order;
+    }
+  }
+  const int order = compare_vectors(a.rotation[0], b.rotation[0]);
+  return order != 0 ? order : compare_vectors(a.rotation[1], b.rotation[1]);
+}
+
 }  // namespace
 
 Motion::Motion(std::vector<double> breaks, std::vector<ConstantRateSegment> segments)
@@ -381,24 +412,8 @@ int Motion::compare(const Motion& other) const {
     return segments_.size() < other.segments_.size() ? -1 : 1;
   }
   for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const auto numbers = [](const ConstantRateSegment& s) {
-      std::array<double, 44> n{s.t_begin, s.t_end, s.rate.hi, s.rate.lo};
-      std::size_t k = 4;
-      for (const DoubleDoubleVector3* v :
-           {&s.p_WQ, &s.p_BQ, &s.velocity, &s.axis, &s.rotation[0], &s.rotation[1]}) {
-        for (const DoubleDouble& c : v->c) {
-          n[k++] = c.hi;
-          n[k++] = c.lo;
-        }
-      }
-      return n;
-    };
-    const auto a = numbers(segments_[i]);
-    const auto b = numbers(other.segments_[i]);
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      if (const int order = compare_values(a[k], b[k]); order != 0) {
-        return order;
-      }
+    if (const int order = compare_segments(segments_[i], other.segments_[i]); order != 0) {
+      return order;
     }
   }
   return 0;

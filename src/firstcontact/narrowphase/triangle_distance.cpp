@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
+#include <firstcontact/narrowphase/closest_features.h>
 #include <firstcontact/narrowphase/detail/elementary_pairs.h>
 
 namespace firstcontact {
@@ -14,82 +14,26 @@ namespace {
 
 using detail::ElementaryPairs;
 using Eigen::Vector3d;
-using Type = TriangleFeature::Type;
 
 constexpr int kStride = ElementaryPairs::kStride;
-
-TriangleFeature edge_or_end(int edge, double s) {
-  if (s == 0.0) {
-    return {Type::vertex, edge};
-  }
-  return s == 1.0 ? TriangleFeature{Type::vertex, (edge + 1) % 3}
-                  : TriangleFeature{Type::edge, edge};
-}
-
-Vector3d edge_vector(const Triangle& T, int edge) { return T[(edge + 1) % 3] - T[edge]; }
-
-Vector3d point_on_edge(const Triangle& T, int edge, double s) {
-  return s == 1.0 ? T[(edge + 1) % 3] : Vector3d(T[edge] + s * edge_vector(T, edge));
-}
-
-Vector3d point_on_face(const Triangle& T, double u, double v) {
-  return T[0] + u * (T[1] - T[0]) + v * (T[2] - T[0]);
-}
 
 ClosestFeatures edge_edge(const Triangle& A, int i, const Triangle& B, int j,
                           const ElementaryPairs::Edges& edges) {
   const int at = kStride * i + j;
   const double s = edges.s[at];
   const double t = edges.t[at];
-  const Vector3d p_A = point_on_edge(A, i, s);
-  const Vector3d p_B = point_on_edge(B, j, t);
+  const Vector3d p_A = point_on_edge(A[i], A[(i + 1) % 3], s);
+  const Vector3d p_B = point_on_edge(B[j], B[(j + 1) % 3], t);
   return {(p_B - p_A).norm(), p_A, p_B, edge_or_end(i, s), edge_or_end(j, t)};
 }
 
-ClosestFeatures in_order(ClosestFeatures c, bool swapped) {
-  if (swapped) {
-    std::swap(c.p_A, c.p_B);
-    std::swap(c.feature_A, c.feature_B);
-  }
-  return c;
+CornerFoot foot(const ElementaryPairs::Corners& corners, int k) {
+  return {corners.u[k], corners.v[k], corners.height[k]};
 }
 
-/// Corner k of S over the face of T.
-ClosestFeatures corner_face(const Triangle& S, int k, const Triangle& T,
-                            const ElementaryPairs::Corners& corners, bool swapped) {
-  const Vector3d foot = point_on_face(T, corners.u[k], corners.v[k]);
-  return in_order({(foot - S[k]).norm(), S[k], foot, {Type::vertex, k}, {Type::face, 0}}, swapped);
-}
-
-/// [m]  At least the greatest coordinate.
-double size(const Triangle& T) {
-  return (T[0].cwiseAbs() + T[1].cwiseAbs() + T[2].cwiseAbs()).maxCoeff();
-}
-
-/// Where edge k of S, between two heights over T's plane, pierces T. Of a needle, rounding may have
-/// put the point on T elsewhere: then they are as far apart as they are.
 std::optional<ClosestFeatures> piercing(const Triangle& S, int k, const Triangle& T,
                                         const ElementaryPairs::Corners& corners, bool swapped) {
-  constexpr double kRounding = 0x1p-40;  // Of the size, with room.
-  const int end = (k + 1) % 3;
-  const double above = corners.height[k];
-  const double below = corners.height[end];
-  if ((above > 0.0) == (below > 0.0) || above == below) {
-    return std::nullopt;
-  }
-  const double part = above / (above - below);
-  const double u = corners.u[k] + part * (corners.u[end] - corners.u[k]);
-  const double v = corners.v[k] + part * (corners.v[end] - corners.v[k]);
-  if (!(u > 0.0 && v > 0.0 && u + v < 1.0)) {
-    return std::nullopt;
-  }
-  const Vector3d on_S = point_on_edge(S, k, part);
-  const Vector3d on_T = point_on_face(T, u, v);
-  const double apart = (on_T - on_S).norm();
-  const bool pierces = apart <= kRounding * (size(S) + size(T));
-  return in_order(
-      {pierces ? 0.0 : apart, pierces ? on_T : on_S, on_T, edge_or_end(k, part), {Type::face, 0}},
-      swapped);
+  return edge_through_face(S, k, T, foot(corners, k), foot(corners, (k + 1) % 3), swapped);
 }
 
 /// But for piercings.
@@ -99,8 +43,8 @@ ClosestFeatures nearest(const Triangle& A, const Triangle& B, const ElementaryPa
   if (row < 3) {
     return edge_edge(A, row, B, k, pairs.edges);
   }
-  return row == 3 ? corner_face(A, k, B, pairs.corners[0], false)
-                  : corner_face(B, k, A, pairs.corners[1], true);
+  return row == 3 ? corner_over_face(A, k, B, foot(pairs.corners[0], k), false)
+                  : corner_over_face(B, k, A, foot(pairs.corners[1], k), true);
 }
 
 bool has_corner(unsigned features, int i) { return (features & 1u << i) != 0; }
@@ -133,8 +77,9 @@ ClosestFeatures triangle_distance(const Triangle& A, const Triangle& B) {
 FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double band,
                                   unsigned features_A, unsigned features_B) {
   FeaturePairs within;
-  std::array<std::uint8_t, kFeatures * kFeatures> place{};    // Plus 1; 0: not there yet.
-  const double reach = band + 0x1p-46 * (size(A) + size(B));  // More than squares err.
+  std::array<std::uint8_t, kFeatures * kFeatures> place{};  // Plus 1; 0: not there yet.
+  const double reach =
+      band + 0x1p-46 * (greatest_coordinate(A) + greatest_coordinate(B));  // More than squares err.
   const double reach2 = reach * reach;
   const auto use = [&](const ClosestFeatures& c) {
     if (!(c.distance <= band)) {
@@ -163,7 +108,7 @@ FeaturePairs feature_pairs_within(const Triangle& A, const Triangle& B, double b
     for (int k = 0; k < 3; ++k) {
       const bool is_over_face = corners.square[k] < ElementaryPairs::kNone;
       if (has_corner(features, k) && is_over_face && corners.square[k] <= reach2) {
-        use(corner_face(S, k, T, corners, swapped));
+        use(corner_over_face(S, k, T, foot(corners, k), swapped));
       }
       if (has_edge(features, k)) {
         if (const auto through = piercing(S, k, T, corners, swapped)) {

@@ -1,5 +1,6 @@
 #include <firstcontact/query/close_features.h>
 
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -7,7 +8,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/order.h>
-#include <firstcontact/query/detail/pair_query.h>
+#include <firstcontact/query/detail/resting_pair.h>
 
 namespace firstcontact {
 namespace {
@@ -19,25 +20,24 @@ void require(bool condition, const char* what, double value) {
   }
 }
 
-}  // namespace
-
-void close_features(const MovingShape& A, const MovingShape& B, double t, double band,
-                    Workspace& workspace, std::vector<Contact>& contacts) {
-  require(t >= 0.0 && t <= 1.0, "t must lie in [0, 1]", t);
+void require_band(double band) {
   require(band >= 0.0 && std::isfinite(band), "band must be finite and >= 0", band);
-  const FloatEnvironmentGuard guard;
+}
+
+/// @param motion  of the centres, entered at t
+void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, double band,
+             Workspace& workspace, std::vector<Contact>& contacts) {
+  const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const detail::ContactFrame frame{A, B, pair, t, motion.origin(t)};
+  detail::collect_contacts(frame, A.radius() + B.radius() + band, workspace.data(), contacts);
+}
+
+/// Calls collect(first, second) in the order of the bodies' content.
+template <class Body, class Collect>
+void collect_in_order(const Body& A, const Body& B, bool in_order, std::vector<Contact>& contacts,
+                      const Collect& collect) {
   contacts.clear();
-  const auto collect = [&](const MovingShape& first, const MovingShape& second) {
-    const double radii = first.shape.radius() + second.shape.radius();
-    const double resolution =
-        1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
-    ConstantRatePair motion = detail::motion_of(first, second, resolution);
-    motion.enter(t);
-    const detail::MovingPair pair(first.shape.hierarchy(), second.shape.hierarchy(), motion);
-    const detail::ContactFrame frame{first.shape, second.shape, pair, t, motion.origin(t)};
-    detail::collect_contacts(frame, radii + band, workspace.data(), contacts);
-  };
-  if (detail::in_order(A, B)) {
+  if (in_order) {
     collect(A, B);
     return;
   }
@@ -45,6 +45,36 @@ void close_features(const MovingShape& A, const MovingShape& B, double t, double
   for (Contact& contact : contacts) {
     swap_bodies(contact);
   }
+}
+
+}  // namespace
+
+void close_features(const MovingShape& A, const MovingShape& B, double t, double band,
+                    Workspace& workspace, std::vector<Contact>& contacts) {
+  require(t >= 0.0 && t <= 1.0, "t must lie in [0, 1]", t);
+  require_band(band);
+  const FloatEnvironmentGuard guard;
+  collect_in_order(A, B, detail::in_order(A, B), contacts,
+                   [&](const MovingShape& first, const MovingShape& second) {
+                     const double resolution =
+                         1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
+                     ConstantRatePair motion = detail::motion_of(first, second, resolution);
+                     motion.enter(t);
+                     collect(first.shape, second.shape, motion, t, band, workspace, contacts);
+                   });
+}
+
+void close_features(const PlacedShape& A, const PlacedShape& B, double band, Workspace& workspace,
+                    std::vector<Contact>& contacts) {
+  require_band(band);
+  assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
+  const FloatEnvironmentGuard guard;
+  const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
+  collect_in_order(A, B, in_order, contacts,
+                   [&](const PlacedShape& first, const PlacedShape& second) {
+                     const detail::RestingPair motion(first.path(), second.path());
+                     collect(first.shape(), second.shape(), motion, 0.0, band, workspace, contacts);
+                   });
 }
 
 }  // namespace firstcontact

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/placed_shape.h>
 
 namespace firstcontact {
 
@@ -21,5 +22,13 @@ namespace firstcontact {
 FIRSTCONTACT_API void close_features(const MovingShape& A, const MovingShape& B, double t,
                                      double band, Workspace& workspace,
                                      std::vector<Contact>& contacts);
+
+/// The same of two shapes at rest, to the last bit.
+///
+/// @param A,B   that do not deform
+/// @param band  [m]  finite, >= 0; radii are included in distances
+/// @throws std::invalid_argument if the band is outside its range.
+FIRSTCONTACT_API void close_features(const PlacedShape& A, const PlacedShape& B, double band,
+                                     Workspace& workspace, std::vector<Contact>& contacts);
 
 }  // namespace firstcontact

@@ -11,6 +11,15 @@ namespace {
 /// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
 constexpr double kStepsWithoutBounce = 2.0;
 
+/// A body as manifolds see it.
+struct RestingBody {
+  RestingBody(const SimBody& body, const Pose& X_WB)
+      : hull(body, X_WB, Move()), shape(body.shape, X_WB) {}
+
+  SweptHull hull;
+  PlacedShape shape;
+};
+
 }  // namespace
 
 IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given_members)
@@ -75,21 +84,22 @@ void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& wo
   for (std::size_t k = 0; k < size(); ++k) {
     boxes.push_back(swept_box(member(k), states[k].X_WB, {}));
   }
-  std::unordered_map<std::size_t, SweptHull> hulls;
-  const auto hull_of = [&](std::size_t body) -> const SweptHull& {
-    return hulls.try_emplace(body, world.bodies[body], pose_of(body), Move()).first->second;
+  ManifoldFinder finder(world, workspace);
+  std::unordered_map<std::size_t, RestingBody> resting;
+  const auto at_rest = [&](std::size_t body) -> const RestingBody& {
+    return resting.try_emplace(body, world.bodies[body], pose_of(body)).first->second;
   };
   for_each_pair(boxes, world.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
-    const SweptHull& A = hull_of(pair[0]);
-    const SweptHull& B = hull_of(pair[1]);
-    if (stays_apart(A, B, margin + world.distances.band, (B.p_WC - A.p_WC).normalized())) {
+    const RestingBody& A = at_rest(pair[0]);
+    const RestingBody& B = at_rest(pair[1]);
+    if (stays_apart(A.hull, B.hull, margin + world.distances.band,
+                    (B.hull.p_WC - A.hull.p_WC).normalized())) {
       return;
     }
-    Manifold manifold =
-        find_manifold(world, pair, {pose_of(pair[0]), pose_of(pair[1])}, margin, workspace);
+    Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
     if (manifold.gap <= world.distances.band) {
       carry_impulses(before, smaller_reach(world, pair), manifold);
-      manifolds.emplace(pair, std::move(manifold));
+      manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
     }
   });
 }

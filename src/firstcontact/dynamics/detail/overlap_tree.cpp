@@ -1,6 +1,7 @@
 #include <firstcontact/dynamics/detail/overlap_tree.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace firstcontact::detail {
@@ -51,19 +52,23 @@ void OverlapTree::build(std::size_t begin, std::size_t end) {
 
 std::vector<std::array<std::size_t, 2>> overlapping_pairs(
     const std::vector<Eigen::AlignedBox3d>& boxes) {
-  std::vector<std::array<std::size_t, 2>> pairs;
-  if (boxes.size() < 2) {
-    return pairs;
+  using Pair = std::array<std::size_t, 2>;
+  std::vector<Pair> found;
+  OverlapTree(boxes).for_each_pair([&](std::size_t a, std::size_t b) { found.push_back({a, b}); });
+  // In rows of the same first box, each of which is short.
+  std::vector<std::size_t> row(boxes.size() + 1, 0);
+  for (const Pair& pair : found) {
+    ++row[pair[0] + 1];
   }
-  const OverlapTree tree(boxes);
+  std::partial_sum(row.begin(), row.end(), row.begin());
+  std::vector<std::size_t> next = row;
+  std::vector<Pair> pairs(found.size());
+  for (const Pair& pair : found) {
+    pairs[next[pair[0]]++] = pair;
+  }
   for (std::size_t a = 0; a < boxes.size(); ++a) {
-    tree.for_each_overlap(boxes[a], [&](std::size_t b) {
-      if (a < b) {
-        pairs.push_back({a, b});
-      }
-    });
+    std::sort(pairs.data() + row[a], pairs.data() + row[a + 1]);
   }
-  std::ranges::sort(pairs);
   return pairs;
 }
 

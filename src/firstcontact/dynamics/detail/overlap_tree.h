@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -35,6 +36,29 @@ class OverlapTree {
     }
   }
 
+  /// Calls use(a, b), a < b, for each two of the tree's boxes that overlap or touch.
+  template <class Use>
+  void for_each_pair(const Use& use) const {
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      const Node& leaf = nodes_[n];
+      for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
+        use_overlaps(items_[i], i + 1, leaf.end, use);
+      }
+      // Leaves that follow; nodes around this one come before it.
+      for (std::size_t other = n + 1; leaf.end > leaf.begin && other < nodes_.size();) {
+        const Node& node = nodes_[other];
+        if (!node.box.intersects(leaf.box)) {
+          other = node.after;
+          continue;
+        }
+        for (std::size_t i = leaf.begin; i < leaf.end && node.end > node.begin; ++i) {
+          use_overlaps(items_[i], node.begin, node.end, use);
+        }
+        ++other;
+      }
+    }
+  }
+
  private:
   struct Item {
     Eigen::AlignedBox3d box;
@@ -48,6 +72,16 @@ class OverlapTree {
     std::size_t after = 0;  // The node that follows all that is below it.
   };
   void build(std::size_t begin, std::size_t end);
+
+  /// Of one item with items [begin, end).
+  template <class Use>
+  void use_overlaps(const Item& item, std::size_t begin, std::size_t end, const Use& use) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (items_[i].box.intersects(item.box)) {
+        use(std::min(item.index, items_[i].index), std::max(item.index, items_[i].index));
+      }
+    }
+  }
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;

@@ -22,20 +22,25 @@ class PlaceGrid {
 
   /// @param key  of the caller
   void add(const Eigen::Vector3d& place, std::size_t key) {
-    places_.push_back({place, key});
-    if (places_.size() > kFew) {
-      for (; sorted_ < places_.size(); ++sorted_) {
-        cells_[cell_of(places_[sorted_].place)].push_back(places_[sorted_].key);
+    if (count_ < kFew) {
+      few_[count_] = {place, key};
+    } else {
+      if (count_ == kFew) {
+        for (const Place& before : few_) {
+          cells_[cell_of(before.place)].push_back(before.key);
+        }
       }
+      cells_[cell_of(place)].push_back(key);
     }
+    ++count_;
   }
 
   /// Calls use(key) for all that are near, and some others; for one as often as it was added.
   template <class Use>
   void for_each_near(const Eigen::Vector3d& place, const Use& use) const {
-    if (places_.size() <= kFew) {
-      for (const Place& other : places_) {
-        use(other.key);
+    if (count_ <= kFew) {
+      for (std::size_t k = 0; k < count_; ++k) {
+        use(few_[k].key);
       }
       return;
     }
@@ -89,9 +94,9 @@ class PlaceGrid {
   }
 
   double reach_;
-  std::vector<Place> places_;
-  std::size_t sorted_ = 0;  // Places that are in cells.
-  std::unordered_map<Cell, std::vector<std::size_t>, Hash> cells_;
+  std::size_t count_ = 0;
+  std::array<Place, kFew> few_;                                     // The first ones.
+  std::unordered_map<Cell, std::vector<std::size_t>, Hash> cells_;  // Of all, where more.
 };
 
 }  // namespace firstcontact::detail

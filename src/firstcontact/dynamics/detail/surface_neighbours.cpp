@@ -15,13 +15,14 @@ constexpr double kTilt = 1e-6;
 
 /// Sorts pairs of (feature, way) into rows.
 template <class Ways>
-Ways in_rows(std::size_t count, std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
+Ways in_rows(std::size_t count, double slack,
+             std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
   std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
   Ways rows;
   rows.first.assign(count + 1, 0);
   for (const auto& [feature, way] : pairs) {
     ++rows.first[feature + 1];
-    rows.ways.push_back(way);
+    rows.ways.push_back({way, std::max(slack, kTilt * way.norm())});
   }
   for (std::size_t k = 0; k < count; ++k) {
     rows.first[k + 1] += rows.first[k];
@@ -29,9 +30,20 @@ Ways in_rows(std::size_t count, std::vector<std::pair<std::uint32_t, Vector3d>>&
   return rows;
 }
 
+/// Whether an edge with these ways across its faces divides a flat one.
+template <class Way>
+bool are_flat(std::span<const Way> ways) {
+  if (ways.size() != 2) {
+    return false;
+  }
+  const Vector3d& a = ways[0].way;
+  const Vector3d& b = ways[1].way;
+  return a.dot(b) < 0.0 && a.cross(b).norm() <= kTilt * a.norm() * b.norm();
+}
+
 }  // namespace
 
-SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) : slack_(slack) {
+SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) {
   const Mesh& mesh = shape.mesh();
   std::vector<std::pair<std::uint32_t, Vector3d>> across_faces;
   std::vector<std::pair<std::uint32_t, Vector3d>> along_edges;
@@ -56,15 +68,16 @@ SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) : slack_(
       }
     }
   }
-  edges_ = in_rows<Ways>(shape.edge_count(), std::move(across_faces));
-  vertices_ = in_rows<Ways>(mesh.vertices.size(), std::move(along_edges));
+  edges_ = in_rows<Ways>(shape.edge_count(), slack, std::move(across_faces));
+  vertices_ = in_rows<Ways>(mesh.vertices.size(), slack, std::move(along_edges));
+  for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
+    is_flat_.push_back(are_flat(edges_.of(e)));
+  }
 }
 
-bool SurfaceNeighbours::none_is_farther(std::span<const Vector3d> ways,
-                                        const Vector3d& direction_B) const {
-  return std::ranges::all_of(ways, [&](const Vector3d& way) {
-    return way.dot(direction_B) <= std::max(slack_, kTilt * way.norm());
-  });
+bool SurfaceNeighbours::none_is_farther(std::span<const Way> ways, const Vector3d& direction_B) {
+  return std::ranges::all_of(ways,
+                             [&](const Way& way) { return way.way.dot(direction_B) <= way.most; });
 }
 
 bool SurfaceNeighbours::is_outermost(const Feature& feature, const Vector3d& direction_B) const {
@@ -77,15 +90,6 @@ bool SurfaceNeighbours::is_outermost(const Feature& feature, const Vector3d& dir
       break;
   }
   return true;
-}
-
-bool SurfaceNeighbours::is_flat_edge(const Feature& feature) const {
-  if (feature.type != FeatureType::edge) {
-    return false;
-  }
-  const std::span<const Vector3d> ways = edges_.of(feature.index);
-  return ways.size() == 2 && ways[0].dot(ways[1]) < 0.0 &&
-         ways[0].cross(ways[1]).norm() <= kTilt * ways[0].norm() * ways[1].norm();
 }
 
 }  // namespace firstcontact::detail

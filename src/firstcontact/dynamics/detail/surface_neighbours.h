@@ -30,23 +30,30 @@ class SurfaceNeighbours {
   [[nodiscard]] bool is_outermost(const Feature& feature, const Eigen::Vector3d& direction_B) const;
 
   /// Whether the feature is an edge that divides a flat face.
-  [[nodiscard]] bool is_flat_edge(const Feature& feature) const;
+  [[nodiscard]] bool is_flat_edge(const Feature& feature) const {
+    return feature.type == FeatureType::edge && is_flat_[feature.index];
+  }
 
  private:
+  /// From a feature to the end of a neighbour.
+  struct Way {
+    Eigen::Vector3d way;  // [m]
+    double most;          // [m]  It may reach so much farther than the feature.
+  };
+
   /// Ways from each feature to the ends of its neighbours: of an edge across its faces, of a vertex
   /// along its edges.
   struct Ways {
     std::vector<std::uint32_t> first;  // Of feature k: first[k] to first[k + 1].
-    std::vector<Eigen::Vector3d> ways;
+    std::vector<Way> ways;
 
-    [[nodiscard]] std::span<const Eigen::Vector3d> of(std::uint32_t feature) const {
+    [[nodiscard]] std::span<const Way> of(std::uint32_t feature) const {
       return {ways.data() + first[feature], ways.data() + first[feature + 1]};
     }
   };
-  [[nodiscard]] bool none_is_farther(std::span<const Eigen::Vector3d> ways,
-                                     const Eigen::Vector3d& direction_B) const;
+  static bool none_is_farther(std::span<const Way> ways, const Eigen::Vector3d& direction_B);
 
-  double slack_;
+  std::vector<bool> is_flat_;  // Of each edge.
   Ways edges_;
   Ways vertices_;
 };

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include <Eigen/Geometry>
+
 #include <firstcontact/dynamics/detail/place_grid.h>
 #include <firstcontact/query/close_features.h>
 
@@ -20,6 +22,9 @@ constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
 /// A touch is taken for what touched before where it is nearer than this part of the smaller body.
 constexpr double kCloseBy = 0.01;
 
+/// Of a pair; there may be more.
+constexpr std::size_t kUsualTouches = 4;
+
 auto features_of(const Touch& touch) {
   return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
                     touch.feature_B.index);
@@ -32,20 +37,21 @@ class Successors {
   Successors(double close_by, std::vector<Touch>& touches)
       : touches_(touches), close_by_(close_by), by_place_(close_by) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
-      by_features_.push_back(k);
       by_place_.add(touches[k].point, k);
     }
-    std::ranges::stable_sort(by_features_, {},
-                             [&](std::size_t k) { return features_of(touches[k]); });
+    if (touches.size() > kFew) {
+      for (std::size_t k = 0; k < touches.size(); ++k) {
+        by_features_.push_back(k);
+      }
+      std::ranges::stable_sort(by_features_, {},
+                               [&](std::size_t k) { return features_of(touches[k]); });
+    }
   }
 
   /// Null where there is none.
   Touch* of(const Touch& before) {
-    const auto same =
-        std::ranges::lower_bound(by_features_, features_of(before), {},
-                                 [&](std::size_t k) { return features_of(touches_[k]); });
-    if (same != by_features_.end() && same_features(touches_[*same], before)) {
-      return &touches_[*same];
+    if (Touch* same = of_same_features(before)) {
+      return same;
     }
     Touch* nearest = nullptr;
     double least = close_by_;
@@ -61,27 +67,57 @@ class Successors {
   }
 
  private:
+  /// As many are looked through as they are.
+  static constexpr std::size_t kFew = 24;
+
+  /// The first of them.
+  Touch* of_same_features(const Touch& before) {
+    if (touches_.size() <= kFew) {
+      const auto same = std::ranges::find_if(
+          touches_, [&](const Touch& touch) { return same_features(touch, before); });
+      return same != touches_.end() ? &*same : nullptr;
+    }
+    const auto same =
+        std::ranges::lower_bound(by_features_, features_of(before), {},
+                                 [&](std::size_t k) { return features_of(touches_[k]); });
+    return same != by_features_.end() && same_features(touches_[*same], before) ? &touches_[*same]
+                                                                                : nullptr;
+  }
+
   std::vector<Touch>& touches_;
   double close_by_;
-  std::vector<std::size_t> by_features_;
+  std::vector<std::size_t> by_features_;  // Where there are many.
   PlaceGrid by_place_;
 };
 
-/// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
-/// over it the gap is least at the ends of the other edge, or where that leaves the face.
-bool is_outermost(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses,
-                  const Contact& contact) {
-  const Vector3d& n_W = *contact.n_AB_W;
-  const SurfaceNeighbours& A = *world.neighbours[bodies[0]];
-  const SurfaceNeighbours& B = *world.neighbours[bodies[1]];
-  const bool are_edges =
-      contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
-  if (are_edges && (A.is_flat_edge(contact.feature_A) || B.is_flat_edge(contact.feature_B))) {
-    return false;
+/// Two bodies, of which features are asked whether they bulge towards each other.
+class FacingBodies {
+ public:
+  FacingBodies(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses)
+      : A_(*world.neighbours[bodies[0]]),
+        B_(*world.neighbours[bodies[1]]),
+        R_AW_(poses[0].rotation.normalized().conjugate()),
+        R_BW_(poses[1].rotation.normalized().conjugate()) {}
+
+  /// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
+  /// over it the gap is least at the ends of the other edge, or where that leaves the face.
+  [[nodiscard]] bool are_outermost(const Contact& contact) const {
+    const Vector3d& n_W = *contact.n_AB_W;
+    const bool are_edges =
+        contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
+    if (are_edges && (A_.is_flat_edge(contact.feature_A) || B_.is_flat_edge(contact.feature_B))) {
+      return false;
+    }
+    return A_.is_outermost(contact.feature_A, R_AW_ * n_W) &&
+           B_.is_outermost(contact.feature_B, R_BW_ * -n_W);
   }
-  return A.is_outermost(contact.feature_A, poses[0].rotation.normalized().conjugate() * n_W) &&
-         B.is_outermost(contact.feature_B, poses[1].rotation.normalized().conjugate() * -n_W);
-}
+
+ private:
+  const SurfaceNeighbours& A_;
+  const SurfaceNeighbours& B_;
+  Eigen::Quaterniond R_AW_;
+  Eigen::Quaterniond R_BW_;
+};
 
 Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
   return {.bodies = bodies,
@@ -92,30 +128,26 @@ Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) 
           .gap = contact.distance - margin};
 }
 
-/// Features that meet in one place, as the corner of one face and an edge of it, say the same: of
-/// them the nearest.
-void keep_once(double size, std::vector<Touch>& touches) {
-  std::vector<Touch> kept;
-  PlaceGrid by_place(kSamePlace * size);
-  for (const Touch& touch : touches) {
-    std::size_t same = kept.size();
-    by_place.for_each_near(touch.point, [&](std::size_t k) {
-      if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
-          touch.normal.dot(kept[k].normal) >= kSameNormal) {
-        same = std::min(same, k);
-      }
-    });
-    if (same < kept.size() && !(touch.gap < kept[same].gap)) {
-      continue;
+/// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an
+/// edge of it, say the same: of them the nearest is kept.
+///
+/// @param size  [m]  of the smaller body
+void keep_once(const Touch& touch, double size, PlaceGrid& by_place, std::vector<Touch>& kept) {
+  std::size_t same = kept.size();
+  by_place.for_each_near(touch.point, [&](std::size_t k) {
+    if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
+        touch.normal.dot(kept[k].normal) >= kSameNormal) {
+      same = std::min(same, k);
     }
-    if (same == kept.size()) {
-      kept.push_back(touch);
-    } else {
-      kept[same] = touch;
-    }
-    by_place.add(touch.point, same);
+  });
+  if (same == kept.size()) {
+    kept.push_back(touch);
+  } else if (touch.gap < kept[same].gap) {
+    kept[same] = touch;
+  } else {
+    return;
   }
-  touches = std::move(kept);
+  by_place.add(touch.point, same);
 }
 
 }  // namespace
@@ -128,34 +160,40 @@ bool same_features(const Touch& x, const Touch& y) {
 std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,
                                  const std::vector<Contact>& contacts) {
-  std::vector<Touch> outermost;
-  std::vector<Touch> all;
+  const FacingBodies facing(world, bodies, poses);
+  std::vector<const Contact*> outermost;
+  outermost.reserve(contacts.size());
   for (const Contact& contact : contacts) {
-    if (!contact.n_AB_W) {
-      continue;
-    }
-    all.push_back(make_touch(bodies, margin, contact));
-    if (is_outermost(world, bodies, poses, contact)) {
-      outermost.push_back(all.back());
+    if (contact.n_AB_W && facing.are_outermost(contact)) {
+      outermost.push_back(&contact);
     }
   }
-  std::vector<Touch>& touches = outermost.empty() ? all : outermost;
-  keep_once(smaller_reach(world, bodies), touches);
+  const double size = smaller_reach(world, bodies);
+  PlaceGrid by_place(kSamePlace * size);
+  std::vector<Touch> touches;
+  if (!outermost.empty()) {
+    touches.reserve(std::min(outermost.size(), kUsualTouches));
+    for (const Contact* contact : outermost) {
+      keep_once(make_touch(bodies, margin, *contact), size, by_place, touches);
+    }
+    return touches;
+  }
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W) {
+      keep_once(make_touch(bodies, margin, contact), size, by_place, touches);
+    }
+  }
   return touches;
 }
 
-Manifold find_manifold(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses,
-                       double margin, Workspace& workspace) {
+Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
+                              double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  const Motion A = Motion::fixed(poses[0]);
-  const Motion B = Motion::fixed(poses[1]);
-  std::vector<Contact> contacts;
-  close_features({world.bodies[bodies[0]].shape, A}, {world.bodies[bodies[1]].shape, B}, 0.0,
-                 margin + world.distances.band, workspace, contacts);
-  for (const Contact& contact : contacts) {
+  close_features(A, B, margin + world_.distances.band, workspace_, contacts_);
+  for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }
-  manifold.touches = touches_among(world, bodies, poses, margin, contacts);
+  manifold.touches = touches_among(world_, bodies, {A.pose(), B.pose()}, margin, contacts_);
   return manifold;
 }
 

@@ -9,6 +9,7 @@
 
 #include <firstcontact/dynamics/detail/world.h>
 #include <firstcontact/query/contact.h>
+#include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>
 
 namespace firstcontact::detail {
@@ -41,9 +42,21 @@ struct Manifold {
   std::vector<Touch> touches = {};
 };
 
-[[nodiscard]] Manifold find_manifold(const World& world, const BodyPair& bodies,
-                                     const std::array<Pose, 2>& poses, double margin,
-                                     Workspace& workspace);
+/// Finds the manifolds of many pairs in memory that they share.
+class ManifoldFinder {
+ public:
+  ManifoldFinder(const World& world, Workspace& workspace) : world_(world), workspace_(workspace) {}
+
+  /// @param A,B     the shapes of the pair
+  /// @param margin  [m]  of the pair
+  [[nodiscard]] Manifold find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
+                              double margin);
+
+ private:
+  const World& world_;
+  Workspace& workspace_;
+  std::vector<Contact> contacts_;
+};
 
 /// Whether the bodies, or else the features, of one touch come before those of the other.
 [[nodiscard]] bool comes_before(const Touch& x, const Touch& y);

@@ -1,7 +1,6 @@
 #include <firstcontact/query/detail/close_pairs.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -68,75 +67,6 @@ void append_pairs(const ContactFrame& frame, const TrianglePair& triangles,
   }
 }
 
-/// Of meshes with so few triangles each pair is looked at: boxes around boxes tell no more.
-constexpr std::size_t kFewTriangles = 16;
-
-/// A triangle at an instant, and the box around it along the axes of body A.
-struct BoxedTriangle {
-  Triangle corners;
-  Eigen::AlignedBox3d box;
-};
-
-BoxedTriangle boxed(const Triangle& corners, const Eigen::Matrix3d& R_WA) {
-  BoxedTriangle triangle{corners, {}};
-  for (const Vector3d& corner : corners) {
-    triangle.box.extend(R_WA.transpose() * corner);
-  }
-  return triangle;
-}
-
-/// Each feature need be asked but once, where all pairs of triangles that are close are looked at.
-///
-/// @param reach  [m]  the band, and more than positions err
-void find_close_of_few(const ContactFrame& frame, const RelativeState& state, double band,
-                       double reach, std::vector<ClosePair>& close) {
-  const MovingPair& pair = frame.pair;
-  const auto own_A = frame.A.own_features();
-  const auto own_B = frame.B.own_features();
-  const double apart = reach + pair.gap_error(state);
-  std::array<BoxedTriangle, kFewTriangles> of_B;
-  for (std::uint32_t b = 0; b < pair.B().triangles.size(); ++b) {
-    of_B[b] = boxed(pair.place(state, 0, b).B, state.R_WA);
-  }
-  for (std::uint32_t a = 0; a < pair.A().triangles.size(); ++a) {
-    const BoxedTriangle of_A = boxed(pair.place(state, a, 0).A, state.R_WA);
-    for (std::uint32_t b = 0; b < pair.B().triangles.size(); ++b) {
-      const AskedFeatures own{own_A[a], own_B[b]};
-      if ((own.of_A != 0 || own.of_B != 0) &&
-          !(of_A.box.squaredExteriorDistance(of_B[b].box) > apart * apart)) {
-        append_pairs(frame, {of_A.corners, of_B[b].corners}, a, b, own, band, reach, close);
-      }
-    }
-  }
-}
-
-void find_close_of_many(const ContactFrame& frame, const RelativeState& state, double band,
-                        double reach, WorkspaceData& workspace) {
-  const MovingPair& pair = frame.pair;
-  const BoxesAtInstant boxes(pair, state);
-  const auto own_A = frame.A.own_features();
-  const auto own_B = frame.B.own_features();
-  auto& stack = workspace.stack;
-  stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
-  while (!stack.empty()) {
-    const BoxPair top = stack.back();
-    stack.pop_back();
-    if (top.is_triangle_pair) {
-      const AskedFeatures own{own_A[top.triangle_A], own_B[top.triangle_B]};
-      if (own.of_A != 0 || own.of_B != 0) {
-        append_pairs(frame, pair.place(state, top.triangle_A, top.triangle_B), top.triangle_A,
-                     top.triangle_B, own, band, reach, workspace.close_pairs);
-      }
-      continue;
-    }
-    boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
-      if (!(lane.gap() > reach)) {
-        stack.push_back(lane.inside());
-      }
-    });
-  }
-}
-
 }  // namespace
 
 ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A, std::uint32_t triangle_B,
@@ -161,11 +91,29 @@ void find_close_among_opened(const ContactFrame& frame, const RelativeState& sta
 void find_close(const ContactFrame& frame, const RelativeState& state, double band,
                 WorkspaceData& workspace) {
   workspace.close_pairs.clear();
-  const double reach = band + frame.pair.gap_error(state);
-  if (std::max(frame.pair.A().triangles.size(), frame.pair.B().triangles.size()) <= kFewTriangles) {
-    find_close_of_few(frame, state, band, reach, workspace.close_pairs);
-  } else {
-    find_close_of_many(frame, state, band, reach, workspace);
+  const MovingPair& pair = frame.pair;
+  const double reach = band + pair.gap_error(state);
+  const BoxesAtInstant boxes(pair, state);
+  const auto own_A = frame.A.own_features();
+  const auto own_B = frame.B.own_features();
+  auto& stack = workspace.stack;
+  stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
+  while (!stack.empty()) {
+    const BoxPair top = stack.back();
+    stack.pop_back();
+    if (top.is_triangle_pair) {
+      const AskedFeatures own{own_A[top.triangle_A], own_B[top.triangle_B]};
+      if (own.of_A != 0 || own.of_B != 0) {
+        append_pairs(frame, pair.place(state, top.triangle_A, top.triangle_B), top.triangle_A,
+                     top.triangle_B, own, band, reach, workspace.close_pairs);
+      }
+      continue;
+    }
+    boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
+      if (!(lane.gap() > reach)) {
+        stack.push_back(lane.inside());
+      }
+    });
   }
 }
 

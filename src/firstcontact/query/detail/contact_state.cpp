@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/query/detail/close_pairs.h>
+#include <firstcontact/query/detail/close_pairs_of_few.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -118,9 +119,8 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state, cons
   return contact;
 }
 
-/// Appends the contacts of the pairs by their order, the nearest one of each pair of features.
-void append_once(const ContactFrame& frame, const RelativeState& state, WorkspaceData& workspace,
-                 std::vector<Contact>& contacts) {
+/// Lists the close pairs by their order, the nearest one of each pair of features.
+void sort_once(WorkspaceData& workspace) {
   std::vector<CloseKey>& keys = workspace.close_keys;
   keys.clear();
   for (const ClosePair& pair : workspace.close_pairs) {
@@ -128,9 +128,13 @@ void append_once(const ContactFrame& frame, const RelativeState& state, Workspac
                     pair.feature_A.triangle, pair.feature_B.triangle, &pair});
   }
   std::sort(keys.begin(), keys.end(), comes_before);
-  const auto end = std::unique(keys.begin(), keys.end(), same_features);
-  for (auto key = keys.begin(); key != end; ++key) {
-    contacts.push_back(make_contact(frame, state, *key->pair));
+  keys.erase(std::unique(keys.begin(), keys.end(), same_features), keys.end());
+}
+
+void append_contacts(const ContactFrame& frame, const RelativeState& state,
+                     const std::vector<CloseKey>& keys, std::vector<Contact>& contacts) {
+  for (const CloseKey& key : keys) {
+    contacts.push_back(make_contact(frame, state, *key.pair));
   }
 }
 
@@ -146,14 +150,20 @@ void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& 
                          std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
   find_close_among_opened(frame, state, band, workspace);
-  append_once(frame, state, workspace, contacts);
+  sort_once(workspace);
+  append_contacts(frame, state, workspace.close_keys, contacts);
 }
 
 void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
                       std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
-  find_close(frame, state, band, workspace);
-  append_once(frame, state, workspace, contacts);
+  if (are_few(frame.pair)) {
+    find_close_of_few(frame, state, band, workspace);
+  } else {
+    find_close(frame, state, band, workspace);
+    sort_once(workspace);
+  }
+  append_contacts(frame, state, workspace.close_keys, contacts);
 }
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,62 @@
+/// @file
+/// The features of a mesh of few triangles, each once.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+class Shape;
+
+/// Features have numbers: vertices come first, then edges, then faces, each in the order of the
+/// mesh. Vertices and triangles are those of the hierarchy. What a triangle owns: the features that
+/// none before it has (Shape::own_features()).
+struct FeatureTable {
+  /// A table is made of meshes of so many triangles at most.
+  static constexpr std::size_t kMostTriangles = 16;
+  /// Of vertices, and of edges; a mesh of degenerate triangles may own as many.
+  static constexpr std::size_t kMost = 3 * kMostTriangles;
+  static constexpr std::size_t kMostNumbers = 2 * kMost + kMostTriangles;
+
+  /// Corner k of a triangle that owns it.
+  struct Corner {
+    std::uint8_t triangle = 0;
+    std::uint8_t k = 0;
+    std::uint8_t vertex = 0;
+    std::uint8_t number = 0;
+  };
+
+  /// The edge from corner k of a triangle that owns it.
+  struct Edge {
+    std::uint8_t triangle = 0;
+    std::uint8_t k = 0;
+    std::array<std::uint8_t, 2> vertices{};  ///< Where it begins, and ends.
+    std::array<std::uint8_t, 2> ends{};      ///< Their numbers.
+    std::uint8_t number = 0;                 ///< Of one without length that of its vertex.
+  };
+
+  struct Face {
+    std::array<std::uint8_t, 3> vertices{};
+    std::uint8_t number = 0;
+  };
+
+  std::vector<Corner> corners;  ///< By triangles and k.
+  std::vector<Edge> edges;      ///< By triangles and k.
+  std::vector<Face> faces;      ///< Of each triangle.
+
+  /// The index in the mesh of each vertex, edge and face, by its number.
+  std::vector<std::uint32_t> index;
+  std::size_t first_edge = 0;  ///< Number.
+  std::size_t first_face = 0;  ///< Number.
+};
+
+/// @param shape  of kMostTriangles at most
+[[nodiscard]] FIRSTCONTACT_API FeatureTable feature_table(const Shape& shape);
+
+}  // namespace firstcontact
