@@ -58,6 +58,25 @@ bool comes_before(const RunContact& x, const RunContact& y) {
   return key(x) < key(y);
 }
 
+/// Of a pair that touches at more places, as a nut on its thread does at thousands, only those that
+/// press are recorded.
+constexpr std::ptrdiff_t kManyOfPair = 100;
+
+/// @param contacts  sorted
+std::vector<RunContact> without_idle(const std::vector<RunContact>& contacts) {
+  std::vector<RunContact> kept;
+  for (auto first = contacts.begin(); first != contacts.end();) {
+    const auto end = std::find_if(
+        first, contacts.end(), [&](const RunContact& c) { return c.bodies != first->bodies; });
+    const bool are_many = end - first > kManyOfPair;
+    std::copy_if(first, end, std::back_inserter(kept), [&](const RunContact& contact) {
+      return !are_many || !contact.impulse.isZero(0.0);
+    });
+    first = end;
+  }
+  return kept;
+}
+
 /// Whether a quaternion can be made a unit one.
 bool is_rotation(const Eigen::Vector4d& q) { return q.norm() > 0.0 && std::isfinite(q.norm()); }
 
@@ -270,6 +289,7 @@ class Simulator::Implementation {
                                touch.impulse});
     }
     std::ranges::stable_sort(step.contacts, comes_before);
+    step.contacts = without_idle(step.contacts);
   }
 
   static void lock(const Inertia& inertia, RigidState& state) {

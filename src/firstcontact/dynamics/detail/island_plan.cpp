@@ -12,6 +12,9 @@ using Eigen::Vector3d;
 /// Half of what is missing to the rest distance is made up for in a plan.
 constexpr double kPush = 0.5;
 
+/// How often contacts around what is too near are solved, in the mean of all, before all are swept.
+constexpr int kPushSweepsAround = 4;
+
 /// A touch ahead takes the place of what the same features say if that is as near as this part of
 /// the smaller body and points as much the same way.
 constexpr double kReplacedWithin = 0.1;

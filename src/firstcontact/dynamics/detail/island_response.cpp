@@ -32,7 +32,7 @@ constexpr int kHeapSweeps = 300;
 /// In a plan that is like another but for some contacts, what changes by more than this goes on to
 /// others; and how often each of all is solved, in the mean at most.
 constexpr double kAroundTolerance = 3e-2;
-constexpr int kAroundSweeps = 16;
+constexpr int kAroundSweeps = 2;
 
 constexpr double kLeastTolerance = 1e-9;  // [m/s]
 
