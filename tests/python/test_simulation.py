@@ -72,7 +72,8 @@ def test_box_comes_to_rest_on_the_floor(simulator):
     steps = [simulator.step() for _ in range(simulator.steps_of_duration)]
     assert sum(step.time_lost for step in steps) == 0
     assert min(step.clearance for step in steps) > 0
-    np.testing.assert_allclose(simulator.linear_velocities[BOX], 0, atol=1e-6)
+    assert steps[0].rest.tolist() == [False] and steps[-1].rest.tolist() == [True]
+    np.testing.assert_array_equal(simulator.linear_velocities[BOX], 0)
     assert 0.1 < simulator.positions[BOX, 2] < 0.1 + 1e-3
     contacts = steps[-1].contacts
     m = len(contacts.bodies)

@@ -65,6 +65,15 @@ py::array numbers_of_bodies(const RunStep& step) {
   return py::array_t<std::int64_t>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
+py::array which_rest(const RunStep& step) {
+  const auto count = static_cast<py::ssize_t>(step.bodies.size());
+  py::array_t<bool> rest(count);
+  for (py::ssize_t k = 0; k < count; ++k) {
+    rest.mutable_at(k) = step.bodies[static_cast<std::size_t>(k)].rests;
+  }
+  return rest;
+}
+
 py::array positions(const RunStep& step) {
   std::vector<Vector3d> found;
   for (const RunBody& body : step.bodies) {
@@ -188,6 +197,9 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
           "angular_velocities",
           [](const RunStep& s) { return rows(s.bodies, &RunBody::angular_velocity); },
           "[rad/s] k×3, world axes.")
+      .def_property_readonly("rest", &which_rest,
+                             "(k,) bool: contacts hold the body where it is, until something "
+                             "disturbs them.")
       .def_property_readonly(
           "robot_positions", [](const RunStep& s) { return robot_rows(s, &RunRobot::positions); },
           "[rad or m] A row for each robot with dynamics, as `Simulator.robot_positions`.")
