@@ -22,9 +22,10 @@ void require(bool condition, const char* what, double value) {
 }  // namespace
 
 void close_features(const MovingShape& A, const MovingShape& B, double t, double band,
-                    Workspace& workspace, std::vector<Contact>& contacts) {
+                    Workspace& workspace, std::vector<Contact>& contacts, double beside) {
   require(t >= 0.0 && t <= 1.0, "t must lie in [0, 1]", t);
   require(band >= 0.0 && std::isfinite(band), "band must be finite and >= 0", band);
+  require(beside >= 0.0 && std::isfinite(beside), "beside must be finite and >= 0", beside);
   const FloatEnvironmentGuard guard;
   contacts.clear();
   const auto collect = [&](const MovingShape& first, const MovingShape& second) {
@@ -34,7 +35,7 @@ void close_features(const MovingShape& A, const MovingShape& B, double t, double
     ConstantRatePair motion = detail::motion_of(first, second, resolution);
     motion.enter(t);
     const detail::MovingPair pair(first.shape.hierarchy(), second.shape.hierarchy(), motion);
-    const detail::ContactFrame frame{first.shape, second.shape, pair, t, motion.origin(t)};
+    const detail::ContactFrame frame{first.shape, second.shape, pair, t, motion.origin(t), beside};
     detail::collect_contacts(frame, radii + band, workspace.data(), contacts);
   };
   if (detail::in_order(A, B)) {
