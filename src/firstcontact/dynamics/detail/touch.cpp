@@ -1,8 +1,12 @@
 #include <firstcontact/dynamics/detail/touch.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include <firstcontact/dynamics/detail/place_grid.h>
@@ -19,6 +23,11 @@ constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
 
 /// A touch is taken for what touched before where it is nearer than this part of the smaller body.
 constexpr double kCloseBy = 0.01;
+
+/// More contacts than these are very many: of those beside each other, nearer than about this part
+/// of the smaller body, the nearest counts.
+constexpr std::size_t kMany = 500;
+constexpr double kBeside = 0.1;
 
 auto features_of(const Touch& touch) {
   return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
@@ -92,6 +101,62 @@ Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) 
           .gap = contact.distance - margin};
 }
 
+/// Which of some contacts count where there are very many: of those beside each other that face
+/// alike the nearest, of bulging ones. The motion of a rigid body hardly differs between them, and
+/// where it does the next first contact tells.
+class NearestOfMany {
+ public:
+  /// @param apart  [m]
+  explicit NearestOfMany(double apart) : apart_(apart) {}
+
+  template <class IsOutermost>
+  void add(const Contact& contact, const IsOutermost& is_outermost) {
+    const Vector3d& n = *contact.n_AB_W;
+    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
+    for (int k = 0; k < 3; ++k) {
+      const double counted = std::floor(contact.p_WA[k] / apart_);
+      key[static_cast<std::size_t>(k)] =
+          static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kFarthest), kFarthest));
+    }
+    const auto [found, is_new] = nearest_.try_emplace(key, nullptr);
+    const Contact*& nearest = found->second;
+    if ((nearest == nullptr || contact.distance < nearest->distance) && is_outermost(contact)) {
+      nearest = &contact;
+    }
+  }
+
+  /// In the order of the list that they are from.
+  [[nodiscard]] std::vector<const Contact*> take() const {
+    std::vector<const Contact*> all;
+    for (const auto& [cell, nearest] : nearest_) {
+      if (nearest != nullptr) {
+        all.push_back(nearest);
+      }
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+ private:
+  static constexpr double kFarthest = 0x1p52;  // Cells beyond are one.
+
+  /// Where, and the octant of the normal.
+  using Cell = std::array<std::int64_t, 4>;
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      std::uint64_t hash = 0;
+      for (const std::int64_t k : cell) {
+        hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
+  double apart_;
+  std::unordered_map<Cell, const Contact*, Hash> nearest_;
+};
+
 /// Features that meet in one place, as the corner of one face and an edge of it, say the same: of
 /// them the nearest.
 void keep_once(double size, std::vector<Touch>& touches) {
@@ -118,6 +183,23 @@ void keep_once(double size, std::vector<Touch>& touches) {
   touches = std::move(kept);
 }
 
+std::vector<Touch> touches_among_many(const World& world, const BodyPair& bodies,
+                                      const std::array<Pose, 2>& poses, double margin,
+                                      const std::vector<Contact>& contacts) {
+  NearestOfMany nearest(kBeside * smaller_reach(world, bodies));
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W) {
+      nearest.add(contact,
+                  [&](const Contact& of) { return is_outermost(world, bodies, poses, of); });
+    }
+  }
+  std::vector<Touch> touches;
+  for (const Contact* contact : nearest.take()) {
+    touches.push_back(make_touch(bodies, margin, *contact));
+  }
+  return touches;
+}
+
 }  // namespace
 
 bool same_features(const Touch& x, const Touch& y) {
@@ -128,6 +210,12 @@ bool same_features(const Touch& x, const Touch& y) {
 std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,
                                  const std::vector<Contact>& contacts) {
+  if (contacts.size() > kMany) {
+    std::vector<Touch> few = touches_among_many(world, bodies, poses, margin, contacts);
+    if (!few.empty()) {
+      return few;
+    }
+  }
   std::vector<Touch> outermost;
   std::vector<Touch> all;
   for (const Contact& contact : contacts) {
@@ -151,7 +239,8 @@ Manifold find_manifold(const World& world, const BodyPair& bodies, const std::ar
   const Motion B = Motion::fixed(poses[1]);
   std::vector<Contact> contacts;
   close_features({world.bodies[bodies[0]].shape, A}, {world.bodies[bodies[1]].shape, B}, 0.0,
-                 margin + world.distances.band, workspace, contacts);
+                 margin + world.distances.band, workspace, contacts,
+                 kBeside * smaller_reach(world, bodies));
   for (const Contact& contact : contacts) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }
