@@ -82,6 +82,28 @@ TEST(Rest, IsNotWhatSlidesOrFloats) {
   EXPECT_EQ(floating.states()[0].v_WC.x(), 1e-10);
 }
 
+// However weak gravity is, and however little it adds in a step.
+TEST(Rest, IsNotWhatHardlyBeginsToMove) {
+  const std::string crate =
+      body("floor", box("[9, 9, 1]"), "[0, 0, -0.5]") + "," + block("a", 0.1001);
+  Simulator weak = simulator(crate, settings(0.01, 0.0, 1e-4) + R"(, "gravity": [2e-7, 0, -1e-6])");
+  EXPECT_EQ(first_rest(run(weak, 50), 1), 50);
+  EXPECT_NEAR(weak.states()[1].v_WC.x(), 50 * 0.01 * 2e-7, 1e-12);
+  Simulator brief =
+      simulator(crate, settings(1e-7, 0.0, 1e-4) + R"(, "gravity": [0.03, 0, -9.81])");
+  EXPECT_EQ(first_rest(run(brief, 20), 1), 20);
+}
+
+// It would begin to rest anew in each step, and lag behind.
+TEST(Rest, IsNotWhatASlowBeltCarries) {
+  const std::string belt =
+      R"({"name": "belt", "shape": {"box": {"size": [9, 9, 1]}}, "motion": {"type": "waypoints",
+      "times": [0, 1], "poses": [{"position": [0, 0, -0.5]}, {"position": [1e-7, 0, -0.5]}]}})";
+  Simulator s = simulator(belt + "," + block("a", 0.1001), kSettings + R"(, "duration": 1)");
+  EXPECT_EQ(first_rest(run(s, 100), 1), 100);
+  EXPECT_NEAR(s.states()[1].v_WC.x(), 1e-7, 5e-9);
+}
+
 TEST(Rest, EndsWhereAForceBegins) {
   Simulator s = simulator(
       kFloor + "," +

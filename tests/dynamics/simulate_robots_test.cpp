@@ -93,6 +93,25 @@ constexpr double kMoment = 0.001 + 1.0 * 0.25 * 0.25;  // [kg m^2]  About the hi
 
 double energy(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
 
+// As exactly with many links as with few.
+TEST_F(SimulateRobots, LongArmFollowsItsMotors) {
+  constexpr int kJoints = 8;
+  std::string urdf = "<robot name=\"arm\">" + link("link 0", 5.0, "0 0 0", "");
+  for (int k = 1; k <= kJoints; ++k) {
+    const std::string name = "link " + std::to_string(k);
+    urdf += link(name, 1.0 + k % 3, "0.15 0 0", R"(<box size="0.2 0.05 0.05"/>)");
+    urdf += joint("joint " + std::to_string(k), "continuous", "link " + std::to_string(k - 1), name,
+                  k % 2 == 1 ? "0 1 0" : "0 0 1", k == 1 ? "0 0 0" : "0.3 0 0");
+  }
+  Simulator s = simulator(
+      scene(urdf + "</robot>", R"("dynamics": {"base": "fixed", "motors": {"*": {"velocity": 1}}})",
+            "", R"("step": 0.005)"));
+  run(s, 10);
+  for (const double velocity : s.robot_states()[0].velocities) {
+    EXPECT_NEAR(velocity, 1.0, 2e-3);  // But for how they are carried along.
+  }
+}
+
 TEST_F(SimulateRobots, APendulumKeepsItsEnergyAndItsLinksTogether) {
   const std::string text =
       scene(kPendulum, R"("state": {"hinge": 1.5}, "dynamics": {})", "", R"("step": 0.005)");

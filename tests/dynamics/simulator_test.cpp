@@ -389,5 +389,26 @@ TEST(Simulator, RestsNearTheContactDistance) {
   }
 }
 
+// However many they are: what a script gives is no error of the solver.
+TEST(Simulator, ScriptThrowsARowOfBoxesAtTwiceItsSpeed) {
+  for (const int count : {4, 7, 12}) {
+    std::string bodies =
+        R"({"name": "paddle", "shape": {"box": {"size": [0.2, 9, 9]}}, "surface": {"restitution": 1},
+        "motion": {"type": "waypoints", "times": [0, 1],
+                   "poses": [{"position": [-0.5, 0, 0]}, {"position": [9.5, 0, 0]}]}})";
+    for (int k = 0; k < count; ++k) {
+      bodies +=
+          "," + body("box " + std::to_string(k), box("[0.3, 0.3, 0.3]"),
+                     numbers({0.3011 * k, 0.02 * ((k * 7) % 5 - 2), 0.03 * ((k * 5) % 4)}),
+                     R"(, "dynamics": {"density": )" + std::to_string(500 * (1 + k % 3)) + "}");
+    }
+    Simulator s = simulator(bodies, settings(0.005, 0.3, 1e-3) + R"(, "duration": 1)");
+    run(s, 20);
+    for (int k = 1; k <= count; ++k) {
+      EXPECT_NEAR(s.states()[static_cast<std::size_t>(k)].v_WC.x(), 20.0, 0.2) << count << " " << k;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace firstcontact

@@ -1,5 +1,6 @@
 // The search in windows of time, which serves bodies that stay close for long: an M16 nut that is
-// turned by a sixteenth of a turn on its bolt. Its threads are 0.1 mm apart all the while.
+// turned by a sixteenth of a turn on its bolt. Its threads are 0.1 mm apart all the while. The bolt
+// turns a little, too: threads that glide on a body at rest need no windows.
 
 #include <cmath>
 #include <cstdint>
@@ -22,6 +23,7 @@ using Eigen::Vector3d;
 constexpr double kTurn = -std::numbers::pi / 8.0;                       // [rad]
 constexpr double kRightWay = 0.002 * kTurn / (2.0 * std::numbers::pi);  // [m]  The pitch is 2 mm.
 constexpr double kWrongWay = 2.4 * kRightWay;
+constexpr double kAlong = kTurn / 64.0;        // [rad]  Of the bolt.
 constexpr std::uint64_t kPatience = 1u << 17;  // Work after which the search begins a new window.
 constexpr int kSamples = 20;
 
@@ -30,9 +32,14 @@ Shape part(const std::string& name) {
   return Shape(read_mesh(data / "factory" / name));
 }
 
-Motion screwed(double way) {
-  return Motion::screw({.position = {0.0, 0.0, 0.012}}, Vector3d::Zero(), Vector3d::UnitZ(), kTurn,
-                       way);
+/// @param way  [m]  relative to the bolt, as it turns by kTurn
+Motion screwed(double way, double along = kAlong) {
+  return Motion::screw({.position = {0.0, 0.0, 0.012}}, Vector3d::Zero(), Vector3d::UnitZ(),
+                       kTurn + along, way + kRightWay * along / kTurn);
+}
+
+Motion turned_along() {
+  return Motion::screw({}, Vector3d::Zero(), Vector3d::UnitZ(), kAlong, kRightWay * kAlong / kTurn);
 }
 
 /// The same as waypoints, so near each other that none of the pieces needs a second window.
@@ -51,15 +58,15 @@ Motion screwed_by_pieces(double way) {
 class SearchWindows : public testing::Test {
  protected:
   FirstContactResult turn(const Motion& motion) {
-    return first_contact({nut_, motion}, {bolt_, rest_}, workspace_, options_);
+    return first_contact({nut_, motion}, {bolt_, bolt_motion_}, workspace_, options_);
   }
   double gap(const Motion& motion, double t) {
-    return distance({nut_, motion}, {bolt_, rest_}, t, workspace_).distance;
+    return distance({nut_, motion}, {bolt_, bolt_motion_}, t, workspace_).distance;
   }
 
   Shape nut_ = part("factory_nut_m16_loose_subdiv_3x.obj");
   Shape bolt_ = part("factory_bolt_m16_loose.obj");
-  Motion rest_ = Motion::fixed();
+  Motion bolt_motion_ = turned_along();
   FirstContactOptions options_;
   Workspace workspace_;
 };
@@ -91,6 +98,21 @@ TEST_F(SearchWindows, AgreeWithASearchByPieces) {
   ASSERT_EQ(pieces.verdict, Verdict::contact);
   const double closing = std::cos(std::numbers::pi / 6.0) * (kRightWay - kWrongWay);
   EXPECT_NEAR(pieces.t, whole.t, options_.tolerance / closing);
+}
+
+// A law: only the motion of one body against the other matters.
+TEST_F(SearchWindows, AgreeWithGliding) {
+  const FirstContactResult free = turn(screwed(kRightWay));
+  const FirstContactResult contact = turn(screwed(kWrongWay));
+  bolt_motion_ = Motion::fixed();
+  const FirstContactResult gliding = turn(screwed(kRightWay, 0.0));
+  EXPECT_EQ(gliding.verdict, free.verdict);
+  EXPECT_LT(gliding.work.node_groups + gliding.work.steps, kPatience / 64);
+  const FirstContactResult ahead = turn(screwed(kWrongWay, 0.0));
+  EXPECT_EQ(ahead.verdict, contact.verdict);
+  const double closing = std::cos(std::numbers::pi / 6.0) * (kRightWay - kWrongWay);
+  EXPECT_NEAR(ahead.t, contact.t, options_.tolerance / closing);
+  EXPECT_LT(ahead.work.node_groups + ahead.work.steps, kPatience / 4);
 }
 
 }  // namespace

@@ -88,12 +88,12 @@ struct ProjectionOptions {
   ProjectionSpace space = ProjectionSpace::automatic;
   double of_hits = 0.0;  ///< [-]  Part of the residual of the guesses that may be left where that
                          ///< is beyond `hit`; >= 0.
-  double hit = 0.0;     ///< [m/s]  >= 0.
-  double enough = 0.0;  ///< [m/s]  A residual that sweeps may leave where an interior point would
-                        ///< come next, and a fifth of it where more of them hardly help (if that
-                        ///< is more than ten tolerances); >= 0.
-  int sweeps = 200;     ///< At most, of all contacts in contact space; > 0.
-  int rounds = 12;      ///< At most, of the interior point; > 0.
+  double hit = 0.0;      ///< [m/s]  >= 0.
+  double enough = 0.0;   ///< [m/s]  A residual that sweeps may leave where an interior point would
+                         ///< come next, and half of it where more of them hardly help (if that is
+                         ///< more than ten tolerances) or the guesses leave ten times it; >= 0.
+  int sweeps = 200;      ///< At most, of all contacts in contact space; > 0.
+  int rounds = 12;       ///< At most, of the interior point; > 0.
 };
 
 struct ContactSolution {
@@ -102,7 +102,9 @@ struct ContactSolution {
       {};                                      ///< [rad/s or m/s]  Likewise, of their coordinates.
   std::vector<Eigen::Vector3d> impulses = {};  ///< [N s]  r of each contact, in its frame.
   std::vector<double> drives = {};             ///< [N m s or N s]  r of each drive.
-  double residual = 0.0;  ///< [m/s]  See contact_residual(); above the tolerance: not converged.
+  double residual = 0.0;  ///< [m/s]  See contact_residual(); above `allowed`: not converged.
+  double allowed = 0.0;   ///< [m/s]  What the options let a residual be, `of_hits` and `enough`
+                          ///< included.
   ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
   int iterations = 0;                                ///< Sweeps and factorisations.
 };

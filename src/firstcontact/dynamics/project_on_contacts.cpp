@@ -172,7 +172,9 @@ class Solver {
 
   [[nodiscard]] ContactSolution solution(const Projection& projection,
                                          ProjectionSpace space) const {
-    return detail::solution_of(problem_, rows_, projection, space);
+    ContactSolution found = detail::solution_of(problem_, rows_, projection, space);
+    found.allowed = std::max(options_.tolerance, options_.enough);
+    return found;
   }
 
   /// Sweeps over the contacts, where that may be enough. Whether it is all that is to be done.

@@ -66,8 +66,8 @@ constexpr std::ptrdiff_t kManyOfPair = 100;
 std::vector<RunContact> without_idle(const std::vector<RunContact>& contacts) {
   std::vector<RunContact> kept;
   for (auto first = contacts.begin(); first != contacts.end();) {
-    const auto end = std::find_if(
-        first, contacts.end(), [&](const RunContact& c) { return c.bodies != first->bodies; });
+    const auto end = std::find_if(first, contacts.end(),
+                                  [&](const RunContact& c) { return c.bodies != first->bodies; });
     const bool are_many = end - first > kManyOfPair;
     std::copy_if(first, end, std::back_inserter(kept), [&](const RunContact& contact) {
       return !are_many || !contact.impulse.isZero(0.0);

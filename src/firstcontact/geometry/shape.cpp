@@ -6,12 +6,14 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <firstcontact/geometry/detail/vertex_components.h>
+#include <firstcontact/geometry/glide_bounds.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/math/double_double.h>
 
@@ -194,6 +196,24 @@ struct LazyFeatures {
   FeatureTable table;
 };
 
+struct LazyGlide {
+  std::once_flag found;
+  std::optional<GlidingSurface> surface;
+};
+
+std::optional<GlidingSurface> find_gliding(const Hierarchy& hierarchy) {
+  const std::optional<Glide> glide = find_glide(hierarchy);
+  if (!glide) {
+    return std::nullopt;
+  }
+  GlidingSurface surface{.glide = *glide, .order = order_along(*glide, hierarchy), .bounds = {}};
+  const Eigen::Vector3d p_SB = -(glide->R_SB * glide->p_BS);
+  bound_glide(*glide, hierarchy, surface.order, {{glide->R_SB, glide->R_SB}, {p_SB, p_SB}}, false,
+              surface.bounds);
+  surface.bounds.release_vertices();
+  return surface;
+}
+
 }  // namespace
 
 struct Shape::Data {
@@ -206,6 +226,7 @@ struct Shape::Data {
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
+  std::shared_ptr<LazyGlide> gliding = std::make_shared<LazyGlide>();
   std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();  // At all times.
 };
 
@@ -256,6 +277,7 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
   data->hierarchy = deforming_hierarchy(rest, std::move(relative));
   data->hash = hash;
   data->bounds = std::make_shared<LazyBounds>();
+  data->gliding = std::make_shared<LazyGlide>();
   Shape shape = *this;
   shape.data_ = std::move(data);
   return shape;
@@ -312,6 +334,13 @@ const ShapeBounds& Shape::bounds() const {
   std::call_once(data_->bounds->found,
                  [&] { data_->bounds->bounds = shape_bounds(data_->hierarchy); });
   return data_->bounds->bounds;
+}
+
+const GlidingSurface* Shape::gliding() const {
+  assert(!data_->hierarchy.deforms());
+  std::call_once(data_->gliding->found,
+                 [&] { data_->gliding->surface = find_gliding(data_->hierarchy); });
+  return data_->gliding->surface ? &*data_->gliding->surface : nullptr;
 }
 
 int Shape::compare(const Shape& other) const {

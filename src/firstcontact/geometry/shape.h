@@ -17,6 +17,8 @@
 
 namespace firstcontact {
 
+struct GlidingSurface;
+
 /// Whether the space that a closed mesh encloses belongs to the shape.
 enum class Filling { surface, solid };
 
@@ -88,6 +90,10 @@ class FIRSTCONTACT_API Shape {
   /// A box and a polytope around the triangles, found when they are first asked for. Of a shape
   /// that does not deform.
   [[nodiscard]] const ShapeBounds& bounds() const;
+
+  /// The screw along which the surface glides on itself, and its bounds there; null where there is
+  /// none. Found when it is first asked for. Of a shape that does not deform.
+  [[nodiscard]] const GlidingSurface* gliding() const;
 
   /// A total order by content (up to hash collisions), so that queries can put two bodies in an
   /// order of their own and answer alike for A and B swapped. Negative, zero or positive.

@@ -20,16 +20,23 @@ void require(bool condition, const char* what, double value) {
   }
 }
 
-void require_band(double band) {
+void require_band(double band, double beside) {
   require(band >= 0.0 && std::isfinite(band), "band must be finite and >= 0", band);
+  require(beside >= 0.0 && std::isfinite(beside), "beside must be finite and >= 0", beside);
 }
 
+/// How close, and which of many.
+struct Asked {
+  double band;    // [m]
+  double beside;  // [m]
+};
+
 /// @param motion  of the centres, entered at t
-void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, double band,
+void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t, const Asked& asked,
              Workspace& workspace, std::vector<Contact>& contacts) {
   const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
-  const detail::ContactFrame frame{A, B, pair, t, motion.origin(t)};
-  detail::collect_contacts(frame, A.radius() + B.radius() + band, workspace.data(), contacts);
+  const detail::ContactFrame frame{A, B, pair, t, motion.origin(t), asked.beside};
+  detail::collect_contacts(frame, A.radius() + B.radius() + asked.band, workspace.data(), contacts);
 }
 
 /// Calls collect(first, second) in the order of the bodies' content.
@@ -50,31 +57,32 @@ void collect_in_order(const Body& A, const Body& B, bool in_order, std::vector<C
 }  // namespace
 
 void close_features(const MovingShape& A, const MovingShape& B, double t, double band,
-                    Workspace& workspace, std::vector<Contact>& contacts) {
+                    Workspace& workspace, std::vector<Contact>& contacts, double beside) {
   require(t >= 0.0 && t <= 1.0, "t must lie in [0, 1]", t);
-  require_band(band);
+  require_band(band, beside);
   const FloatEnvironmentGuard guard;
-  collect_in_order(A, B, detail::in_order(A, B), contacts,
-                   [&](const MovingShape& first, const MovingShape& second) {
-                     const double resolution =
-                         1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
-                     ConstantRatePair motion = detail::motion_of(first, second, resolution);
-                     motion.enter(t);
-                     collect(first.shape, second.shape, motion, t, band, workspace, contacts);
-                   });
+  collect_in_order(
+      A, B, detail::in_order(A, B), contacts,
+      [&](const MovingShape& first, const MovingShape& second) {
+        const double resolution =
+            1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
+        ConstantRatePair motion = detail::motion_of(first, second, resolution);
+        motion.enter(t);
+        collect(first.shape, second.shape, motion, t, {band, beside}, workspace, contacts);
+      });
 }
 
 void close_features(const PlacedShape& A, const PlacedShape& B, double band, Workspace& workspace,
-                    std::vector<Contact>& contacts) {
-  require_band(band);
+                    std::vector<Contact>& contacts, double beside) {
+  require_band(band, beside);
   assert(!A.shape().hierarchy().deforms() && !B.shape().hierarchy().deforms());
   const FloatEnvironmentGuard guard;
   const bool in_order = detail::in_order({A.shape(), A.motion()}, {B.shape(), B.motion()});
-  collect_in_order(A, B, in_order, contacts,
-                   [&](const PlacedShape& first, const PlacedShape& second) {
-                     const detail::RestingPair motion(first.path(), second.path());
-                     collect(first.shape(), second.shape(), motion, 0.0, band, workspace, contacts);
-                   });
+  collect_in_order(
+      A, B, in_order, contacts, [&](const PlacedShape& first, const PlacedShape& second) {
+        const detail::RestingPair motion(first.path(), second.path());
+        collect(first.shape(), second.shape(), motion, 0.0, {band, beside}, workspace, contacts);
+      });
 }
 
 }  // namespace firstcontact

@@ -16,19 +16,26 @@ namespace firstcontact {
 /// Complete but for pairs whose distance differs from the band by less than the rounding error.
 /// Only surfaces count: what lies inside a solid without being near its surface is not listed.
 ///
+/// Surfaces that glide on each other, as a thread in its nut, may have very many; who needs but a
+/// few of them, and the nearest, says so.
+///
 /// @param t     [-]  in [0, 1]
 /// @param band  [m]  finite, >= 0; radii are included in distances
-/// @throws std::invalid_argument if t or the band is outside its range.
+/// @param beside  [m]  >= 0; 0 asks for all. Else of very many pairs that are nearer to each other
+///              than about this and face alike, only the nearest may be listed
+/// @throws std::invalid_argument if t, the band or `beside` is outside its range.
 FIRSTCONTACT_API void close_features(const MovingShape& A, const MovingShape& B, double t,
                                      double band, Workspace& workspace,
-                                     std::vector<Contact>& contacts);
+                                     std::vector<Contact>& contacts, double beside = 0.0);
 
 /// The same of two shapes at rest, to the last bit.
 ///
-/// @param A,B   that do not deform
-/// @param band  [m]  finite, >= 0; radii are included in distances
-/// @throws std::invalid_argument if the band is outside its range.
+/// @param A,B     that do not deform
+/// @param band    [m]  finite, >= 0; radii are included in distances
+/// @param beside  [m]  finite, >= 0; as above
+/// @throws std::invalid_argument if the band or `beside` is outside its range.
 FIRSTCONTACT_API void close_features(const PlacedShape& A, const PlacedShape& B, double band,
-                                     Workspace& workspace, std::vector<Contact>& contacts);
+                                     Workspace& workspace, std::vector<Contact>& contacts,
+                                     double beside = 0.0);
 
 }  // namespace firstcontact

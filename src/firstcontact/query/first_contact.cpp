@@ -110,8 +110,14 @@ bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Relative
   result.tolerance_used =
       std::max(result.tolerance_used,
                resolvable_distance(pair, motion.state(part.begin), options.margin + radii));
-  const detail::SearchLimits limits{options.margin + radii, radii, result.tolerance_used,
-                                    options.start_contacts, start, options.budget};
+  const detail::SearchLimits limits{.margin = options.margin + radii,
+                                    .radii = radii,
+                                    .tolerance = result.tolerance_used,
+                                    .start_contacts = options.start_contacts,
+                                    .start = start,
+                                    .budget = options.budget,
+                                    .A = &A,
+                                    .B = &B};
   const detail::PieceResult found = search(pair, part, limits, workspace, result);
   result.t = found.t;
   if (found.contact) {

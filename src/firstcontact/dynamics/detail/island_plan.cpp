@@ -160,9 +160,7 @@ void IslandPlanner::solve() {
 Plan IslandPlanner::plan() {
   solve();
   const ContactSolution& solution = last_->velocities;
-  Plan made{.at_end = solution.bodies,
-            .residual = solution.residual,
-            .tolerance = projection_options(state_, problem_).tolerance};
+  Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
   set_moves(by_end, made);
@@ -283,7 +281,10 @@ ContactSolution IslandPlanner::find_push() {
     mechanism.velocity.setZero();
   }
   if (problem.mechanisms.empty()) {  // Most have room: only those around move.
-    ContactSolution around = project_again(problem, {.bodies = problem.bodies}, too_near, options);
+    ProjectionOptions around_options = options;
+    around_options.sweeps = kPushSweepsAround;
+    ContactSolution around =
+        project_again(problem, {.bodies = problem.bodies}, too_near, around_options);
     if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
       return around;
     }

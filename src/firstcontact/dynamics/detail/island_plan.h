@@ -28,8 +28,7 @@ struct Plan {
   /// that what contacts do to its energy now is what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
-  double residual = 0.0;   ///< [m/s]
-  double tolerance = 0.0;  ///< [m/s]  That was asked for.
+  double residual = 0.0;  ///< [m/s]
 };
 
 /// Makes plans from where an island is now, each with more or tighter constraints than the one

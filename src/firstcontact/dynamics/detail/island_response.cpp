@@ -16,7 +16,7 @@ constexpr double kTolerance = 3e-7;
 constexpr double kHeapTolerance = 1e-3;
 constexpr std::size_t kHeap = 120;       // Contacts.
 constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
-constexpr std::size_t kManyContacts = 300;
+constexpr std::size_t kManyContacts = 1000;
 
 /// Where several bodies are hit, to this part of what that asks for: weight alone asks for what
 /// gravity adds, and at rest for next to nothing beyond the step before.
@@ -84,8 +84,9 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const bool is_solved = solution.residual <= std::max(of_gravity(state, kUnsolved),
-                                                       kUnsolvedOfSpeed * fastest(solution));
+  const double left = state.robots.empty() ? solution.allowed : 0.0;
+  const bool is_solved = solution.residual <= std::max({left, of_gravity(state, kUnsolved),
+                                                        kUnsolvedOfSpeed * fastest(solution)});
   if (is_solved && state.robots.has_motors()) {
     return false;
   }
@@ -125,6 +126,8 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 
 }  // namespace
 
+double exact_tolerance(const IslandState& state) { return of_gravity(state, kTolerance); }
+
 bool is_heap(const IslandState& state, const ContactProblem& problem) {
   return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
 }
@@ -139,17 +142,25 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
   if (problem.contacts.size() >= kManyContacts) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = of_gravity(state, kTolerance),
-          .of_hits = state.size() >= kSeveralBodies ? kPartOfHits : 0.0,
-          .hit = of_gravity(state, kHit),
-          .rounds = kRoundsOfMany};
+  return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
+}
+
+/// Free bodies that are hit within a plan need not be solved as exactly as those that an impact
+/// parts.
+ProjectionOptions plan_options(const IslandState& state, const ContactProblem& problem) {
+  ProjectionOptions options = projection_options(state, problem);
+  if (state.size() >= kSeveralBodies && state.robots.empty() && !state.world.gravity.isZero(0.0)) {
+    options.of_hits = kPartOfHits;
+    options.hit = of_gravity(state, kHit);
+  }
+  return options;
 }
 
 PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
   if (problem.contacts.empty() && problem.drives.empty()) {
     return {unchanged(problem)};
   }
-  PlanSolution plan{project_on_contacts(problem, projection_options(state, problem))};
+  PlanSolution plan{project_on_contacts(problem, plan_options(state, problem))};
   plan.is_limited = limit_energy(state, problem, plan.velocities);
   return plan;
 }

@@ -14,6 +14,9 @@ namespace firstcontact::detail {
 /// Whether many bodies touch at many places: such problems are solved less exactly.
 [[nodiscard]] bool is_heap(const IslandState& state, const ContactProblem& problem);
 
+/// [m/s]  To which problems of few contacts are solved.
+[[nodiscard]] double exact_tolerance(const IslandState& state);
+
 /// How exactly problems of an island are solved: to a part of what gravity adds in a step.
 [[nodiscard]] ProjectionOptions projection_options(const IslandState& state,
                                                    const ContactProblem& problem);

@@ -215,7 +215,9 @@ ContactSolution project_again(const ContactProblem& problem, const ContactSoluti
   Neighbourhood around(problem, before);
   around.balance(changed);
   around.solve(changed, options);
-  return around.solution();
+  ContactSolution solution = around.solution();
+  solution.allowed = before.allowed;
+  return solution;
 }
 
 }  // namespace firstcontact::detail

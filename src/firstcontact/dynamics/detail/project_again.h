@@ -21,7 +21,7 @@ namespace firstcontact::detail {
 /// @param before   the solution before: velocities of the first bodies of the problem, and the
 ///                 residual of contacts that did not change
 /// @param changed  contacts
-/// @returns  the residual is no less than that of any contact
+/// @returns  the residual is no less than that of any contact; what is allowed is as it was before
 [[nodiscard]] ContactSolution project_again(const ContactProblem& problem,
                                             const ContactSolution& before,
                                             const std::vector<std::size_t>& changed,

@@ -11,8 +11,10 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// Of the tolerance of contact problems: so fast may the points of bodies at rest seem to be.
-constexpr double kSeeming = 4.0;
+/// So fast may the points of bodies at rest seem to be: of the tolerance of exact solutions, and of
+/// what gravity adds in a step, whichever is less. Nothing else tells them from what sets off.
+constexpr double kOfTolerance = 100.0;
+constexpr double kOfGravity = 3e-5;
 
 /// [m/s]  No point of the body is faster.
 double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w) {
@@ -43,30 +45,31 @@ bool changes(const TimedForce& force, const StepStart& start) {
 
 bool moves(const Move& move) { return move.translation.any() || move.rotation_vector.any(); }
 
-/// Whether anything scripted that moves in the step may get near the member.
-bool is_disturbed(const StepContext& step, std::size_t member) {
-  const World& world = step.world;
+/// Whether anything scripted that moves in the step may get near the body.
+bool is_disturbed(const World& world, const StepStart& start, const Surroundings& around,
+                  std::size_t body) {
   const double reach = world.distances.band + world.laws.greatest_margin();
   const AlignedBox3d box =
-      widened(swept_box(world.bodies[member], step.start.states[member].X_WB, {}), reach);
+      widened(swept_box(world.bodies[body], start.states[body].X_WB, {}), reach);
   bool found = false;
-  step.around.for_each_overlap(
-      box, [&](std::size_t b) { found = found || moves(step.start.scripted[b]); });
+  around.for_each_overlap(box, [&](std::size_t b) { found = found || moves(start.scripted[b]); });
   return found;
 }
 
 }  // namespace
 
 bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
-  if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= plan.tolerance)) {
+  const double seeming = std::min(kOfTolerance * exact_tolerance(state),
+                                  kOfGravity * state.world.gravity.norm() * state.start.h);
+  if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
   }
-  const double seeming = kSeeming * plan.tolerance;
   for (std::size_t k = 0; k < state.size(); ++k) {
     const SimBody& body = state.member(k);
     const RigidState& begin = state.start.states[state.members[k]];
     if (!(greatest_speed(body, begin.v_WC, begin.w_WB) <= seeming) ||
-        !(greatest_speed(body, plan.at_end[k].v, plan.at_end[k].w) <= seeming)) {
+        !(greatest_speed(body, plan.at_end[k].v, plan.at_end[k].w) <= seeming) ||
+        is_disturbed(state.world, state.start, state.around, state.members[k])) {
       return false;
     }
   }
@@ -78,7 +81,7 @@ bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& memb
     return step.start.rests[b] &&
            std::ranges::none_of(step.world.bodies[b].forces,
                                 [&](const auto& force) { return changes(force, step.start); }) &&
-           !is_disturbed(step, b);
+           !is_disturbed(step.world, step.start, step.around, b);
   });
 }
 

@@ -12,9 +12,11 @@
 
 namespace firstcontact::detail {
 
-/// Whether bodies that a plan moves over the whole step are held where they are: contacts carry
-/// each of them, and before and after it is no faster than a few times what is left of the laws
-/// anyway. So is at rest what would only gather speed by some 1e-6 of gravity (in heaps 4e-3).
+/// Whether bodies that a plan moves over the whole step are held where they are: a contact presses
+/// each of them, nothing scripted moves beside them, and before and after it none is faster than a
+/// little more than what exact solutions leave, 3e-5 of what gravity adds in a step at most. What
+/// gathers speed more slowly than that is at rest, too; without gravity nothing is. Heaps, which
+/// are solved less exactly, hardly ever get there.
 [[nodiscard]] bool comes_to_rest(const IslandState& state, const Plan& plan,
                                  const std::vector<Touch>& touches);
 

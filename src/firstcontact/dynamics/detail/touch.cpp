@@ -1,8 +1,12 @@
 #include <firstcontact/dynamics/detail/touch.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -24,6 +28,10 @@ constexpr double kCloseBy = 0.01;
 
 /// Of a pair; there may be more.
 constexpr std::size_t kUsualTouches = 4;
+/// More contacts than these are very many: of those beside each other, nearer than about this part
+/// of the smaller body, the nearest counts.
+constexpr std::size_t kMany = 500;
+constexpr double kBeside = 0.1;
 
 auto features_of(const Touch& touch) {
   return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
@@ -128,6 +136,62 @@ Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) 
           .gap = contact.distance - margin};
 }
 
+/// Which of some contacts count where there are very many: of those beside each other that face
+/// alike the nearest, of bulging ones. The motion of a rigid body hardly differs between them, and
+/// where it does the next first contact tells.
+class NearestOfMany {
+ public:
+  /// @param apart  [m]
+  explicit NearestOfMany(double apart) : apart_(apart) {}
+
+  void add(const Contact& contact, const FacingBodies& facing) {
+    const Vector3d& n = *contact.n_AB_W;
+    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
+    for (int k = 0; k < 3; ++k) {
+      const double counted = std::floor(contact.p_WA[k] / apart_);
+      key[static_cast<std::size_t>(k)] =
+          static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kFarthest), kFarthest));
+    }
+    const auto [found, is_new] = nearest_.try_emplace(key, nullptr);
+    const Contact*& nearest = found->second;
+    if ((nearest == nullptr || contact.distance < nearest->distance) &&
+        facing.are_outermost(contact)) {
+      nearest = &contact;
+    }
+  }
+
+  /// In the order of the list that they are from.
+  [[nodiscard]] std::vector<const Contact*> take() const {
+    std::vector<const Contact*> all;
+    for (const auto& [cell, nearest] : nearest_) {
+      if (nearest != nullptr) {
+        all.push_back(nearest);
+      }
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+ private:
+  static constexpr double kFarthest = 0x1p52;  // Cells beyond are one.
+
+  /// Where, and the octant of the normal.
+  using Cell = std::array<std::int64_t, 4>;
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      std::uint64_t hash = 0;
+      for (const std::int64_t k : cell) {
+        hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15U;
+        hash ^= hash >> 32;
+      }
+      return static_cast<std::size_t>(hash);
+    }
+  };
+
+  double apart_;
+  std::unordered_map<Cell, const Contact*, Hash> nearest_;
+};
+
 /// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an
 /// edge of it, say the same: of them the nearest is kept.
 ///
@@ -150,6 +214,23 @@ void keep_once(const Touch& touch, double size, PlaceGrid& by_place, std::vector
   by_place.add(touch.point, same);
 }
 
+/// @param beside  [m]
+std::vector<Touch> touches_among_many(const FacingBodies& facing, const BodyPair& bodies,
+                                      double margin, const std::vector<Contact>& contacts,
+                                      double beside) {
+  NearestOfMany nearest(beside);
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W) {
+      nearest.add(contact, facing);
+    }
+  }
+  std::vector<Touch> touches;
+  for (const Contact* contact : nearest.take()) {
+    touches.push_back(make_touch(bodies, margin, *contact));
+  }
+  return touches;
+}
+
 }  // namespace
 
 bool same_features(const Touch& x, const Touch& y) {
@@ -161,6 +242,13 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,
                                  const std::vector<Contact>& contacts) {
   const FacingBodies facing(world, bodies, poses);
+  if (contacts.size() > kMany) {
+    std::vector<Touch> few = touches_among_many(facing, bodies, margin, contacts,
+                                                kBeside * smaller_reach(world, bodies));
+    if (!few.empty()) {
+      return few;
+    }
+  }
   std::vector<const Contact*> outermost;
   outermost.reserve(contacts.size());
   for (const Contact& contact : contacts) {
@@ -189,7 +277,8 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  close_features(A, B, margin + world_.distances.band, workspace_, contacts_);
+  close_features(A, B, margin + world_.distances.band, workspace_, contacts_,
+                 kBeside * smaller_reach(world_, bodies));
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }

@@ -28,7 +28,8 @@ struct Touch {
 [[nodiscard]] bool same_features(const Touch& x, const Touch& y);
 
 /// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
-/// it where none does. Contacts without normal, of surfaces that meet, are left out.
+/// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without
+/// normal, of surfaces that meet, are left out.
 ///
 /// @param margin  [m]  of the pair
 [[nodiscard]] std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,

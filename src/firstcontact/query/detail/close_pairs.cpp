@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/query/detail/glide_cover.h>
+#include <firstcontact/query/detail/nearest_pairs.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -47,6 +50,14 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
          apart_along(between, pair, kClearly * reach);
 }
 
+/// Pairs of boxes are opened so often, or triangles looked at, until surfaces may be found to
+/// glide; and so many pairs of triangles may they leave.
+constexpr std::size_t kManyOpened = 1000;
+constexpr std::size_t kMostClose = 300'000;
+
+/// More pairs of triangles than these are very many.
+constexpr std::size_t kVeryMany = 1000;
+
 /// Which features of each of two triangles are asked.
 struct AskedFeatures {
   unsigned of_A = 0x3f;
@@ -65,6 +76,33 @@ void append_pairs(const ContactFrame& frame, const TrianglePair& triangles,
   for (std::size_t k = 0; k < close.count; ++k) {
     pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
   }
+}
+
+/// Of surfaces that glide on each other, most pairs of boxes are near each other, as boxes of
+/// curved patches are thicker than the gap. False where they do not glide.
+bool find_close_by_glide(const ContactFrame& frame, const RelativeState& state, double band,
+                         double reach, WorkspaceData& workspace) {
+  const MovingPair& pair = frame.pair;
+  const std::optional<GlideCover> cover = GlideCover::of(pair, frame.A, frame.B, frame.t);
+  if (!cover || !cover->find(frame.t, reach, kMostClose, workspace)) {
+    return false;
+  }
+  std::vector<IndexPair>& left = workspace.left_by_glide;
+  const bool are_chosen = frame.beside > 0.0 && left.size() > kVeryMany;
+  if (are_chosen) {
+    keep_nearest(frame, state, reach, frame.beside, left);
+  }
+  const auto own_A = frame.A.own_features();
+  const auto own_B = frame.B.own_features();
+  workspace.close_pairs.clear();
+  for (const auto& [a, b] : left) {
+    // A feature counts once where all pairs of triangles are looked at.
+    const AskedFeatures asked = are_chosen ? AskedFeatures{} : AskedFeatures{own_A[a], own_B[b]};
+    if (asked.of_A != 0 || asked.of_B != 0) {
+      append_pairs(frame, pair.place(state, a, b), a, b, asked, band, reach, workspace.close_pairs);
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -98,7 +136,11 @@ void find_close(const ContactFrame& frame, const RelativeState& state, double ba
   const auto own_B = frame.B.own_features();
   auto& stack = workspace.stack;
   stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
+  std::size_t opened = 0;
   while (!stack.empty()) {
+    if (++opened == kManyOpened && find_close_by_glide(frame, state, band, reach, workspace)) {
+      return;
+    }
     const BoxPair top = stack.back();
     stack.pop_back();
     if (top.is_triangle_pair) {

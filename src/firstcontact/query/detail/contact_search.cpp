@@ -9,6 +9,7 @@
 
 #include <firstcontact/narrowphase/advance_deforming.h>
 #include <firstcontact/narrowphase/separating_direction.h>
+#include <firstcontact/query/detail/glide_cover.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -41,6 +42,18 @@ constexpr std::uint64_t kManyFreed = 256;
 constexpr std::uint64_t kFewRepeated = 64;
 constexpr std::uint64_t kRepeatedForOne = 4;
 
+/// After so much work, much more than most searches take, it is asked whether surfaces glide.
+constexpr std::uint64_t kLongSearch = 1000;
+
+/// Pairs of triangles that gliding may leave to be followed one by one, or else a part of the time
+/// is looked at; how much of it, and how often.
+constexpr std::size_t kMostLeftByGlide = 4000;
+constexpr double kShorterGlide = 0.25;
+constexpr double kLongerGlide = 2.0;
+constexpr int kGlideTrials = 7;
+
+constexpr std::uint32_t kNotRemembered = std::numeric_limits<std::uint32_t>::max();
+
 /// [m^2]  Of the larger triangle, roughly.
 double size2(const TrianglePair& pair) {
   return std::max((pair.A[1] - pair.A[0]).squaredNorm() + (pair.A[2] - pair.A[0]).squaredNorm(),
@@ -54,13 +67,16 @@ class Search {
       : pair_(pair),
         t_begin_(t_begin),
         t_end_(t_end),
+        t_last_(t_end),
         limits_(limits),
         queue_(workspace.queue),
         groups_(workspace.groups),
         triangle_pairs_(workspace.triangle_pairs),
         opened_(workspace.opened_pairs),
+        workspace_(workspace),
         work_(work),
         steps_before_(work.node_groups + work.steps),
+        patience_(std::min(limits.patience, kLongSearch)),
         frame_(pair.box_frame()),
         box_threshold_(box_threshold() + limits.tolerance),
         boxes_window_(pair.motion().boxes_window() * pair.unit() /
@@ -71,17 +87,24 @@ class Search {
   PieceResult run() {
     opened_.clear();
     start(t_begin_);
-    while (!queue_.empty()) {
+    while (!queue_.empty() || !is_over()) {
       if (best_.contact && queue_.top().priority() >= best_.t - stop_window_) {
         break;
       }
       if (const UndecidedReason reason = spent(); reason != UndecidedReason::none) {
         return stopped(reason);
       }
-      if (!best_.contact && steps() - steps_before_ > limits_.patience) {
-        PieceResult result = stopped(UndecidedReason::none);
-        result.impatient = true;
-        return result;
+      if (!best_.contact && steps() - steps_before_ > patience_) {
+        if (patience_ == limits_.patience) {
+          PieceResult result = stopped(UndecidedReason::none);
+          result.impatient = true;
+          return result;
+        }
+        patience_ = limits_.patience;
+        if (all_remembered_ && may_glide()) {
+          forget_opened();
+          continue;
+        }
       }
       const QueueItem item = queue_.top();
       if (!item.is_triangle_pair) {
@@ -114,10 +137,14 @@ class Search {
                : limits_.margin;
   }
 
-  void start(double t) {
+  void clear_queue() {
     queue_.clear();
     groups_.clear();
     triangle_pairs_.clear();
+  }
+
+  void start(double t) {
+    clear_queue();
     bound(new_group(t, root(pair_.A()), root(pair_.B()), 0));
   }
 
@@ -127,7 +154,63 @@ class Search {
     all_remembered_ = false;
     box_threshold_ = box_threshold();
     frame_t_ = std::numeric_limits<double>::quiet_NaN();  // The frame holds the threshold.
-    start(proven_free());
+    const double t = proven_free();
+    if (!glide_on(t)) {
+      start(t);
+    }
+  }
+
+  [[nodiscard]] bool may_glide() const {
+    return limits_.A != nullptr &&
+           GlideCover::of(pair_, *limits_.A, *limits_.B, proven_free()).has_value();
+  }
+
+  /// Goes on from t with the pairs of triangles that are not proven apart by their surfaces'
+  /// gliding, for as long as these are few. False if they are not, or nothing glides.
+  [[nodiscard]] bool glide_on(double t) {
+    if (limits_.A == nullptr || best_.contact) {
+      return false;
+    }
+    const std::optional<GlideCover> cover = GlideCover::of(pair_, *limits_.A, *limits_.B, t);
+    if (!cover) {
+      return false;
+    }
+    t_end_ = std::min(t_last_, t + glide_width_);
+    for (int trial = 0; trial < kGlideTrials; ++trial) {
+      if (cover->find(t_end_, box_threshold_, kMostLeftByGlide, workspace_)) {
+        glide_width_ = kLongerGlide * (t_end_ - t);
+        follow_left(t);
+        return true;
+      }
+      t_end_ = t + kShorterGlide * (t_end_ - t);
+    }
+    t_end_ = t_last_;
+    return false;
+  }
+
+  /// Starts with the pairs that gliding left.
+  void follow_left(double t) {
+    clear_queue();
+    for (const IndexPair& left : workspace_.left_by_glide) {
+      TriangleEntry entry;
+      entry.key = t;
+      entry.threshold = limits_.margin;
+      entry.a = left.a;
+      entry.b = left.b;
+      entry.opened = kNotRemembered;
+      push_triangles(entry);
+    }
+  }
+
+  /// Whether nothing is left, in windows after this one neither.
+  [[nodiscard]] bool is_over() {
+    while (queue_.empty() && !best_.contact && t_end_ < t_last_) {
+      const double t = t_end_;
+      if (!glide_on(t)) {
+        start(t);
+      }
+    }
+    return queue_.empty();
   }
 
   void push_triangles(const TriangleEntry& entry) {
@@ -599,15 +682,19 @@ class Search {
 
   const MovingPair& pair_;
   double t_begin_;
-  double t_end_;
+  double t_end_;  // Of the window that is searched.
+  double t_last_;
   const SearchLimits& limits_;
   SearchQueue& queue_;
   Pool<BoxGroup>& groups_;
   Pool<TriangleEntry>& triangle_pairs_;
   std::vector<OpenedPair>& opened_;
+  WorkspaceData& workspace_;
   WorkCount& work_;
   std::uint64_t steps_before_;
-  double state_t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next two.
+  std::uint64_t patience_;  // Work until something is done about it.
+  double glide_width_ = std::numeric_limits<double>::infinity();  // Of the next window.
+  double state_t_ = std::numeric_limits<double>::quiet_NaN();     // Of the next two.
   RelativeState state_;
   double error_ = 0.0;
   double frame_t_ = std::numeric_limits<double>::quiet_NaN();

@@ -32,6 +32,8 @@ struct SearchLimits {
   const RelativeState& start;  ///< At t = 0, where start distances are taken.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
+  const Shape* A = nullptr;  ///< Of the pair, where it may be asked whether one glides.
+  const Shape* B = nullptr;
 };
 
 /// Searches [t_begin, t_end].
@@ -40,6 +42,9 @@ struct SearchLimits {
 /// a pair of boxes around it, whose key is proven to be no later than the pair's first contact. The
 /// least key is hence never later than the first contact of the shapes. Keys of nearly tied pairs
 /// are lowered a little with each level of the hierarchies, so that ties are searched depth-first.
+///
+/// Where very many pairs are near each other as surfaces glide, most are proven apart by that
+/// (glide_cover.h), window by window.
 PieceResult search_piece(const MovingPair& pair, double t_begin, double t_end,
                          const SearchLimits& limits, WorkspaceData& workspace, WorkCount& work);
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/geometry/glide_bounds.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/detail/box_pairs.h>
@@ -42,6 +43,19 @@ struct TriangleEntry {
   std::uint32_t b = 0;
   std::uint32_t opened = 0;    ///< Its place among the opened pairs, if it has one.
   bool start_checked = false;  ///< The threshold accounts for the start distance.
+};
+
+/// Two triangles.
+struct IndexPair {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
+
+/// Nodes of one level of two GlideBounds.
+struct GlideNodes {
+  std::size_t level = 0;
+  std::uint32_t carrier = 0;
+  std::uint32_t other = 0;
 };
 
 /// A pair of triangles that a search opened, and how far apart it last saw them.
@@ -194,6 +208,9 @@ struct WorkspaceData {
   std::vector<CloseKey> close_keys;
   std::vector<BoxPair> stack;
   std::vector<std::pair<double, BoxPair>> nearest;
+  GlideBounds glide_bounds;  ///< Of the body that is no carrier.
+  std::vector<GlideNodes> glide_stack;
+  std::vector<IndexPair> left_by_glide;
 };
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,44 @@
+/// @file
+/// The screw along which most of a surface glides on itself, such as the thread of a bolt.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// A screw: turned by an angle about its axis and moved along it by pitch times the angle, the
+/// surface covers itself, but for its ends and its facets. A surface of revolution has pitch 0.
+///
+/// In the coordinates r (distance from the axis) and h = z - pitch angle nothing moves that is
+/// carried along the screw: the surface is a curve there, its profile.
+struct Glide {
+  static constexpr std::size_t kDirections = 7;
+  static constexpr std::size_t kRadius = 0;
+  static constexpr std::size_t kHeight = 1;
+
+  Eigen::Matrix3d R_SB = Eigen::Matrix3d::Identity();  ///< Its last row is the axis.
+  Eigen::Vector3d p_BS = Eigen::Vector3d::Zero();  ///< [m]  Of the axis, from Hierarchy::centre.
+  double pitch = 0.0;                              ///< [m/rad]
+  double least_radius = 0.0;  ///< [m]  What matters is at least twice as far from the axis.
+  /// [-]  Units in the plane of r and h, across the straight parts of the profile. The first one is
+  /// along r, the second one along z, not h: they tell where the surface is that does not glide.
+  std::array<Eigen::Vector2d, kDirections> directions;
+};
+
+/// Finds the screw of a shape that does not deform, if there is one and no other.
+///
+/// Source: N. Gelfand, L. J. Guibas, "Shape segmentation using local slippage analysis", SGP 2004:
+/// a motion is slippable if it moves points across their normals, which is the eigenvector of a 6 x
+/// 6 matrix. Here with weights that follow the residuals, as a head and the ends do not slip. Any
+/// answer is right for its users, who prove what they make of it.
+[[nodiscard]] FIRSTCONTACT_API std::optional<Glide> find_glide(const Hierarchy& hierarchy);
+
+}  // namespace firstcontact

@@ -1,0 +1,111 @@
+/// @file
+/// Bounds of a surface in the coordinates of a glide, at all times of a motion along it.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/glide.h>
+#include <firstcontact/geometry/glide_order.h>
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// Four parts of a surface. Of each, the least and the greatest values of f = alpha r + beta h [m]
+/// along the directions (alpha, beta) of the glide, and of the angle [rad], as numbers that are
+/// bounds from above: in this order
+///   -least f of each direction, -least angle, greatest f of each direction, greatest angle.
+/// Of a mirrored body, the halves are exchanged.
+struct alignas(64) GlideNode {
+  static constexpr std::size_t kParts = 4;
+  static constexpr std::size_t kNumbers = 2 * (Glide::kDirections + 1);
+  float most[kParts][kNumbers];
+};
+
+/// The numbers of a vertex, as those of a part.
+struct alignas(64) GlideVertex {
+  float most[GlideNode::kNumbers];
+};
+
+/// A rigid body seen from the screw S of a glide, by which its motion is taken back. From one pose
+/// to the other its points stay this near to lines that they follow in any way.
+struct GlidePath {
+  std::array<Eigen::Matrix3d, 2> R_SB;
+  std::array<Eigen::Vector3d, 2> p_SB;  ///< [m]  Of Hierarchy::centre.
+  double stray = 0.0;                   ///< [m]
+};
+
+/// Bounds of the triangles in an order of their own, four of them to a node, four such nodes to the
+/// next one, and so on: part k of node n of a level is node 4 n + k of the level below it, or
+/// triangle 4 n + k. There are always as many levels as the largest mesh needs.
+struct GlideBounds {
+  static constexpr std::size_t kLevels = 14;
+  std::array<std::vector<GlideNode>, kLevels> levels = {};
+  double error = 0.0;  ///< [m]  Of sums of two bounds, which is not in them.
+
+  /// Of vertices, at both poses.
+  std::array<std::vector<float>, 2> radius = {};
+  std::array<std::vector<float>, 2> angle = {};
+  std::array<std::vector<float>, 2> height = {};
+  std::vector<GlideVertex> of_vertices = {};
+
+  /// Nodes are enough for those who ask.
+  void release_vertices() {
+    radius = {};
+    angle = {};
+    height = {};
+    of_vertices = {};
+  }
+};
+
+/// Bounds a shape that does not deform.
+///
+/// Derivation: at one time a triangle is the convex hull of its corners, and all of it stays within
+/// `stray` of the convex hull of the corners at both poses. For x = sum l_i y_i in that hull,
+/// - z is linear, and r convex: r(x) <= sum l_i r_i;
+/// - with g the direction of the middle of the angles, which span 2 D,
+///   r(x) >= g . x >= sum l_i r_i cos D, and 1 - cos D <= D^2 / 2;
+/// - along a line the angle's second derivative is -2 e_r e_a / r^2, at most 1 / r^2 in size, so
+///   |angle(x) - sum l_i angle_i| <= sum l_i |y_i - x|^2 / (2 r^2) <= R^2 / (2 r^2), lengths taken
+///   across the axis and R that of any circle around the y_i.
+/// f changes by at most L = sqrt(alpha^2 + beta^2 (1 + pitch^2 / r^2)) times `stray`. What comes
+/// nearer to the axis than twice Glide::least_radius, or lies around it, is only bounded in r and
+/// z; its other numbers are huge.
+///
+/// Single precision: angles are within 2^-20, places within 2^-23 of size; `error` and what is
+/// added to each bound cover that by far.
+///
+/// @param order  of the triangles; those that are near each other in r, h and angle in sequence
+/// @param path   at one time both poses are the same
+FIRSTCONTACT_API void bound_glide(const Glide& glide, const Hierarchy& hierarchy,
+                                  std::span<const std::uint32_t> order, const GlidePath& path,
+                                  bool mirrored, GlideBounds& bounds);
+
+/// A surface that glides on itself, at rest in the axes of its screw.
+struct GlidingSurface {
+  Glide glide;
+  std::vector<std::uint32_t> order;  ///< Of the triangles, along the thread.
+  GlideBounds bounds;
+};
+
+/// When two parts are near each other: no sum of their numbers is below these.
+struct GlideLimits {
+  alignas(64) std::array<float, GlideNode::kNumbers> least;
+  alignas(64) std::array<float, GlideNode::kNumbers> turn;  ///< Once more around the axis adds it.
+};
+
+/// Lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each other.
+[[nodiscard]] FIRSTCONTACT_API unsigned near_by_glide(const GlideNode& a, const GlideNode& mirrored,
+                                                      const GlideLimits& limits);
+
+/// [-]  No f along the direction changes faster where bounds hold.
+[[nodiscard]] FIRSTCONTACT_API double slope_of(const Glide& glide, std::size_t direction);
+
+}  // namespace firstcontact

@@ -1,0 +1,22 @@
+/// @file
+/// The triangles of a surface that glides on itself, in an order in which neighbours are together.
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <firstcontact/geometry/glide.h>
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+/// The triangles by the part of the profile that they belong to, then along the thread; kNoTriangle
+/// fills gaps.
+[[nodiscard]] FIRSTCONTACT_API std::vector<std::uint32_t> order_along(const Glide& glide,
+                                                                      const Hierarchy& hierarchy);
+
+}  // namespace firstcontact

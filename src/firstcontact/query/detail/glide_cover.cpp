@@ -1,0 +1,188 @@
+#include <firstcontact/query/detail/glide_cover.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// [-]  Of a quantity that is above its rounding by far.
+constexpr double kRounding = 1.0 + 0x1p-20;
+
+/// [rad]  Over a window; half a turn would meet itself.
+constexpr double kMostTurn = 1.0;
+
+/// [m]  Single precision has squares of such lengths.
+constexpr double kFarthest = 1e12;
+
+/// Whether the state says all of the motion.
+bool has_constant_rates(const RelativeState& state) {
+  return state.drift == 0.0 && state.bend == 0.0 && state.bend_A == 0.0 && state.bend_B == 0.0;
+}
+
+/// The other body at one time, seen from the screw.
+struct SeenBody {
+  Matrix3d R_SO;
+  Vector3d p_SO;   // [m]  Centre.
+  Vector3d p_SQ;   // [m]  Pivot.
+  Vector3d speed;  // [m per step]  Of the pivot.
+  Vector3d spin;   // [rad per step]
+};
+
+SeenBody seen_from(const Glide& glide, const RelativeState& state, bool carrier_is_A) {
+  const Matrix3d R_SW = glide.R_SB * (carrier_is_A ? state.R_WA : state.R_WB).transpose();
+  const Vector3d p_SC = glide.R_SB * glide.p_BS;
+  if (carrier_is_A) {
+    return {R_SW * state.R_WB, R_SW * state.p_AB - p_SC, R_SW * state.p_AQb - p_SC,
+            R_SW * state.pivot_velocity, R_SW * (state.rate_B * state.axis_B)};
+  }
+  return {R_SW * state.R_WA, -(R_SW * state.p_AB) - p_SC, R_SW * (state.p_AQa - state.p_AB) - p_SC,
+          -(R_SW * state.pivot_velocity), R_SW * (state.rate_A * state.axis_A)};
+}
+
+/// Takes back a turn about the screw.
+void unscrew(double turn, double pitch, Matrix3d& R, Vector3d& p) {
+  const Matrix3d back = Eigen::AngleAxisd(-turn, Vector3d::UnitZ()).toRotationMatrix();
+  R = back * R;
+  p = back * p - Vector3d(0.0, 0.0, pitch * turn);
+}
+
+/// [m]  How far points of the body get from the chords of what the screw sees of them.
+double stray_of(const SeenBody& begin, const SeenBody& end, double pitch, double rate,
+                double duration, double radius) {
+  const Vector3d screw(0.0, 0.0, rate);
+  const double w = std::abs(rate);
+  const double w_d = (begin.spin - screw).norm();
+  const double reach = (begin.p_SO - begin.p_SQ).norm() + radius;
+  // The pivot moves on a line, so that it is farthest from the axis at an end.
+  const double from_axis = std::max(begin.p_SQ.head<2>().norm(), end.p_SQ.head<2>().norm());
+  const double u = (begin.speed - pitch * screw).norm() + w * from_axis + w_d * reach;
+  const double bend = w * begin.speed.head<2>().norm() + w_d * begin.spin.norm() * reach + w * u;
+  return kRounding * 0.125 * duration * duration * bend;
+}
+
+}  // namespace
+
+struct GlideCover::Window {
+  GlidePath path;
+  GlideLimits limits;
+};
+
+std::optional<GlideCover> GlideCover::of(const MovingPair& pair, const Shape& A, const Shape& B,
+                                         double t) {
+  const RelativeState state = pair.motion().state(t);
+  if (pair.deforms() || !has_constant_rates(state)) {
+    return std::nullopt;
+  }
+  const bool larger_is_A = pair.A().triangles.size() >= pair.B().triangles.size();
+  for (const bool carrier_is_A : {larger_is_A, !larger_is_A}) {
+    if ((carrier_is_A ? state.rate_A : state.rate_B) == 0.0) {
+      const GlidingSurface* carrier = (carrier_is_A ? A : B).gliding();
+      const GlidingSurface* other = (carrier_is_A ? B : A).gliding();
+      return carrier != nullptr && other != nullptr
+                 ? std::optional(GlideCover(pair, *carrier, *other, carrier_is_A, t))
+                 : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<GlideCover::Window> GlideCover::window(double t_end, double threshold) const {
+  const Glide& glide = carrier_.glide;
+  const Hierarchy& other = carrier_is_A_ ? pair_.B() : pair_.A();
+  const RelativeState state = pair_.motion().state(t_);
+  const RelativeState state_end = pair_.motion().state(t_end);
+  const SeenBody begin = seen_from(glide, state, carrier_is_A_);
+  SeenBody end = seen_from(glide, state_end, carrier_is_A_);
+  const double duration = t_end - t_;
+  const double rate = begin.spin.z();
+  const double turn = rate * duration;
+  Window window;
+  window.path.stray = stray_of(begin, end, glide.pitch, rate, duration, other.radius);
+  unscrew(turn, glide.pitch, end.R_SO, end.p_SO);
+  window.path.R_SB = {begin.R_SO, end.R_SO};
+  window.path.p_SB = {begin.p_SO, end.p_SO};
+  const double apart =
+      (threshold + pair_.gap_error(state) + pair_.gap_error(state_end)) * kRounding;
+  if (!(apart + window.path.stray < glide.least_radius && std::abs(turn) < kMostTurn &&
+        std::max(begin.p_SO.norm(), end.p_SO.norm()) < kFarthest)) {
+    return std::nullopt;
+  }
+  constexpr std::size_t kAngle = Glide::kDirections;
+  constexpr std::size_t kHalf = kAngle + 1;
+  const double whole_turn = 2.0 * std::numbers::pi;
+  for (std::size_t k = 0; k < kAngle; ++k) {
+    const double limit = slope_of(glide, k) * apart + carrier_.bounds.error;
+    const double by_turn = whole_turn * glide.pitch * glide.directions[k].y();
+    window.limits.least[k] = window.limits.least[kHalf + k] =
+        static_cast<float>(-limit * kRounding);
+    window.limits.turn[k] = static_cast<float>(by_turn);
+    window.limits.turn[kHalf + k] = static_cast<float>(-by_turn);
+  }
+  const double climb = glide.pitch * turn;
+  float* const height = &window.limits.least[Glide::kHeight];
+  height[0] -= static_cast<float>(std::max(climb, 0.0) * kRounding);
+  height[kHalf] -= static_cast<float>(std::max(-climb, 0.0) * kRounding);
+  window.limits.turn[Glide::kHeight] = window.limits.turn[kHalf + Glide::kHeight] = 0.0f;
+  // Points farther than r from the axis are seen apart by 2 asin(d / 2 r), at most 1.05 d / r.
+  const double reach = apart + window.path.stray;
+  const double angle = 1.1 * reach / (2.0 * glide.least_radius - reach) + 0x1p-18;
+  window.limits.least[kAngle] = static_cast<float>(-(angle + std::max(turn, 0.0)) * kRounding);
+  window.limits.least[kHalf + kAngle] =
+      static_cast<float>(-(angle + std::max(-turn, 0.0)) * kRounding);
+  window.limits.turn[kAngle] = static_cast<float>(-whole_turn);
+  window.limits.turn[kHalf + kAngle] = static_cast<float>(whole_turn);
+  return window;
+}
+
+bool GlideCover::find(double t_end, double threshold, std::size_t most,
+                      WorkspaceData& workspace) const {
+  const std::optional<Window> found = window(t_end, threshold);
+  if (!found) {
+    return false;
+  }
+  GlideBounds& other = workspace.glide_bounds;
+  bound_glide(carrier_.glide, carrier_is_A_ ? pair_.B() : pair_.A(), other_.order, found->path,
+              true, other);
+  GlideLimits limits = found->limits;
+  for (float& limit : limits.least) {
+    limit -= static_cast<float>(other.error * kRounding);
+  }
+  walk(limits, most, workspace);
+  return workspace.left_by_glide.size() <= most;
+}
+
+void GlideCover::walk(const GlideLimits& limits, std::size_t most, WorkspaceData& workspace) const {
+  auto& left = workspace.left_by_glide;
+  left.clear();
+  auto& stack = workspace.glide_stack;
+  stack.assign(1, {GlideBounds::kLevels - 1, 0, 0});
+  while (!stack.empty() && left.size() <= most) {
+    const GlideNodes top = stack.back();
+    stack.pop_back();
+    unsigned lanes = near_by_glide(carrier_.bounds.levels[top.level][top.carrier],
+                                   workspace.glide_bounds.levels[top.level][top.other], limits);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      const std::uint32_t c = 4 * top.carrier + lane / 4;
+      const std::uint32_t o = 4 * top.other + lane % 4;
+      if (top.level > 0) {
+        stack.push_back({top.level - 1, c, o});
+      } else if (carrier_is_A_) {
+        left.push_back({carrier_.order[c], other_.order[o]});
+      } else {
+        left.push_back({other_.order[o], carrier_.order[c]});
+      }
+    }
+  }
+}
+
+}  // namespace firstcontact::detail

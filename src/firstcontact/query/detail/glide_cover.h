@@ -1,0 +1,58 @@
+/// @file
+/// Pairs of triangles that stay apart because their surfaces glide, as a nut on its bolt.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <firstcontact/geometry/glide_bounds.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/query/detail/workspace_data.h>
+
+namespace firstcontact::detail {
+
+/// Two bodies that glide on themselves, of which one, the carrier, does not turn, while the other
+/// moves nearly along its screw.
+///
+/// Derivation: seen from the carrier, with S(a) the screw turned by a, let x(t) be the way of a
+/// point of the other body and y(t) = S(-a(t)) x(t), a(t) linear in time. S moves distances along,
+/// so the distance of x from a point c of the carrier is that of y from S(-a) c. This has the r and
+/// h of c and an angle less by a; y hardly moves. So where f(r, h) = alpha r + beta h, which
+/// changes by no more than L per length, differs by more than L d for all points of two surfaces,
+/// these stay farther apart than d, for as long as a is within its range; and where their angles
+/// do. Angles are the same up to whole turns: one more turn takes 2 pi pitch off h.
+///
+/// y(t) is near its chord: with the rates w_s of the screw, w of the body, s of the body's pivot q,
+/// all seen from the carrier with z the axis, w_d = w - w_s and p the point's place from the pivot,
+/// the screw sees the point move by u = s - pitch w_s z - w_s x q + w_d x p, and
+///   |y''| <= w_s |s across z| + |w_d| w |p| + w_s |u|.
+class GlideCover {
+ public:
+  /// None where the bodies are not such.
+  static std::optional<GlideCover> of(const MovingPair& pair, const Shape& A, const Shape& B,
+                                      double t);
+
+  /// Finds all pairs of triangles that are not proven to be farther apart than the threshold
+  /// throughout [t, t_end] of the piece: WorkspaceData::left_by_glide. False, with some missing,
+  /// where they are more than `most`, or the bodies move otherwise.
+  bool find(double t_end, double threshold, std::size_t most, WorkspaceData& workspace) const;
+
+ private:
+  GlideCover(const MovingPair& pair, const GlidingSurface& carrier, const GlidingSurface& other,
+             bool carrier_is_A, double t)
+      : pair_(pair), carrier_(carrier), other_(other), carrier_is_A_(carrier_is_A), t_(t) {}
+
+  struct Window;
+  [[nodiscard]] std::optional<Window> window(double t_end, double threshold) const;
+  void walk(const GlideLimits& limits, std::size_t most, WorkspaceData& workspace) const;
+
+  const MovingPair& pair_;
+  const GlidingSurface& carrier_;
+  const GlidingSurface& other_;
+  bool carrier_is_A_;
+  double t_;
+};
+
+}  // namespace firstcontact::detail
