@@ -19,6 +19,9 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Fewer triangles are soon tested one by one.
 constexpr std::size_t kFewTriangles = 500;
 
+/// Of more than a million the bounds would take more memory and time than they save.
+constexpr std::size_t kManyTriangles = std::size_t{1} << 20;
+
 /// Of more, every so manieth is looked at.
 constexpr std::size_t kLookedAt = 12'000;
 
@@ -188,7 +191,7 @@ void choose_directions(const std::vector<ProfilePoint>& profile, Glide& glide) {
 }  // namespace
 
 std::optional<Glide> find_glide(const Hierarchy& hierarchy) {
-  if (hierarchy.triangles.size() < kFewTriangles ||
+  if (hierarchy.triangles.size() < kFewTriangles || hierarchy.triangles.size() > kManyTriangles ||
       !(hierarchy.radius > kSmallest && hierarchy.radius < kLargest)) {
     return std::nullopt;
   }

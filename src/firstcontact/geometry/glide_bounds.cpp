@@ -23,6 +23,7 @@ constexpr float kUnbounded = 1e30f;
 constexpr float kNarrow = 0.1f;    // [rad]
 constexpr float kHalfTurn = 3.0f;  // [rad]  Nearly.
 constexpr float kWidest = 2.5f;    // [rad]
+constexpr float kMostBend = 1e6f;  // [rad]  Far beyond a turn.
 constexpr float kTurn = 2.0f * std::numbers::pi_v<float>;
 
 using DF = hn::CappedTag<float, kNumbers>;
@@ -286,6 +287,9 @@ class Bounder {
     const float along = most - least;
     const float circle = 0.25f * (across * across + along * along);  // Its radius squared.
     const float bend = (0.5f + 0x1p-18f) * circle / (least * least);
+    if (!(bend < kMostBend)) {  // Where that is too small to be squared, too.
+      return near_axis(values);
+    }
     return add_scaled(add_scaled(corners, factors_.bend, bend), factors_.slack, 1.0f);
   }
 

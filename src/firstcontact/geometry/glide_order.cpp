@@ -22,11 +22,19 @@ using Eigen::Vector3d;
 using Strip = std::array<int, 2>;
 
 /// Tells strips apart. A sliver lies on several: it goes with the one that has most.
+/// [m]  How far a turn leads along the axis; 0 of a surface of revolution, whatever rounding made
+/// of its pitch.
+double lead_of(const Glide& glide, double radius) {
+  constexpr double kRounding = 1e-6;
+  const double lead = 2.0 * std::numbers::pi * std::abs(glide.pitch);
+  return lead > kRounding * radius ? lead : 0.0;
+}
+
 class StripFinder {
  public:
   StripFinder(const Glide& glide, const Hierarchy& hierarchy)
       : glide_(glide),
-        lead_(2.0 * std::numbers::pi * std::abs(glide.pitch)),
+        lead_(lead_of(glide, hierarchy.radius)),
         width_(std::max(kStripOfLead * lead_, kStripOfRadius * hierarchy.radius)) {
     for (const auto& t : hierarchy.triangles) {
       corners_.push_back(corners_of(t, hierarchy));

@@ -46,11 +46,12 @@ constexpr std::uint64_t kRepeatedForOne = 4;
 constexpr std::uint64_t kLongSearch = 1000;
 
 /// Pairs of triangles that gliding may leave to be followed one by one, or else a part of the time
-/// is looked at; how much of it, and how often.
+/// is looked at; how much of it, and how often. Shorter parts of the search's time lead nowhere.
 constexpr std::size_t kMostLeftByGlide = 4000;
 constexpr double kShorterGlide = 0.25;
 constexpr double kLongerGlide = 2.0;
 constexpr int kGlideTrials = 7;
+constexpr double kShortestGlide = 0x1p-16;
 
 constexpr std::uint32_t kNotRemembered = std::numeric_limits<std::uint32_t>::max();
 
@@ -168,24 +169,27 @@ class Search {
   /// Goes on from t with the pairs of triangles that are not proven apart by their surfaces'
   /// gliding, for as long as these are few. False if they are not, or nothing glides.
   [[nodiscard]] bool glide_on(double t) {
-    if (limits_.A == nullptr || best_.contact) {
-      return false;
-    }
-    const std::optional<GlideCover> cover = GlideCover::of(pair_, *limits_.A, *limits_.B, t);
-    if (!cover) {
-      return false;
-    }
-    t_end_ = std::min(t_last_, t + glide_width_);
-    for (int trial = 0; trial < kGlideTrials; ++trial) {
-      if (cover->find(t_end_, box_threshold_, kMostLeftByGlide, workspace_)) {
-        glide_width_ = kLongerGlide * (t_end_ - t);
-        follow_left(t);
-        return true;
+    if (limits_.A != nullptr && !best_.contact) {
+      if (const auto cover = GlideCover::of(pair_, *limits_.A, *limits_.B, t)) {
+        double width = std::min(glide_width_, t_last_ - t);
+        for (int trial = 0; trial < kGlideTrials && may_end_after(t, width); ++trial) {
+          t_end_ = width < t_last_ - t ? t + width : t_last_;
+          if (cover->find(t_end_, box_threshold_, kMostLeftByGlide, workspace_)) {
+            glide_width_ = kLongerGlide * width;
+            follow_left(t);
+            return true;
+          }
+          width *= kShorterGlide;
+        }
       }
-      t_end_ = t + kShorterGlide * (t_end_ - t);
     }
     t_end_ = t_last_;
     return false;
+  }
+
+  /// Whether a window from t on would be as short as the time that is left, or long enough.
+  [[nodiscard]] bool may_end_after(double t, double width) const {
+    return width >= t_last_ - t || width >= kShortestGlide * (t_last_ - t_begin_);
   }
 
   /// Starts with the pairs that gliding left.

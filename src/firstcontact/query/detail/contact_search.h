@@ -38,10 +38,11 @@ struct SearchLimits {
 
 /// Searches [t_begin, t_end].
 ///
-/// Every pair of triangles is at all times represented by exactly one entry of the queue, itself or
-/// a pair of boxes around it, whose key is proven to be no later than the pair's first contact. The
-/// least key is hence never later than the first contact of the shapes. Keys of nearly tied pairs
-/// are lowered a little with each level of the hierarchies, so that ties are searched depth-first.
+/// Every pair of triangles is at all times represented by exactly one entry of the queue, unless it
+/// is proven free for as long as the search looks ahead: itself or a pair of boxes around it, whose
+/// key is proven to be no later than the pair's first contact. The least key is hence never later
+/// than the first contact of the shapes. Keys of nearly tied pairs are lowered a little with each
+/// level of the hierarchies, so that ties are searched depth-first.
 ///
 /// Where very many pairs are near each other as surfaces glide, most are proven apart by that
 /// (glide_cover.h), window by window.
