@@ -107,12 +107,10 @@ bool IslandPlanner::is_at(const TouchAhead& ahead, std::size_t k) const {
 /// The contact whose place a touch ahead takes.
 std::optional<std::size_t> IslandPlanner::find(const TouchAhead& ahead) const {
   const BodyPair& pair = ahead.touch.bodies;
-  const auto begin = touches_.begin();
-  const auto touching =
-      std::ranges::equal_range(begin, begin + static_cast<std::ptrdiff_t>(first_ahead_), pair, {},
-                               [](const Touch& touch) { return touch.bodies; });
-  for (auto touch = touching.begin(); touch != touching.end(); ++touch) {
-    const auto k = static_cast<std::size_t>(touch - begin);
+  const auto end_touching = touches_.begin() + static_cast<std::ptrdiff_t>(first_ahead_);
+  auto touch = std::ranges::lower_bound(touches_.begin(), end_touching, pair, {}, &Touch::bodies);
+  for (; touch != end_touching && touch->bodies == pair; ++touch) {
+    const auto k = static_cast<std::size_t>(touch - touches_.begin());
     if (is_at(ahead, k)) {
       return k;
     }
