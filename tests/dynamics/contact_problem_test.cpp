@@ -347,6 +347,21 @@ TEST(ProjectOnContacts, SweepsEndEarlyButNearTheTolerance) {
   EXPECT_LE(2 * ended.iterations, project_on_contacts(problem, kAll).iterations);
 }
 
+// What is hit hard is solved to a part of that; weight alone as exactly as ever.
+TEST(ProjectOnContacts, LeavesAPartOfHits) {
+  std::mt19937 rng(8);
+  for (const double speed : {0.0, 1.0}) {
+    const ContactProblem problem = test::wall(rng, 4, 5, 0.5, speed);
+    ProjectionOptions options{.tolerance = 1e-9, .of_hits = 1e-3, .hit = 0.5};
+    const ContactSolution part = project_on_contacts(problem, options);
+    EXPECT_LE(part.residual, part.allowed) << speed;
+    EXPECT_LE(part.allowed, speed > 0.0 ? 0.1 : 1e-9) << speed;
+    EXPECT_NEAR(contact_residual(problem, part), part.residual, 1e-9) << speed;
+  }
+  EXPECT_THROW((void)project_on_contacts({}, {.of_hits = -1.0}), std::invalid_argument);
+  EXPECT_THROW((void)project_on_contacts({}, {.hit = std::nan("")}), std::invalid_argument);
+}
+
 // A guess that the objective prefers to nothing, where nothing is the solution.
 TEST(ProjectOnContacts, LeavesAloneWhatOpens) {
   ContactProblem problem;

@@ -130,6 +130,41 @@ TEST(SweptHull, TellsMostOfWhatStaysApart) {
   EXPECT_GT(told, 0.9 * apart);
 }
 
+/// Whether planes tell so for both halves of the moves.
+bool halves_stay_apart(const Moving& c, double by) {
+  const auto is_apart = [&](double from, double to) {
+    const SweptHull A(c.A, c.X_WA, c.move_A, from, to);
+    const SweptHull B(c.B, c.X_WB, c.move_B, from, to);
+    const Vector3d n = (B.p_WC - A.p_WC).normalized();
+    return stays_apart(A, B, by, n) || stays_apart(B, A, by, -n);
+  };
+  return is_apart(0.0, 0.5) && is_apart(0.5, 1.0);
+}
+
+TEST(SweptHull, OfHalvesNeverTellsMoreEither) {
+  std::mt19937 rng(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Moving c(rng);
+    const double least = c.least_distance(60);
+    ASSERT_FALSE(halves_stay_apart(c, least * (1.0 + 1e-9) + 1e-12)) << trial;
+  }
+}
+
+TEST(SweptHull, OfHalvesTellsMoreOfWhatTurns) {
+  std::mt19937 rng(6);
+  int whole = 0;
+  int halves = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Moving c(rng);
+    const double least = c.least_distance(20);
+    if (least > 0.05) {
+      whole += c.stay_apart(0.9 * least) ? 1 : 0;
+      halves += halves_stay_apart(c, 0.9 * least) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(halves, whole);
+}
+
 TEST(SweptHull, TellsNothingOfNaN) {
   std::mt19937 rng(3);
   Moving c(rng);
