@@ -12,6 +12,8 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/math/cell_hash.h>
+
 namespace firstcontact::detail {
 
 /// Finds those of many places that are near one.
@@ -68,35 +70,20 @@ class PlaceGrid {
     std::size_t key;
   };
   using Cell = std::array<std::int64_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Cell& cell) const {
-      std::uint64_t hash = 0;
-      for (const std::int64_t place : cell) {
-        hash = (hash ^ static_cast<std::uint64_t>(place)) * 0x9e3779b97f4a7c15U;
-        hash ^= hash >> 32;
-      }
-      return static_cast<std::size_t>(hash);
-    }
-  };
-
-  /// A little wider than the reach, for rounding of places up to 2^42 of it. Places so far out that
-  /// cells cannot be counted share the last one.
+  /// A little wider than the reach, for rounding of places up to 2^42 of it.
   [[nodiscard]] Cell cell_of(const Eigen::Vector3d& place) const {
     constexpr double kWider = 1.0 + 0x1p-10;
-    constexpr double kLast = 0x1p52;
     Cell cell{};
     for (int i = 0; i < 3; ++i) {
-      const double counted = std::floor(place[i] / (kWider * reach_));
-      cell[static_cast<std::size_t>(i)] =
-          static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kLast), kLast));
+      cell[static_cast<std::size_t>(i)] = cell_along(place[i], kWider * reach_);
     }
     return cell;
   }
 
   double reach_;
   std::size_t count_ = 0;
-  std::array<Place, kFew> few_;                                     // The first ones.
-  std::unordered_map<Cell, std::vector<std::size_t>, Hash> cells_;  // Of all, where more.
+  std::array<Place, kFew> few_;                                         // The first ones.
+  std::unordered_map<Cell, std::vector<std::size_t>, CellHash> cells_;  // Of all, where more.
 };
 
 }  // namespace firstcontact::detail

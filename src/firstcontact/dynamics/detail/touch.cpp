@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/dynamics/detail/place_grid.h>
+#include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
 
 namespace firstcontact::detail {
@@ -148,9 +149,7 @@ class NearestOfMany {
     const Vector3d& n = *contact.n_AB_W;
     Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
     for (int k = 0; k < 3; ++k) {
-      const double counted = std::floor(contact.p_WA[k] / apart_);
-      key[static_cast<std::size_t>(k)] =
-          static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kFarthest), kFarthest));
+      key[static_cast<std::size_t>(k)] = cell_along(contact.p_WA[k], apart_);
     }
     const auto [found, is_new] = nearest_.try_emplace(key, nullptr);
     const Contact*& nearest = found->second;
@@ -173,23 +172,10 @@ class NearestOfMany {
   }
 
  private:
-  static constexpr double kFarthest = 0x1p52;  // Cells beyond are one.
-
   /// Where, and the octant of the normal.
   using Cell = std::array<std::int64_t, 4>;
-  struct Hash {
-    std::size_t operator()(const Cell& cell) const {
-      std::uint64_t hash = 0;
-      for (const std::int64_t k : cell) {
-        hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15U;
-        hash ^= hash >> 32;
-      }
-      return static_cast<std::size_t>(hash);
-    }
-  };
-
   double apart_;
-  std::unordered_map<Cell, const Contact*, Hash> nearest_;
+  std::unordered_map<Cell, const Contact*, CellHash> nearest_;
 };
 
 /// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an

@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/math/cell_hash.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -16,17 +18,6 @@ using Eigen::Vector3d;
 
 /// Where a pair is: the cube of its middle, and the octant of the direction from A to B.
 using Neighbourhood = std::array<std::int64_t, 4>;
-
-struct Hash {
-  std::size_t operator()(const Neighbourhood& place) const {
-    std::uint64_t hash = 0;
-    for (const std::int64_t k : place) {
-      hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15U;
-      hash ^= hash >> 32;
-    }
-    return static_cast<std::size_t>(hash);
-  }
-};
 
 /// The nearest pairs of one neighbourhood, by distance, then by where they were in the list.
 struct Nearest {
@@ -46,14 +37,11 @@ struct Nearest {
 };
 
 Neighbourhood neighbourhood(const ClosestFeatures& closest, double edge) {
-  constexpr double kFarthest = 0x1p52;
   const Vector3d n = closest.p_B - closest.p_A;
   Neighbourhood place{0, 0, 0,
                       (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
   for (int k = 0; k < 3; ++k) {
-    const double counted = std::floor(closest.p_A[k] / edge);
-    place[static_cast<std::size_t>(k)] =
-        static_cast<std::int64_t>(std::fmin(std::fmax(counted, -kFarthest), kFarthest));
+    place[static_cast<std::size_t>(k)] = cell_along(closest.p_A[k], edge);
   }
   return place;
 }
@@ -62,7 +50,7 @@ Neighbourhood neighbourhood(const ClosestFeatures& closest, double edge) {
 
 void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,
                   std::vector<IndexPair>& pairs) {
-  std::unordered_map<Neighbourhood, Nearest, Hash> nearest;
+  std::unordered_map<Neighbourhood, Nearest, CellHash> nearest;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const TrianglePair triangles = frame.pair.place(state, pairs[k].a, pairs[k].b);
     const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);

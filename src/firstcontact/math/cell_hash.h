@@ -1,0 +1,36 @@
+/// @file
+/// Cells of grids as keys.
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace firstcontact {
+
+/// Which cell of an edge a coordinate lies in. Those so far out that cells cannot be counted share
+/// the last one.
+///
+/// @param edge  > 0, in the unit of the coordinate
+inline std::int64_t cell_along(double coordinate, double edge) {
+  constexpr double kLast = 0x1p52;
+  return static_cast<std::int64_t>(
+      std::fmin(std::fmax(std::floor(coordinate / edge), -kLast), kLast));
+}
+
+/// Of the integers that name a cell.
+struct CellHash {
+  template <std::size_t size>
+  std::size_t operator()(const std::array<std::int64_t, size>& cell) const {
+    std::uint64_t hash = 0;
+    for (const std::int64_t k : cell) {
+      hash = (hash ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15U;
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
+
+}  // namespace firstcontact
