@@ -1,7 +1,8 @@
-// Contacts eight at a time against one by one, on each instruction set.
+// Contacts eight or sixteen at a time against one by one, on each instruction set.
 
 #include <optional>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,7 @@ TEST_P(ContactBatchesOn, SweepAsRowsDoInTheirOrder) {
     const ContactRows rows(problem);
     Projection one_by_one = nothing(problem, rows);
     Projection at_once = one_by_one;
-    std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+    std::optional<ContactBatches<double>> batches = ContactBatches<double>::of(problem, rows);
     ASSERT_TRUE(batches);
     VectorXd state = batches->state_of(at_once);
     for (int k = 0; k < 3; ++k) {
@@ -75,7 +76,7 @@ TEST_P(ContactBatchesOn, GoOnFromImpulsesThatActAlready) {
   const ContactRows rows(problem);
   Projection one_by_one = nothing(problem, rows);
   sweep_rows(rows, one_by_one);
-  std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+  std::optional<ContactBatches<double>> batches = ContactBatches<double>::of(problem, rows);
   ASSERT_TRUE(batches);
   Projection at_once = one_by_one;
   VectorXd state = batches->state_of(at_once);
@@ -93,7 +94,7 @@ TEST_P(ContactBatchesOn, SlideOnTheConeAndConverge) {
   for (const double friction : {0.05, 0.3, 0.8}) {
     const ContactProblem problem = odd_wall(rng, friction);
     const ContactRows rows(problem);
-    std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
+    std::optional<ContactBatches<double>> batches = ContactBatches<double>::of(problem, rows);
     ASSERT_TRUE(batches);
     Projection at_once = nothing(problem, rows);
     VectorXd state = batches->state_of(at_once);
@@ -115,29 +116,76 @@ TEST_P(ContactBatchesOn, SlideOnTheConeAndConverge) {
   }
 }
 
+/// The same problem where everything is so much heavier and faster.
+ContactProblem scaled(ContactProblem problem, double mass, double speed) {
+  for (ContactBody& body : problem.bodies) {
+    body.inverse_inertia.mass /= mass;
+    body.inverse_inertia.rotation /= mass;
+    body.v *= speed;
+    body.w *= speed;
+  }
+  for (ContactPoint& contact : problem.contacts) {
+    contact.least_normal_velocity *= speed;
+  }
+  return problem;
+}
+
+// In single precision, whatever the units of the problem.
+TEST_P(ContactBatchesOn, ConvergeInSinglePrecision) {
+  for (const auto& [mass, speed] : {std::pair(1.0, 1.0), {1e-12, 1e-6}, {1e12, 1e4}}) {
+    std::mt19937 rng(6);
+    const ContactProblem problem = scaled(wall(rng, 2, 120, 0.4), mass, speed);
+    const ContactRows rows(problem);
+    const BatchUnits units = units_of(rows);
+    auto batches = ContactBatches<float>::of(problem, rows, units);
+    ASSERT_TRUE(batches);
+    Projection at_once = nothing(problem, rows);
+    auto state = batches->state_of(at_once);
+    double change = 0.0;
+    for (int k = 0; k < 800; ++k) {
+      batches->sweep(false, state);
+      change = batches->sweep(true, state);
+    }
+    EXPECT_LE(change, 1e-5 * speed);
+    batches->take(state, at_once);
+    EXPECT_LE(at_once.residual, 1e-5 * speed) << mass;
+    EXPECT_GE(at_once.residual, 1e-12 * speed) << "not in single precision";
+    for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+      const Vector3d& r = at_once.impulses.contacts[k];
+      ASSERT_LE(r.tail<2>().norm(), problem.contacts[k].friction * r[0] * (1.0 + 1e-12));
+    }
+  }
+}
+
+TEST_P(ContactBatchesOn, GoOnInSinglePrecisionFromImpulsesThatActAlready) {
+  std::mt19937 rng(2);
+  const ContactProblem problem = wall(rng, 2, 120, 0.4);
+  const ContactRows rows(problem);
+  Projection one_by_one = nothing(problem, rows);
+  for (int k = 0; k < 800; ++k) {
+    sweep_rows(rows, one_by_one);
+  }
+  auto batches = ContactBatches<float>::of(problem, rows, units_of(rows));
+  ASSERT_TRUE(batches);
+  Projection at_once = one_by_one;
+  auto state = batches->state_of(at_once);
+  EXPECT_LE(batches->sweep(false, state), 1e-5);
+  batches->take(state, at_once);
+  EXPECT_LE(at_once.residual, 1e-5);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ContactBatchesOn, testing::ValuesIn(test::instruction_sets()),
                          test::instruction_set_name);
-
-TEST(ContactBatches, LeaveFewLanesEmpty) {
-  std::mt19937 rng(5);
-  const ContactProblem problem = wall(rng, 24, 24, 0.5);
-  const ContactRows rows(problem);
-  const std::optional<ContactBatches> batches = ContactBatches::of(problem, rows);
-  ASSERT_TRUE(batches);
-  const std::size_t lanes = ContactBatch::kLanes * batches->batch_count();
-  EXPECT_GE(lanes, problem.contacts.size());
-  EXPECT_LE(lanes, problem.contacts.size() + problem.contacts.size() / 4);
-}
 
 TEST(ContactBatches, AreNotForFewBodiesWithManyContacts) {
   std::mt19937 rng(4);
   ContactProblem problem = wall(rng, 1, 1, 0.5);
   const ContactPoint contact = problem.contacts[0];
   problem.contacts.resize(1000, contact);
-  EXPECT_FALSE(ContactBatches::of(problem, ContactRows(problem)));
+  EXPECT_FALSE(ContactBatches<double>::of(problem, ContactRows(problem)));
   problem = wall(rng, 1, 5, 0.5);
   ASSERT_LE(problem.contacts.size(), 20);
-  EXPECT_FALSE(ContactBatches::of(problem, ContactRows(problem)));
+  EXPECT_FALSE(ContactBatches<double>::of(problem, ContactRows(problem)));
 }
 
 }  // namespace

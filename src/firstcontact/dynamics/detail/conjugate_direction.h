@@ -15,21 +15,26 @@ namespace firstcontact::detail {
 /// points against the direction of before (B. O'Donoghue, E. Candes, "Adaptive restart for
 /// accelerated gradient schemes", Foundations of Computational Mathematics 15 (2015)), not where it
 /// merely grew: of redundant contacts impulses go over in thousands of like steps.
+///
+/// @tparam State  a vector of numbers
+template <class State>
 class ConjugateDirection {
  public:
+  using Number = typename State::Scalar;
+
   /// @param weights  squared lengths are measured with; of each number of the state
-  explicit ConjugateDirection(Eigen::VectorXd weights) : weights_(std::move(weights)) {}
+  explicit ConjugateDirection(State weights) : weights_(std::move(weights)) {}
 
   /// Before a pair of sweeps.
-  void begin(const Eigen::VectorXd& state) { step_ = state; }
+  void begin(const State& state) { step_ = state; }
 
   /// After it; moves the state on.
-  void end(Eigen::VectorXd& state) {
+  void end(State& state) {
     step_ = state - step_;
-    const double squared = weights_.dot(step_.cwiseAbs2());
-    const double share = std::min(squared / last_, 1.0);
+    const Number squared = weights_.dot(step_.cwiseAbs2());
+    const Number share = std::min(squared / last_, Number(1));
     last_ = squared;
-    if (direction_.size() == 0 || !(weights_.dot(step_.cwiseProduct(direction_)) > 0.0)) {
+    if (direction_.size() == 0 || !(weights_.dot(step_.cwiseProduct(direction_)) > Number())) {
       direction_ = step_;
       return;
     }
@@ -39,10 +44,10 @@ class ConjugateDirection {
   }
 
  private:
-  Eigen::VectorXd weights_;
-  Eigen::VectorXd step_;
-  Eigen::VectorXd direction_;
-  double last_ = 0.0;
+  State weights_;
+  State step_;
+  State direction_;
+  Number last_ = 0;
 };
 
 }  // namespace firstcontact::detail

@@ -27,7 +27,7 @@ constexpr int kRoundsOfMany = 2;
 
 /// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
 constexpr double kHeapEnough = 0.3;
-constexpr int kHeapSweeps = 300;
+constexpr int kHeapSweeps = 600;
 
 /// In a plan that is like another but for some contacts, what changes by more than this goes on to
 /// others; and how often each of all is solved, in the mean at most.
