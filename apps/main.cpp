@@ -12,6 +12,7 @@
 #include "batch_command.h"
 #include "check_command.h"
 #include "exit_status.h"
+#include "freed_memory.h"
 #include "info_command.h"
 #include "simulate_command.h"
 #include "standard_streams.h"
@@ -72,6 +73,7 @@ ExitStatus run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using firstcontact::app::ExitStatus;
   firstcontact::app::occupy_closed_streams();
+  firstcontact::app::keep_freed_memory();
   try {
     return static_cast<int>(firstcontact::app::run(argc, argv));
   } catch (const std::bad_alloc&) {

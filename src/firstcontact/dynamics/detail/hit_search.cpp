@@ -18,6 +18,10 @@ constexpr double kSlightApproach = 0.4;
 constexpr double kRoomOfReach = 0.03;
 constexpr double kRoomOfWay = 0.1;
 
+/// Where no plane tells for a whole plan that two hulls stay apart, planes for parts of it often
+/// do; a first contact takes as long as thirty of them.
+constexpr int kSplits = 3;
+
 }  // namespace
 
 std::vector<Hit> HitSearch::find(const Plan& plan) {
@@ -59,7 +63,7 @@ void HitSearch::follow(const Plan& plan) {
     if (mover.is_changed) {
       mover.move = move;
       mover.box = swept_box(state_.member(k), state_.states[k].X_WB, move);
-      mover.hulls = {};
+      mover.hull.reset();
       have_room = have_room && mover.room.contains(mover.box);
     }
   }
@@ -142,14 +146,15 @@ std::optional<Hit> HitSearch::ask(Candidate& pair) {
   return hit_of(pair, {A.pose(answer_.t), B.pose(answer_.t)});
 }
 
-/// @param part  0: the whole plan; 1, 2: its halves
-const SweptHull& HitSearch::hull_of(std::size_t k, std::size_t part) {
-  constexpr std::array<std::array<double, 2>, 3> kParts{{{0.0, 1.0}, {0.0, 0.5}, {0.5, 1.0}}};
-  Mover& mover = movers_[k];
-  std::optional<SweptHull>& hull = mover.hulls[part];
+SweptHull HitSearch::hull_of(std::size_t k, double from, double to) {
+  const Mover& mover = movers_[k];
+  return {state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move, from, to};
+}
+
+const SweptHull& HitSearch::whole_hull_of(std::size_t k) {
+  std::optional<SweptHull>& hull = movers_[k].hull;
   if (!hull) {
-    hull.emplace(state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move,
-                 kParts[part][0], kParts[part][1]);
+    hull = hull_of(k, 0.0, 1.0);
   }
   return *hull;
 }
@@ -171,11 +176,9 @@ HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
   return {(centre(1) - centre(0)).normalized(), false};
 }
 
-/// One that tells that the bodies stay apart in a part of the plan; of either of both.
-std::optional<HitSearch::Plane> HitSearch::plane_of(const Candidate& pair, double distance,
-                                                    std::size_t part, const Plane& likely) {
-  const SweptHull& A = hull_of(pair.movers[0], part);
-  const SweptHull& B = hull_of(pair.movers[1], part);
+/// One that tells that the hulls stay apart; it goes with either of both.
+std::optional<HitSearch::Plane> HitSearch::plane_of(const SweptHull& A, const SweptHull& B,
+                                                    double distance, const Plane& likely) {
   for (const bool is_of_second : {likely.is_of_second, !likely.is_of_second}) {
     const std::optional<Vector3d> n = is_of_second ? plane_between(B, A, distance, -likely.n)
                                                    : plane_between(A, B, distance, likely.n);
@@ -186,15 +189,33 @@ std::optional<HitSearch::Plane> HitSearch::plane_of(const Candidate& pair, doubl
   return std::nullopt;
 }
 
-/// In halves of the plan what bends away from a plane does so by a quarter.
 bool HitSearch::hulls_stay_apart(Candidate& pair, double distance) {
   const Plane likely = likely_plane(pair);
-  pair.plane = plane_of(pair, distance, 0, likely);
-  if (pair.plane) {
-    return true;
+  pair.plane =
+      plane_of(whole_hull_of(pair.movers[0]), whole_hull_of(pair.movers[1]), distance, likely);
+  return pair.plane || parts_stay_apart(pair, distance, {0.0, 0.5, 1.0}, kSplits, likely);
+}
+
+/// What bends away from a plane does so by a quarter in halves of a time.
+///
+/// @param times   [-]  where the part of the plan begins, its middle, and where it ends
+/// @param splits  how often it is halved
+bool HitSearch::parts_stay_apart(const Candidate& pair, double distance,
+                                 const std::array<double, 3>& times, int splits,
+                                 const Plane& likely) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    const double from = times[half];
+    const double to = times[half + 1];
+    const bool stay_apart =
+        plane_of(hull_of(pair.movers[0], from, to), hull_of(pair.movers[1], from, to), distance,
+                 likely) ||
+        (splits > 1 &&
+         parts_stay_apart(pair, distance, {from, 0.5 * (from + to), to}, splits - 1, likely));
+    if (!stay_apart) {
+      return false;
+    }
   }
-  const std::optional<Plane> first = plane_of(pair, distance, 1, likely);
-  return first && plane_of(pair, distance, 2, *first);
+  return true;
 }
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not
@@ -203,7 +224,7 @@ bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
   double way = 0.0;
   double size = 0.0;
   for (int side = 0; side < 2; ++side) {
-    const auto& [body, move, box, room, is_changed, hulls] = mover(pair, side);
+    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
     const double reach = state_.world.bodies[body].reach;
     way += move.translation.norm() + reach * move.rotation_vector.norm();
     size += state_.pose_of(body).position.norm() + reach;
@@ -217,7 +238,7 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   Hit hit{.bodies = bodies_of(pair), .t = answer_.t};
   ProblemBodies bodies;
   for (int side = 0; side < 2; ++side) {
-    const auto& [body, move, box, room, is_changed, hulls] = mover(pair, side);
+    const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
     bodies.add(body, {{}, move.translation / span_, move.rotation_vector / span_},
                centre_of_mass(state_.world.bodies[body].inertia, poses[side]));
   }

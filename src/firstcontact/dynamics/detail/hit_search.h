@@ -45,7 +45,7 @@ class HitSearch {
     Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
     Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
     bool is_changed = true;         // It moves otherwise than in the plan before.
-    std::array<std::optional<SweptHull>, 3> hulls = {};  // Where needed: whole, first, second half.
+    std::optional<SweptHull> hull = {};  // Where needed.
   };
   /// Between two bodies.
   struct Plane {
@@ -75,11 +75,15 @@ class HitSearch {
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
   [[nodiscard]] Hit hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
-  [[nodiscard]] const SweptHull& hull_of(std::size_t mover, std::size_t part);
+  [[nodiscard]] SweptHull hull_of(std::size_t mover, double from, double to);
+  [[nodiscard]] const SweptHull& whole_hull_of(std::size_t mover);
   [[nodiscard]] Plane likely_plane(const Candidate& pair) const;
-  [[nodiscard]] std::optional<Plane> plane_of(const Candidate& pair, double distance,
-                                              std::size_t part, const Plane& likely);
+  [[nodiscard]] static std::optional<Plane> plane_of(const SweptHull& A, const SweptHull& B,
+                                                     double distance, const Plane& likely);
   [[nodiscard]] bool hulls_stay_apart(Candidate& pair, double distance);
+  [[nodiscard]] bool parts_stay_apart(const Candidate& pair, double distance,
+                                      const std::array<double, 3>& times, int splits,
+                                      const Plane& likely);
 
   IslandState& state_;
   double span_;
