@@ -183,8 +183,8 @@ TEST(ContactBatches, AreNotForFewBodiesWithManyContacts) {
   const ContactPoint contact = problem.contacts[0];
   problem.contacts.resize(1000, contact);
   EXPECT_FALSE(ContactBatches<double>::of(problem, ContactRows(problem)));
-  problem = wall(rng, 1, 5, 0.5);
-  ASSERT_LE(problem.contacts.size(), 20);
+  problem = wall(rng, 1, 3, 0.5);
+  ASSERT_LT(problem.contacts.size(), 16);
   EXPECT_FALSE(ContactBatches<double>::of(problem, ContactRows(problem)));
 }
 

@@ -54,7 +54,7 @@ void expect_valid(const ContactProblem& problem, const PairLanes& placed) {
 TEST(PairLanes, KeepTheOrderOfEachBodyAndLeaveFewLanesEmpty) {
   std::mt19937 rng(5);
   const ContactProblem problem = wall(rng, 24, 24, 0.5);
-  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest);
+  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest, true);
   ASSERT_TRUE(placed);
   expect_valid(problem, *placed);
   EXPECT_GE(placed->fill(kLanesOfTest), 0.8);
@@ -74,10 +74,11 @@ TEST(PairLanes, KeepTheOrderOfEachBodyAndLeaveFewLanesEmpty) {
 // In their order each would wait for the one before.
 TEST(PairLanes, GiveUpTheOrderOfLongChains) {
   const ContactProblem problem = row_of_bodies(601);
-  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest);
+  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest, true);
   ASSERT_TRUE(placed);
   expect_valid(problem, *placed);
   EXPECT_GE(placed->fill(kLanesOfTest), 0.95);
+  EXPECT_FALSE(place_pairs(problem, kLanesOfTest, false));
 }
 
 TEST(PairLanes, AreNotForOneBodyThatTouchesAll) {
@@ -86,7 +87,7 @@ TEST(PairLanes, AreNotForOneBodyThatTouchesAll) {
     contact.bodies[0] = 600;
   }
   problem.contacts.back().bodies = {0, 600};
-  EXPECT_FALSE(place_pairs(problem, kLanesOfTest));
+  EXPECT_FALSE(place_pairs(problem, kLanesOfTest, true));
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 namespace firstcontact::detail {
 namespace {
 
-/// [-]  Of the lanes. Below the first, where contacts are very many, their order is given up for
-/// more of them; with less than the second they do no good.
+/// [-]  Of the lanes. Below it the order is given up for more of them, where that is allowed.
 constexpr double kGoodFill = 0.6;
-constexpr double kLeastFill = 0.375;
-constexpr std::size_t kVeryMany = 500;
+
+/// With fewer contacts in a batch, in the mean, one by one is faster.
+constexpr double kLeastInBatch = 2.5;
 
 /// So many contacts of a pair in turn are solved before other pairs.
 constexpr std::size_t kMostOfPair = 4;
@@ -150,12 +150,14 @@ std::size_t count_of_pair(const std::vector<ContactPoint>& contacts, std::size_t
   return count;
 }
 
-std::optional<PairLanes> place_pairs(const ContactProblem& problem, std::size_t lanes) {
+std::optional<PairLanes> place_pairs(const ContactProblem& problem, std::size_t lanes,
+                                     bool in_any_order) {
   PairLanes placed = place_in_order(problem, lanes);
-  if (placed.fill(lanes) < kGoodFill && problem.contacts.size() >= kVeryMany) {
+  if (in_any_order && placed.fill(lanes) < kGoodFill) {
     placed = place_anyhow(problem, lanes);
   }
-  return placed.fill(lanes) < kLeastFill ? std::nullopt : std::optional(std::move(placed));
+  const double in_batch = placed.fill(lanes) * static_cast<double>(lanes);
+  return in_batch < kLeastInBatch ? std::nullopt : std::optional(std::move(placed));
 }
 
 }  // namespace firstcontact::detail

@@ -30,12 +30,12 @@ struct PairLanes {
 [[nodiscard]] std::size_t count_of_pair(const std::vector<ContactPoint>& contacts,
                                         std::size_t first);
 
-/// Places all pairs: so that each body meets its contacts in the order of the problem or, where
-/// chains of very many pairs would leave most lanes empty, in any.
+/// Places all pairs so that each body meets its contacts in the order of the problem.
 ///
-/// @param lanes  of a batch
-/// @returns nothing where they stay empty
-[[nodiscard]] std::optional<PairLanes> place_pairs(const ContactProblem& problem,
-                                                   std::size_t lanes);
+/// @param lanes         of a batch
+/// @param in_any_order  where chains of pairs would leave many lanes empty
+/// @returns nothing where most stay empty
+[[nodiscard]] std::optional<PairLanes> place_pairs(const ContactProblem& problem, std::size_t lanes,
+                                                   bool in_any_order);
 
 }  // namespace firstcontact::detail
