@@ -53,7 +53,7 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
 /// Pairs of boxes are opened so often, or triangles looked at, until surfaces may be found to
 /// glide; and so many pairs of triangles may they leave.
 constexpr std::size_t kManyOpened = 1000;
-constexpr std::size_t kMostClose = 300'000;
+constexpr std::size_t kMostClose = 100'000;
 
 /// More pairs of triangles than these are very many.
 constexpr std::size_t kVeryMany = 1000;
