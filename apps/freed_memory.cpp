@@ -11,7 +11,7 @@ namespace firstcontact::app {
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kKept = 256 << 20;    // [bytes]
-  constexpr int kLargest = 32 << 20;  // [bytes]  The library takes no more than this.
+  constexpr int kLargest = 32 << 20;  // [bytes]  The greatest threshold that glibc takes.
   mallopt(M_TRIM_THRESHOLD, kKept);
   mallopt(M_MMAP_THRESHOLD, kLargest);
 #endif

@@ -19,6 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using test::nothing;
 using test::wall;
+using test::wall_with_heavy_top;
 
 TEST(InteriorPoint, IsTheSameAsContactSpaceWithoutFriction) {
   std::mt19937 rng(1);
@@ -50,6 +51,19 @@ TEST(InteriorPoint, MeetsTheLawsOfWallsInFewSteps) {
         ASSERT_LE(r.tail<2>().norm(), friction * r[0] * (1.0 + 1e-12));
       }
     }
+  }
+}
+
+// Light bricks that bear heavy ones: impulses have to grow by as much as these are heavier.
+TEST(InteriorPoint, TakesFewStepsWhereMassesDiffer) {
+  for (const double heavier : {1e2, 1e4, 1e6}) {
+    std::mt19937 rng(1);
+    const ContactProblem problem = wall_with_heavy_top(rng, 40, 0.0, heavier);
+    const detail::ContactRows rows(problem);
+    detail::Projection projection = nothing(problem, rows);
+    detail::project_by_interior_point(problem, rows, {.tolerance = 1e-4}, projection);
+    EXPECT_LE(projection.residual, 1e-4) << heavier;
+    EXPECT_LE(projection.iterations, 20) << heavier;
   }
 }
 

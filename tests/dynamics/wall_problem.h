@@ -60,6 +60,17 @@ inline ContactProblem wall(std::mt19937& rng, int rows, int columns, double fric
   return problem;
 }
 
+/// Two rows of bricks, of which the upper ones are heavier.
+inline ContactProblem wall_with_heavy_top(std::mt19937& rng, int columns, double friction,
+                                          double heavier) {
+  ContactProblem problem = wall(rng, 2, columns, friction);
+  for (auto b = static_cast<std::size_t>(columns) + 1; b < problem.bodies.size(); ++b) {
+    problem.bodies[b].inverse_inertia.mass /= heavier;
+    problem.bodies[b].inverse_inertia.rotation /= heavier;
+  }
+  return problem;
+}
+
 /// No impulses.
 inline detail::Projection nothing(const ContactProblem& problem, const detail::ContactRows& rows) {
   detail::Projection projection;

@@ -19,6 +19,7 @@
 #include <firstcontact/query/first_contact.h>
 
 #include "support/instruction_sets.h"
+#include "support/rounds.h"
 #include "support/thread_mesh.h"
 
 namespace firstcontact {
@@ -145,7 +146,7 @@ TEST_P(GlideCoverOn, LeavesEveryPairThatComesNear) {
   const Shape inner = rod();
   const Shape outer = nut();
   std::size_t near = 0;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < test::rounds(6, 2); ++round) {
     const bool slides = round % 2 == 1;
     const bool swapped = round % 3 == 2;
     const Motion still = slide(slides);
@@ -169,7 +170,7 @@ TEST(GlideCover, LeavesWhatComesNearOnItsWay) {
   const Shape outer = test::make_thread({.turns = 3, .wider = 0.5, .shift = 1.0});
   const Motion still = Motion::fixed();
   std::size_t near = 0;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < test::rounds(4, 1); ++round) {
     const double side = std::numbers::pi / 2.0 * round;
     const Motion turning =
         Motion::constant_velocity({.position = {0.48 * std::cos(side), 0.48 * std::sin(side), 0.0}},

@@ -130,9 +130,10 @@ struct ContactSolution {
 /// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on
 /// (300 where there are two for each velocity), without drives, an interior point comes before it,
 /// in rounds: each solves the convex problem in which |u_t| is what the round before left, and
-/// sweeps contact space. The automatic choice takes what its rounds leave. Where there are 300
-/// contacts and two for each velocity, it first solves a few alone, with all drives, joined by
-/// those that the answer closes fastest until none is left or these are no longer few.
+/// sweeps contact space. Where a part is enough, the automatic choice takes what its rounds leave.
+/// Where there are 300 contacts and two for each velocity, it first solves a few alone, with all
+/// drives, joined by those that the answer closes fastest until none is left or these are no longer
+/// few.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.

@@ -220,7 +220,8 @@ class Solver {
     if (inner.residual < projection_.residual) {
       projection_ = std::move(inner);
     }
-    if (is_automatic_ || is_solved(projection_)) {
+    const bool may_leave_something = is_automatic_ && options_.enough > 0.0;
+    if (may_leave_something || is_solved(projection_)) {
       return solution(projection_, ProjectionSpace::motion);
     }
     return std::nullopt;

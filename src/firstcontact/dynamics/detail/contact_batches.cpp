@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <firstcontact/dynamics/detail/coulomb_cone.h>
 #include <firstcontact/dynamics/detail/kinetic_coordinates.h>
@@ -56,20 +55,20 @@ std::optional<ContactBatches<Number>> ContactBatches<Number>::of(const ContactPr
     return std::nullopt;
   }
   const bool in_any_order = sizeof(Number) == 4 || problem.contacts.size() >= kVeryMany;
-  const std::optional<PairLanes> lanes = detail::place_pairs(problem, kLanes<Number>, in_any_order);
+  const std::optional<PairLanes> lanes = place_pairs(problem, kLanes<Number>, in_any_order);
   if (!lanes) {
     return std::nullopt;
   }
   ContactBatches made(rows, units);
   made.bodies_ = problem.bodies.size();
-  made.place_pairs(problem.contacts, *lanes);
+  made.take_lanes(problem.contacts, *lanes);
   made.fill(problem);
   return made;
 }
 
 template <class Number>
-void ContactBatches<Number>::place_pairs(const std::vector<ContactPoint>& contacts,
-                                         const PairLanes& lanes) {
+void ContactBatches<Number>::take_lanes(const std::vector<ContactPoint>& contacts,
+                                        const PairLanes& lanes) {
   using Place = typename PairBatch<Number>::Place;
   const auto place_of_body = [](std::size_t body) {
     return static_cast<Place>(kNumbersOfBody * body);

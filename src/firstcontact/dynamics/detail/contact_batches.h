@@ -111,7 +111,7 @@ class ContactBatches {
  private:
   ContactBatches(const ContactRows& rows, const BatchUnits& units) : rows_(&rows), units_(units) {}
 
-  void place_pairs(const std::vector<ContactPoint>& contacts, const PairLanes& lanes);
+  void take_lanes(const std::vector<ContactPoint>& contacts, const PairLanes& lanes);
   void fill(const ContactProblem& problem);
   [[nodiscard]] Eigen::Index impulse_count() const {
     return static_cast<Eigen::Index>(3 * kLanes<Number> * batches_.size());

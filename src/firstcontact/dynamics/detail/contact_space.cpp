@@ -112,9 +112,8 @@ constexpr double kPartOfEnough = 0.5;
 constexpr double kNearTolerance = 10.0;
 constexpr double kHit = 10.0;
 
-/// Where no more than this part of the greatest free velocity is asked for, sweeps are of single
-/// precision: of each contact it loses a few 2^-24 of what its bodies change by, in each sweep.
-constexpr double kSinglePrecision = 5e-6;
+/// Then velocities are made anew from the impulses, so often at most.
+constexpr int kRenewal = 10;
 
 /// There and back: a stack of n bodies would need n sweeps in one direction.
 template <class Sweeps>
@@ -123,6 +122,7 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
   ConjugateDirection direction(sweeps.weights());
   double before = std::numeric_limits<double>::infinity();  // Changes at the last look.
   const bool is_hit = projection.residual > kHit * options.enough;
+  int renewed = -kRenewal;
   int& count = projection.iterations;
   for (count = 0; count < options.sweeps;) {
     const bool backwards = count % 2 == 1;
@@ -138,12 +138,13 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
       }
       before = change;
     }
-    if (change <= wanted) {
+    if (change <= wanted && count - renewed >= kRenewal) {
       sweeps.take(state, projection);
       if (projection.residual <= wanted) {
         return;
       }
       state = sweeps.state_of(projection);  // Without what rounding added up.
+      renewed = count;
     }
     if (backwards && count < options.sweeps) {
       direction.end(state);
@@ -152,14 +153,48 @@ void project_by(Sweeps sweeps, const ProjectionOptions& options, Projection& pro
   sweeps.take(state, projection);
 }
 
+/// Whether responses and friction are of like size everywhere: then products of all numbers of a
+/// contact are far from the ends of single precision. Not where axes are locked.
+bool are_alike(const ContactRows& rows, const BatchUnits& units) {
+  constexpr double kRange = 1e4;
+  return std::ranges::all_of(rows.contacts, [&](const ContactRow& row) {
+    const double least = std::min(row.own.W()(0, 0), row.own.tangential().minCoeff());
+    return !(row.greatest() > 0.0) ||
+           (row.greatest() <= kRange * units.response && least >= units.response / kRange &&
+            (row.friction == 0.0 || (row.friction >= 1.0 / kRange && row.friction <= kRange)));
+  });
+}
+
+/// [m/s]  What sweeps in single precision tell apart: a few 2^-24 of what bodies change by, and of
+/// what impulses do to their contacts.
+double told_by_single_precision(const ContactRows& rows, const BatchUnits& units,
+                                const Projection& projection) {
+  double greatest = units.velocity;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    greatest =
+        std::max(greatest, rows.contacts[k].greatest() * projection.impulses.contacts[k].norm());
+  }
+  constexpr double kTold = 5e-6;
+  return kTold * greatest;
+}
+
 }  // namespace
 
 void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
                               const ProjectionOptions& options, Projection& projection) {
   const BatchUnits units = units_of(rows);
-  if (options.tolerance >= kSinglePrecision * units.velocity) {
+  if (are_alike(rows, units) &&
+      told_by_single_precision(rows, units, projection) <= options.tolerance) {
     if (auto batches = ContactBatches<float>::of(problem, rows, units)) {
-      return project_by(*std::move(batches), options, projection);
+      Projection swept = projection;
+      project_by(*std::move(batches), options, swept);
+      const bool is_told = told_by_single_precision(rows, units, swept) <= options.tolerance;
+      if (swept.residual < projection.residual) {
+        projection = std::move(swept);
+      }
+      if (is_told || projection.residual <= std::max(options.tolerance, options.enough)) {
+        return;
+      }
     }
   }
   if (auto batches = ContactBatches<double>::of(problem, rows)) {

@@ -127,6 +127,7 @@ class InteriorPoint {
       steps += solve_convex(options);
       Projection swept{.impulses = impulses()};
       swept.velocities = velocities_after(rows_, swept.impulses);
+      swept.residual = greatest_residual(rows_, swept.impulses, swept.velocities);
       project_in_contact_space(problem_, rows_, {.tolerance = options.tolerance, .sweeps = kSweeps},
                                swept);
       V = swept.velocities;
@@ -176,7 +177,21 @@ class InteriorPoint {
     }
   }
 
-  /// In the middle of the cones.
+  /// [1/kg]  The least normal response of one side of a contact.
+  [[nodiscard]] double heaviest_response() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Contact& contact : contacts_) {
+      for (const RowSide& side : rows_.contacts[contact.row].sides) {
+        const double own = side.is_link() ? side.J_q.row(0).dot(side.response_q.col(0))
+                                          : side.J.row(0).dot(side.response.col(0));
+        least = own > 0.0 ? std::min(least, own) : least;
+      }
+    }
+    return least;
+  }
+
+  /// In the middle of the cones, with impulses that would stop the heaviest body: from great ones
+  /// steps are long, while they could grow but little where light bodies bear heavy ones.
   void start(const ProjectionOptions& options) {
     x_ = VectorXd::Zero(coordinates_.size());
     double fastest = std::numeric_limits<double>::min();
@@ -185,9 +200,10 @@ class InteriorPoint {
       fastest = std::max(fastest, contact.u_free.cwiseAbs().maxCoeff());
       response = std::max(response, rows_.contacts[contact.row].greatest());
     }
+    const double impulse = fastest / std::min(response, heaviest_response());
     for (Contact& contact : contacts_) {
       contact.y = fastest * Vector3d::UnitX();
-      contact.z = fastest / rows_.contacts[contact.row].greatest() * Vector3d::UnitX();
+      contact.z = impulse * Vector3d::UnitX();
     }
     least_complementarity_ = kShareOfTolerance * options.tolerance * options.tolerance / response;
   }

@@ -110,23 +110,42 @@ PairLanes place_in_order(const ContactProblem& problem, std::size_t lanes) {
   return placed;
 }
 
+/// In which batches a body is.
+class BatchesOfBody {
+ public:
+  [[nodiscard]] bool has(std::size_t batch) const { return batch < is_in_.size() && is_in_[batch]; }
+  /// It is in all before.
+  [[nodiscard]] std::size_t first_without() const { return first_without_; }
+  void add(std::size_t batch) {
+    is_in_.resize(std::max(is_in_.size(), batch + 1), false);
+    is_in_[batch] = true;
+    while (has(first_without_)) {
+      ++first_without_;
+    }
+  }
+
+ private:
+  std::vector<bool> is_in_;
+  std::size_t first_without_ = 0;
+};
+
 /// Each in the first batch in which its bodies are not yet.
 PairLanes place_anyhow(const ContactProblem& problem, std::size_t lanes) {
   const std::vector<ContactPoint>& contacts = problem.contacts;
   PairLanes placed;
   placed.places.resize(contacts.size());
-  std::vector<std::vector<std::size_t>> used(problem.bodies.size());  // Batches, by each body.
+  std::vector<BatchesOfBody> used(problem.bodies.size());
   FreeLanes free(lanes);
   for_each_pair(contacts, [&](std::size_t first, std::size_t count) {
-    const auto may_use = [&](std::size_t batch) {
-      return std::ranges::all_of(contacts[first].bodies, [&](std::size_t body) {
-        return std::ranges::find(used[body], batch) == used[body].end();
-      });
+    const auto [a, b] = contacts[first].bodies;
+    const auto may_use = [&used, a = a, b = b](std::size_t batch) {
+      return !used[a].has(batch) && !used[b].has(batch);
     };
-    placed.places[first] = free.take_from(0, count, may_use);
+    placed.places[first] =
+        free.take_from(std::max(used[a].first_without(), used[b].first_without()), count, may_use);
     for (const std::size_t body : contacts[first].bodies) {
       if (is_movable(problem.bodies[body])) {
-        used[body].push_back(placed.places[first].batch);
+        used[body].add(placed.places[first].batch);
       }
     }
   });
