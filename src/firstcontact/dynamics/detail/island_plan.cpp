@@ -11,6 +11,7 @@ using Eigen::Vector3d;
 
 /// Half of what is missing to the rest distance is made up for in a plan.
 constexpr double kPush = 0.5;
+constexpr double kPushTolerance = 1e-2;  // Of that distance.
 
 /// How often contacts around what is too near are solved, in the mean of all, before all are swept.
 constexpr int kPushSweepsAround = 4;
@@ -135,6 +136,9 @@ void IslandPlanner::add(const TouchAhead& ahead) {
     append(ahead.touch, contact);
     return;
   }
+  if (*k >= first_ahead_) {
+    keep_push_from(contact);
+  }
   const ContactPoint& before = problem_.contacts[*k];
   contact.guess = contact.frame * (before.frame.transpose() * before.guess);
   touches_[*k] = ahead.touch;
@@ -247,18 +251,26 @@ void IslandPlanner::push_apart(Plan& plan) {
   }
 }
 
+/// Displacements that bring a touch ahead about once more are to be found anew, with it: it may be
+/// of features that were beyond the band, on the other side of a link, say. Held by velocities
+/// alone, it would be reached over and over again, in ever shorter plans.
+void IslandPlanner::keep_push_from(const ContactPoint& contact) {
+  if (push_ &&
+      normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.world.distances.least) {
+    push_.reset();
+  }
+}
+
 /// Displacements, in metres in place of metres per second: least in the kinetic metric, and
 /// without velocity, so that they add no energy of motion.
-ContactSolution IslandPlanner::find_push() {
+ContactSolution IslandPlanner::find_push() const {
   const ContactDistances& distances = state_.world.distances;
-  ProblemBodies bodies = state_.problem_bodies();
   const ProjectionOptions options{
-      .tolerance = 1e-2 * distances.least, .enough = 0.3 * distances.least, .sweeps = 50};
+      .tolerance = kPushTolerance * distances.least, .enough = 0.3 * distances.least, .sweeps = 50};
   ContactProblem problem;
   std::vector<std::size_t> too_near;
   for (const auto& [pair, manifold] : state_.manifolds) {
     for (const Touch& touch : manifold.touches) {
-      state_.add_others(pair, bodies);
       const double missing = distances.least - touch.gap;
       if (kPush * missing > options.tolerance) {
         too_near.push_back(problem.contacts.size());
@@ -266,10 +278,15 @@ ContactSolution IslandPlanner::find_push() {
       Touch unknown = touch;
       unknown.impulse.setZero();
       problem.contacts.push_back(
-          contact_at(unknown, bodies, 0.0, missing > 0.0 ? kPush * missing : missing));
+          contact_at(unknown, bodies_, 0.0, missing > 0.0 ? kPush * missing : missing));
     }
   }
-  problem.bodies = bodies.bodies();
+  for (std::size_t k = first_ahead_; k < problem_.contacts.size(); ++k) {
+    const ContactPoint& ahead = problem_.contacts[k];
+    problem.contacts.push_back(
+        {.bodies = ahead.bodies, .arm_A = ahead.arm_A, .arm_B = ahead.arm_B, .frame = ahead.frame});
+  }
+  problem.bodies = bodies_.bodies();
   for (ContactBody& body : problem.bodies) {
     body.v.setZero();
     body.w.setZero();

@@ -68,7 +68,8 @@ class IslandPlanner {
   [[nodiscard]] std::vector<bool> led_by_end() const;
   void set_moves(const std::vector<bool>& by_end, Plan& plan) const;
   void push_apart(Plan& plan);
-  [[nodiscard]] ContactSolution find_push();
+  void keep_push_from(const ContactPoint& contact);
+  [[nodiscard]] ContactSolution find_push() const;
 
   IslandState& state_;
   double span_;  // [s]
@@ -81,7 +82,7 @@ class IslandPlanner {
   std::vector<RobotPlan> free_robots_;
   std::optional<PlanSolution> last_ = {};
   std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
-  std::optional<ContactSolution> push_ = {};  // Of all plans from now.
+  std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.
 };
 
 /// [s]  Too short a time, of a step of h, for anything to be done in it: who looks at the motion
