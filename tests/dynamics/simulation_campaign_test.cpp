@@ -381,5 +381,15 @@ TEST(SimulationCampaign, LinksThatFloatOnATurningOneGainNothing) {
   std::filesystem::remove(urdf);
 }
 
+// What led a link back to its distance from the ground took a joint beyond its limit, and each plan
+// ended there before it had begun.
+TEST(SimulationCampaign, PushesApartStopAtJointLimits) {
+  Campaign campaign;
+  const std::filesystem::path urdf = std::filesystem::temp_directory_path() /
+                                     ("firstcontact_limits_" + std::to_string(getpid()) + ".urdf");
+  campaign.check(600004, Draw(600004).scene_with_robot(urdf));
+  std::filesystem::remove(urdf);
+}
+
 }  // namespace
 }  // namespace firstcontact::test

@@ -50,6 +50,7 @@ struct Facet {
 
 void weigh(std::vector<Facet>& facets) {
   std::vector<double> areas;
+  areas.reserve(facets.size());
   for (const Facet& facet : facets) {
     areas.push_back(facet.area);
   }

@@ -295,6 +295,7 @@ ContactSolution IslandPlanner::find_push() const {
   for (ContactMechanism& mechanism : problem.mechanisms) {
     mechanism.velocity.setZero();
   }
+  state_.robots.add_stops(problem);
   if (problem.mechanisms.empty()) {  // Most have room: only those around move.
     ProjectionOptions around_options = options;
     around_options.sweeps = kPushSweepsAround;

@@ -163,6 +163,13 @@ void IslandRobots::add_drives_at_impact(ContactProblem& problem) const {
   }
 }
 
+void IslandRobots::add_stops(ContactProblem& problem) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    std::ranges::copy(robots_[r].robot->stops(robots_[r].state, r),
+                      std::back_inserter(problem.drives));
+  }
+}
+
 /// [N m s or N s]  What the motors of a robot, the first ones of its drives, did to each
 /// coordinate.
 VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,

@@ -74,6 +74,9 @@ class IslandRobots {
 
   void add_drives_at_impact(ContactProblem& problem) const;
 
+  /// Adds what keeps displacements in place of velocities within the limits of joints.
+  void add_stops(ContactProblem& problem) const;
+
   /// Where each robot gets. As of bodies the mean of the velocities at both ends leads it, on top
   /// of what free motion did. Where anything drives a joint, those at the end do, on top of what
   /// inertia alone did. Velocities are carried from where free motion leads to there.

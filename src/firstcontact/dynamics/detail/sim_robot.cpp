@@ -319,6 +319,29 @@ std::vector<JointDrive> SimRobot::drives_at_impact(const MechanismState& state,
   return drives;
 }
 
+std::vector<JointDrive> SimRobot::stops(const MechanismState& state,
+                                        std::size_t mechanism_number) const {
+  std::vector<JointDrive> drives;
+  for (const JointLaw& law : laws) {
+    const double q = state.positions[law.position];
+    JointDrive drive{.mechanism = mechanism_number,
+                     .coordinate = static_cast<std::size_t>(law.velocity)};
+    if (law.limits.lower) {
+      drive.target = std::min(0.0, *law.limits.lower - q);
+      drive.least = 0.0;
+      drive.greatest = kInfinity;
+      drives.push_back(drive);
+    }
+    if (law.limits.upper) {
+      drive.target = std::max(0.0, *law.limits.upper - q);
+      drive.least = -kInfinity;
+      drive.greatest = 0.0;
+      drives.push_back(drive);
+    }
+  }
+  return drives;
+}
+
 std::vector<SimRobot> make_sim_robots(const LoadedScene& loaded, const LinksAsBodies& linked) {
   std::vector<SimRobot> robots;
   for (std::size_t r = 0; r < loaded.scene.robots.size(); ++r) {

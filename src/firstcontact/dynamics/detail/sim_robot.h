@@ -50,6 +50,10 @@ struct SimRobot {
                                                const Eigen::VectorXd& origin, std::size_t mechanism,
                                                double from, double span) const;
 
+  /// What keeps displacements [rad or m] in place of velocities within limits.
+  [[nodiscard]] std::vector<JointDrive> stops(const MechanismState& state,
+                                              std::size_t mechanism_number) const;
+
   /// [-]  How far the positions of a plan may be followed before a coordinate leaves its limits.
   [[nodiscard]] double share_within_limits(const MechanismState& from,
                                            const Eigen::VectorXd& to) const;
