@@ -355,30 +355,39 @@ TEST(SimulationCampaign, EveryRunKeepsTheLawsAndIsProven) {
   campaign.print(seeds.count);
 }
 
+/// Where the robot of a scene is written; removed in the end.
+class RobotFile {
+ public:
+  RobotFile() = default;
+  ~RobotFile() { std::filesystem::remove(path_); }
+  RobotFile(const RobotFile&) = delete;
+  RobotFile& operator=(const RobotFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() /
+                                ("firstcontact_campaign_" + std::to_string(getpid()) + ".urdf");
+};
+
 TEST(SimulationCampaign, SoDoesEveryRunWithARobot) {
   Campaign campaign;
   const Seeds seeds(8);
-  const std::filesystem::path urdf =
-      std::filesystem::temp_directory_path() /
-      ("firstcontact_campaign_" + std::to_string(getpid()) + ".urdf");
+  const RobotFile urdf;
   for (std::uint64_t seed = seeds.first; seed < seeds.first + seeds.count; ++seed) {
-    campaign.check(seed, Draw(seed).scene_with_robot(urdf));
+    campaign.check(seed, Draw(seed).scene_with_robot(urdf.path()));
   }
   campaign.print(seeds.count);
-  std::filesystem::remove(urdf);
 }
 
 // A light root that turns fast carries heavy links far out by joints of six coordinates: the same
 // numbers mean another motion after a tenth of a radian. One gained 18 % of its energy in a step.
 TEST(SimulationCampaign, LinksThatFloatOnATurningOneGainNothing) {
   Campaign campaign;
-  const std::filesystem::path urdf =
-      std::filesystem::temp_directory_path() /
-      ("firstcontact_floating_" + std::to_string(getpid()) + ".urdf");
+  const RobotFile urdf;
   for (const std::uint64_t seed : {272, 714}) {
-    campaign.check(seed, Draw(seed).scene_with_robot(urdf));
+    campaign.check(seed, Draw(seed).scene_with_robot(urdf.path()));
   }
-  std::filesystem::remove(urdf);
 }
 
 // What led a link back to its distance from the ground took a joint beyond its limit, and each plan
