@@ -113,7 +113,7 @@ TEST(SinglePrecision, LeavesWhatBearsAHeavyLoadToDoubles) {
   }
 }
 
-// Sixteen at a time they would never end better than they began.
+// Nor where sweeps in single precision were tried first and did not get there.
 TEST(SinglePrecision, NeverEndsWorseThanItBegan) {
   const ContactProblem problem = stacks(20, 200);
   const detail::ContactRows rows(problem);

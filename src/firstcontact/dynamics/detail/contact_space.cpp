@@ -112,7 +112,8 @@ constexpr double kPartOfEnough = 0.5;
 constexpr double kNearTolerance = 10.0;
 constexpr double kHit = 10.0;
 
-/// Then velocities are made anew from the impulses, so often at most.
+/// [sweeps]  Where changes are small enough and the residual is not, velocities are made anew from
+/// the impulses, which costs as much as a sweep: not more often than that.
 constexpr int kRenewal = 10;
 
 /// There and back: a stack of n bodies would need n sweeps in one direction.

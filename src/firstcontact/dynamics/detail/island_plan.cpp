@@ -255,8 +255,11 @@ void IslandPlanner::push_apart(Plan& plan) {
 /// of features that were beyond the band, on the other side of a link, say. Held by velocities
 /// alone, it would be reached over and over again, in ever shorter plans.
 void IslandPlanner::keep_push_from(const ContactPoint& contact) {
-  if (push_ &&
-      normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.world.distances.least) {
+  if (!push_) {
+    return;
+  }
+  push_->bodies.resize(problem_.bodies.size());  // Others that came since do not move.
+  if (normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.world.distances.least) {
     push_.reset();
   }
 }
