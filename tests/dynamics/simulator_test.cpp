@@ -291,6 +291,28 @@ TEST(Simulator, PushesApartDoNotJamOnAnotherSide) {
   expect_no_lost_time("chain_pushed_into_its_other_side.json", 10);
 }
 
+// A rod turns about its middle. What leads it away from a block beside that leads its end ten times
+// as far, against a block that it did not touch before.
+TEST(Simulator, PushesApartHeedBodiesThatCameAfterThem) {
+  Simulator s =
+      simulator(body("rod", box("[2, 0.1, 0.1]"), "[0, 0, 0]",
+                     R"(, "dynamics": {"locked_translation": [true, true, true]})") +
+                    "," + body("near", box("[0.02, 0.2, 0.1]"), "[0.1, 0, 0.1001]", "") + "," +
+                    body("far", box("[0.02, 0.2, 0.1]"), "[-0.95, 0, 0.1025]", ""),
+                R"("step": 0.01, "duration": 1, "gravity": [0, 0, 0], "contact_distance": 1e-3)");
+  double lost = 0.0;
+  const auto steps = run(s, 20);
+  for (const RunStep& step : steps) {
+    lost += step.time_lost;
+  }
+  EXPECT_EQ(lost, 0.0);
+  // It turned until its end was where it rests, or nearly so.
+  const double turned = 2.0 * std::asin(steps.back().bodies[0].X_WB.rotation.vec().norm());
+  EXPECT_GT(turned, 1.0e-3);
+  EXPECT_LT(turned, 2.0e-3);
+  EXPECT_EQ(verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
 // --- The record --------------------------------------------------------------------------------
 
 TEST(Simulator, GoesOnBitForBit) {
