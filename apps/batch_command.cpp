@@ -11,11 +11,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_lines.h>
 #include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/scene_lines.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "batch_tally.h"
 #include "command_line_file.h"

@@ -9,8 +9,8 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/write_page.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"
 #include "command_line_file.h"

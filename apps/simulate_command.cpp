@@ -13,11 +13,11 @@
 
 #include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/dynamics/write_run_page.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"
 #include "command_line_file.h"

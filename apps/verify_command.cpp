@@ -10,8 +10,8 @@
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/dynamics/write_verification.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "interrupt.h"
 #include "progress.h"

@@ -20,10 +20,10 @@
 #include <firstcontact/dynamics/load_scene_of.h>
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run_page.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/write_page.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"
 #include "command_line_file.h"

@@ -14,7 +14,7 @@
 
 #include <firstcontact/articulated/read_asf_amc.h>
 #include <firstcontact/articulated/read_bvh.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "support/data_dir.h"
 

@@ -9,7 +9,7 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "support/data_dir.h"
 

@@ -13,8 +13,8 @@
 
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"
 

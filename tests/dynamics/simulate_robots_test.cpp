@@ -13,7 +13,7 @@
 
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "dynamics/simulated_run.h"
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <variant>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
 #include "scene/crane.h"

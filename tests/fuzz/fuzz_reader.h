@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include <firstcontact/geometry/mesh_defects.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::test {
 

@@ -3,9 +3,9 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
 

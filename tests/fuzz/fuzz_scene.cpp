@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
 #include "scene/scene_bits.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
 

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
 #include "scene/crane.h"

@@ -15,8 +15,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "geometry/mesh_text.h"
 

@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "geometry/mesh_text.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/point_cloud.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "geometry/mesh_text.h"
 

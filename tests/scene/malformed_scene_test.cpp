@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_text.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/crane.h"
 

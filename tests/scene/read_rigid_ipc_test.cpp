@@ -16,11 +16,11 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/mass_properties.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"
 #include "support/data_dir.h"

@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"
 #include "scene/scene_text.h"

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
@@ -15,6 +14,7 @@
 #include <firstcontact/scene/robot_question.h>
 #include <firstcontact/scene/write_result.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/robot_text.h"
 

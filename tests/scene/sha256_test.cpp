@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/text/sha256.h>
 
 #include <string>
 

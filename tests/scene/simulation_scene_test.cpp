@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_text.h"
 

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

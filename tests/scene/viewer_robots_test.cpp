@@ -18,13 +18,13 @@
 
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/parse_json.h>
 #include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_page.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/detail/base64.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/text/base64.h>
 
 namespace firstcontact {
 namespace {

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 #include "scene/scene_bits.h"
 #include "scene/scene_text.h"

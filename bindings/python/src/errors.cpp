@@ -7,7 +7,7 @@
 
 #include <pybind11/stl.h>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 #include "bindings.h"
 

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/articulated/detail/read_text_file.h>
-#include <firstcontact/articulated/detail/word_reader.h>
+#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/word_reader.h>
 
 namespace firstcontact {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 #include <tuple>
 
-#include <firstcontact/articulated/detail/read_text_file.h>
-#include <firstcontact/articulated/detail/xml_reader.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/xml_reader.h>
 
 namespace firstcontact {
 namespace {

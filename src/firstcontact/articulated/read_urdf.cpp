@@ -8,10 +8,10 @@
 #include <utility>
 
 #include <firstcontact/articulated/detail/mesh_uri.h>
-#include <firstcontact/articulated/detail/read_text_file.h>
-#include <firstcontact/articulated/detail/xml_reader.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/motion/rotation_forms.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/xml_reader.h>
 
 namespace firstcontact {
 namespace {

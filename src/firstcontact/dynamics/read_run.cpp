@@ -11,10 +11,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {
 namespace {

@@ -1,11 +1,11 @@
 #include <firstcontact/geometry/read_mesh.h>
 
-#include <firstcontact/geometry/detail/file_extension.h>
-#include <firstcontact/geometry/detail/mapped_file.h>
 #include <firstcontact/geometry/detail/read_with_assimp.h>
-#include <firstcontact/geometry/detail/text_cursor.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/text/file_extension.h>
+#include <firstcontact/text/mapped_file.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include <firstcontact/geometry/detail/mesh_builder.h>
-#include <firstcontact/geometry/detail/text_cursor.h>
 #include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
 namespace {

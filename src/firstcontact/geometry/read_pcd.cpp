@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/geometry/detail/byte_cursor.h>
 #include <firstcontact/geometry/detail/lzf.h>
-#include <firstcontact/geometry/detail/text_cursor.h>
 #include <firstcontact/geometry/read_points.h>
+#include <firstcontact/text/byte_cursor.h>
+#include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
 namespace {

@@ -1,9 +1,9 @@
 #include <firstcontact/geometry/read_points.h>
 
-#include <firstcontact/geometry/detail/file_extension.h>
-#include <firstcontact/geometry/detail/mapped_file.h>
-#include <firstcontact/geometry/detail/text_cursor.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/file_extension.h>
+#include <firstcontact/text/mapped_file.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
 namespace {

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/geometry/detail/byte_cursor.h>
 #include <firstcontact/geometry/detail/mesh_builder.h>
-#include <firstcontact/geometry/detail/text_cursor.h>
 #include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/text/byte_cursor.h>
+#include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
 namespace {

@@ -12,10 +12,10 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {
 namespace {

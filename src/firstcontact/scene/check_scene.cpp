@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 

@@ -1,9 +1,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <firstcontact/scene/detail/quantity.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/text/quantity.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <firstcontact/geometry/mass_properties.h>
 #include <firstcontact/scene/detail/load_robots.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -7,10 +7,10 @@
 #include <variant>
 
 #include <firstcontact/geometry/deforming_body.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/load_robots.h>
-#include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/size_warning.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/sha256.h>
 
 namespace firstcontact {
 

@@ -2,7 +2,7 @@
 
 #include <bit>
 
-#include <firstcontact/scene/detail/base64.h>
+#include <firstcontact/text/base64.h>
 
 namespace firstcontact {
 

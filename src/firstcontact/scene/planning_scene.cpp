@@ -11,12 +11,12 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/detail/ros_message.h>
-#include <firstcontact/scene/detail/text_tree.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/text_tree.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

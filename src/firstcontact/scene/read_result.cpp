@@ -3,11 +3,11 @@
 #include <string>
 #include <variant>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_result.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -12,16 +12,16 @@
 #include <vector>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_rigid_ipc_body.h>
 #include <firstcontact/scene/detail/rigid_ipc_body.h>
 #include <firstcontact/scene/detail/rigid_ipc_groups.h>
 #include <firstcontact/scene/detail/rigid_ipc_keys.h>
 #include <firstcontact/scene/detail/rigid_ipc_meshes.h>
-#include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
 
 namespace firstcontact {
 namespace {

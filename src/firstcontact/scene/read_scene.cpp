@@ -10,12 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/parse_json.h>
 #include <firstcontact/scene/detail/read_dynamics.h>
-#include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pairs.h>
 #include <firstcontact/scene/detail/read_path.h>
@@ -23,8 +19,12 @@
 #include <firstcontact/scene/detail/read_robots.h>
 #include <firstcontact/scene/detail/read_shape.h>
 #include <firstcontact/scene/detail/read_simulation.h>
-#include <firstcontact/scene/detail/sha256.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <string>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/read_file.h>
-#include <firstcontact/scene/detail/text_tree.h>
 #include <firstcontact/scene/detail/trajectory_table.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/text_tree.h>
 
 namespace firstcontact {
 

@@ -13,15 +13,15 @@
 #include <variant>
 
 #include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/read_file.h>
-#include <firstcontact/scene/detail/sha256.h>
-#include <firstcontact/scene/detail/text_tree.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/text_tree.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include <firstcontact/scene/detail/scene_names.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/sha256.h>
 
 namespace firstcontact {
 namespace {

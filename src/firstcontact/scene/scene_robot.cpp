@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -11,9 +11,9 @@
 #include <tbb/task_arena.h>
 
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/scene/detail/make_shape.h>
-#include <firstcontact/scene/detail/sha256.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/sha256.h>
 
 namespace firstcontact {
 

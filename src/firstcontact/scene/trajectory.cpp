@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/detail/page_meshes.h>
 #include <firstcontact/scene/detail/page_robots.h>
 #include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

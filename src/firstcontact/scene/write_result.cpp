@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/parse_json.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/robot_result.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene/write_scene.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/json_tree.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/detail/write_simulation.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {

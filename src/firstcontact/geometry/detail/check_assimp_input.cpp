@@ -7,8 +7,8 @@
 #include <optional>
 #include <system_error>
 
-#include <firstcontact/geometry/detail/byte_cursor.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/byte_cursor.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -15,7 +15,7 @@
 
 #include <firstcontact/geometry/detail/check_assimp_input.h>
 #include <firstcontact/geometry/detail/mesh_builder.h>
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {

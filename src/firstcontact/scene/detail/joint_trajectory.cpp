@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

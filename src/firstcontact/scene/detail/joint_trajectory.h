@@ -6,8 +6,8 @@
 #include <string>
 
 #include <firstcontact/articulated/robot_model.h>
-#include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -8,10 +8,10 @@
 #include <variant>
 
 #include <firstcontact/articulated/robot_motion.h>
-#include <firstcontact/scene/detail/quantity.h>
-#include <firstcontact/scene/detail/sha256.h>
 #include <firstcontact/scene/detail/size_warning.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/quantity.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

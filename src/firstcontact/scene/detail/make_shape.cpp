@@ -8,11 +8,11 @@
 #include <vector>
 
 #include <firstcontact/geometry/convex_hull.h>
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/read_points.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/page_numbers.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <firstcontact/articulated/link_geometry.h>
 #include <firstcontact/geometry/mesh.h>
-#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

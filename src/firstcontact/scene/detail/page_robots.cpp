@@ -10,8 +10,8 @@
 
 #include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

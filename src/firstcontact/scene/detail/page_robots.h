@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <firstcontact/articulated/robot_scene.h>
-#include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/detail/page_meshes.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <firstcontact/scene/detail/read_pose.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

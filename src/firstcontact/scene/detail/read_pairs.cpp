@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <firstcontact/scene/detail/scene_names.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <system_error>
 
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

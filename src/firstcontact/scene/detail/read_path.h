@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -12,13 +12,13 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/read_file.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_robot_dynamics.h>
-#include <firstcontact/scene/detail/sha256.h>
-#include <firstcontact/scene/detail/write_json.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <firstcontact/scene/detail/read_dynamics.h>
 #include <firstcontact/scene/detail/scene_names.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -15,8 +15,8 @@
 
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/write_result.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <variant>
 
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 

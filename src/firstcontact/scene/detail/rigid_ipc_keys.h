@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -8,12 +8,12 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/parse_error.h>
 #include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/weld.h>
-#include <firstcontact/scene/detail/read_file.h>
-#include <firstcontact/scene/detail/sha256.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

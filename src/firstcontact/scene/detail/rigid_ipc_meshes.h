@@ -13,7 +13,7 @@
 
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

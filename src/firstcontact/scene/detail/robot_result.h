@@ -4,8 +4,8 @@
 #pragma once
 
 #include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

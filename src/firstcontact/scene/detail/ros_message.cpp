@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/scene/detail/json_reader.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {
 

@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include <firstcontact/scene/detail/json_reader.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 

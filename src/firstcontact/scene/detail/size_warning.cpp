@@ -2,8 +2,8 @@
 
 #include <variant>
 
-#include <firstcontact/scene/detail/quantity.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/quantity.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

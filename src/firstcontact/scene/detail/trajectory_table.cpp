@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/utf8.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/utf8.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/scene/detail/json_tree.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

@@ -1,12 +1,12 @@
-#include <firstcontact/scene/detail/json_reader.h>
+#include <firstcontact/text/json_reader.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <variant>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

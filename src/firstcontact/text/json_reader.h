@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
 

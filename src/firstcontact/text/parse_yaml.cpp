@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/parse_yaml.h>
+#include <firstcontact/text/parse_yaml.h>
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
-#include <firstcontact/geometry/parse_error.h>
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/utf8.h>
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/utf8.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

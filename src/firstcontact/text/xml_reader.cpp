@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/xml_reader.h>
+#include <firstcontact/text/xml_reader.h>
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {

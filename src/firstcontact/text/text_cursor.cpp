@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/text_cursor.h>
+#include <firstcontact/text/text_cursor.h>
 
 #include <limits>
 

@@ -1,9 +1,9 @@
-#include <firstcontact/scene/detail/text_tree.h>
+#include <firstcontact/text/text_tree.h>
 
 #include <algorithm>
 
-#include <firstcontact/scene/detail/parse_json.h>
-#include <firstcontact/scene/detail/parse_yaml.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/parse_yaml.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {
 namespace {

@@ -1,9 +1,9 @@
-#include <firstcontact/scene/detail/json_tree.h>
+#include <firstcontact/text/json_tree.h>
 
 #include <algorithm>
 #include <optional>
 
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {

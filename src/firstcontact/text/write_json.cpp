@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/write_json.h>
+#include <firstcontact/text/write_json.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <variant>
 
-#include <firstcontact/scene/detail/utf8.h>
+#include <firstcontact/text/utf8.h>
 
 namespace firstcontact::detail {
 namespace {

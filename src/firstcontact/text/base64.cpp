@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/base64.h>
+#include <firstcontact/text/base64.h>
 
 #include <cstddef>
 #include <string_view>

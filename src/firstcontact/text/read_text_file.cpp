@@ -1,9 +1,9 @@
-#include <firstcontact/articulated/detail/read_text_file.h>
+#include <firstcontact/text/read_text_file.h>
 
 #include <fstream>
 #include <iterator>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 

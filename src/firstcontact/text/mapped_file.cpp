@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/mapped_file.h>
+#include <firstcontact/text/mapped_file.h>
 
 #include <cerrno>
 #include <string>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 namespace {

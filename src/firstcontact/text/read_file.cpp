@@ -1,10 +1,10 @@
-#include <firstcontact/scene/detail/read_file.h>
+#include <firstcontact/text/read_file.h>
 
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
-#include <firstcontact/geometry/parse_error.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
 
