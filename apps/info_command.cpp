@@ -9,9 +9,9 @@
 
 #include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
-#include <firstcontact/geometry/read_mesh.h>
-#include <firstcontact/geometry/read_points.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "info_json.h"

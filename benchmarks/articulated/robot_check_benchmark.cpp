@@ -27,7 +27,7 @@
 #include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/robot_question.h>

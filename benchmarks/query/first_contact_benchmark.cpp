@@ -18,7 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/query/first_contact.h>
 
 #include "benchmarks/support/fcl_peer.h"

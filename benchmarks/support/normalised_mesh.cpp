@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 
 namespace firstcontact::benchmarks {
 

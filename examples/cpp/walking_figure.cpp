@@ -18,7 +18,7 @@
 
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/articulated/read_asf_amc.h>
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 
 namespace {
 

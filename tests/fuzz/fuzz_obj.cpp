@@ -1,7 +1,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 
 #include "fuzz/fuzz_reader.h"
 

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include <firstcontact/geometry/mesh_defects.h>
-#include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::test {

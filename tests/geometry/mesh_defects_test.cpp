@@ -14,7 +14,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 
 #include "support/data_dir.h"
 

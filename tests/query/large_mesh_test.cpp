@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact {

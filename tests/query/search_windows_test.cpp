@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 

@@ -15,10 +15,10 @@
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/geometry/read_mesh.h>
-#include <firstcontact/geometry/read_points.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/mesh_files/read_points.h>
 
 #include "arrays.h"
 #include "bindings.h"

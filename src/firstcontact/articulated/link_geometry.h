@@ -13,6 +13,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -58,5 +59,15 @@ struct LinkGeometry {
 ///
 /// @throws ParseError as read_mesh; std::invalid_argument where a number is out of its range
 [[nodiscard]] FIRSTCONTACT_API Shape make_shape(const GeometrySource& source);
+
+/// A shape and what became of the file that it is from.
+struct ShapeReading {
+  Shape shape;
+  std::optional<FileReport> report;  ///< Of a mesh.
+};
+
+/// As make_shape().
+[[nodiscard]] FIRSTCONTACT_API ShapeReading read_shape(const GeometrySource& source,
+                                                       const ReadingOptions& options = {});
 
 }  // namespace firstcontact

@@ -1,16 +1,19 @@
 #include <firstcontact/articulated/read_urdf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <firstcontact/articulated/detail/mesh_uri.h>
 #include <firstcontact/motion/rotation_forms.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/reading_log.h>
 #include <firstcontact/text/xml_reader.h>
 
 namespace firstcontact {
@@ -37,9 +40,12 @@ constexpr std::array<TypeWord, 9> kTypes = {{{"fixed", JointType::fixed},
 class UrdfReader {
  public:
   UrdfReader(std::string_view text, const std::filesystem::path& source, const UrdfOptions& options)
-      : xml_(text, source.string()), source_(source), options_(options) {}
+      : xml_(text, source.string()),
+        source_(source),
+        options_(options),
+        log_(source.string(), "URDF", options.reading) {}
 
-  RobotModel robot() {
+  RobotReading robot() {
     const XmlElement& root = xml_.root("robot");
     RobotDescription robot;
     robot.name = xml_.text(root, "name");
@@ -57,7 +63,11 @@ class UrdfReader {
                                                : root;
       xml_.fail(where, defect->message);
     }
-    return RobotModel(std::move(robot));
+    log_.add_content("links", robot.links.size());
+    log_.add_content("joints", robot.joints.size());
+    std::vector<FileReport> files = {log_.finish()};
+    files.insert(files.end(), mesh_files_.begin(), mesh_files_.end());
+    return {RobotModel(std::move(robot)), std::move(files)};
   }
 
  private:
@@ -174,7 +184,7 @@ class UrdfReader {
       const MeshKey key{mesh->path, {s.x(), s.y(), s.z()}};
       const auto known = meshes_.find(key);
       return known != meshes_.end() ? known->second
-                                    : meshes_.emplace(key, make_shape(source)).first->second;
+                                    : meshes_.emplace(key, read_mesh_shape(source)).first->second;
     } catch (const std::invalid_argument& error) {
       xml_.fail(element, error.what());
     } catch (const ParseError& error) {
@@ -183,6 +193,16 @@ class UrdfReader {
       }
       xml_.fail(element, "mesh file " + mesh->path.string() + " does not exist");
     }
+  }
+
+  /// Notes the report of a file that is read for the first time, at whatever scale.
+  Shape read_mesh_shape(const GeometrySource& source) {
+    ShapeReading reading = read_shape(source, options_.reading);
+    const auto is_same = [&](const FileReport& file) { return file.path == reading.report->path; };
+    if (std::none_of(mesh_files_.begin(), mesh_files_.end(), is_same)) {
+      mesh_files_.push_back(std::move(*reading.report));
+    }
+    return std::move(reading.shape);
   }
 
   Pose origin(const XmlElement& element) const {
@@ -295,18 +315,29 @@ class UrdfReader {
   XmlReader xml_;
   const std::filesystem::path& source_;
   const UrdfOptions& options_;
+  detail::ReadingLog log_;
   std::map<MeshKey, Shape> meshes_;
+  std::vector<FileReport> mesh_files_;
 };
 
 }  // namespace
 
+RobotReading read_robot(const std::filesystem::path& path, const UrdfOptions& options) {
+  return parse_robot(detail::read_text_file(path), path, options);
+}
+
+RobotReading parse_robot(std::string_view text, const std::filesystem::path& source,
+                         const UrdfOptions& options) {
+  return UrdfReader(text, source, options).robot();
+}
+
 RobotModel read_urdf(const std::filesystem::path& path, const UrdfOptions& options) {
-  return parse_urdf(detail::read_text_file(path), path, options);
+  return read_robot(path, options).model;
 }
 
 RobotModel parse_urdf(std::string_view text, const std::filesystem::path& source,
                       const UrdfOptions& options) {
-  return UrdfReader(text, source, options).robot();
+  return parse_robot(text, source, options).model;
 }
 
 }  // namespace firstcontact

@@ -10,6 +10,7 @@
 
 #include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -21,6 +22,13 @@ struct UrdfOptions {
   /// has NAME; then of the folders above the file.
   std::vector<std::filesystem::path> package_roots = {};
   LoadShapes shapes = LoadShapes::collision;
+  ReadingOptions reading = {};
+};
+
+/// A robot and what became of its files.
+struct RobotReading {
+  RobotModel model;
+  std::vector<FileReport> files;  ///< The URDF, then its meshes in the order of their first use.
 };
 
 /// Reads a URDF file. Each mesh file is read once for each scale.
@@ -34,10 +42,19 @@ struct UrdfOptions {
 /// from then on means the exact rotation.
 ///
 /// @throws ParseError  one line with path, place, element and what was expected
+[[nodiscard]] FIRSTCONTACT_API RobotReading read_robot(const std::filesystem::path& path,
+                                                       const UrdfOptions& options = {});
+
+/// @param source  names the text in errors; mesh paths are relative to its folder
+[[nodiscard]] FIRSTCONTACT_API RobotReading parse_robot(std::string_view text,
+                                                        const std::filesystem::path& source,
+                                                        const UrdfOptions& options = {});
+
+/// The model of read_robot() alone.
 [[nodiscard]] FIRSTCONTACT_API RobotModel read_urdf(const std::filesystem::path& path,
                                                     const UrdfOptions& options = {});
 
-/// @param source  names the text in errors; mesh paths are relative to its folder
+/// The model of parse_robot() alone.
 [[nodiscard]] FIRSTCONTACT_API RobotModel parse_urdf(std::string_view text,
                                                      const std::filesystem::path& source,
                                                      const UrdfOptions& options = {});

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <firstcontact/geometry/deforming_body.h>
+#include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/size_warning.h>
 #include <firstcontact/text/parse_error.h>
@@ -40,6 +41,9 @@ LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
     CachedShape cached = cache.load(body.shape);
     if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
+    }
+    if (cached.report) {
+      detail::add_report(*cached.report, loaded);
     }
     detail::warn_of_size(body, cached.shape, loaded.warnings);
     DeformingBody moved = moving(body, std::move(cached.shape), scene.duration);

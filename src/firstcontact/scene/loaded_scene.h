@@ -14,6 +14,7 @@
 #include <firstcontact/query/body_set.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -39,6 +40,7 @@ struct LoadedScene {
   std::shared_ptr<const RobotScene> robots = {};
   std::vector<SceneLimits> limits = {};    ///< Of robots that leave any.
   std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
+  std::vector<FileReport> files = {};      ///< What became of each file, in the order of their use.
 };
 
 /// What `--strict` asks for.

@@ -65,17 +65,40 @@ bool is_inline(const BodyShape& shape) {
          (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
 }
 
-CachedShape make(const BodyShape& shape) {
+/// Of a file and of those that were read for it.
+std::string digest_of(const std::filesystem::path& path, const std::vector<std::string>& also) {
+  if (also.empty()) {
+    return digest_of(path);
+  }
+  std::string digests = digest_of(path) + '\n';
+  for (const std::string& file : also) {
+    digests += digest_of(file) + '\n';
+  }
+  return detail::sha256(digests);
+}
+
+CachedShape make(const BodyShape& shape, const ReadingOptions& options) {
   const std::filesystem::path* file = detail::file_of(shape);
-  return {.shape = detail::make_shape(shape), .digest = file == nullptr ? "" : digest_of(*file)};
+  ShapeReading reading = detail::make_shape(shape, options);
+  CachedShape made{.shape = std::move(reading.shape), .digest = {}, .report = {}};
+  if (reading.report) {
+    made.report = std::make_shared<const FileReport>(std::move(*reading.report));
+  }
+  if (file != nullptr) {
+    made.digest =
+        digest_of(*file, made.report ? made.report->also_read : std::vector<std::string>());
+  }
+  return made;
 }
 
 /// The robot with what can touch as its collision geometry.
-RobotModel read_touching(const RobotFile& file) {
+RobotReading read_touching(const RobotFile& file, const ReadingOptions& options) {
   const bool visual = file.surface == RobotSurface::visual;
-  RobotModel model =
-      read_urdf(file.urdf, {.package_roots = file.package_roots,
-                            .shapes = visual ? LoadShapes::all : LoadShapes::collision});
+  RobotReading reading =
+      read_robot(file.urdf, {.package_roots = file.package_roots,
+                             .shapes = visual ? LoadShapes::all : LoadShapes::collision,
+                             .reading = options});
+  RobotModel& model = reading.model;
   if (visual) {
     RobotDescription description{.name = model.name(),
                                  .links = {model.links().begin(), model.links().end()},
@@ -92,17 +115,20 @@ RobotModel read_touching(const RobotFile& file) {
                             : "expected links with <collision> geometry, none has any; surface "
                               "\"visual\" (--visual) takes what they look like");
   }
-  return model;
+  return reading;
 }
 
-std::string digest_of(const RobotFile& file, const RobotModel& model) {
+std::string digest_of(const RobotFile& file, const RobotReading& reading) {
   std::set<std::filesystem::path> meshes;
-  for (const Link& link : model.links()) {
+  for (const Link& link : reading.model.links()) {
     for (const LinkGeometry& geometry : link.collision) {
       if (const auto* mesh = std::get_if<MeshGeometry>(&geometry.source)) {
         meshes.insert(mesh->path);
       }
     }
+  }
+  for (const FileReport& report : reading.files) {
+    meshes.insert(report.also_read.begin(), report.also_read.end());
   }
   std::string digests = digest_of(file.urdf) + '\n';
   for (const std::filesystem::path& mesh : meshes) {
@@ -113,14 +139,15 @@ std::string digest_of(const RobotFile& file, const RobotModel& model) {
 
 }  // namespace
 
-CachedShape ShapeCache::load(const BodyShape& shape) {
+CachedShape ShapeCache::load(const BodyShape& shape, const ReadingOptions& options) {
   if (is_inline(shape)) {
-    return make(shape);
+    return make(shape, options);
   }
   const std::filesystem::path* file = detail::file_of(shape);
   std::vector<double> numbers = std::visit(Numbers{}, shape.source);
   numbers.push_back(shape.radius);
   numbers.push_back(shape.filling == Filling::solid ? 1.0 : 0.0);
+  numbers.push_back(options.lenient ? 1.0 : 0.0);
   std::unique_lock map_lock(mutex_);
   Entry& entry =
       shapes_[Key(shape.source.index(), file == nullptr ? "" : file->string(), std::move(numbers))];
@@ -129,23 +156,25 @@ CachedShape ShapeCache::load(const BodyShape& shape) {
   if (!entry.shape) {
     // Isolated: a thread that waits for parts of a hierarchy must not take up a task that asks for
     // the same shape.
-    tbb::this_task_arena::isolate([&] { entry.shape = make(shape); });
+    tbb::this_task_arena::isolate([&] { entry.shape = make(shape, options); });
   }
   return *entry.shape;
 }
 
-CachedRobot ShapeCache::load(const RobotFile& file) {
+CachedRobot ShapeCache::load(const RobotFile& file, const ReadingOptions& options) {
   std::vector<std::filesystem::path> paths = file.package_roots;
   paths.push_back(file.urdf);
   std::unique_lock map_lock(mutex_);
-  RobotEntry& entry = robots_[RobotKey(file.surface, std::move(paths))];
+  RobotEntry& entry = robots_[RobotKey(file.surface, options.lenient, std::move(paths))];
   map_lock.unlock();
   const std::scoped_lock lock(entry.making);
   if (!entry.robot) {
     tbb::this_task_arena::isolate([&] {
-      RobotModel model = read_touching(file);
-      std::string digest = digest_of(file, model);
-      entry.robot = CachedRobot{std::move(model), std::move(digest)};
+      RobotReading reading = read_touching(file, options);
+      std::string digest = digest_of(file, reading);
+      entry.robot =
+          CachedRobot{std::move(reading.model), std::move(digest),
+                      std::make_shared<const std::vector<FileReport>>(std::move(reading.files))};
     });
   }
   return *entry.robot;

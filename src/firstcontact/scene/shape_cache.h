@@ -5,11 +5,11 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <firstcontact/articulated/robot_model.h>
@@ -17,19 +17,22 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/body_shape.h>
 #include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
 /// A shape and the digest of the file that it came from.
 struct CachedShape {
   Shape shape;
-  std::string digest;  ///< SHA-256 of the file, in hexadecimal; empty where there is none.
+  std::string digest;  ///< SHA-256 of its files, in hexadecimal; empty where there is none.
+  std::shared_ptr<const FileReport> report = {};  ///< Of the file; null where there is none.
 };
 
 /// A robot with the shapes of what can touch, and the digest of all its files.
 struct CachedRobot {
   RobotModel model;
-  std::string digest;  ///< SHA-256, in hexadecimal.
+  std::string digest;                                         ///< SHA-256, in hexadecimal.
+  std::shared_ptr<const std::vector<FileReport>> files = {};  ///< As RobotReading::files.
 };
 
 /// Makes each shape once, with its hierarchy, but for what a scene writes inline. A file that
@@ -42,12 +45,12 @@ class FIRSTCONTACT_API ShapeCache {
   ///
   /// @throws ParseError as read_mesh, and where no shape can be made of what was read;
   ///         std::invalid_argument if a number is out of its range, or an inline solid not closed
-  CachedShape load(const BodyShape& shape);
+  CachedShape load(const BodyShape& shape, const ReadingOptions& options = {});
 
   /// A robot of a file, whose collision geometries are those of the surface that was asked for.
   ///
   /// @throws ParseError as read_urdf, and where the surface has no geometry at all
-  CachedRobot load(const RobotFile& file);
+  CachedRobot load(const RobotFile& file, const ReadingOptions& options = {});
 
  private:
   /// The kind of shape, the file, and all numbers.
@@ -58,8 +61,8 @@ class FIRSTCONTACT_API ShapeCache {
     std::optional<CachedShape> shape;  // None before, or where it cannot be made.
   };
 
-  /// The surface, and the paths.
-  using RobotKey = std::pair<RobotSurface, std::vector<std::filesystem::path>>;
+  /// The surface, whether readers are lenient, and the paths.
+  using RobotKey = std::tuple<RobotSurface, bool, std::vector<std::filesystem::path>>;
 
   struct RobotEntry {
     std::mutex making;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/size_warning.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/sha256.h>
@@ -60,6 +61,9 @@ class RobotLoader {
     }
     CachedShape cached = cache_.load(body.shape);
     digests_ += cached.digest.empty() ? "" : cached.digest + '\n';
+    if (cached.report) {
+      add_report(*cached.report, loaded_);
+    }
     warn_of_size(body, cached.shape, loaded_.warnings);
     robots_.add_body(body.name, std::move(cached.shape),
                      normalised_motion(body.motion, scene_.duration));
@@ -68,6 +72,9 @@ class RobotLoader {
   void add(const SceneRobot& robot) {
     CachedRobot cached = cache_.load(robot.file);
     digests_ += cached.digest + '\n' + robot.srdf_digest + '\n';
+    for (const FileReport& report : *cached.files) {
+      add_report(report, loaded_);
+    }
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);

@@ -10,8 +10,8 @@
 #include <firstcontact/geometry/convex_hull.h>
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/geometry/read_mesh.h>
-#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {
@@ -42,10 +42,10 @@ std::vector<Eigen::Vector3d> used_vertices(const Mesh& mesh) {
   return vertices;
 }
 
-Mesh read_scaled(const MeshFile& file) {
-  Mesh mesh = read_mesh(file.path);
-  scale(mesh.vertices, file.scale);
-  return mesh;
+MeshReading read_scaled(const MeshFile& file, const ReadingOptions& options) {
+  MeshReading reading = read_mesh_file(file.path, options);
+  scale(reading.mesh.vertices, file.scale);
+  return reading;
 }
 
 /// A shape of each kind; the overloads are picked by std::visit.
@@ -53,49 +53,61 @@ struct ShapeMaker {
   double radius;
   Filling filling;
   double enclosure_error;
+  const ReadingOptions& options;
 
-  Shape operator()(const MeshFile& file) const { return Shape(read_scaled(file), radius, filling); }
-
-  Shape operator()(const Mesh& mesh) const { return Shape(mesh, radius, filling, enclosure_error); }
-
-  Shape operator()(const SphereShape& sphere) const { return make_sphere(sphere.radius); }
-
-  Shape operator()(const CapsuleShape& capsule) const {
-    return make_capsule(capsule.radius, capsule.length);
+  ShapeReading operator()(const MeshFile& file) const {
+    MeshReading reading = read_scaled(file, options);
+    return {Shape(std::move(reading.mesh), radius, filling), std::move(reading.report)};
   }
 
-  Shape operator()(const BoxShape& box) const { return make_box(box.size); }
-
-  Shape operator()(const CylinderShape& cylinder) const {
-    return make_cylinder(cylinder.radius, cylinder.length, cylinder.enclosure_error);
+  ShapeReading operator()(const Mesh& mesh) const {
+    return {Shape(mesh, radius, filling, enclosure_error), {}};
   }
 
-  Shape operator()(const ConeShape& cone) const {
-    return make_cone(cone.radius, cone.length, cone.enclosure_error);
+  ShapeReading operator()(const SphereShape& sphere) const {
+    return {make_sphere(sphere.radius), {}};
   }
 
-  Shape operator()(const ConvexHullShape& hull) const {
+  ShapeReading operator()(const CapsuleShape& capsule) const {
+    return {make_capsule(capsule.radius, capsule.length), {}};
+  }
+
+  ShapeReading operator()(const BoxShape& box) const { return {make_box(box.size), {}}; }
+
+  ShapeReading operator()(const CylinderShape& cylinder) const {
+    return {make_cylinder(cylinder.radius, cylinder.length, cylinder.enclosure_error), {}};
+  }
+
+  ShapeReading operator()(const ConeShape& cone) const {
+    return {make_cone(cone.radius, cone.length, cone.enclosure_error), {}};
+  }
+
+  ShapeReading operator()(const ConvexHullShape& hull) const {
     const auto* file = std::get_if<MeshFile>(&hull.of);
-    return make_convex_hull(file != nullptr ? used_vertices(read_scaled(*file))
-                                            : std::get<std::vector<Eigen::Vector3d>>(hull.of),
-                            radius);
+    if (file == nullptr) {
+      return {make_convex_hull(std::get<std::vector<Eigen::Vector3d>>(hull.of), radius), {}};
+    }
+    MeshReading reading = read_scaled(*file, options);
+    return {make_convex_hull(used_vertices(reading.mesh), radius), std::move(reading.report)};
   }
 
-  Shape operator()(const PointFile& file) const {
-    std::vector<Eigen::Vector3d> points = read_points(file.path);
-    scale(points, file.scale);
-    return make_point_cloud(std::move(points), radius);
+  ShapeReading operator()(const PointFile& file) const {
+    PointReading reading = read_points_file(file.path, options);
+    scale(reading.points, file.scale);
+    return {make_point_cloud(std::move(reading.points), radius), std::move(reading.report)};
   }
 
-  Shape operator()(const PointCloud& cloud) const { return make_point_cloud(cloud.points, radius); }
-
-  Shape operator()(const HeightFile& file) const {
-    return make_height_map(read_heights(file.path, file.cell), radius);
+  ShapeReading operator()(const PointCloud& cloud) const {
+    return {make_point_cloud(cloud.points, radius), {}};
   }
 
-  Shape operator()(const HeightMap& map) const { return make_height_map(map, radius); }
+  ShapeReading operator()(const HeightFile& file) const {
+    return {make_height_map(read_heights(file.path, file.cell), radius), {}};
+  }
 
-  Shape operator()(const Shape& ready) const { return ready; }
+  ShapeReading operator()(const HeightMap& map) const { return {make_height_map(map, radius), {}}; }
+
+  ShapeReading operator()(const Shape& ready) const { return {ready, {}}; }
 };
 
 }  // namespace
@@ -114,10 +126,11 @@ const std::filesystem::path* file_of(const BodyShape& shape) {
   return heights != nullptr ? &heights->path : nullptr;
 }
 
-Shape make_shape(const BodyShape& shape) {
+ShapeReading make_shape(const BodyShape& shape, const ReadingOptions& options) {
   const std::filesystem::path* file = file_of(shape);
   try {
-    return std::visit(ShapeMaker{shape.radius, shape.filling, shape.enclosure_error}, shape.source);
+    return std::visit(ShapeMaker{shape.radius, shape.filling, shape.enclosure_error, options},
+                      shape.source);
   } catch (const std::invalid_argument& error) {
     if (file == nullptr) {
       throw;

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/geometry/shape.h>
+#include <firstcontact/articulated/link_geometry.h>
 #include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact::detail {
@@ -12,7 +12,7 @@ namespace firstcontact::detail {
 ///
 /// @throws ParseError if the file cannot be used; std::invalid_argument if a number is out of its
 ///         range, or a solid not closed
-[[nodiscard]] Shape make_shape(const BodyShape& shape);
+[[nodiscard]] ShapeReading make_shape(const BodyShape& shape, const ReadingOptions& options = {});
 
 /// The file that a shape is in; null where it is in none.
 [[nodiscard]] const std::filesystem::path* file_of(const BodyShape& shape);

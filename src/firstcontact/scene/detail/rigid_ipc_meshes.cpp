@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/read_mesh.h>
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/sha256.h>

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/geometry/detail/mesh_builder.h>
-#include <firstcontact/geometry/read_mesh.h>
-#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/byte_cursor.h>
 #include <firstcontact/text/text_cursor.h>
 

@@ -13,8 +13,15 @@
 
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
+
+/// Points and what became of their file.
+struct PointReading {
+  std::vector<Eigen::Vector3d> points;
+  FileReport report;
+};
 
 /// Reads the points of a cloud in double precision, as they are numbered in the file.
 ///
@@ -24,6 +31,10 @@ namespace firstcontact {
 ///
 /// @throws ParseError  one line with path, place and what was expected: the file cannot be opened,
 ///         is malformed or cut off, has a coordinate that is not finite, or no point at all
+[[nodiscard]] FIRSTCONTACT_API PointReading read_points_file(const std::filesystem::path& path,
+                                                             const ReadingOptions& options = {});
+
+/// The points of read_points_file() alone.
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> read_points(
     const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/check_assimp_input.h>
+#include <firstcontact/mesh_files/detail/check_assimp_input.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/lzf.h>
+#include <firstcontact/mesh_files/detail/lzf.h>
 
 namespace firstcontact::detail {
 

@@ -9,8 +9,15 @@
 
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
+
+/// A mesh and what became of its file.
+struct MeshReading {
+  Mesh mesh;
+  FileReport report;
+};
 
 /// Reads a mesh in double precision and welds vertices of equal position (weld.h).
 ///
@@ -29,6 +36,10 @@ namespace firstcontact {
 /// @throws ParseError  one line with path, place and what was expected: the file cannot be
 ///         opened, is malformed or cut off, has a coordinate that is not finite, an index out of
 ///         range, or no element at all
+[[nodiscard]] FIRSTCONTACT_API MeshReading read_mesh_file(const std::filesystem::path& path,
+                                                          const ReadingOptions& options = {});
+
+/// The mesh of read_mesh_file() alone.
 [[nodiscard]] FIRSTCONTACT_API Mesh read_mesh(const std::filesystem::path& path);
 
 /// Parses Wavefront OBJ text: `v` (with an optional weight of 1, or a colour), `f`, `l` and `p`

@@ -1,8 +1,13 @@
-#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/mesh_files/read_points.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
 
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/reading_log.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {
@@ -59,21 +64,27 @@ HeightMap read_heights(const std::filesystem::path& path, const Eigen::Vector2d&
   return parse_heights(file.bytes(), path.string(), cell);
 }
 
-std::vector<Eigen::Vector3d> read_points(const std::filesystem::path& path) {
-  const std::string source = path.string();
+PointReading read_points_file(const std::filesystem::path& path, const ReadingOptions& options) {
   const std::string extension = detail::file_extension(path);
   const detail::MappedFile file(path);
-  if (extension == "ply") {
-    return parse_ply_points(file.bytes(), source);
+  if (extension != "ply" && extension != "pcd" && extension != "xyz") {
+    throw ParseError(path.string(), "expected a point cloud named .ply, .pcd or .xyz, got " +
+                                        detail::quoted("." + extension));
   }
-  if (extension == "pcd") {
-    return parse_pcd(file.bytes(), source);
-  }
-  if (extension == "xyz") {
-    return parse_xyz(file.bytes(), source);
-  }
-  throw ParseError(source, "expected a point cloud named .ply, .pcd or .xyz, got " +
-                               detail::quoted("." + extension));
+  std::string format = extension;
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](char c) { return static_cast<char>(c - 'a' + 'A'); });
+  detail::ReadingLog log(path.string(), std::move(format), options);
+  std::vector<Eigen::Vector3d> points = extension == "ply"
+                                            ? parse_ply_points(file.bytes(), log.path())
+                                        : extension == "pcd" ? parse_pcd(file.bytes(), log.path())
+                                                             : parse_xyz(file.bytes(), log.path());
+  log.add_content("points", points.size());
+  return {std::move(points), log.finish()};
+}
+
+std::vector<Eigen::Vector3d> read_points(const std::filesystem::path& path) {
+  return read_points_file(path).points;
 }
 
 }  // namespace firstcontact

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/read_with_assimp.h>
+#include <firstcontact/mesh_files/detail/read_with_assimp.h>
 
 #include <cmath>
 #include <cstdint>
@@ -13,8 +13,8 @@
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
 
-#include <firstcontact/geometry/detail/check_assimp_input.h>
-#include <firstcontact/geometry/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/detail/check_assimp_input.h>
+#include <firstcontact/mesh_files/detail/mesh_builder.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {

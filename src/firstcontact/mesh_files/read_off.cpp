@@ -2,8 +2,8 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/geometry/detail/mesh_builder.h>
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/mesh_files/read_points.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/text/parse_error.h>
 
-#include "geometry/mesh_text.h"
+#include "mesh_files/mesh_text.h"
 
 namespace firstcontact {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/parse_error.h>
 
-#include "geometry/mesh_text.h"
+#include "mesh_files/mesh_text.h"
 
 namespace firstcontact {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/geometry/detail/lzf.h>
-#include <firstcontact/geometry/read_points.h>
+#include <firstcontact/mesh_files/detail/lzf.h>
+#include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/byte_cursor.h>
 #include <firstcontact/text/text_cursor.h>
 

@@ -15,10 +15,10 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/parse_error.h>
 
-#include "geometry/mesh_text.h"
+#include "mesh_files/mesh_text.h"
 
 /// Assimp leaks what it has read of a file that it then refuses.
 /// Visible, so that a sanitizer in a library of its own finds it.

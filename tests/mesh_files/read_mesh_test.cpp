@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/read_mesh.h>
+#include <firstcontact/mesh_files/read_mesh.h>
 
 #include <array>
 #include <bit>
@@ -16,7 +16,7 @@
 
 #include <firstcontact/text/parse_error.h>
 
-#include "geometry/mesh_text.h"
+#include "mesh_files/mesh_text.h"
 
 namespace firstcontact {
 namespace {

@@ -1,0 +1,14 @@
+/// @file
+/// Keeps the account of a file in the scene that it was read for.
+
+#pragma once
+
+#include <firstcontact/scene/loaded_scene.h>
+
+namespace firstcontact::detail {
+
+/// Adds a report to the files of a scene, and what it warns of to the warnings; a file that the
+/// scene has already counts once.
+void add_report(const FileReport& report, LoadedScene& scene);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,43 @@
+/// @file
+/// What became of a file that was read: what was taken, what was left out and why.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace firstcontact {
+
+/// How strict readers are.
+struct ReadingOptions {
+  /// A name that a reader does not know, and that could hold or place geometry, becomes a warning.
+  /// By default it is an error.
+  bool lenient = false;
+};
+
+/// How many things of one kind a file holds.
+struct FileContent {
+  std::string what;  ///< In the plural: "triangles".
+  std::size_t count = 0;
+};
+
+/// Something that the reader passed over, and why it can make no contact.
+struct LeftOut {
+  std::string name;    ///< As the file has it: "<material>", "KHR_lights_punctual".
+  std::string reason;  ///< "looks", "animation", "settings of a simulator"
+  std::size_t count = 0;
+};
+
+/// The account of one file. Nothing that could make a contact is missing from it.
+struct FileReport {
+  std::string path;                    ///< As it was named.
+  std::string format;                  ///< "glTF", "STL", "URDF"
+  std::vector<FileContent> contents;   ///< What was taken, in a fixed order.
+  std::string unit;                    ///< Of lengths: "1 m"; empty where the format has none.
+  std::vector<LeftOut> left_out;       ///< By name and reason, in order of appearance.
+  std::vector<std::string> warnings;   ///< One line each, with path and place.
+  std::vector<std::string> also_read;  ///< Paths of files that belong to it, as opened.
+};
+
+}  // namespace firstcontact
