@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <firstcontact/math/export.h>
 
@@ -13,5 +15,9 @@ namespace firstcontact::detail {
 
 /// The bytes as base64 with padding (RFC 4648, section 4).
 [[nodiscard]] FIRSTCONTACT_API std::string base64(std::span<const std::uint8_t> bytes);
+
+/// The bytes of base64 text. The padding may be missing. Nothing where another character stands in
+/// the text, or where its length is that of no bytes.
+[[nodiscard]] FIRSTCONTACT_API std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,27 @@
+/// @file
+/// What this reader makes of the extensions of glTF, by their names.
+
+#pragma once
+
+#include <string_view>
+
+namespace firstcontact::detail {
+
+/// What an extension may do to a body.
+enum class GltfMeaning {
+  understood,  ///< It is read.
+  harmless,    ///< It can make no contact and move none: it is left out.
+  compressed,  ///< It holds geometry in a form that is not read; the plain form may stand beside
+               ///< it.
+  geometry,    ///< It holds, places or hides geometry, and is not read.
+  unknown,     ///< Nobody knows.
+};
+
+struct GltfExtension {
+  GltfMeaning meaning = GltfMeaning::unknown;
+  std::string_view reason;  ///< What it is about: "looks", "shapes of a simulator".
+};
+
+[[nodiscard]] GltfExtension gltf_extension(std::string_view name);
+
+}  // namespace firstcontact::detail
