@@ -35,6 +35,7 @@ GltfInstances::GltfInstances(const GltfDocument& document, const GltfAccessorRea
     }
   }
   if (!has_count_) {
+    document.log().throw_errors();  // A name that is not known says more.
     document.fail(attributes, "expected TRANSLATION, ROTATION or SCALE of instances, got none");
   }
 }
