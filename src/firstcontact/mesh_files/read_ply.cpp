@@ -198,6 +198,7 @@ Header read_header(TextCursor& text, Wanted wanted) {
 /// The two kinds of body answer the same calls.
 class AsciiBody {
  public:
+  static constexpr MeshBuilder::Place kPlaces = MeshBuilder::Place::line;
   static constexpr std::size_t kLeastVertex = 6;  ///< [byte]  "0 0 0\n"
   static constexpr std::size_t kLeastFace = 4;
 
@@ -241,6 +242,7 @@ class AsciiBody {
 
 class BinaryBody {
  public:
+  static constexpr MeshBuilder::Place kPlaces = MeshBuilder::Place::byte;
   static constexpr std::size_t kLeastVertex = 3;
   static constexpr std::size_t kLeastFace = 1;
 
@@ -355,7 +357,7 @@ void read_items(Body& body, MeshBuilder& mesh, const Element& element) {
 template <class Body>
 Mesh read_body(Body body, const std::vector<Element>& elements, const std::string& source,
                Wanted wanted) {
-  MeshBuilder mesh;
+  MeshBuilder mesh(Body::kPlaces);
   for (const Element& element : elements) {
     if (element.name == "vertex") {
       mesh.reserve_vertices(element.count, body.remaining(), Body::kLeastVertex);
@@ -376,7 +378,7 @@ Mesh read_body(Body body, const std::vector<Element>& elements, const std::strin
   if (mesh.is_empty() && wanted == Wanted::mesh) {
     throw ParseError(source, "expected at least one face, found none");
   }
-  return mesh.finish();
+  return wanted == Wanted::mesh ? mesh.finish() : Mesh{mesh.take_vertices(), {}};
 }
 
 Mesh parse(std::string_view data, const std::string& source, Wanted wanted) {
