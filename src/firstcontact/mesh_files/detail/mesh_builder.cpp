@@ -182,8 +182,8 @@ void MeshBuilder::report(const Account& account, ReadingLog& log) const {
   }
   if (account.not_planar > 0) {
     log.warn(at(account.deviating, log,
-                counted(account.not_planar, "polygon") + " of " + std::to_string(account.polygons) +
-                    " not planar within " + in_digits(account.planar) +
+                std::to_string(account.not_planar) + " of " + counted(account.polygons, "polygon") +
+                    " of more than three corners not planar within " + in_digits(account.planar) +
                     " m: the surface depends on how they are cut; "
                     "the greatest deviation, " +
                     in_digits(account.deviation) + " m, is here"));
