@@ -1,33 +1,19 @@
 /// @file
-/// Runs a reader on a small stack, so that recursion without a limit is found.
+/// Limits the stack of a fuzz target to 1 MiB: recursion by the input's depth ends there.
+///
+/// Include it in the one source file of a target; libFuzzer calls the function at the start.
 
 #pragma once
 
-#include <pthread.h>
+#include <sys/resource.h>
 
-#include <cstddef>
-#include <cstdlib>
-
-namespace firstcontact::test {
-
-inline constexpr std::size_t kSmallStack = std::size_t{1} << 20;  ///< [byte]
-
-/// Calls `run` in a thread with a stack of 1 MiB.
-template <class Run>
-void on_small_stack(Run run) {
-  pthread_attr_t attributes;
-  pthread_t thread;
-  pthread_attr_init(&attributes);
-  pthread_attr_setstacksize(&attributes, kSmallStack);
-  const auto call = [](void* argument) -> void* {
-    (*static_cast<Run*>(argument))();
-    return nullptr;
-  };
-  if (pthread_create(&thread, &attributes, call, &run) != 0) {
-    std::abort();
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  // The kernel heeds the limit whenever the main thread's stack grows, and inputs run on it.
+  constexpr rlim_t kStack = rlim_t{1} << 20;
+  rlimit limit{};
+  if (getrlimit(RLIMIT_STACK, &limit) != 0) {
+    return 1;
   }
-  pthread_join(thread, nullptr);
-  pthread_attr_destroy(&attributes);
+  limit.rlim_cur = kStack;
+  return setrlimit(RLIMIT_STACK, &limit) == 0 ? 0 : 1;
 }
-
-}  // namespace firstcontact::test

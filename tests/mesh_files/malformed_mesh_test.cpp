@@ -72,13 +72,18 @@ TEST(MalformedStl, IsNamedByLineOrByte) {
   const std::string ascii = test::to_ascii_stl(mesh);
   std::string many = binary;
   many.replace(80, 4, "\xff\xff\xff\xff");
+  std::string uncounted = binary;  // Some writers never fill the count in.
+  uncounted.replace(80, 4, std::string(4, '\0'));
   mesh.vertices[1].y() = std::numeric_limits<double>::quiet_NaN();
   expect_messages(
       parse_stl,
       {{"", "m: byte 0: expected STL: 'solid', or a header of 84 bytes"},
        {binary.substr(0, 100),
         "m: byte 100: expected 134 bytes for 1 triangles, got the end of the file"},
-       {binary + "x", "m: byte 135: expected 134 bytes for 1 triangles, got the end of the file"},
+       {binary + "x",
+        "m: byte 134: 1 byte is left over after 1 triangle: expected the end of the file"},
+       {uncounted,
+        "m: byte 80: count says 0, bytes of 1 triangles follow: expected the number of triangles"},
        {many,
         "m: byte 134: expected 214748364834 bytes for 4294967295 triangles, got the end of the "
         "file"},
@@ -125,7 +130,7 @@ TEST(MalformedPly, IsNamedByLineOrByte) {
         "m:14: vertex index 3 is out of range: the file has 3 vertices"},
        {ascii + vertices + "3 0 1 -1\n", "m:14: vertex index -1 is out of range"},
        {ascii + vertices + "3 0 1\n", "m:14: expected a vertex index, got the end of the line"},
-       {ascii + vertices + "0\n", "m:14: expected a face with at least one corner"},
+       {ascii + vertices + "0\n", "m: expected at least one face, found none"},
        {ascii + vertices + "3 0 1 2\n3 0 1 2\n",
         "m:15: expected the end of the file after the last element, got '3'"},
        {binary.substr(0, binary.size() - 1),
@@ -152,7 +157,8 @@ TEST(MalformedOff, IsNamedByLine) {
        {head, "m:6: expected face 1 of 1, got the end of the file"},
        {head + "3 0 1\n", "m:6: expected a vertex index, got the end of the line"},
        {head + "3 0 1 3\n", "m:6: vertex index 3 is out of range: the file has 3 vertices"},
-       {head + "0\n", "m:6: expected at least one corner, got 0"},
+       {head + "0\n", "m: expected at least one face, found none"},
+       {head + "-1\n", "m:6: expected a number of corners, got -1"},
        {head + "3 0 1 2\n3 0 1 2\n", "m:7: expected the end of the file after 1 faces, got '3'"},
        {"OFF\n1 0 0\n0 0 0\n", "m: expected at least one face, found none"}});
 }

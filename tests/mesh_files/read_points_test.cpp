@@ -49,6 +49,45 @@ TEST(Xyz, NamesTheLine) {
   EXPECT_EQ(message_of("# none\n", parse_xyz), "f: expected at least one point, found none");
 }
 
+// As scanners, spreadsheets and viewers of clouds write them.
+TEST(Xyz, TakesSeparatorsAndHeaders) {
+  for (const char* text :
+       {"0.1,-2.5,3\n1e-3,0,7.25\n", "0.1, -2.5, 3, 255\n1e-3 ,0 , 7.25\n",
+        "0.1;-2.5;3;9\r\n1e-3; 0 ; 7.25\r\n", "0.1\t-2.5\t3\n1e-3\t0\t7.25\t1\n",
+        "//X Y Z R G B\n0.1 -2.5 3 1 2 3\n1e-3 0 7.25 1 2 3",
+        "X Y Z Intensity\n0.1 -2.5 3 9\n1e-3 0 7.25 9\n",
+        "\n\"x\",\"y\",\"z\"\n0.1,-2.5,3\n1e-3,0,7.25\n", "2\n0.1 -2.5 3\n1e-3 0 7.25\n",
+        "\xef\xbb\xbf# a comment\n// a comment\nx y z\n2\n+0.1 -2.5 3 # one\n1e-3 0 7.25"}) {
+    EXPECT_EQ(parse_xyz(text, "f"), kPoints) << text;
+  }
+}
+
+TEST(Xyz, RefusesWhatWouldBeMisread) {
+  for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+           {"0,1 2,5 3,0\n",
+            "f:1: expected decimal points and one kind of separator, got '0,1 2,5 3,0'"},
+           {"0,1;2,5;3,0\n",
+            "f:1: expected decimal points and one kind of separator, got '0,1;2,5;3,0'"},
+           {"1,,2,3\n", "f:1: expected a finite coordinate, got the end of the file"},
+           {"intensity x y z\n1 2 3 4\n",
+            "f:1: expected coordinates, or names of columns that begin with x y z, got 'intensity "
+            "x y z'"},
+           {"//R G B X Y Z\n1 2 3 4 5 6\n",
+            "f:1: expected coordinates, or names of columns that begin with x y z, got '//R G B X "
+            "Y Z'"},
+           {"3\nwater\nO 0 0 0\nH 0 0 1\nH 0 1 0\n",
+            "f:2: expected coordinates after the number of points, got 'water': files of atoms are "
+            "not supported"},
+           {"3\n\nO 0 0 0\nH 0 0 1\nH 0 1 0\n",
+            "f:3: expected coordinates after the number of points, got 'O': files of atoms are not "
+            "supported"},
+           {"3\n0 0 0\n1 1 1\n", "f:1: count says 3, 2 points follow"},
+           {"x y z\n", "f: expected at least one point, found none"},
+           {"0 0 0\nx y z\n", "f:2: expected a finite coordinate, got 'x'"}}) {
+    EXPECT_EQ(message_of(text, parse_xyz), message);
+  }
+}
+
 TEST(Pcd, ReadsAscii) {
   const std::string text =
       header("rgb x y z n", "4 4 4 4 4", "U F F F F", "1 1 1 1 2", "2", "ascii") +

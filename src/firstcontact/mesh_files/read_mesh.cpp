@@ -7,6 +7,7 @@
 
 #include <firstcontact/geometry/weld.h>
 #include <firstcontact/mesh_files/detail/parse_gltf.h>
+#include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/detail/read_with_assimp.h>
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
@@ -36,16 +37,16 @@ std::string format_of(std::string_view extension) {
 
 Mesh parse(std::string_view bytes, const std::string& extension, detail::ReadingLog& log) {
   if (extension == "obj") {
-    return parse_obj(bytes, log.path());
+    return detail::parse_obj(bytes, log);
   }
   if (extension == "stl") {
-    return parse_stl(bytes, log.path());
+    return detail::parse_stl(bytes, log);
   }
   if (extension == "ply") {
-    return parse_ply(bytes, log.path());
+    return detail::parse_ply(bytes, log);
   }
   if (extension == "off") {
-    return parse_off(bytes, log.path());
+    return detail::parse_off(bytes, log);
   }
   if (extension == "gltf" || extension == "glb") {
     return detail::parse_gltf(bytes, log.path(), log);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/text_cursor.h>
 
@@ -17,11 +18,34 @@ using detail::TextCursor;
 constexpr const char* kCoordinate = "a finite coordinate";
 constexpr const char* kCorner = "a vertex index (v, v/vt, v//vn or v/vt/vn)";
 
+struct LeftOutStatement {
+  std::string_view keyword;
+  std::string_view reason;
+};
+
 // Statements that change no geometry. Anything else unknown is refused, as it may be a surface.
-constexpr std::array<std::string_view, 19> kPassedOver = {
-    "vn",         "vt",     "vp",     "g",      "o",        "s",        "mg",
-    "usemtl",     "mtllib", "usemap", "maplib", "c_interp", "d_interp", "trace_obj",
-    "shadow_obj", "bevel",  "lod",    "ctech",  "stech"};
+constexpr std::array<LeftOutStatement, 19> kLeftOut = {{{"vn", "normals"},
+                                                        {"vt", "texture coordinates"},
+                                                        {"vp", "parameters of curved surfaces"},
+                                                        {"g", "names of groups"},
+                                                        {"o", "names of objects"},
+                                                        {"s", "smooth shading"},
+                                                        {"mg", "smooth shading"},
+                                                        {"usemtl", "materials"},
+                                                        {"mtllib", "materials"},
+                                                        {"usemap", "textures"},
+                                                        {"maplib", "textures"},
+                                                        {"c_interp", "colours"},
+                                                        {"d_interp", "looks"},
+                                                        {"trace_obj", "looks"},
+                                                        {"shadow_obj", "looks"},
+                                                        {"bevel", "looks"},
+                                                        {"lod", "looks"},
+                                                        {"ctech", "drawing of curved surfaces"},
+                                                        {"stech", "drawing of curved surfaces"}}};
+
+/// How often each was left out; by its place in the table.
+using LeftOutCounts = std::array<std::size_t, kLeftOut.size()>;
 
 void read_vertex(TextCursor& text, MeshBuilder& mesh) {
   std::array<double, 7> values{};
@@ -113,7 +137,7 @@ bool is_counts(std::string_view word, TextCursor& text) {
   return word.empty();
 }
 
-void read_statement(TextCursor& text, MeshBuilder& mesh) {
+void read_statement(TextCursor& text, MeshBuilder& mesh, LeftOutCounts& left_out) {
   const std::string_view keyword = text.word();
   if (keyword == "v") {
     read_vertex(text, mesh);
@@ -121,33 +145,54 @@ void read_statement(TextCursor& text, MeshBuilder& mesh) {
     read_polygon(text, mesh);
   } else if (keyword == "l" || keyword == "p") {
     read_simplices(text, mesh, keyword == "l");
-  } else if (std::find(kPassedOver.begin(), kPassedOver.end(), keyword) == kPassedOver.end() &&
-             !is_counts(keyword, text)) {
-    text.fail("expected an OBJ statement (v, vn, vt, f, l, p, g, o, s, usemtl ...), got " +
-              detail::quoted(keyword));
+  } else {
+    const auto* known = std::find_if(
+        kLeftOut.begin(), kLeftOut.end(),
+        [&](const LeftOutStatement& statement) { return statement.keyword == keyword; });
+    if (known != kLeftOut.end()) {
+      ++left_out[static_cast<std::size_t>(known - kLeftOut.begin())];
+    } else if (!is_counts(keyword, text)) {
+      text.fail("expected an OBJ statement (v, vn, vt, f, l, p, g, o, s, usemtl ...), got " +
+                detail::quoted(keyword));
+    }
+  }
+}
+
+void report(const LeftOutCounts& left_out, detail::ReadingLog& log) {
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (left_out[i] > 0) {
+      log.leave_out(kLeftOut[i].keyword, kLeftOut[i].reason, left_out[i]);
+    }
   }
 }
 
 }  // namespace
 
-Mesh parse_obj(std::string_view data, const std::string& source) {
-  TextCursor text(detail::without_byte_order_mark(data), source,
+Mesh detail::parse_obj(std::string_view data, ReadingLog& log) {
+  TextCursor text(detail::without_byte_order_mark(data), log.path(),
                   {.comments = true, .continuation = true});
   MeshBuilder mesh;
+  LeftOutCounts left_out{};
   while (text.find_line()) {
-    read_statement(text, mesh);
+    read_statement(text, mesh, left_out);
     text.skip_line();
   }
   if (mesh.has_range_error()) {
-    throw ParseError(source, mesh.greatest().place,
+    throw ParseError(log.path(), mesh.greatest().place,
                      "vertex index " + std::to_string(mesh.greatest().index_end) +
                          " is out of range: the file has " + std::to_string(mesh.vertex_count()) +
                          " vertices");
   }
   if (mesh.is_empty()) {
-    throw ParseError(source, "expected at least one face, line or point, found none");
+    throw ParseError(log.path(), "expected at least one face, line or point, found none");
   }
-  return mesh.finish();
+  report(left_out, log);
+  return mesh.finish(log);
+}
+
+Mesh parse_obj(std::string_view text, const std::string& source) {
+  return detail::parse_unlogged([](auto bytes, auto& log) { return detail::parse_obj(bytes, log); },
+                                text, source);
 }
 
 }  // namespace firstcontact

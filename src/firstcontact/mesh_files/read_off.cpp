@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/text/text_cursor.h>
 
@@ -47,7 +48,15 @@ std::uint64_t read_count(TextCursor& text, const char* what) {
             std::to_string(count) + ", got the end of the file");
 }
 
-void read_vertices(TextCursor& text, MeshBuilder& mesh, std::uint64_t count) {
+/// What the lines of vertices and faces have that is no geometry.
+struct LeftOutColumns {
+  std::size_t of_vertices = 0;
+  std::size_t of_faces = 0;
+  std::size_t empty_faces = 0;
+};
+
+void read_vertices(TextCursor& text, MeshBuilder& mesh, std::uint64_t count,
+                   LeftOutColumns& left_out) {
   mesh.reserve_vertices(count, text.remaining(), 6);
   for (std::uint64_t i = 0; i < count; ++i) {
     if (!text.find_line()) {
@@ -59,15 +68,17 @@ void read_vertices(TextCursor& text, MeshBuilder& mesh, std::uint64_t count) {
     if (!mesh.add_vertex({x, y, z})) {
       text.fail("expected fewer than 2^32 vertices");
     }
+    left_out.of_vertices += text.at_line_end() ? 0 : 1;
     text.skip_line();
   }
 }
 
-void read_face(TextCursor& text, MeshBuilder& mesh) {
+void read_face(TextCursor& text, MeshBuilder& mesh, LeftOutColumns& left_out) {
   const std::int64_t corners = text.integer("a number of corners");
-  if (corners < 1) {
-    text.fail("expected at least one corner, got " + std::to_string(corners));
+  if (corners < 0) {
+    text.fail("expected a number of corners, got " + std::to_string(corners));
   }
+  left_out.empty_faces += corners == 0 ? 1 : 0;
   mesh.begin_polygon(text.line());
   for (std::int64_t k = 0; k < corners; ++k) {
     const std::int64_t index = text.integer("a vertex index");
@@ -78,33 +89,55 @@ void read_face(TextCursor& text, MeshBuilder& mesh) {
     }
   }
   mesh.end_polygon();
+  left_out.of_faces += text.at_line_end() ? 0 : 1;
   text.skip_line();
+}
+
+void report(const LeftOutColumns& left_out, detail::ReadingLog& log) {
+  if (left_out.of_vertices > 0) {
+    log.leave_out("columns after x, y and z", "colours, normals and textures",
+                  left_out.of_vertices);
+  }
+  if (left_out.of_faces > 0) {
+    log.leave_out("columns after the corners", "colours of faces", left_out.of_faces);
+  }
+  if (left_out.empty_faces > 0) {
+    log.leave_out("faces without corners", "no surface", left_out.empty_faces);
+  }
 }
 
 }  // namespace
 
-Mesh parse_off(std::string_view data, const std::string& source) {
-  TextCursor text(data, source, {.comments = true, .continuation = false});
+Mesh detail::parse_off(std::string_view data, ReadingLog& log) {
+  TextCursor text(without_byte_order_mark(data), log.path(),
+                  {.comments = true, .continuation = false});
   read_header(text);
   const std::uint64_t vertices = read_count(text, "a number of vertices");
   const std::uint64_t faces = read_count(text, "a number of faces");
   text.skip_line();  // The number of edges is often wrong, and not needed.
   MeshBuilder mesh;
-  read_vertices(text, mesh, vertices);
+  LeftOutColumns left_out;
+  read_vertices(text, mesh, vertices, left_out);
   mesh.reserve_triangles(faces, text.remaining(), 4);
   for (std::uint64_t i = 0; i < faces; ++i) {
     if (!text.find_line()) {
       fail_cut_off(text, "face", i, faces);
     }
-    read_face(text, mesh);
+    read_face(text, mesh, left_out);
   }
   if (text.find_line()) {
     text.fail_at_word("the end of the file after " + std::to_string(faces) + " faces");
   }
   if (mesh.is_empty()) {
-    throw ParseError(source, "expected at least one face, found none");
+    throw ParseError(log.path(), "expected at least one face, found none");
   }
-  return mesh.finish();
+  report(left_out, log);
+  return mesh.finish(log);
+}
+
+Mesh parse_off(std::string_view text, const std::string& source) {
+  return detail::parse_unlogged([](auto bytes, auto& log) { return detail::parse_off(bytes, log); },
+                                text, source);
 }
 
 }  // namespace firstcontact

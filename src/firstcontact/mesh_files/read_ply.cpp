@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/byte_cursor.h>
@@ -18,6 +19,7 @@ namespace {
 
 using detail::ByteCursor;
 using detail::MeshBuilder;
+using detail::ReadingLog;
 using detail::TextCursor;
 
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
@@ -26,6 +28,7 @@ enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 enum class Role { other, x, y, z, corners };
 
 struct Property {
+  std::string name;
   Type type = Type::f32;
   std::optional<Type> count_type;  ///< Of a list.
   Role role = Role::other;
@@ -93,6 +96,7 @@ void read_property(TextCursor& text, Element& element) {
   }
   property.type = read_type(text);
   const std::string_view name = text.word();
+  property.name = name;
   if (element.name == "vertex" && !is_list) {
     property.role = name == "x"   ? Role::x
                     : name == "y" ? Role::y
@@ -136,6 +140,9 @@ void read_element(TextCursor& text, Header& header) {
   element.count = static_cast<std::uint64_t>(count);
   if (element.name == "tristrips" && count > 0) {
     text.fail("triangle strips are not supported: expected the element 'face'");
+  }
+  if (element.name == "range_grid" && count > 0) {
+    text.fail("range images are not supported: expected the element 'face'");
   }
   for (const Element& earlier : header.elements) {
     if ((element.name == "vertex" || element.name == "face") && earlier.name == element.name) {
@@ -198,6 +205,7 @@ Header read_header(TextCursor& text, Wanted wanted) {
 /// The two kinds of body answer the same calls.
 class AsciiBody {
  public:
+  static constexpr MeshBuilder::Place kPlaces = MeshBuilder::Place::line;
   static constexpr std::size_t kLeastVertex = 6;  ///< [byte]  "0 0 0\n"
   static constexpr std::size_t kLeastFace = 4;
 
@@ -241,6 +249,7 @@ class AsciiBody {
 
 class BinaryBody {
  public:
+  static constexpr MeshBuilder::Place kPlaces = MeshBuilder::Place::byte;
   static constexpr std::size_t kLeastVertex = 3;
   static constexpr std::size_t kLeastFace = 1;
 
@@ -313,12 +322,10 @@ std::uint64_t read_list_size(Body& body, Type type) {
   return static_cast<std::uint64_t>(count);
 }
 
+/// Returns the number of corners.
 template <class Body>
-void read_corners(Body& body, MeshBuilder& mesh, const Property& property) {
+std::uint64_t read_corners(Body& body, MeshBuilder& mesh, const Property& property) {
   const std::uint64_t count = read_list_size(body, *property.count_type);
-  if (count == 0) {
-    body.fail("expected a face with at least one corner");
-  }
   mesh.begin_polygon(body.place());
   for (std::uint64_t k = 0; k < count; ++k) {
     const std::int64_t index = body.integer(property.type, "a vertex index");
@@ -327,16 +334,19 @@ void read_corners(Body& body, MeshBuilder& mesh, const Property& property) {
     }
   }
   mesh.end_polygon();
+  return count;
 }
 
+/// Returns how many faces have no corner.
 template <class Body>
-void read_items(Body& body, MeshBuilder& mesh, const Element& element) {
+std::uint64_t read_items(Body& body, MeshBuilder& mesh, const Element& element) {
+  std::uint64_t empty = 0;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     body.begin(element.name, i, element.count);
     Eigen::Vector3d p;
     for (const Property& property : element.properties) {
       if (property.role == Role::corners) {
-        read_corners(body, mesh, property);
+        empty += read_corners(body, mesh, property) == 0 ? 1 : 0;
       } else if (property.role != Role::other) {
         p[static_cast<int>(property.role) - static_cast<int>(Role::x)] = body.real(property.type);
       } else if (property.count_type) {
@@ -350,12 +360,35 @@ void read_items(Body& body, MeshBuilder& mesh, const Element& element) {
       body.fail("expected fewer than 2^32 vertices");
     }
   }
+  return empty;
+}
+
+/// Notes all that is no vertex, coordinate or face.
+void report_left_out(const Element& element, ReadingLog& log, Wanted wanted) {
+  if (element.count == 0 || (element.name == "face" && wanted == Wanted::points)) {
+    return;
+  }
+  if (element.name == "edge") {
+    log.warn(ParseError(log.path(), "the element 'edge' is left out: its " +
+                                        std::to_string(element.count) +
+                                        " edges are no part of the surface"));
+  }
+  if (element.name != "vertex" && element.name != "face") {
+    log.leave_out("element '" + element.name + "'", "neither vertices nor faces",
+                  static_cast<std::size_t>(element.count));
+    return;
+  }
+  for (const Property& property : element.properties) {
+    if (property.role == Role::other) {
+      log.leave_out("property '" + property.name + "' of '" + element.name + "'",
+                    "colours, normals and other values", static_cast<std::size_t>(element.count));
+    }
+  }
 }
 
 template <class Body>
-Mesh read_body(Body body, const std::vector<Element>& elements, const std::string& source,
-               Wanted wanted) {
-  MeshBuilder mesh;
+Mesh read_body(Body body, const std::vector<Element>& elements, ReadingLog& log, Wanted wanted) {
+  MeshBuilder mesh(Body::kPlaces);
   for (const Element& element : elements) {
     if (element.name == "vertex") {
       mesh.reserve_vertices(element.count, body.remaining(), Body::kLeastVertex);
@@ -363,43 +396,56 @@ Mesh read_body(Body body, const std::vector<Element>& elements, const std::strin
       mesh.reserve_triangles(element.count, body.remaining(), Body::kLeastFace);
     }
     if (!element.properties.empty()) {
-      read_items(body, mesh, element);
+      if (const std::uint64_t empty = read_items(body, mesh, element); empty > 0) {
+        log.leave_out("faces without corners", "no surface", static_cast<std::size_t>(empty));
+      }
     }
+    report_left_out(element, log, wanted);
   }
   body.end_all();
   if (mesh.has_range_error()) {
-    body.fail_at(mesh.greatest().place, source,
+    body.fail_at(mesh.greatest().place, log.path(),
                  "vertex index " + std::to_string(mesh.greatest().index_end - 1) +
                      " is out of range: the file has " + std::to_string(mesh.vertex_count()) +
                      " vertices");
   }
   if (mesh.is_empty() && wanted == Wanted::mesh) {
-    throw ParseError(source, "expected at least one face, found none");
+    throw ParseError(log.path(), "expected at least one face, found none");
   }
-  return mesh.finish();
+  return wanted == Wanted::mesh ? mesh.finish(log) : Mesh{mesh.take_vertices(), {}};
 }
 
-Mesh parse(std::string_view data, const std::string& source, Wanted wanted) {
-  TextCursor text(data, source, {});
+Mesh parse(std::string_view data, ReadingLog& log, Wanted wanted) {
+  TextCursor text(data, log.path(), {});
   const Header header = read_header(text, wanted);
   if (header.format == Format::ascii) {
-    return read_body(AsciiBody(text), header.elements, source, wanted);
+    return read_body(AsciiBody(text), header.elements, log, wanted);
   }
   const std::size_t begin = data.size() - text.remaining();
-  ByteCursor bytes(data.substr(begin), source, header.format == Format::big_endian, begin);
-  return read_body(BinaryBody(std::move(bytes)), header.elements, source, wanted);
+  ByteCursor bytes(data.substr(begin), log.path(), header.format == Format::big_endian, begin);
+  return read_body(BinaryBody(std::move(bytes)), header.elements, log, wanted);
 }
 
 }  // namespace
 
+Mesh detail::parse_ply(std::string_view data, ReadingLog& log) {
+  return parse(data, log, Wanted::mesh);
+}
+
 Mesh parse_ply(std::string_view data, const std::string& source) {
-  return parse(data, source, Wanted::mesh);
+  return detail::parse_unlogged([](auto bytes, auto& log) { return detail::parse_ply(bytes, log); },
+                                data, source);
 }
 
 std::vector<Eigen::Vector3d> parse_ply_points(std::string_view data, const std::string& source) {
-  Mesh mesh = parse(data, source, Wanted::points);
+  return detail::parse_unlogged(
+      [](auto bytes, auto& log) { return detail::parse_ply_points(bytes, log); }, data, source);
+}
+
+std::vector<Eigen::Vector3d> detail::parse_ply_points(std::string_view data, ReadingLog& log) {
+  Mesh mesh = parse(data, log, Wanted::points);
   if (mesh.vertices.empty()) {
-    throw ParseError(source, "expected at least one vertex, found none");
+    throw ParseError(log.path(), "expected at least one vertex, found none");
   }
   return std::move(mesh.vertices);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
 #include <firstcontact/text/parse_error.h>
@@ -18,23 +19,6 @@ using detail::TextCursor;
 constexpr detail::TextSyntax kComments{.comments = true, .continuation = false};
 
 }  // namespace
-
-std::vector<Eigen::Vector3d> parse_xyz(std::string_view text, const std::string& source) {
-  TextCursor cursor(detail::without_byte_order_mark(text), source, kComments);
-  std::vector<Eigen::Vector3d> points;
-  while (cursor.find_line()) {
-    Eigen::Vector3d p;
-    for (double& coordinate : p) {
-      coordinate = cursor.number("a finite coordinate");
-    }
-    points.push_back(p);
-    cursor.skip_line();
-  }
-  if (points.empty()) {
-    throw ParseError(source, "expected at least one point, found none");
-  }
-  return points;
-}
 
 HeightMap parse_heights(std::string_view text, const std::string& source,
                         const Eigen::Vector2d& cell) {
@@ -76,9 +60,9 @@ PointReading read_points_file(const std::filesystem::path& path, const ReadingOp
                  [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   detail::ReadingLog log(path.string(), std::move(format), options);
   std::vector<Eigen::Vector3d> points = extension == "ply"
-                                            ? parse_ply_points(file.bytes(), log.path())
+                                            ? detail::parse_ply_points(file.bytes(), log)
                                         : extension == "pcd" ? parse_pcd(file.bytes(), log.path())
-                                                             : parse_xyz(file.bytes(), log.path());
+                                                             : detail::parse_xyz(file.bytes(), log);
   log.add_content("points", points.size());
   return {std::move(points), log.finish()};
 }

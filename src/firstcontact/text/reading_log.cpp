@@ -44,14 +44,14 @@ void ReadingLog::add_content(std::string_view what, std::size_t count) {
   }
 }
 
-void ReadingLog::leave_out(std::string_view name, std::string_view reason) {
+void ReadingLog::leave_out(std::string_view name, std::string_view reason, std::size_t count) {
   const auto known = std::find_if(
       report_.left_out.begin(), report_.left_out.end(),
       [&](const LeftOut& entry) { return entry.name == name && entry.reason == reason; });
   if (known != report_.left_out.end()) {
-    ++known->count;
+    known->count += count;
   } else {
-    report_.left_out.push_back({std::string(name), std::string(reason), 1});
+    report_.left_out.push_back({std::string(name), std::string(reason), count});
   }
 }
 

@@ -34,7 +34,7 @@ class FIRSTCONTACT_API ReadingLog {
   void add_file(std::string path) { report_.also_read.push_back(std::move(path)); }
 
   /// Notes something that can make no contact.
-  void leave_out(std::string_view name, std::string_view reason);
+  void leave_out(std::string_view name, std::string_view reason, std::size_t count = 1);
 
   /// Notes what a user should know. Warnings of one cause are counted: the first of them is shown,
   /// with how many more there are.
