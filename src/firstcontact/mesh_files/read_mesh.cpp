@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/detail/parse_dae.h>
 #include <firstcontact/mesh_files/detail/read_with_assimp.h>
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
@@ -45,6 +46,9 @@ Mesh parse(std::string_view bytes, const std::string& extension, detail::Reading
   }
   if (extension == "off") {
     return parse_off(bytes, log.path());
+  }
+  if (extension == "dae") {
+    return detail::parse_dae(bytes, log);
   }
   return detail::read_with_assimp(log.path(), bytes, extension);
 }
