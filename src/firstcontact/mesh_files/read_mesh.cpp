@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/mesh_files/detail/parse_dae.h>
 #include <firstcontact/mesh_files/detail/parse_gltf.h>
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/detail/read_with_assimp.h>
@@ -50,6 +51,9 @@ Mesh parse(std::string_view bytes, const std::string& extension, detail::Reading
   }
   if (extension == "gltf" || extension == "glb") {
     return detail::parse_gltf(bytes, log.path(), log);
+  }
+  if (extension == "dae") {
+    return detail::parse_dae(bytes, log);
   }
   return detail::read_with_assimp(log.path(), bytes, extension);
 }

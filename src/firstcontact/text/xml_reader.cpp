@@ -6,8 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include <firstcontact/text/parse_error.h>
-
 namespace firstcontact::detail {
 namespace {
 
@@ -40,9 +38,17 @@ std::size_t line_of(const XmlElement& element) {
 
 /// "<joint name='a'>"
 std::string shown(const XmlElement& element) {
-  const char* name = element.Attribute("name");
-  return "<" + std::string(element.Name()) +
-         (name != nullptr ? " name=" + quoted(name) : std::string()) + ">";
+  for (const char* const attribute : {"name", "id"}) {
+    if (const char* value = element.Attribute(attribute)) {
+      return "<" + std::string(element.Name()) + " " + attribute + "=" + quoted(value) + ">";
+    }
+  }
+  return "<" + std::string(element.Name()) + ">";
+}
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 /// Nothing if it is no finite number of at most 1e60 in size.
@@ -58,18 +64,34 @@ std::optional<double> parse_number(std::string_view word) {
 
 }  // namespace
 
+void XmlText::append(std::string_view text) {
+  if (joined_.empty()) {
+    joined_ = whole_;
+  }
+  joined_ += text;
+}
+
 XmlReader::XmlReader(std::string_view text, std::string source) : source_(std::move(source)) {
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
     throw ParseError::at_byte(source_, zero, "expected text, got a zero byte");
   }
-  if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+  if (document_.Parse(text.data(), text.size()) == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+    fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
+                 "expected at most " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) +
+                     " elements inside of each other, got more");
+  }
+  if (document_.Error()) {
     fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
                  "expected XML, got " + std::string(document_.ErrorName()));
   }
 }
 
+ParseError XmlReader::error(const XmlElement& where, const std::string& message) const {
+  return ParseError(source_, line_of(where), shown(where) + ": " + message);
+}
+
 void XmlReader::fail(const XmlElement& where, const std::string& message) const {
-  fail_at_line(line_of(where), shown(where) + ": " + message);
+  throw error(where, message);
 }
 
 void XmlReader::fail_at_line(std::size_t line, const std::string& message) const {
@@ -194,6 +216,40 @@ Eigen::Vector3d XmlReader::vector3(const XmlElement& element, const char* attrib
                       std::to_string(values.size()));
   }
   return {values[0], values[1], values[2]};
+}
+
+XmlText XmlReader::content(const XmlElement& element) const {
+  XmlText all({}, line_of(element));
+  bool empty = true;
+  for (const tinyxml2::XMLNode* node = element.FirstChild(); node != nullptr;
+       node = node->NextSibling()) {
+    if (node->ToElement() != nullptr) {
+      fail(*node->ToElement(), "expected text alone inside " + shown(element));
+    }
+    if (node->ToText() != nullptr && empty) {
+      all = XmlText(node->Value(), static_cast<std::size_t>(std::max(node->GetLineNum(), 1)));
+      empty = false;
+    } else if (node->ToText() != nullptr) {
+      all.append(node->Value());
+    }
+  }
+  return all;
+}
+
+std::uint64_t XmlReader::whole_number(const XmlElement& element, const char* attribute,
+                                      std::optional<std::uint64_t> missing) const {
+  if (element.Attribute(attribute) == nullptr && missing) {
+    return *missing;
+  }
+  const std::string all = text(element, attribute);
+  const std::string_view word = without_blanks(all);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    fail(element,
+         "expected a whole number >= 0 in '" + std::string(attribute) + "', got " + quoted(word));
+  }
+  return value;
 }
 
 }  // namespace firstcontact::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -13,9 +14,28 @@
 #include <tinyxml2.h>
 #include <Eigen/Core>
 
+#include <firstcontact/text/parse_error.h>
+
 namespace firstcontact::detail {
 
 using XmlElement = tinyxml2::XMLElement;
+
+/// The text of an element, without the comments inside of it. Valid as long as its reader.
+class XmlText {
+ public:
+  XmlText(std::string_view text, std::size_t line) : whole_(text), line_(line) {}
+
+  /// Appends a further piece.
+  void append(std::string_view text);
+
+  [[nodiscard]] std::string_view view() const { return joined_.empty() ? whole_ : joined_; }
+  [[nodiscard]] std::size_t line() const { return line_; }  ///< Where it begins.
+
+ private:
+  std::string_view whole_;
+  std::string joined_;
+  std::size_t line_;
+};
 
 /// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
 /// where something is not what its name says. Numbers are read exactly, whatever the locale.
@@ -26,6 +46,11 @@ class XmlReader {
 
   /// The one outermost element, which has to be named so.
   [[nodiscard]] const XmlElement& root(const char* name) const;
+
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+  /// The error that fail() throws.
+  [[nodiscard]] ParseError error(const XmlElement& where, const std::string& message) const;
 
   [[noreturn]] void fail(const XmlElement& where, const std::string& message) const;
   [[noreturn]] void fail_at_line(std::size_t line, const std::string& message) const;
@@ -53,6 +78,13 @@ class XmlReader {
   [[nodiscard]] Eigen::Vector3d vector3(const XmlElement& element, const char* attribute) const;
 
   [[nodiscard]] std::vector<double> numbers(const XmlElement& element, const char* attribute) const;
+
+  /// The text of an element without elements inside.
+  [[nodiscard]] XmlText content(const XmlElement& element) const;
+
+  /// A whole number >= 0; `missing` where the attribute is not there.
+  [[nodiscard]] std::uint64_t whole_number(const XmlElement& element, const char* attribute,
+                                           std::optional<std::uint64_t> missing = {}) const;
 
  private:
   std::string source_;

@@ -1,0 +1,28 @@
+/// @file
+/// Reads COLLADA documents.
+
+#pragma once
+
+#include <string_view>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/text/reading_log.h>
+
+namespace firstcontact::detail {
+
+/// Parses a COLLADA document of version 1.4 or 1.5: what its <scene> instances, in metres, with the
+/// axes of the file. Not welded.
+///
+/// Geometries are placed by the transforms of their nodes, morphs have the weights that the file
+/// states, skins the pose that the nodes of their joints have: the bind pose, as long as nobody
+/// moved them. Polygons are turned where the map of their node mirrors, so that the inside of a
+/// closed surface stays inside.
+///
+/// The log gets what is left out: looks, animations, the shapes and joints of simulators, settings
+/// of other tools, lines, geometries outside of the scene.
+///
+/// @param bytes  the file, of which log.path() is the path
+/// @throws ParseError  what is malformed, not known or not read, and no polygon at all
+[[nodiscard]] Mesh parse_dae(std::string_view bytes, ReadingLog& log);
+
+}  // namespace firstcontact::detail
