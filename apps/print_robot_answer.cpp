@@ -32,6 +32,7 @@ class RobotAnswerText {
     if (std::isinf(result_.clearance)) {
       line("clearance", "no pair is tested");
     }
+    turns();
     closest();
     if (result_.tolerance_used > loaded_.scene.options.tolerance) {
       line("tolerance", length_text(result_.tolerance_used) + ": f64 resolves no less here");
@@ -101,6 +102,20 @@ class RobotAnswerText {
     }
     if (found.size() > kMostContacts) {
       print("    and {} more\n", found.size() - kMostContacts);
+    }
+  }
+
+  /// Of continuous joints, whose numbers leave it open which way they go.
+  void turns() {
+    for (const SceneRobot& robot : loaded_.scene.robots) {
+      for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {
+        const bool is_short = turn.turning == Turning::shortest;
+        const std::string way = !turn.differs ? ""
+                                : is_short    ? ", the short way"
+                                              : ", the long way, as the numbers say";
+        line("turn", fmt::format("{}/{} by {:.6g} rad{}, from {:.6g} to {:.6g} rad", robot.name,
+                                 turn.joint, turn.turned, way, turn.from, turn.to));
+      }
     }
   }
 

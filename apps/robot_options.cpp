@@ -35,6 +35,18 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
   list("--goal", arguments.goal, "STATE", "As --start");
   list("--state", arguments.state, "STATE",
        "Where joints rest that the motion does not name: as --start; 0 by default");
+  command
+      .add_option("--turning", arguments.turning,
+                  "Continuous joints: short, by at most half a turn (as MoveIt goes to a goal, "
+                  "the default there), or long, as the numbers say (the default of --trajectory)")
+      ->type_name("long|short")
+      ->check(CLI::IsMember({"long", "short"}))
+      ->group("Robot");
+  command
+      .add_flag(
+          "--unwrap", arguments.unwrap,
+          "With --trajectory: a recording whose angles wrap; takes its jumps of whole turns out")
+      ->group("Robot");
   list("--environment", arguments.environment, "FILE",
        "Mesh, MoveIt planning scene (.yaml), or scene (.json) without robots; repeatable");
   list("--package-root", arguments.package_roots, "FOLDER",
@@ -79,7 +91,9 @@ void require_no_option_of_a_robot(const RobotArguments& arguments) {
       Option{!arguments.package_roots.empty(), "--package-root", "package_roots"},
       Option{arguments.padding.has_value(), "--padding", "robots[].padding"},
       Option{arguments.tracking_error.has_value(), "--tracking-error", "robots[].tracking_error"},
-      Option{arguments.visual, "--visual", "robots[].surface"}};
+      Option{arguments.visual, "--visual", "robots[].surface"},
+      Option{!arguments.turning.empty(), "--turning", "robots[].turning"},
+      Option{arguments.unwrap, "--unwrap", "robots[].unwrap"}};
   for (const Option& option : options) {
     if (option.is_given) {
       throw std::invalid_argument(fmt::format("{} belongs to --robot; in a scene, say it in {}",
@@ -110,6 +124,10 @@ Scene read_robot_scene(const RobotArguments& arguments) {
   question.environment.assign(arguments.environment.begin(), arguments.environment.end());
   question.padding = arguments.padding.value_or(0.0);
   question.tracking_error = arguments.tracking_error.value_or(0.0);
+  if (!arguments.turning.empty()) {
+    question.turning = turning_of(arguments.turning);
+  }
+  question.unwrap = arguments.unwrap;
   return read_robot_question(question);
 }
 

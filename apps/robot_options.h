@@ -27,6 +27,8 @@ struct RobotArguments {
   std::optional<double> padding;         ///< [m]
   std::optional<double> tracking_error;  ///< [rad or m]
   bool visual = false;
+  std::string turning;  ///< "long", "short", or empty.
+  bool unwrap = false;
 };
 
 void add_robot_options(CLI::App& command, RobotArguments& arguments);

@@ -93,6 +93,38 @@ TEST(CoordinatePath, TakesTheShortestWayOnlyWhenAsked) {
   EXPECT_NEAR(std::cos(shortest.state(1.0).value.hi), std::cos(q[1]), 1e-15);
 }
 
+// Angles that count up to whole turns make one path, which does not jump where pieces meet.
+TEST(CoordinatePath, TakesTheShortestWayWithoutJumps) {
+  std::vector<double> times;
+  std::vector<double> q;
+  std::vector<double> v;
+  for (int k = 0; k <= 50; ++k) {
+    times.push_back(k / 50.0);
+    q.push_back(std::remainder(-2.5 * k, 2.0 * std::numbers::pi));
+    v.push_back(-125.0);
+  }
+  for (const CoordinatePath& path : {CoordinatePath::linear(times, q, Turning::shortest),
+                                     CoordinatePath::cubic(times, q, v, Turning::shortest)}) {
+    ASSERT_EQ(path.segments().size(), 50u);
+    for (std::size_t k = 0; k < 50; ++k) {
+      const CoordinateSegment& segment = path.segments()[k];
+      EXPECT_NEAR(segment.state(times[k]).value.hi, -2.5 * static_cast<double>(k), 1e-12);
+      EXPECT_NEAR(segment.state(times[k + 1]).value.hi, -2.5 * static_cast<double>(k + 1), 1e-12);
+    }
+  }
+}
+
+TEST(CoordinatePath, TakesHalfATurnTheWayOfTheNumbers) {
+  constexpr double kPi = std::numbers::pi;
+  EXPECT_EQ(shortest_way(0.0, kPi), kPi);
+  EXPECT_EQ(shortest_way(kPi, 0.0), -kPi);
+  EXPECT_EQ(shortest_way(-kPi / 2, kPi / 2), kPi);
+  EXPECT_NEAR(shortest_way(0.0, std::nextafter(kPi, 4.0)), -kPi, 1e-15);
+  EXPECT_NEAR(shortest_way(3.0, -3.0), 2.0 * kPi - 6.0, 1e-15);
+  EXPECT_NEAR(shortest_way(0.0, 7.0 * kPi - 0.1), kPi - 0.1, 1e-13);
+  EXPECT_NEAR(shortest_way(0.0, 7.0 * kPi + 0.1), 0.1 - kPi, 1e-13);
+}
+
 /// Sound: no sample exceeds a bound. Tight: on short windows the bound is hardly more.
 TEST(CoordinatePath, BoundsHoldAndAreTight) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {

@@ -120,6 +120,15 @@ TEST(RobotMotion, NamesTheJointThatDoesNotMatch) {
       "RobotMotion: joint 'shoulder' is not continuous; it cannot take the shortest way round");
   EXPECT_EQ(error_of(arm(JointType::planar), {{"shoulder", still}, {"elbow", still}}),
             "RobotMotion: joint 'shoulder' is planar; give it three coordinates");
+  EXPECT_EQ(error_of(arm(JointType::planar),
+                     {{"shoulder", PlanarPath{ramp(0.0, 6.0, Turning::shortest), still, still}},
+                      {"elbow", still}}),
+            "RobotMotion: joint 'shoulder' slides along x and y; only its angle can take the "
+            "shortest way round");
+  EXPECT_EQ(error_of(arm(JointType::planar),
+                     {{"shoulder", PlanarPath{still, still, ramp(0.0, 6.0, Turning::shortest)}},
+                      {"elbow", still}}),
+            "no error");
   EXPECT_EQ(error_of(arm(JointType::ball),
                      {{"shoulder", Motion::constant_velocity({}, {1, 0, 0})}, {"elbow", still}}),
             "RobotMotion: joint 'shoulder' is a ball; its motion must not move the origin");

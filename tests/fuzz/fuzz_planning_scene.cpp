@@ -1,3 +1,4 @@
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
+#include "fuzz/text_mutator.h"
 #include "scene/crane.h"
 
 namespace {
@@ -38,6 +40,52 @@ void fuzz_request(std::string_view text) {
   }
 }
 
+/// What messages have, and what they may be taken for.
+constexpr std::array<std::string_view, 44> kWords = {"world",
+                                                     "collision_objects",
+                                                     "id",
+                                                     "header",
+                                                     "frame_id",
+                                                     "pose",
+                                                     "position",
+                                                     "orientation",
+                                                     "primitives",
+                                                     "primitive_poses",
+                                                     "type",
+                                                     "dimensions",
+                                                     "box",
+                                                     "sphere",
+                                                     "cylinder",
+                                                     "cone",
+                                                     "meshes",
+                                                     "mesh_poses",
+                                                     "vertices",
+                                                     "triangles",
+                                                     "vertex_indices",
+                                                     "resource",
+                                                     "planes",
+                                                     "operation",
+                                                     "fixed_frame_transforms",
+                                                     "child_frame_id",
+                                                     "transform",
+                                                     "translation",
+                                                     "rotation",
+                                                     "allowed_collision_matrix",
+                                                     "entry_names",
+                                                     "entry_values",
+                                                     "enabled",
+                                                     "default_entry_names",
+                                                     "default_entry_values",
+                                                     "link_padding",
+                                                     "robot_state",
+                                                     "attached_collision_objects",
+                                                     "joint_state",
+                                                     "name",
+                                                     "multi_dof_joint_state",
+                                                     "goal_constraints",
+                                                     "joint_constraints",
+                                                     "weld"};
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -45,4 +93,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz_planning_scene(text);
   fuzz_request(text);
   return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  return firstcontact::test::mutate_text(reinterpret_cast<char*>(data), size, most, seed, kWords);
 }

@@ -203,6 +203,62 @@ goal_constraints:
   EXPECT_GT(motion.points[1].time, 0.5);
 }
 
+// Messages whose pose was never set have zeros, which MoveIt takes as the identity.
+TEST(PlanningScene, TakesQuaternionsOfZerosAsTheIdentityWithOneWarning) {
+  const std::string zeros = "orientation: [0, 0, 0, 0]";
+  const PlanningScene scene = parse(R"(
+fixed_frame_transforms:
+- {child_frame_id: table, transform: {translation: [0, 0, 1], rotation: {x: 0, y: 0, z: 0, w: 0}}}
+robot_state:
+  attached_collision_objects:
+  - link_name: hook
+    object: {id: load, header: {frame_id: hook}, pose: {)" +
+                                    zeros + R"(}, primitives: [{type: sphere, dimensions: [1]}]}
+world:
+  collision_objects:
+  - {id: a, header: {frame_id: table}, pose: {position: [1, 0, 0], )" +
+                                    zeros + R"(}, primitives: [{type: sphere, dimensions: [1]}]}
+  - {id: b, primitives: [{type: sphere, dimensions: [1]}, {type: sphere, dimensions: [1]}], primitive_poses: [{)" +
+                                    zeros + "}, {" + zeros + R"(}]}
+  - {id: c, primitives: [{type: sphere, dimensions: [1]}]}
+)");
+  EXPECT_EQ(pose_of(scene.bodies[0]).position, Eigen::Vector3d(1, 0, 1));
+  EXPECT_TRUE(pose_of(scene.bodies[0]).rotation.vec().isZero(0.0));
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{"s.yaml: quaternions of zeros are taken as the identity, as "
+                                      "MoveIt does: table, a, b, load"}));
+}
+
+TEST(PlanningRequest, LeavesOutFixedJointsAndZeroQuaternionsWithAWarning) {
+  const PlanningRequest request = parse_planning_request(R"(
+start_state:
+  joint_state: {name: [turn, weld], position: [0.5, 0.25]}
+  multi_dof_joint_state:
+    joint_names: [world_joint]
+    transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 0]}]
+goal_constraints:
+- joint_constraints: [{joint_name: turn, position: -1.5}, {joint_name: weld, position: 1}]
+)",
+                                                         "r.yaml", crane());
+  EXPECT_EQ(request.start, (JointPositions{{"turn", 0.5}}));
+  EXPECT_EQ(request.goal, (JointPositions{{"turn", -1.5}}));
+  EXPECT_EQ(request.base.position, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(request.warnings,
+            (std::vector<std::string>{
+                "r.yaml: a quaternion of zeros is taken as the identity, as MoveIt does: the "
+                "robot's base",
+                "r.yaml: a position is given for a fixed joint, weld; it is where the URDF has "
+                "it"}));
+}
+
+TEST(PlanningScene, HasTheStateOfTheRobot) {
+  EXPECT_EQ(parse("robot_state: {joint_state: {name: [a, b], position: [1, 2]}}\nworld: {}").state,
+            (JointPositions{{"a", 1.0}, {"b", 2.0}}));
+  expect_message("robot_state: {joint_state: {name: [a, b], position: [1]}}\nworld: {}",
+                 "s.yaml:1: robot_state.joint_state.position: expected a number for each of the 2 "
+                 "names, got 1");
+}
+
 TEST(PlanningRequest, NeedsAGoalOfJoints) {
   const auto message = [](const std::string& text) -> std::string {
     try {
@@ -219,6 +275,14 @@ TEST(PlanningRequest, NeedsAGoalOfJoints) {
   EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: trun, position: 1}]}]"),
             "r.yaml:1: goal_constraints[0].joint_constraints[0].joint_name: expected a joint of "
             "robot \"crane\", got \"trun\"; did you mean \"turn\"?");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [trun], position: [1]}}"),
+            "r.yaml:1: start_state.joint_state.name[0]: expected a joint of robot \"crane\", got "
+            "\"trun\"; did you mean \"turn\"?");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [turn], position: [.nan]}}"),
+            "r.yaml:1: start_state.joint_state.position[0]: expected a number, got \".nan\"");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [turn, lift], position: [1]}}"),
+            "r.yaml:1: start_state.joint_state.position: expected a number for each of the 2 "
+            "names, got 1");
 }
 
 // Every problem of the data set can be read.

@@ -31,23 +31,23 @@ from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, Ele
                     verify_run, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
 from ._simulate import simulate
-from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint,
+from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
                       RobotSemantics, RunContacts, RunImpacts, RunMoment, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
-                     JointType, RunVerdict, StartContacts, UndecidedReason, Verdict)
+                     JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
 
 __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactInterval",
     "ContactState", "DistanceResult", "ElementaryContact", "ElementaryVerdict", "EndEffector",
     "Feature", "FeatureType", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
-    "HeightMap", "Joint", "JointLimit", "JointType", "LimitViolation", "LinearContact",
+    "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LimitViolation", "LinearContact",
     "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairRules", "ParseError", "PlanningRequest", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator",
-    "StartContacts", "StopSource", "Trajectory", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
+    "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
     "distance", "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",
     "linear_vertex_face_contact", "load_scene", "make_box", "make_capsule", "make_cone",

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ._words import JointLimit, JointType, RunVerdict, UndecidedReason
+from ._words import JointLimit, JointType, RunVerdict, Turning, UndecidedReason
 
 if TYPE_CHECKING:
     from ._core import Feature, Motion, Pose, Shape
@@ -95,6 +95,22 @@ class LimitViolation(NamedTuple):
     """[s]  n×2, begins and ends: outside of them the limit is proven to be kept."""
 
 
+class JointTurn(NamedTuple):
+    """Which way a continuous joint, or the angle of a planar one, went along its trajectory."""
+
+    robot: str
+    joint: str
+    """As trajectories name the coordinate."""
+    start: float
+    """[rad]  As the first point has it."""
+    end: float
+    """[rad]  As the last point has it."""
+    turned: float
+    """[rad]  From the first point to the last, whole turns included."""
+    turning: Turning
+    """Between the points."""
+
+
 class Mimic(NamedTuple):
     """A joint's coordinate is that of another one, times ``multiplier``, plus ``offset``."""
 
@@ -162,6 +178,8 @@ class PlanningRequest(NamedTuple):
     goal: dict[str, float]
     base: "Pose"
     """Of the robot, where the start says it."""
+    warnings: tuple[str, ...] = ()
+    """What a user should know of the file, such as positions of fixed joints."""
 
 
 class RunContacts(NamedTuple):

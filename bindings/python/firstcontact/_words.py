@@ -103,6 +103,15 @@ class JointType(enum.StrEnum):
     ball = "ball"
 
 
+class Turning(enum.StrEnum):
+    """Which way a continuous joint goes from one position to the next."""
+
+    long = "long"
+    """As the numbers say, whole turns included."""
+    short = "short"
+    """By at most half a turn."""
+
+
 class RunVerdict(enum.StrEnum):
     """What is proven of a recorded run."""
 

@@ -115,6 +115,18 @@ py::tuple limits_of(const HeldResult& result) {
   return py::tuple(list);
 }
 
+py::tuple turns_of(const HeldResult& result) {
+  const Scene& scene = loaded_without_gil(*result.scene).scene;
+  py::list list;
+  for (const SceneRobot& robot : scene.robots) {
+    for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {
+      list.append(tuple_type("JointTurn")(robot.name, turn.joint, turn.from, turn.to, turn.turned,
+                                          turn.turning));
+    }
+  }
+  return py::tuple(list);
+}
+
 std::string to_json(const HeldResult& result) {
   return write_result(loaded_without_gil(*result.scene), result.answer,
                       {.all_pairs = result.all_pairs, .sampling = result.sampling});
@@ -428,6 +440,8 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly(
           "pairs", [](const std::shared_ptr<HeldResult>& r) { return pairs_of(r); },
           "Every tested pair where that was asked, else those that decide t.")
+      .def_property_readonly("turns", &turns_of,
+                             "JointTurns: which way continuous joints went, and how far.")
       .def_property_readonly("limits", &limits_of,
                              "LimitViolations: the joint limits that robots leave.")
       .def_property_readonly(

@@ -82,9 +82,12 @@ py::object contents_of(const Trajectory& trajectory) {
       numbers.insert(numbers.end(), list->begin(), list->end());
     }
   }
-  return py::make_tuple(trajectory.joint_names,
-                        sha256(py::bytes(reinterpret_cast<const char*>(numbers.data()),
-                                         numbers.size() * sizeof(double))));
+  const std::string digest = sha256(
+      py::bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)));
+  if (trajectory.turning == Turning::as_given) {
+    return py::make_tuple(trajectory.joint_names, digest);
+  }
+  return py::make_tuple(trajectory.joint_names, digest, to_string(trajectory.turning));
 }
 
 std::vector<path> paths_from(const py::object& value) {
@@ -179,10 +182,18 @@ HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
     read.options.margin = *margin;
   }
   HeldRobotScene scene(std::move(read), shapes ? shapes : std::make_shared<ShapeCache>());
-  scene.robot().state = positions_from(state, scene.robot());
+  JointPositions rest = positions_from(state, scene.robot());
+  rest.insert(scene.robot().state.begin(), scene.robot().state.end());  // Of planning scenes.
+  scene.robot().state = std::move(rest);
   set_padding(scene, padding);
   set_tracking_error(scene, tracking_error);
   return scene;
+}
+
+void warn(const std::string& text) {
+  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) {
+    throw py::error_already_set();  // Warnings may be errors.
+  }
 }
 
 void add_positions(const py::handle& value, const SceneRobot& robot, JointPositions& positions) {
@@ -194,6 +205,10 @@ void add_positions(const py::handle& value, const SceneRobot& robot, JointPositi
   } else if (PyMapping_Check(value.ptr()) && py::hasattr(value, "items")) {
     for (const auto& [name, position] : py::dict(py::reinterpret_borrow<py::object>(value))
                                             .cast<std::map<std::string, double>>()) {
+      if (names_fixed_joint(robot.model, name)) {
+        warn("a position is given for a fixed joint, " + name + "; it is where the URDF has it");
+        continue;
+      }
       (void)find_coordinate(robot.model, name);
       positions[name] = position;
     }
@@ -209,7 +224,8 @@ void add_positions(const py::handle& value, const SceneRobot& robot, JointPositi
   }
 }
 
-Trajectory straight(const HeldRobotScene& scene, const py::object& start, const py::object& goal) {
+Trajectory straight(const HeldRobotScene& scene, const py::object& start, const py::object& goal,
+                    Turning turning) {
   const SceneRobot& robot = scene.robot();
   JointPositions from = positions_from(start, robot);
   JointPositions to = from;
@@ -217,7 +233,7 @@ Trajectory straight(const HeldRobotScene& scene, const py::object& start, const 
     to[name] = position;
   }
   from.insert(robot.state.begin(), robot.state.end());
-  return straight_motion(robot.model, from, to);
+  return straight_motion(robot.model, from, to, turning);
 }
 
 }  // namespace
@@ -457,9 +473,12 @@ is at from_time.)")
       .def("set_margin", &HeldRobotScene::set_margin, py::arg("name"), py::arg("other"),
            py::arg("margin"), "margin: [m] of two bodies or links, named as for ignore; >= 0.")
       .def("straight_motion", &straight, py::arg("start"), py::arg("goal"),
+           py::arg("turning") = Turning::shortest,
            R"(Straight in joint space, as fast as the velocity limits allow.
 
-start, goal: as `state` of the constructor; joints that the goal does not name keep their start.)")
+start, goal: as `state` of the constructor; joints that the goal does not name keep their start.
+turning: the way of continuous joints and of the angles of planar ones, "short" as MoveIt goes, or
+"long" as the numbers say.)")
       .def("along", &scene_along, py::arg("trajectory"),
            R"(The Scene of this robot while it follows a trajectory, as for check_many.
 

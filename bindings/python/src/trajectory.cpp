@@ -13,11 +13,13 @@
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/scene/whole_turn_jumps.h>
 
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
 #include "robots.h"
+#include "words.h"
 
 namespace firstcontact::python {
 
@@ -73,8 +75,8 @@ void take_times(const py::object& value, Trajectory& trajectory) {
 
 Trajectory make_trajectory(std::vector<std::string> joint_names, const py::object& times,
                            const py::object& positions, const py::object& velocities,
-                           const py::object& accelerations) {
-  Trajectory trajectory{.joint_names = std::move(joint_names), .points = {}};
+                           const py::object& accelerations, Turning turning) {
+  Trajectory trajectory{.joint_names = std::move(joint_names), .points = {}, .turning = turning};
   const std::set<std::string> names(trajectory.joint_names.begin(), trajectory.joint_names.end());
   if (names.size() != trajectory.joint_names.size() || names.empty()) {
     throw py::value_error("joint_names: expected one or more, each once");
@@ -120,7 +122,15 @@ py::tuple state_of(const Trajectory& trajectory) {
   return py::make_tuple(trajectory.joint_names, times_of(trajectory),
                         rows_of(trajectory, &TrajectoryPoint::positions),
                         rows_of(trajectory, &TrajectoryPoint::velocities),
-                        rows_of(trajectory, &TrajectoryPoint::accelerations));
+                        rows_of(trajectory, &TrajectoryPoint::accelerations), trajectory.turning,
+                        trajectory.warnings);
+}
+
+Trajectory trajectory_from(const py::tuple& state) {
+  Trajectory trajectory = make_trajectory(state[0].cast<std::vector<std::string>>(), state[1],
+                                          state[2], state[3], state[4], state[5].cast<Turning>());
+  trajectory.warnings = state[6].cast<std::vector<std::string>>();
+  return trajectory;
 }
 
 bool equal(const Trajectory& a, const Trajectory& b) {
@@ -128,7 +138,7 @@ bool equal(const Trajectory& a, const Trajectory& b) {
     return p.time == q.time && p.positions == q.positions && p.velocities == q.velocities &&
            p.accelerations == q.accelerations;
   };
-  return a.joint_names == b.joint_names &&
+  return a.joint_names == b.joint_names && a.turning == b.turning &&
          std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
 }
 
@@ -143,7 +153,8 @@ py::object read_request(const path& file, const HeldRobotModel& robot) {
     return result;
   };
   return py::module_::import("firstcontact._tuples")
-      .attr("PlanningRequest")(dict(request.start), dict(request.goal), request.base);
+      .attr("PlanningRequest")(dict(request.start), dict(request.goal), request.base,
+                               py::tuple(py::cast(request.warnings)));
 }
 
 void bind_class(py::module_& m) {
@@ -153,10 +164,11 @@ Between them linear, cubic where there are velocities, quintic where there are a
 The robot rests before the first time and after the last. Never changes.)")
       .def(py::init(&make_trajectory), py::arg("joint_names"), py::arg("times"),
            py::arg("positions"), py::arg("velocities") = py::none(),
-           py::arg("accelerations") = py::none(),
+           py::arg("accelerations") = py::none(), py::arg("turning") = Turning::as_given,
            R"(joint_names: of the columns; a planar joint has NAME/x, NAME/y, NAME/theta.
 times: [s] (n,), >= 0, strictly increasing. positions: [rad or m] n×joints, a row for each time.
-velocities, accelerations: [per s, per s^2] as positions.)")
+velocities, accelerations: [per s, per s^2] as positions. turning: the way of continuous joints and
+of the angles of planar ones between the points, "long" as the numbers say, or "short".)")
       .def_property_readonly(
           "joint_names", [](const Trajectory& t) { return py::tuple(py::cast(t.joint_names)); },
           "Of the columns.")
@@ -172,6 +184,22 @@ velocities, accelerations: [per s, per s^2] as positions.)")
           "accelerations",
           [](const Trajectory& t) { return rows_of(t, &TrajectoryPoint::accelerations); },
           "[rad/s^2 or m/s^2] n×joints, or None.")
+      .def_property_readonly(
+          "turning", [](const Trajectory& t) { return t.turning; },
+          "Turning: the way of continuous joints between the points.")
+      .def_property_readonly(
+          "warnings", [](const Trajectory& t) { return py::tuple(py::cast(t.warnings)); },
+          "What a user should know of the file that was read.")
+      .def(
+          "unwrapped",
+          [](const Trajectory& t, const HeldRobotModel& robot) {
+            return unwrapped(robot.model, t);
+          },
+          py::arg("robot"),
+          R"(The trajectory of a recording whose angles wrap, without jumps of whole turns.
+
+No step between its points is of more than half a turn then, of joints of the RobotModel that can
+turn by more than a turn.)")
       .def("__len__", [](const Trajectory& t) { return t.points.size(); })
       .def("__eq__",
            [](const Trajectory& a, const py::object& b) {
@@ -188,11 +216,7 @@ velocities, accelerations: [per s, per s^2] as positions.)")
                     std::to_string(t.points.size()) + " points until " +
                     std::string(py::repr(py::float_(t.points.back().time))) + " s>";
            })
-      .def(py::pickle([](const Trajectory& t) { return state_of(t); },
-                      [](const py::tuple& state) {
-                        return make_trajectory(state[0].cast<std::vector<std::string>>(), state[1],
-                                               state[2], state[3], state[4]);
-                      }));
+      .def(py::pickle([](const Trajectory& t) { return state_of(t); }, &trajectory_from));
 }
 
 }  // namespace
@@ -201,15 +225,17 @@ void bind_trajectory(py::module_& m) {
   bind_class(m);
   m.def(
       "read_trajectory",
-      [](const path& file, const HeldRobotModel& robot) {
+      [](const path& file, const HeldRobotModel& robot, bool unwrap) {
         require_file(file);
         const py::gil_scoped_release release;
-        return read_trajectory(file, robot.model);
+        Trajectory read = read_trajectory(file, robot.model);
+        return unwrap ? unwrapped(robot.model, std::move(read)) : read;
       },
-      py::arg("path"), py::arg("robot"),
+      py::arg("path"), py::arg("robot"), py::arg("unwrap") = false,
       R"(Reads a trajectory: .csv, or .json and .yaml as the tool and ROS write them.
 
-robot: a RobotModel, whose joints it names. ParseError where the file cannot be used.)");
+robot: a RobotModel, whose joints it names. unwrap: takes jumps of whole turns out of a recording
+whose angles wrap. ParseError where the file cannot be used.)");
   m.def("read_request", &read_request, py::arg("path"), py::arg("robot"),
         "Reads a MoveIt request, whose goal is one of joint positions.");
 }

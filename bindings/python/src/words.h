@@ -10,6 +10,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <firstcontact/articulated/coordinate_path.h>
 #include <firstcontact/articulated/limit_report.h>
 #include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/dynamics/verify_run.h>
@@ -93,6 +94,12 @@ template <>
 struct Words<JointLimit> {
   static constexpr const char* kName = "JointLimit";
   static constexpr std::array kWords{"lower_position", "upper_position", "velocity"};
+};
+
+template <>
+struct Words<Turning> {
+  static constexpr const char* kName = "Turning";
+  static constexpr std::array kWords{"long", "short"};
 };
 
 template <>
@@ -181,6 +188,9 @@ class type_caster<firstcontact::JointType>
 template <>
 class type_caster<firstcontact::JointLimit>
     : public firstcontact::python::WordCaster<firstcontact::JointLimit> {};
+template <>
+class type_caster<firstcontact::Turning>
+    : public firstcontact::python::WordCaster<firstcontact::Turning> {};
 template <>
 class type_caster<firstcontact::RunVerdict>
     : public firstcontact::python::WordCaster<firstcontact::RunVerdict> {};

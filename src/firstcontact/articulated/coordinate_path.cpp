@@ -59,7 +59,7 @@ double noise(const CoordinateSegment& segment, std::size_t k) {
   return 128.0 * segment.error + 0x1p-94 * size_of(segment, k);
 }
 
-CoordinateSegment at_rest(double position, double t_begin, double t_end) {
+CoordinateSegment at_rest(const DoubleDouble& position, double t_begin, double t_end) {
   CoordinateSegment segment;
   segment.t_begin = t_begin;
   segment.t_end = t_end;
@@ -134,6 +134,40 @@ CoordinateSegment interpolate(const Ends& ends, std::size_t orders, double t_beg
   return s;
 }
 
+/// Whole turns to take off a way, so that at most half a turn is left; none of half a turn as
+/// doubles have it, so that it goes the way that the numbers say.
+double whole_turns(double way) {
+  constexpr double kHalfTurn = 0.5 * kTurn.hi;
+  if (std::abs(way) <= kHalfTurn) {
+    return 0.0;
+  }
+  return std::copysign(std::ceil(std::abs(way) / kTurn.hi - 0.5), way);
+}
+
+/// Positions with the whole turns that were taken off the ways before them taken off, too: one path
+/// without jumps, which joints that mimic this one can follow.
+class Winding {
+ public:
+  explicit Winding(Turning turning) : turning_(turning) {}
+
+  void step(double from, double to) {
+    if (turning_ == Turning::shortest) {
+      turns_ += whole_turns(two_sum(to, -from).hi);
+    }
+  }
+
+  [[nodiscard]] DoubleDouble unwound(double position) const {
+    return DoubleDouble(position) - DoubleDouble(turns_) * kTurn;
+  }
+
+  /// [rad]  How far `unwound` may be from exact: of an integer below 2^25 times 2 pi.
+  [[nodiscard]] double error() const { return kConstructionError * std::abs(turns_); }
+
+ private:
+  Turning turning_;
+  double turns_ = 0.0;  // Taken off so far.
+};
+
 /// `columns`: positions, velocities, accelerations, as many as there are.
 std::vector<CoordinateSegment> through(std::span<const double> times,
                                        std::span<const std::span<const double>> columns,
@@ -152,23 +186,25 @@ std::vector<CoordinateSegment> through(std::span<const double> times,
   if (times.front() > 0.0) {
     segments.push_back(at_rest(columns[0].front(), 0.0, times.front()));
   }
+  Winding winding(turning);
   for (std::size_t k = 0; k + 1 < times.size(); ++k) {
     const DoubleDouble h = two_sum(times[k + 1], -times[k]);
     Ends ends;
+    ends.begin[0] = winding.unwound(columns[0][k]);
+    winding.step(columns[0][k], columns[0][k + 1]);
+    ends.end[0] = winding.unwound(columns[0][k + 1]);
     DoubleDouble scale = 1.0;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t c = 1; c < columns.size(); ++c) {
+      scale = scale * h;
       ends.begin[c] = scale * DoubleDouble(columns[c][k]);
       ends.end[c] = scale * DoubleDouble(columns[c][k + 1]);
-      scale = scale * h;
-    }
-    if (turning == Turning::shortest) {
-      const double turns = std::round((ends.end[0] - ends.begin[0]).hi / kTurn.hi);
-      ends.end[0] = ends.end[0] - DoubleDouble(turns) * kTurn;
     }
     segments.push_back(interpolate(ends, columns.size(), times[k], times[k + 1]));
+    segments.back().error += 64.0 * winding.error();
   }
   if (times.back() < 1.0) {
-    segments.push_back(at_rest(columns[0].back(), times.back(), 1.0));
+    segments.push_back(at_rest(winding.unwound(columns[0].back()), times.back(), 1.0));
+    segments.back().error += winding.error();
   }
   if (segments.empty()) {
     segments.push_back(at_rest(columns[0].front(), 0.0, 1.0));
@@ -287,6 +323,11 @@ CoordinateSegment CoordinateSegment::mimicked(double multiplier, double offset) 
   result.error = std::abs(multiplier) * error * (1.0 + 0x1p-50) +
                  kConstructionError * (size_of(result, 0) + std::abs(offset));
   return result;
+}
+
+double shortest_way(double from, double to) {
+  const double way = to - from;
+  return (two_sum(to, -from) - DoubleDouble(whole_turns(way)) * kTurn).value();
 }
 
 CoordinatePath::CoordinatePath(std::vector<CoordinateSegment> segments, Turning turning)

@@ -61,8 +61,13 @@ struct FIRSTCONTACT_API CoordinateSegment {
 /// Which way a continuous joint turns from one position to the next.
 enum class Turning {
   as_given,  ///< Through all angles between the two numbers.
-  shortest,  ///< By at most half a turn: positions count up to whole turns.
+  /// By at most half a turn: positions count up to whole turns, which are taken off the path from
+  /// there on, so that it does not jump. Half a turn, as doubles have it, goes as given.
+  shortest,
 };
+
+/// [rad]  The way of Turning::shortest from one position to another, to the nearest double.
+[[nodiscard]] FIRSTCONTACT_API double shortest_way(double from, double to);
 
 /// One coordinate over the step, t in [0, 1]. Rests before the first time and after the last.
 /// The exact path is the real-number function that the doubles below define.

@@ -59,6 +59,11 @@ void require_match(const Joint& joint, const JointMotion& motion) {
       joint.type != JointType::continuous) {
     refuse(joint.name, "is not continuous; it cannot take the shortest way round");
   }
+  const auto* three = std::get_if<PlanarPath>(&motion);
+  if (three != nullptr &&
+      ((*three)[0].turning() == Turning::shortest || (*three)[1].turning() == Turning::shortest)) {
+    refuse(joint.name, "slides along x and y; only its angle can take the shortest way round");
+  }
 }
 
 const CoordinateSegment& segment_of(const CoordinatePath& path, double t_begin, double t_end) {

@@ -44,13 +44,16 @@ struct PlanningScene {
   AllowedCollisions allowed;
   std::vector<AttachedObject> attached;
   std::map<std::string, double> padding;  ///< [m]  By link; > 0.
+  JointPositions state = {};              ///< Of robot_state, by names that the robot may not have.
+  std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
 
 /// moveit_msgs/MotionPlanRequest, as far as it says from where to where.
 struct PlanningRequest {
   JointPositions start;
-  JointPositions goal;  ///< Joints that it does not name keep their start.
-  Pose base;            ///< Of the robot, where the start says it.
+  JointPositions goal;                     ///< Joints that it does not name keep their start.
+  Pose base;                               ///< Of the robot, where the start says it.
+  std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
 
 /// Reads a planning scene.
@@ -58,9 +61,9 @@ struct PlanningRequest {
 /// Boxes, spheres, cylinders, cones and meshes become bodies, with the pose of an object times
 /// that of its part, multiplied in double precision. Frames are the planning frame ("", "world",
 /// `frame`) or those of fixed_frame_transforms. Lists [x, y, z] and maps {x: , y: , z: } mean the
-/// same; a quaternion is x, y, z, w. Attached objects are in the frame of their link. Padding
-/// thickens a link by a ball. What would be left out without notice is an error: planes, octomaps,
-/// scales of links, objects in other frames.
+/// same; a quaternion is x, y, z, w, and of zeros the identity, with a warning. Attached objects
+/// are in the frame of their link. Padding thickens a link by a ball. What would be left out
+/// without notice is an error: planes, octomaps, scales of links, objects in other frames.
 ///
 /// @param frame  the name of the robot's root link: it is in the planning frame
 /// @throws ParseError
@@ -71,7 +74,8 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
     std::string_view text, const std::filesystem::path& source, std::string_view frame);
 
-/// Reads a request, whose goal must be one of joint positions.
+/// Reads a request, whose goal must be one of joint positions. Positions of fixed joints are left
+/// out with a warning; a quaternion of zeros is the identity, with a warning, too.
 ///
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest
@@ -83,8 +87,11 @@ read_planning_request(const std::filesystem::path& path, const RobotModel& robot
 
 /// From the start to the goal at constant rates, as fast as the velocity limits allow; in 1 s where
 /// there are none.
+///
+/// @param turning  of continuous joints and the angles of planar ones; MoveIt takes the short way
 [[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,
                                                           const JointPositions& start,
-                                                          const JointPositions& goal);
+                                                          const JointPositions& goal,
+                                                          Turning turning = Turning::shortest);
 
 }  // namespace firstcontact

@@ -24,7 +24,7 @@ Trajectory parse_trajectory(std::string_view text, const std::filesystem::path& 
     throw ParseError(name, "expected a trajectory, a .json, .yaml or .csv file");
   }
   const detail::JsonValue root = detail::parse_tree(text, source);
-  return detail::read_joint_trajectory(root, robot, detail::JsonReader(root, name));
+  return detail::read_joint_trajectory(root, robot, name, detail::JsonReader(root, name));
 }
 
 Trajectory read_trajectory(const std::filesystem::path& path, const RobotModel& robot) {

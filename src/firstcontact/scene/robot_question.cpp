@@ -1,21 +1,19 @@
 #include <firstcontact/scene/robot_question.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <map>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <variant>
 
 #include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/scene/detail/given_positions.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
@@ -29,46 +27,6 @@ namespace {
 using detail::in_quotes;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-/// A state of the SRDF, or NAME=POSITION.
-JointPositions positions_of(const std::string& text, const SceneRobot& robot) {
-  const std::size_t sign = text.find('=');
-  if (sign == std::string::npos && robot.semantics.states.empty()) {
-    refuse("expected NAME=POSITION of a joint, got " + in_quotes(text) +
-           "; names of states are those of an SRDF");
-  }
-  if (sign == std::string::npos) {
-    return group_state(robot.model, robot.semantics, text);
-  }
-  const std::string name = text.substr(0, sign);
-  (void)find_coordinate(robot.model, name);
-  double position = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data() + sign + 1, end, position);
-  if (error != std::errc() || stop != end || !std::isfinite(position)) {
-    refuse("expected NAME=POSITION with a finite number, such as " + name + "=0.1, got " +
-           in_quotes(text));
-  }
-  return {{name, position}};
-}
-
-/// @param what  whose positions these are, for errors
-JointPositions positions_of(const std::vector<std::string>& texts, const std::string& what,
-                            const SceneRobot& robot) try {
-  JointPositions positions;
-  std::set<std::string> told;  // One by one, as states may be amended.
-  for (const std::string& text : texts) {
-    for (const auto& [name, position] : positions_of(text, robot)) {
-      positions[name] = position;
-      if (text.find('=') != std::string::npos && !told.insert(name).second) {
-        refuse("expected joint " + in_quotes(name) + " once, got it again in " + in_quotes(text));
-      }
-    }
-  }
-  return positions;
-} catch (const std::invalid_argument& error) {
-  refuse(what + ": " + error.what());
-}
 
 void put(const JointPositions& later, JointPositions& positions) {
   for (const auto& [name, position] : later) {
@@ -137,12 +95,19 @@ class SceneBuilder {
           "expected a start beside a goal alone; where joints rest that the motion does not name "
           "is the state");
     }
-    robot.state = positions_of(question_.state, "state", robot);
-    put(positions_of(question_.start, "start", robot), robot.state);
+    if (question_.unwrap && question_.trajectory.empty()) {
+      refuse("expected a trajectory, whose whole turns unwrap takes out, got none");
+    }
+    robot.state = moving(question_.state, "state", robot);
+    put(moving(question_.start, "start", robot), robot.state);
     scene_.id = robot.name;
     if (!question_.trajectory.empty()) {
       robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
                                           question_.trajectory, robot.model);
+      robot.trajectory.turning = question_.turning.value_or(Turning::as_given);
+      if (question_.unwrap) {
+        robot.trajectory = unwrapped(robot.model, std::move(robot.trajectory));
+      }
       scene_.id = question_.trajectory.filename().string();
     } else if (!question_.request.empty()) {
       take_request(robot);
@@ -150,8 +115,8 @@ class SceneBuilder {
       if (question_.start.empty()) {
         refuse("expected a start beside the goal, got none");
       }
-      robot.trajectory =
-          straight_motion(robot.model, robot.state, positions_of(question_.goal, "goal", robot));
+      robot.trajectory = straight_motion(robot.model, robot.state,
+                                         moving(question_.goal, "goal", robot), turning());
     } else {
       robot.trajectory.points = {TrajectoryPoint{}};
     }
@@ -162,8 +127,24 @@ class SceneBuilder {
                                                            question_.request, robot.model);
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
-    robot.trajectory = straight_motion(robot.model, robot.state, request.goal);
+    robot.trajectory = straight_motion(robot.model, robot.state, request.goal, turning());
     scene_.id = question_.request.filename().string();
+    add_warnings(request.warnings);
+  }
+
+  /// Of motions between states.
+  [[nodiscard]] Turning turning() const { return question_.turning.value_or(Turning::shortest); }
+
+  /// What the texts say of joints that move; a warning names the others.
+  JointPositions moving(const std::vector<std::string>& texts, const std::string& what,
+                        const SceneRobot& robot) {
+    detail::GivenPositions given = detail::positions_of(texts, what, robot);
+    add_warnings(given.warnings);
+    return std::move(given.positions);
+  }
+
+  void add_warnings(const std::vector<std::string>& warnings) {
+    scene_.warnings.insert(scene_.warnings.end(), warnings.begin(), warnings.end());
   }
 
   void add_environment(const std::filesystem::path& file, SceneRobot& robot) {
@@ -179,7 +160,13 @@ class SceneBuilder {
       require_base_at_origin(robot, file);
       const std::string& root = robot.model.links()[robot.model.root()].name;
       try {
-        add_planning_scene(parse_planning_scene(text, file, root), robot);
+        PlanningScene around = parse_planning_scene(text, file, root);
+        const detail::GivenPositions rest =
+            detail::positions_at_rest(around.state, file.string(), robot);
+        robot.state.insert(rest.positions.begin(), rest.positions.end());
+        add_warnings(rest.warnings);
+        add_warnings(around.warnings);
+        add_planning_scene(std::move(around), robot);
       } catch (const std::invalid_argument& error) {
         throw ParseError(file.string(), error.what());
       }

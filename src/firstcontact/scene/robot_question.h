@@ -24,8 +24,13 @@ struct RobotQuestion {
   /// States, the later ones prevail: see `state`. None beside a trajectory or request.
   std::vector<std::string> start = {};
   std::vector<std::string> goal = {};  ///< Straight from the start to there.
-  /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION.
+  /// Where joints rest that nothing else speaks of: states of the SRDF, or NAME=POSITION; else the
+  /// robot_state of a planning scene.
   std::vector<std::string> state = {};
+  /// Of continuous joints and the angles of planar ones. By default the short way to a goal, as
+  /// MoveIt goes, and as given along a trajectory.
+  std::optional<Turning> turning = {};
+  bool unwrap = false;  ///< Takes whole turns out of a trajectory; see `unwrapped`.
   /// Meshes; planning scenes (.yaml); scenes (.json), with the rules for their bodies and options.
   std::vector<std::filesystem::path> environment = {};
   double padding = 0.0;         ///< [m]  Of every link.

@@ -48,6 +48,9 @@ JointPositions group_state(const RobotModel& model, const RobotSemantics& semant
   JointPositions positions;
   for (const GroupState::JointValue& value : found.front()->values) {
     const JointType type = model.joints()[value.joint].type;
+    if (type == JointType::fixed) {
+      continue;  // The SRDF's warnings name it.
+    }
     if (coordinate_count(type) == 0) {
       throw std::invalid_argument("state " + detail::in_quotes(name) + ": joint " +
                                   detail::in_quotes(model.joints()[value.joint].name) + " is " +

@@ -81,7 +81,8 @@ void require_counts(const Trajectory& trajectory) {
   }
 }
 
-CoordinatePath path_of(const Trajectory& trajectory, std::size_t k, double duration) {
+CoordinatePath path_of(const Trajectory& trajectory, std::size_t k, double duration,
+                       Turning turning) {
   std::vector<double> times;
   for (const TrajectoryPoint& point : trajectory.points) {
     times.push_back(point.time / duration);
@@ -89,16 +90,16 @@ CoordinatePath path_of(const Trajectory& trajectory, std::size_t k, double durat
   const std::vector<double> positions = column(trajectory, k, &TrajectoryPoint::positions, 1.0);
   const TrajectoryPoint& first = trajectory.points.front();
   if (first.velocities.empty() || trajectory.joint_names.empty()) {
-    return CoordinatePath::linear(times, positions);
+    return CoordinatePath::linear(times, positions, turning);
   }
   const std::vector<double> velocities =
       column(trajectory, k, &TrajectoryPoint::velocities, duration);
   if (first.accelerations.empty()) {
-    return CoordinatePath::cubic(times, positions, velocities);
+    return CoordinatePath::cubic(times, positions, velocities, turning);
   }
   return CoordinatePath::quintic(
       times, positions, velocities,
-      column(trajectory, k, &TrajectoryPoint::accelerations, duration * duration));
+      column(trajectory, k, &TrajectoryPoint::accelerations, duration * duration), turning);
 }
 
 /// What is known of every coordinate; the joint motions are gathered from it.
@@ -138,11 +139,15 @@ class MotionBuilder {
   }
 
  private:
+  [[nodiscard]] Turning turning_of(const JointCoordinate& which) const {
+    return takes_short_way(robot_, which) ? trajectory_.turning : Turning::as_given;
+  }
+
   CoordinatePath coordinate(const JointCoordinate& which, TrajectoryMotion& result) const {
     const std::string name = coordinate_name(robot_, which);
     try {
       if (const auto column = columns_.find(which); column != columns_.end()) {
-        return path_of(trajectory_, column->second, duration_);
+        return path_of(trajectory_, column->second, duration_, turning_of(which));
       }
       if (const auto held = held_.find(which); held != held_.end()) {
         return CoordinatePath::constant(held->second);
@@ -201,9 +206,18 @@ class MotionBuilder {
 
 }  // namespace
 
-JointCoordinate find_coordinate(const RobotModel& robot, std::string_view name) {
+std::optional<JointCoordinate> known_coordinate(const RobotModel& robot, std::string_view name) {
   if (const auto planar = find_planar(robot, name)) {
-    return *planar;
+    return planar;
+  }
+  const auto joint = robot.find_joint(name);
+  const bool has_one = joint && coordinate_count(robot.joints()[*joint].type) == 1;
+  return has_one ? std::optional(JointCoordinate{*joint, 0}) : std::nullopt;
+}
+
+JointCoordinate find_coordinate(const RobotModel& robot, std::string_view name) {
+  if (const auto known = known_coordinate(robot, name)) {
+    return *known;
   }
   const auto joint = robot.find_joint(name);
   if (!joint) {
@@ -215,11 +229,8 @@ JointCoordinate find_coordinate(const RobotModel& robot, std::string_view name) 
            "expected one coordinate of this planar joint: NAME/x, NAME/y or "
            "NAME/theta");
   }
-  if (coordinate_count(type) == 0) {
-    refuse(std::string(name),
-           std::string("expected a joint with a coordinate, this one is ") + to_string(type));
-  }
-  return {*joint, 0};
+  refuse(std::string(name),
+         std::string("expected a joint with a coordinate, this one is ") + to_string(type));
 }
 
 std::string coordinate_name(const RobotModel& robot, const JointCoordinate& coordinate) {
@@ -227,6 +238,11 @@ std::string coordinate_name(const RobotModel& robot, const JointCoordinate& coor
   return joint.type == JointType::planar
              ? joint.name + std::string(kPlanarSuffixes.at(coordinate.index))
              : joint.name;
+}
+
+bool names_fixed_joint(const RobotModel& robot, std::string_view name) {
+  const auto joint = robot.find_joint(name);
+  return joint && robot.joints()[*joint].type == JointType::fixed;
 }
 
 double default_position(const Joint& joint) {

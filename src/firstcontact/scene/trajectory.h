@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <firstcontact/articulated/coordinate_path.h>
 #include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
@@ -31,6 +33,9 @@ struct Trajectory {
   std::vector<std::string> joint_names;  ///< Each once.
   std::vector<TrajectoryPoint> points;  ///< At least one. Times >= 0, strictly increasing; all have
                                         ///< velocities (accelerations), or none has.
+  /// Of continuous joints and the angles of planar ones between the points; see takes_short_way.
+  Turning turning = Turning::as_given;
+  std::vector<std::string> warnings = {};  ///< What a user should know of the file that was read.
 };
 
 /// Coordinates by the names that trajectories use [rad or m].
@@ -51,14 +56,52 @@ struct JointCoordinate {
 [[nodiscard]] FIRSTCONTACT_API JointCoordinate find_coordinate(const RobotModel& robot,
                                                                std::string_view name);
 
+/// The same; none where find_coordinate throws.
+[[nodiscard]] FIRSTCONTACT_API std::optional<JointCoordinate> known_coordinate(
+    const RobotModel& robot, std::string_view name);
+
 /// What trajectories call a coordinate.
 [[nodiscard]] FIRSTCONTACT_API std::string coordinate_name(const RobotModel& robot,
                                                            const JointCoordinate& coordinate);
+
+/// Whether a position of this name says nothing, as the joint is fixed.
+[[nodiscard]] FIRSTCONTACT_API bool names_fixed_joint(const RobotModel& robot,
+                                                      std::string_view name);
+
+/// Whether a coordinate goes the short way where a trajectory asks for Turning::shortest, as MoveIt
+/// interpolates: a continuous joint, or the angle of a planar one. Not where a joint mimics it and
+/// shows whole turns, sliding or by a multiplier that is no integer: its positions at the points
+/// hold for the way as given alone.
+[[nodiscard]] FIRSTCONTACT_API bool takes_short_way(const RobotModel& robot,
+                                                    const JointCoordinate& coordinate);
 
 /// Where a coordinate is that nothing else is said of: at 0, or at its limit next to it.
 ///
 /// @returns  [rad or m]
 [[nodiscard]] FIRSTCONTACT_API double default_position(const Joint& joint);
+
+/// Which way a continuous joint, or the angle of a planar one, went along a trajectory.
+struct JointTurn {
+  std::string joint;  ///< As trajectories name the coordinate.
+  double from = 0.0;  ///< [rad]  The numbers of the first and the last point.
+  double to = 0.0;
+  double turned = 0.0;  ///< [rad]  From the first point to the last; `to` - `from` as given.
+  Turning turning = Turning::as_given;
+  /// Whether a step between two points is of more than half a turn: the ways differ.
+  bool differs = false;
+};
+
+/// Of all such joints that the trajectory names and that move, in its order.
+///
+/// @throws std::invalid_argument if the robot does not have a joint
+[[nodiscard]] FIRSTCONTACT_API std::vector<JointTurn> joint_turns(const RobotModel& robot,
+                                                                  const Trajectory& trajectory);
+
+/// "long" or "short".
+[[nodiscard]] FIRSTCONTACT_API const char* to_string(Turning turning);
+
+/// @throws std::invalid_argument  names both words
+[[nodiscard]] FIRSTCONTACT_API Turning turning_of(std::string_view word);
 
 /// The joint motions of a robot over a scene, and what nobody said.
 struct TrajectoryMotion {

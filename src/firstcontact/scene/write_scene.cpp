@@ -278,6 +278,9 @@ JsonValue robot_to_json(const SceneRobot& robot, const Scene& scene) {
     object.push_back({"trajectory",
                       {.value = JsonObject{{"joint_names", to_json(robot.trajectory.joint_names)},
                                            {"points", to_json(robot.trajectory.points)}}}});
+    if (robot.trajectory.turning != Turning::as_given) {
+      object.push_back({"turning", to_json(to_string(robot.trajectory.turning))});
+    }
   }
   JsonObject state;
   for (const auto& [joint, position] : robot.state) {

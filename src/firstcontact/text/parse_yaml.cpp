@@ -58,24 +58,38 @@ JsonVariant plain_scalar(const std::string& text) {
   return text;
 }
 
-std::size_t count_values(const JsonValue& value) {
-  std::size_t count = 1;
+/// How large a value is.
+struct Extent {
+  std::size_t values = 1;
+  std::size_t depth = 0;  ///< Lists and maps inside each other.
+};
+
+/// Recurses no deeper than kMaximumJsonDepth, as all values do.
+Extent extent_of(const JsonValue& value) {
+  Extent extent;
+  const auto add = [&extent](const JsonValue& inside) {
+    const Extent more = extent_of(inside);
+    extent.values += more.values;
+    extent.depth = std::max(extent.depth, more.depth + 1);
+  };
   if (const auto* array = std::get_if<JsonArray>(&value.value)) {
-    for (const JsonValue& element : *array) {
-      count += count_values(element);
-    }
+    extent.depth = 1;
+    std::for_each(array->begin(), array->end(), add);
   } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
+    extent.depth = 1;
     for (const JsonMember& member : *object) {
-      count += count_values(member.value);
+      add(member.value);
     }
   }
-  return count;
+  return extent;
 }
 
 /// Builds the tree from what yaml-cpp finds.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& source) : source_(source) {}
+  /// @param bytes  of the text: it cannot hold more values of its own
+  TreeBuilder(const std::string& source, std::size_t bytes)
+      : source_(source), most_values_(bytes + kMaximumRepeatedYamlValues) {}
 
   /// None where the document held nothing.
   std::optional<JsonValue> take() { return std::exchange(root_, std::nullopt); }
@@ -92,7 +106,9 @@ class TreeBuilder final : public YAML::EventHandler {
     if (found == anchors_.end()) {
       fail(mark, "expected an alias of something before it, got one of what is around it");
     }
-    reserve(mark, count_values(found->second));
+    const Extent extent = extent_of(found->second);
+    reserve(mark, extent.values);
+    require_depth(mark, open_.size() + extent.depth);
     finish(mark, 0, JsonValue(found->second));
   }
 
@@ -130,9 +146,16 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void reserve(const YAML::Mark& mark, std::size_t values) {
     count_ += values;
-    if (count_ > kMaximumYamlValues) {
-      fail(mark, "expected at most " + std::to_string(kMaximumYamlValues) +
-                     " values (aliases repeat theirs), got more");
+    if (count_ > most_values_) {
+      fail(mark, "expected aliases that repeat at most " +
+                     std::to_string(kMaximumRepeatedYamlValues) + " values, got more");
+    }
+  }
+
+  void require_depth(const YAML::Mark& mark, std::size_t depth) const {
+    if (depth > kMaximumJsonDepth) {
+      fail(mark, "expected at most " + std::to_string(kMaximumJsonDepth) +
+                     " lists and maps inside each other, got more");
     }
   }
 
@@ -149,10 +172,7 @@ class TreeBuilder final : public YAML::EventHandler {
     if (expects_key()) {
       fail(mark, "expected a word as key, got a list or map");
     }
-    if (open_.size() >= kMaximumJsonDepth) {
-      fail(mark, "expected at most " + std::to_string(kMaximumJsonDepth) +
-                     " lists and maps inside each other, got more");
-    }
+    require_depth(mark, open_.size() + 1);
     reserve(mark, 1);
     open_.push_back(
         {{.value = std::move(empty), .line = line_of(mark)}, anchor, mark, std::nullopt, {}});
@@ -172,7 +192,7 @@ class TreeBuilder final : public YAML::EventHandler {
   /// Puts a whole value where it belongs.
   void finish(const YAML::Mark& mark, YAML::anchor_t anchor, JsonValue value) {
     if (anchor != 0) {
-      reserve(mark, count_values(value));
+      reserve(mark, extent_of(value).values);
       anchors_[anchor] = value;
     }
     if (open_.empty()) {
@@ -201,6 +221,7 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   const std::string& source_;
+  std::size_t most_values_;
   std::optional<JsonValue> root_;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, JsonValue> anchors_;
@@ -220,24 +241,39 @@ bool holds_nothing(const std::optional<JsonValue>& value) {
   return !value || std::holds_alternative<JsonNull>(value->value);
 }
 
-JsonValue first_document(std::string_view text, const std::string& source) {
+/// How many documents the text can have: lines that begin with "---" or "..." separate them.
+std::size_t most_documents(std::string_view text) {
+  std::size_t count = 1;
+  for (std::size_t line = 0; line < text.size();) {
+    const std::string_view rest = text.substr(line);
+    count += rest.starts_with("---") || rest.starts_with("...") ? 1 : 0;
+    const std::size_t end = rest.find('\n');
+    line = end == std::string_view::npos ? text.size() : line + end + 1;
+  }
+  return count;
+}
+
+JsonValue only_document(std::string_view text, const std::string& source) {
   TextBuffer buffer(text);
   std::istream stream(&buffer);
   YAML::Parser parser(stream);
-  TreeBuilder builder(source);
+  TreeBuilder builder(source, text.size());
   std::optional<JsonValue> document;
-  if (parser.HandleNextDocument(builder)) {
-    document = builder.take();
-  }
-  // Not until there is none: on some texts yaml-cpp finds one empty document after the other.
-  if (parser.HandleNextDocument(builder)) {
-    const std::optional<JsonValue> next = builder.take();
-    if (!holds_nothing(next) || parser.HandleNextDocument(builder)) {
-      throw ParseError(source, next ? next->line : 1,
+  // On some texts yaml-cpp finds one empty document after the other, for ever.
+  std::size_t left = most_documents(text) + 1;
+  while (parser.HandleNextDocument(builder)) {
+    std::optional<JsonValue> next = builder.take();
+    const bool is_second = !holds_nothing(next) && document;
+    if (is_second || left == 0) {
+      throw ParseError(source, is_second ? next->line : 1,
                        "expected one YAML document, got a second one");
     }
+    if (!holds_nothing(next)) {
+      document = std::move(next);
+    }
+    --left;
   }
-  if (holds_nothing(document)) {
+  if (!document) {
     throw ParseError(source, 1, "expected a YAML document, got none");
   }
   return std::move(*document);
@@ -266,7 +302,7 @@ void require_characters(std::string_view text, const std::string& source) {
 JsonValue parse_yaml(std::string_view text, const std::string& source) {
   require_characters(text, source);
   try {
-    return first_document(text, source);
+    return only_document(text, source);
   } catch (const YAML::Exception& error) {
     const std::size_t line =
         error.mark.is_null() ? 1 : static_cast<std::size_t>(error.mark.line) + 1;

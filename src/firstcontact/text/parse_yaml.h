@@ -12,12 +12,12 @@
 
 namespace firstcontact::detail {
 
-/// No tree of a text is larger, whatever its aliases repeat.
-inline constexpr std::size_t kMaximumYamlValues = 20'000'000;
+/// Beyond what stands in the text itself, its aliases and anchors repeat no more values.
+inline constexpr std::size_t kMaximumRepeatedYamlValues = 1'000'000;
 
-/// Parses one YAML document that fills the text, whatever the locale. UTF-8, keys are words and not
-/// repeated, at most kMaximumJsonDepth containers deep; an empty document after the first, as
-/// `rostopic echo` prints one, is passed over.
+/// Parses the one YAML document of a text that holds something, whatever the locale. UTF-8, keys
+/// are words and not repeated, at most kMaximumJsonDepth containers deep; empty documents before
+/// and after it, as `rostopic echo` prints them, are passed over.
 ///
 /// Plain scalars are what JSON knows: null (and ~), true and false (as in YAML 1.2; also with a
 /// capital), decimal numbers that fit a double. All other scalars, those in quotes, `.nan` and

@@ -3,13 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include <firstcontact/scene/detail/trajectory_points.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
@@ -58,11 +59,15 @@ const JsonValue& unwrap(const JsonValue& value, const JsonReader& read) {
 std::vector<std::string> read_names(const JsonValue& value, const RobotModel& robot,
                                     const JsonReader& read) {
   std::vector<std::string> names;
-  std::map<JointCoordinate, std::size_t> seen;
+  std::set<std::string> fixed;
+  std::set<JointCoordinate> moving;
   for (const JsonValue& element : read.array(value, "an array of joint names")) {
     names.push_back(name_of(element, "the name of a joint", read));
     try {
-      if (!seen.insert({find_coordinate(robot, names.back()), seen.size()}).second) {
+      const bool is_new = names_fixed_joint(robot, names.back())
+                              ? fixed.insert(names.back()).second
+                              : moving.insert(find_coordinate(robot, names.back())).second;
+      if (!is_new) {
         read.fail(element, "expected each joint once, got " + in_quotes(names.back()) + " again");
       }
     } catch (const std::invalid_argument& error) {
@@ -183,28 +188,32 @@ double joint_position(const JsonValue& value, const JsonReader& read) {
 }
 
 Trajectory read_joint_trajectory(const JsonValue& value, const RobotModel& robot,
-                                 const JsonReader& read) {
+                                 const std::string& source, const JsonReader& read) {
   const JsonValue& message = unwrap(value, read);
   (void)read.object(message, {{"joint_names", "points", "header"}});
-  Trajectory trajectory{.joint_names = read_names(read.member(message, "joint_names"), robot, read),
-                        .points = {}};
+  const JsonValue& joints = read.member(message, "joint_names");
+  const std::vector<std::string> names = read_names(joints, robot, read);
+  TrajectoryPoints trajectory(names);
   const JsonValue& points = read.member(message, "points");
   for (const JsonValue& element : read.array(points, "an array of points")) {
-    TrajectoryPoint point = read_point(element, trajectory.joint_names.size(), read);
-    if (!trajectory.points.empty()) {
-      const double before = trajectory.points.back().time;
-      if (!(point.time > before)) {
-        read.fail(element, "expected a time later than the one before, " + write_json(before) +
-                               " s, got " + write_json(point.time) + " s");
-      }
-      require_alike(point, trajectory.points.front(), element, read);
+    TrajectoryPoint point = read_point(element, names.size(), read);
+    if (!trajectory.empty()) {
+      require_alike(point, trajectory.first(), element, read);
     }
-    trajectory.points.push_back(std::move(point));
+    try {
+      trajectory.add(std::move(point));
+    } catch (const std::invalid_argument& error) {
+      read.fail(element, error.what());
+    }
   }
-  if (trajectory.points.empty()) {
+  if (trajectory.empty()) {
     read.fail(points, "expected at least one point, got none");
   }
-  return trajectory;
+  try {
+    return trajectory.take(robot, source);
+  } catch (const std::invalid_argument& error) {
+    read.fail(joints, error.what());
+  }
 }
 
 }  // namespace firstcontact::detail

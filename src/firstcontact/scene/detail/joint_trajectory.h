@@ -16,9 +16,10 @@ namespace firstcontact::detail {
 /// `velocities`, `accelerations`. Messages that hold one such trajectory are opened:
 /// `joint_trajectory`, `trajectory`, `planned_trajectory`, `goal`.
 ///
+/// @param source  names the file in warnings
 /// @throws ParseError
 [[nodiscard]] Trajectory read_joint_trajectory(const JsonValue& value, const RobotModel& robot,
-                                               const JsonReader& read);
+                                               const std::string& source, const JsonReader& read);
 
 /// The word that a scalar is: YAML makes a number of a name such as 1.
 ///

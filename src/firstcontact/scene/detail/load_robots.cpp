@@ -10,23 +10,14 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/size_warning.h>
+#include <firstcontact/scene/detail/some_of.h>
+#include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// "a, b and 7 more".
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 9;
-  std::string text;
-  for (std::size_t k = 0; k < names.size() && k < kMost; ++k) {
-    text += (k == 0 ? "" : ", ") + names[k];
-  }
-  return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more"
-                              : text;
-}
 
 class RobotLoader {
  public:
@@ -101,6 +92,11 @@ class RobotLoader {
       warnings.push_back(robot.name + ": nothing says where " + some_of(at_default) +
                          (at_default.size() == 1 ? " is; it rests" : " are; they rest") +
                          " at 0, or at the limit next to it");
+    }
+    warnings.insert(warnings.end(), robot.trajectory.warnings.begin(),
+                    robot.trajectory.warnings.end());
+    for (const WholeTurnJump& jump : whole_turn_jumps(robot.model, robot.trajectory)) {
+      warnings.push_back(robot.name + ": " + describe(jump));
     }
     const double first = robot.trajectory.points.front().time;
     if (!robot.trajectory.joint_names.empty() && first > 0.0) {

@@ -11,11 +11,13 @@
 #include <vector>
 
 #include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_robot_dynamics.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
@@ -31,8 +33,9 @@ class RobotReader {
 
   SceneRobot robot(const JsonValue& value) const {
     const JsonObject& object = read_.object(
-        value, {{"name", "urdf", "srdf", "package_roots", "surface", "base", "base_motion",
-                 "trajectory", "state", "attached", "padding", "tracking_error", "dynamics"}});
+        value,
+        {{"name", "urdf", "srdf", "package_roots", "surface", "base", "base_motion", "trajectory",
+          "turning", "unwrap", "state", "attached", "padding", "tracking_error", "dynamics"}});
     const RobotFile urdf = file(value, object);
     SceneRobot robot{.name = read_.string(read_.member(value, "name"), "a name"),
                      .file = urdf,
@@ -97,7 +100,7 @@ class RobotReader {
 
   void take_trajectory(const JsonValue& value, SceneRobot& robot) const {
     if (!std::holds_alternative<std::string>(value.value)) {
-      robot.trajectory = read_joint_trajectory(value, robot.model, read_);
+      robot.trajectory = read_joint_trajectory(value, robot.model, robot.name, read_);
       return;
     }
     const std::filesystem::path path = read_path(value, "a trajectory file", folders_, read_);
@@ -107,10 +110,31 @@ class RobotReader {
     scene_.files_read.push_back(path);
   }
 
+  void take_turning(const JsonObject& object, SceneRobot& robot) const {
+    if (const JsonValue* turning = find(object, "turning")) {
+      constexpr std::array kTurnings{Turning::as_given, Turning::shortest};
+      robot.trajectory.turning = kTurnings.at(read_.word(*turning, {{"long", "short"}}));
+    }
+    const JsonValue* unwrap = find(object, "unwrap");
+    if (unwrap != nullptr && read_.boolean(*unwrap)) {
+      robot.trajectory = unwrapped(robot.model, std::move(robot.trajectory));
+    }
+  }
+
+  void require_no_turning(const JsonObject& object) const {
+    for (const std::string_view key : {"turning", "unwrap"}) {
+      if (const JsonValue* said = find(object, key)) {
+        read_.fail(*said, "expected a \"trajectory\" beside " + in_quotes(key) + ", got none");
+      }
+    }
+  }
+
   void take_motion(const JsonObject& object, SceneRobot& robot) const {
     if (const JsonValue* trajectory = find(object, "trajectory")) {
       take_trajectory(*trajectory, robot);
+      take_turning(object, robot);
     } else {
+      require_no_turning(object);
       robot.trajectory.points = {TrajectoryPoint{}};
     }
     if (const JsonValue* state = find(object, "state")) {
@@ -141,19 +165,32 @@ class RobotReader {
         read_.fail(value, error.what());
       }
     } else if (const auto* positions = std::get_if<JsonObject>(&value.value)) {
-      for (const auto& [joint, position] : *positions) {
-        try {
-          (void)find_coordinate(robot.model, joint);
-        } catch (const std::invalid_argument& error) {
-          read_.fail(position, error.what());
-        }
-        robot.state[joint] = joint_position(position, read_);
-      }
+      take_positions(*positions, robot);
     } else {
       read_.fail_expected(
           "positions by joint, such as {\"joint\": 0.1}, or the name of a state of "
           "the SRDF",
           value);
+    }
+  }
+
+  void take_positions(const JsonObject& positions, SceneRobot& robot) const {
+    std::vector<std::string> fixed;
+    for (const auto& [joint, position] : positions) {
+      if (names_fixed_joint(robot.model, joint)) {
+        (void)joint_position(position, read_);
+        fixed.push_back(joint);
+        continue;
+      }
+      try {
+        (void)find_coordinate(robot.model, joint);
+      } catch (const std::invalid_argument& error) {
+        read_.fail(position, error.what());
+      }
+      robot.state[joint] = joint_position(position, read_);
+    }
+    if (!fixed.empty()) {
+      scene_.warnings.push_back(robot.name + ": state: " + fixed_joints_warning(std::move(fixed)));
     }
   }
 

@@ -86,6 +86,15 @@ class RobotResultWriter {
     }
   }
 
+  [[nodiscard]] static JsonValue turn(const SceneRobot& robot, const JointTurn& turn) {
+    return {.value = JsonObject{{"robot", to_json(robot.name)},
+                                {"joint", to_json(turn.joint)},
+                                {"from", to_json(turn.from)},
+                                {"to", to_json(turn.to)},
+                                {"turned", to_json(turn.turned)},
+                                {"turning", to_json(to_string(turn.turning))}}};
+  }
+
   [[nodiscard]] JsonValue limit(const SceneRobot& robot, const LimitViolation& violation) const {
     JsonArray intervals;
     for (const TimeWindow& interval : violation.intervals) {
@@ -148,6 +157,15 @@ JsonObject robot_result(const LoadedScene& loaded, const RobotCheckResult& resul
     object.push_back({"pairs", {.value = std::move(pairs)}});
   }
   writer.append_tolerances(result.tolerance_used, result.enclosure_error, object);
+  JsonArray turns;
+  for (const SceneRobot& robot : loaded.scene.robots) {
+    for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {
+      turns.push_back(RobotResultWriter::turn(robot, turn));
+    }
+  }
+  if (!turns.empty()) {
+    object.push_back({"turns", {.value = std::move(turns)}});
+  }
   JsonArray limits;
   for (const SceneLimits& of_robot : loaded.limits) {
     for (const LimitViolation& violation : of_robot.violations) {

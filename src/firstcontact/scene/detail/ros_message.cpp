@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -10,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/scene/detail/joint_trajectory.h>
+#include <firstcontact/scene/detail/some_of.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
@@ -39,8 +41,12 @@ std::array<double, N> read_components(const JsonValue& value, const JsonReader& 
   return numbers;
 }
 
-Eigen::Quaterniond read_quaternion(const JsonValue& value, const JsonReader& read) {
+/// None where all of it is zero.
+std::optional<Eigen::Quaterniond> read_quaternion(const JsonValue& value, const JsonReader& read) {
   const std::array<double, 4> q = read_components<4>(value, read);
+  if (q == std::array<double, 4>{}) {
+    return std::nullopt;
+  }
   Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
   // Further off is a mistake, such as w in the first place of a list.
   constexpr double kSlack = 1e-2;
@@ -56,6 +62,18 @@ bool is_identity(const Pose& pose) {
 }
 
 }  // namespace
+
+const JsonValue& unwrap_message(const JsonValue& root, const std::vector<std::string_view>& keys,
+                                std::string_view own) {
+  const auto* object = std::get_if<JsonObject>(&root.value);
+  for (const std::string_view key : keys) {
+    const JsonValue* inside = object == nullptr ? nullptr : find(*object, key);
+    if (inside != nullptr && find(*object, own) == nullptr) {
+      return *inside;
+    }
+  }
+  return root;
+}
 
 const JsonValue* find_filled(const JsonValue& object, std::string_view key) {
   const auto* members = std::get_if<JsonObject>(&object.value);
@@ -77,20 +95,28 @@ Eigen::Vector3d read_point(const JsonValue& value, const JsonReader& read) {
   return point;
 }
 
-Pose read_message_pose(const JsonValue& value, const JsonReader& read) {
+MessagePose read_message_pose(const JsonValue& value, const JsonReader& read) {
   (void)read.object(value, {{"position", "orientation", "translation", "rotation"}});
-  Pose pose;
+  MessagePose result;
   for (const std::string_view key : {"position", "translation"}) {
     if (const JsonValue* position = find_filled(value, key)) {
-      pose.position = read_point(*position, read);
+      result.pose.position = read_point(*position, read);
     }
   }
   for (const std::string_view key : {"orientation", "rotation"}) {
     if (const JsonValue* rotation = find_filled(value, key)) {
-      pose.rotation = read_quaternion(*rotation, read);
+      const std::optional<Eigen::Quaterniond> read_one = read_quaternion(*rotation, read);
+      result.has_zero_quaternion = !read_one;
+      result.pose.rotation = read_one.value_or(Eigen::Quaterniond::Identity());
     }
   }
-  return pose;
+  return result;
+}
+
+std::string zero_quaternion_warning(const std::string& source, const std::vector<std::string>& of) {
+  return source + ": " +
+         (of.size() == 1 ? "a quaternion of zeros is" : "quaternions of zeros are") +
+         " taken as the identity, as MoveIt does: " + some_of(of);
 }
 
 Pose compose(const Pose& X_AB, const Pose& X_BC) {
@@ -104,9 +130,27 @@ Pose compose(const Pose& X_AB, const Pose& X_BC) {
   return {X_AB.position + R_AB * X_BC.position, R_AB * X_BC.rotation.normalized()};
 }
 
-JointPositions read_joint_state(const JsonValue& value, const RobotModel& robot,
-                                const JsonReader& read) {
-  JointPositions state;
+void add_position(const JsonValue& joint, const JsonValue& position, const RobotModel& robot,
+                  const JsonReader& read, MessageState& state) {
+  const std::string name = name_of(joint, "the name of a joint", read);
+  const double number = joint_position(position, read);
+  if (names_fixed_joint(robot, name)) {
+    state.fixed.push_back(name);
+    return;
+  }
+  try {
+    (void)find_coordinate(robot, name);
+  } catch (const std::invalid_argument& error) {
+    read.fail(joint, error.what());
+  }
+  if (!state.positions.insert({name, number}).second) {
+    read.fail(joint, "expected each joint once, got " + in_quotes(name) + " again");
+  }
+}
+
+MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
+                              const JsonReader& read) {
+  MessageState state;
   (void)read.object(value, {{"header", "name", "position", "velocity", "effort"}});
   const JsonValue* names = find_filled(value, "name");
   if (names == nullptr) {
@@ -120,15 +164,7 @@ JointPositions read_joint_state(const JsonValue& value, const RobotModel& robot,
                                                   std::to_string(positions.size()));
   }
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    const std::string name = name_of(joints[k], "the name of a joint", read);
-    try {
-      (void)find_coordinate(robot, name);
-    } catch (const std::invalid_argument& error) {
-      read.fail(joints[k], error.what());
-    }
-    if (!state.insert({name, joint_position(positions[k], read)}).second) {
-      read.fail(joints[k], "expected each joint once, got " + in_quotes(name) + " again");
-    }
+    add_position(joints[k], positions[k], robot, read, state);
   }
   return state;
 }

@@ -1,16 +1,17 @@
 #include <firstcontact/scene/detail/trajectory_table.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/detail/some_of.h>
+#include <firstcontact/scene/detail/table_columns.h>
+#include <firstcontact/scene/detail/table_text.h>
+#include <firstcontact/scene/detail/trajectory_points.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/utf8.h>
 #include <firstcontact/text/write_json.h>
@@ -18,56 +19,42 @@
 namespace firstcontact::detail {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  text.remove_prefix(begin);
-  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) {
-      return fields;
-    }
-    line.remove_prefix(comma + 1);
-  }
-}
-
-std::string_view without_quotes(std::string_view field) {
-  const bool quoted = field.size() >= 2 && field.front() == '"' && field.back() == '"';
-  return quoted ? field.substr(1, field.size() - 2) : field;
-}
-
-/// Where the number of a column goes.
-struct Column {
-  std::string name;
-  std::vector<double> TrajectoryPoint::*numbers = nullptr;  // Null: the time.
-  std::size_t joint = 0;                                    // Of the joint names.
-};
+using Kind = TableColumn::Kind;
 
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& source, const RobotModel& robot)
-      : rest_(text), source_(source), robot_(robot) {}
+      : source_(source), robot_(robot) {
+    require_utf8(text);
+    lines_ = table_lines(text);
+  }
 
   Trajectory read() {
-    require_utf8();
-    const std::optional<std::string_view> header = next_line();
-    if (!header) {
-      throw ParseError(source_, 1, "expected a header such as time,joint1,joint2, got none");
+    const TableHeader header = read_header();
+    TableNumbers numbers(header.separator != ',');
+    TrajectoryPoints points(columns_.joint_names);
+    for (std::size_t k = header.line + 1; k < lines_.size(); ++k) {
+      if (is_comment(lines_[k])) {
+        continue;
+      }
+      line_ = lines_[k].number;
+      try {
+        points.add(read_point(table_fields(lines_[k].text, header.separator), numbers));
+      } catch (const std::invalid_argument& error) {
+        fail("column " + in_quotes(time_column()) + ": " + error.what());
+      }
+      ++rows_;
     }
-    read_header(*header);
-    while (const std::optional<std::string_view> line = next_line()) {
-      read_point(*line);
-    }
-    if (trajectory_.points.empty()) {
+    if (points.empty()) {
       fail("expected at least one line of numbers after the header, got none");
     }
-    return std::move(trajectory_);
+    try {
+      Trajectory trajectory = points.take(robot_, source_);
+      add_warnings(trajectory);
+      return trajectory;
+    } catch (const std::invalid_argument& error) {
+      fail(error.what());
+    }
   }
 
  private:
@@ -75,193 +62,132 @@ class TableReader {
     throw ParseError(source_, line_, message);
   }
 
-  void require_utf8() {
-    const std::size_t bad = find_not_utf8(rest_);
-    if (bad != rest_.size()) {
-      const auto end = rest_.begin() + static_cast<std::ptrdiff_t>(bad);
-      line_ = 1 + static_cast<std::size_t>(std::count(rest_.begin(), end, '\n'));
+  void require_utf8(std::string_view text) {
+    const std::size_t bad = find_not_utf8(text);
+    if (bad != text.size()) {
+      const auto end = text.begin() + static_cast<std::ptrdiff_t>(bad);
+      line_ = 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
       fail("expected UTF-8, got other bytes");
     }
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    if (rest_.starts_with(kByteOrderMark)) {
-      rest_.remove_prefix(kByteOrderMark.size());
-    }
   }
 
-  /// The next line that holds something.
-  std::optional<std::string_view> next_line() {
-    while (!rest_.empty()) {
-      const std::size_t end = rest_.find('\n');
-      const std::string_view line = trimmed(rest_.substr(0, end));
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      ++line_;
-      if (!line.empty()) {
-        return line;
-      }
+  TableHeader read_header() {
+    if (lines_.empty()) {
+      fail("expected a header such as time,joint1,joint2, got none");
     }
-    return std::nullopt;
-  }
-
-  void read_header(std::string_view header) {
-    if (header.front() == '#') {
-      header.remove_prefix(1);
+    auto header = find_header(lines_, is_time_column);
+    if (!header) {
+      line_ = lines_.front().number;
+      fail(
+          "expected a column \"time\" [s] in the header, and columns separated by commas, "
+          "semicolons, tabs or blanks; got " +
+          in_quotes(lines_.front().text.substr(0, 60)));
     }
-    const std::vector<std::string_view> fields = fields_of(header);
-    for (const std::string_view field : fields) {
-      add_joint(without_quotes(field));
+    line_ = lines_[header->line].number;
+    if (lines_[header->line].text.starts_with("%time,field.")) {
+      fail(
+          "expected times in seconds and columns named after joints, got what rostopic echo -p "
+          "writes; write a header of \"time\" and the joints, and divide the times by 1e9");
     }
-    if (trajectory_.joint_names.empty()) {
-      fail("expected a column for at least one joint, got none");
-    }
-    for (const std::string_view field : fields) {
-      add_column(without_quotes(field));
-    }
-    const auto is_time = [](const Column& column) { return column.numbers == nullptr; };
-    if (std::none_of(columns_.begin(), columns_.end(), is_time)) {
-      fail("expected a column \"time\" [s], got none");
-    }
-    require_for_all(&TrajectoryPoint::velocities, ".velocity");
-    require_for_all(&TrajectoryPoint::accelerations, ".acceleration");
-    if (has(&TrajectoryPoint::accelerations) && !has(&TrajectoryPoint::velocities)) {
-      fail("expected columns NAME.velocity beside NAME.acceleration, got none");
-    }
-  }
-
-  static bool is_time(std::string_view name) { return name == "time"; }
-
-  /// The joint of NAME.velocity or NAME.acceleration; none if the name has no such ending, or
-  /// belongs to a joint as it is.
-  [[nodiscard]] std::optional<std::pair<std::string_view, std::vector<double> TrajectoryPoint::*>>
-  derivative(std::string_view name) const {
-    constexpr std::string_view kVelocity = ".velocity";
-    constexpr std::string_view kAcceleration = ".acceleration";
-    if (robot_.find_joint(name)) {
-      return std::nullopt;
-    }
-    if (name.ends_with(kVelocity)) {
-      return std::pair(name.substr(0, name.size() - kVelocity.size()),
-                       &TrajectoryPoint::velocities);
-    }
-    if (name.ends_with(kAcceleration)) {
-      return std::pair(name.substr(0, name.size() - kAcceleration.size()),
-                       &TrajectoryPoint::accelerations);
-    }
-    return std::nullopt;
-  }
-
-  void add_joint(std::string_view name) {
-    if (is_time(name) || derivative(name)) {
-      return;
+    if (header->fields.back().empty()) {  // Lines that end with a separator.
+      header->fields.pop_back();
     }
     try {
-      const JointCoordinate coordinate = find_coordinate(robot_, name);
-      if (!joints_.insert({coordinate, trajectory_.joint_names.size()}).second) {
-        fail("column " + in_quotes(name) + ": expected each joint once, got it again");
-      }
+      columns_ = table_columns(header->fields, robot_);
     } catch (const std::invalid_argument& error) {
-      fail("column " + in_quotes(name) + ": " + error.what());
+      fail(error.what());
     }
-    trajectory_.joint_names.emplace_back(name);
+    separator_ = header->separator;
+    return *header;
   }
 
-  void add_column(std::string_view name) {
-    Column column{.name = std::string(name)};
-    if (!is_time(name)) {
-      const auto of = derivative(name);
-      column.numbers = of ? of->second : &TrajectoryPoint::positions;
-      column.joint = index_of(of ? of->first : name, name);
+  [[nodiscard]] const std::string& time_column() const {
+    return std::find_if(columns_.columns.begin(), columns_.columns.end(),
+                        [](const TableColumn& column) { return column.kind == Kind::time; })
+        ->name;
+  }
+
+  void require_count(std::vector<std::string>& fields) const {
+    const std::size_t count = columns_.columns.size();
+    if (fields.size() == count + 1 && fields.back().empty()) {
+      fields.pop_back();
     }
-    for (const Column& other : columns_) {
-      if (other.numbers == column.numbers && other.joint == column.joint) {
-        fail("column " + in_quotes(name) + ": expected each column once, got it again");
-      }
-    }
-    columns_.push_back(std::move(column));
-  }
-
-  [[nodiscard]] std::size_t index_of(std::string_view joint, std::string_view column) const {
-    const auto& names = trajectory_.joint_names;
-    const auto found = std::find(names.begin(), names.end(), joint);
-    if (found == names.end()) {
-      fail("column " + in_quotes(column) + ": expected a column " + in_quotes(joint) +
-           " of positions, too, got none");
-    }
-    return static_cast<std::size_t>(found - names.begin());
-  }
-
-  [[nodiscard]] std::size_t count(std::vector<double> TrajectoryPoint::*numbers) const {
-    return static_cast<std::size_t>(
-        std::count_if(columns_.begin(), columns_.end(),
-                      [&](const Column& column) { return column.numbers == numbers; }));
-  }
-
-  [[nodiscard]] bool has(std::vector<double> TrajectoryPoint::*numbers) const {
-    return count(numbers) > 0;
-  }
-
-  void require_for_all(std::vector<double> TrajectoryPoint::*numbers, const char* ending) const {
-    for (std::size_t joint = 0; has(numbers) && joint < trajectory_.joint_names.size(); ++joint) {
-      const auto same = [&](const Column& column) {
-        return column.numbers == numbers && column.joint == joint;
-      };
-      if (std::none_of(columns_.begin(), columns_.end(), same)) {
-        fail("expected a column " + in_quotes(trajectory_.joint_names[joint] + ending) +
-             ", as other joints have one, got none");
-      }
+    if (fields.size() != count) {
+      const bool may_be_decimal = separator_ == ',' && fields.size() > count;
+      fail("expected " + std::to_string(count) + " numbers, as the header has columns, got " +
+           std::to_string(fields.size()) +
+           (may_be_decimal ? "; beside decimal commas, separate columns by ;" : ""));
     }
   }
 
-  void read_point(std::string_view line) {
-    const std::vector<std::string_view> fields = fields_of(line);
-    if (fields.size() != columns_.size()) {
-      fail("expected " + std::to_string(columns_.size()) +
-           " numbers, as the header has columns, got " + std::to_string(fields.size()));
-    }
+  TrajectoryPoint read_point(std::vector<std::string> fields, TableNumbers& numbers) {
+    require_count(fields);
     TrajectoryPoint point;
-    for (const Column& column : columns_) {
-      if (column.numbers != nullptr) {
-        (point.*column.numbers).resize(trajectory_.joint_names.size());
+    for (const TableColumn& column : columns_.columns) {
+      if (column.kind == Kind::numbers) {
+        (point.*column.numbers).resize(columns_.joint_names.size());
       }
     }
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      const Column& column = columns_[k];
-      const double number = read_number(fields[k], column);
-      (column.numbers == nullptr ? point.time : (point.*column.numbers)[column.joint]) = number;
+      const TableColumn& column = columns_.columns[k];
+      if (column.kind == Kind::effort) {
+        continue;
+      }
+      const double number = read_number(fields[k], column, numbers);
+      if (column.kind == Kind::numbers) {
+        (point.*column.numbers)[column.joint] = number;
+      } else if (column.kind == Kind::time) {
+        point.time = number;
+      }
     }
-    require_later(point.time);
-    trajectory_.points.push_back(std::move(point));
+    return point;
   }
 
-  [[nodiscard]] double read_number(std::string_view field, const Column& column) const {
+  double read_number(const std::string& field, const TableColumn& column,
+                     TableNumbers& numbers) const {
     constexpr double kLargest = 1e8;  // Of a CoordinatePath.
-    const std::string_view digits = field.starts_with('+') ? field.substr(1) : field;
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool whole = error == std::errc() && end == digits.data() + digits.size();
-    const bool in_range = column.numbers == nullptr ? number >= 0.0 && std::isfinite(number)
-                                                    : std::abs(number) <= kLargest;
-    if (!whole || !in_range) {
-      fail("column " + in_quotes(column.name) + ": expected a number " +
-           (column.numbers == nullptr ? ">= 0" : "of at most 1e8 in size") + ", got " +
+    const std::optional<char> mark = numbers.mark();
+    const std::optional<double> number = numbers.read(field);
+    const auto refuse = [&](const std::string& expected) {
+      fail("column " + in_quotes(column.name) + ": expected " + expected + ", got " +
            in_quotes(field));
+    };
+    if (!number && mark && field.find_first_of(*mark == '.' ? ',' : '.') != std::string::npos) {
+      refuse(std::string("a number with the decimal mark ") + *mark + " of those before it");
     }
-    return number;
+    if (column.kind == Kind::row) {
+      if (!number || *number != static_cast<double>(rows_)) {
+        refuse(std::to_string(rows_) + ", as a column without a name counts the rows");
+      }
+    } else if (column.kind == Kind::time) {
+      if (!number || !(*number >= 0.0)) {
+        refuse("a number >= 0");
+      }
+    } else if (!number || !(std::abs(*number) <= kLargest)) {
+      refuse("a number of at most 1e8 in size");
+    }
+    return *number;
   }
 
-  void require_later(double time) const {
-    if (!trajectory_.points.empty() && !(time > trajectory_.points.back().time)) {
-      fail("column \"time\": expected a time later than the one before, " +
-           write_json(trajectory_.points.back().time) + " s, got " + write_json(time) + " s");
+  void add_warnings(Trajectory& trajectory) const {
+    std::vector<std::string> efforts;
+    for (const TableColumn& column : columns_.columns) {
+      if (column.kind == Kind::effort) {
+        efforts.push_back(column.name);
+      }
+    }
+    if (!efforts.empty()) {
+      trajectory.warnings.push_back(source_ + ": efforts are left out: " + some_of(efforts));
     }
   }
 
-  std::string_view rest_;
   const std::string& source_;
   const RobotModel& robot_;
-  std::size_t line_ = 0;  // Of the last line taken.
-  std::vector<Column> columns_;
-  std::map<JointCoordinate, std::size_t> joints_;
-  Trajectory trajectory_;
+  std::vector<TableLine> lines_;
+  std::size_t line_ = 1;  // For errors.
+  std::size_t rows_ = 0;  // Taken so far.
+  char separator_ = ',';
+  TableColumns columns_;
 };
 
 }  // namespace

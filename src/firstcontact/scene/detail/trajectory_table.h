@@ -1,5 +1,5 @@
 /// @file
-/// Reads a trajectory from comma-separated values.
+/// Reads a trajectory from a table.
 
 #pragma once
 
@@ -11,9 +11,10 @@
 
 namespace firstcontact::detail {
 
-/// A header of `time` and joint names, with NAME.velocity and NAME.acceleration where wanted, then
-/// one line of numbers for each point. A '#' may stand before the header; empty lines are passed
-/// over.
+/// A header of `time` and joint names, as table_columns knows them, then one line of numbers for
+/// each point. Columns are separated by commas, semicolons, tabs or blanks, as the header has them;
+/// beside all but commas, numbers may have decimal commas. Comments, empty lines and a separator at
+/// the end of a line are passed over.
 ///
 /// @throws ParseError
 [[nodiscard]] Trajectory read_trajectory_table(std::string_view text, const std::string& source,

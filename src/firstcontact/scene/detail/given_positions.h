@@ -1,0 +1,36 @@
+/// @file
+/// Joint positions that a question gives beside the robot's motion.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact::detail {
+
+/// Positions of joints that move, and a warning for what was left out.
+struct GivenPositions {
+  JointPositions positions;
+  std::vector<std::string> warnings;
+};
+
+/// What words say: states of the SRDF, or NAME=POSITION. Later states prevail; a joint is named
+/// once.
+///
+/// @param what  whose positions these are, for errors and warnings
+/// @throws std::invalid_argument if the robot has no such state or joint
+[[nodiscard]] GivenPositions positions_of(const std::vector<std::string>& texts,
+                                          const std::string& what, const SceneRobot& robot);
+
+/// What the robot_state of a planning scene says of joints that the robot's trajectory does not
+/// name. Joints that mimic others are left out, as are, with a warning, joints that the robot does
+/// not have.
+///
+/// @param source  names the file in warnings
+[[nodiscard]] GivenPositions positions_at_rest(const JointPositions& state,
+                                               const std::string& source, const SceneRobot& robot);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,69 @@
+/// @file
+/// Lines and fields of a table, whatever separates its columns.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace firstcontact::detail {
+
+/// A line that holds something.
+struct TableLine {
+  std::string_view text;
+  std::size_t number = 0;  ///< From 1.
+};
+
+/// All lines of a text but empty ones, without what ends them; without a byte order mark.
+[[nodiscard]] std::vector<TableLine> table_lines(std::string_view text);
+
+/// The fields of a line, without blanks around them; quotes around a whole field hide separators.
+///
+/// @param separator  ',', ';' or a tab; a blank stands for any number of blanks and tabs
+[[nodiscard]] std::vector<std::string> table_fields(std::string_view line, char separator);
+
+/// Reads numbers of one table, which all have the same decimal mark.
+class TableNumbers {
+ public:
+  /// @param allows_commas  as decimal marks: they do not separate columns
+  explicit TableNumbers(bool allows_commas) : allows_commas_(allows_commas) {}
+
+  /// None where the field is no finite number, or has another decimal mark than those before.
+  [[nodiscard]] std::optional<double> read(std::string_view field);
+
+  /// The decimal mark seen first; none as long as there was none.
+  [[nodiscard]] std::optional<char> mark() const { return mark_; }
+
+ private:
+  bool allows_commas_;
+  std::optional<char> mark_;
+};
+
+/// Where the header of a table is, and what separates columns.
+struct TableHeader {
+  std::size_t line = 0;  ///< Index of the header among the lines.
+  char separator = ',';
+  std::vector<std::string> fields;
+};
+
+/// Finds the header: the first line that is no comment, if it names a time; else, where '#' or '%'
+/// stands before it as before comments, the last of the lines before. Separators are tried in the
+/// order comma, semicolon, tab, blanks; "sep=;" in the first line, as spreadsheets know it,
+/// decides.
+///
+/// @param is_time  whether a field is the name of the time column
+/// @returns  none where no line names a time
+[[nodiscard]] std::optional<TableHeader> find_header(
+    const std::vector<TableLine>& lines, const std::function<bool(std::string_view)>& is_time);
+
+/// Whether the line says nothing: '#' or '%' stands before it.
+[[nodiscard]] bool is_comment(const TableLine& line);
+
+/// Whether it is "sep=;".
+[[nodiscard]] bool names_separator(const TableLine& line);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,101 @@
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+/// By how much a joint turns or slides while the joint that it follows in the end, through others
+/// that mimic it, turns by 1; and which that is.
+struct Following {
+  std::size_t source = 0;
+  double multiplier = 1.0;
+};
+
+Following following(const RobotModel& robot, std::size_t joint) {
+  Following result{.source = joint};
+  while (const std::optional<Mimic>& mimic = robot.joints()[result.source].mimic) {
+    result.multiplier *= mimic->multiplier;
+    result.source = robot.find_joint(mimic->joint).value();
+  }
+  return result;
+}
+
+/// Whether a joint that mimics this one, or mimics one that does, is elsewhere after a whole turn.
+bool shows_whole_turns(const RobotModel& robot, std::size_t joint) {
+  for (std::size_t k = 0; k < robot.joints().size(); ++k) {
+    const Joint& follower = robot.joints()[k];
+    if (!follower.mimic) {
+      continue;
+    }
+    const Following of = following(robot, k);
+    const bool turns_about =
+        follower.type == JointType::revolute || follower.type == JointType::continuous;
+    const bool is_whole = turns_about && std::trunc(of.multiplier) == of.multiplier;
+    if (of.source == joint && of.multiplier != 0.0 && !is_whole) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A coordinate that is where it was after a whole turn.
+bool is_endless(const RobotModel& robot, const JointCoordinate& coordinate) {
+  const Joint& joint = robot.joints()[coordinate.joint];
+  return !joint.mimic && (joint.type == JointType::continuous ||
+                          (joint.type == JointType::planar && coordinate.index == 2));
+}
+
+}  // namespace
+
+bool takes_short_way(const RobotModel& robot, const JointCoordinate& coordinate) {
+  return is_endless(robot, coordinate) && !shows_whole_turns(robot, coordinate.joint);
+}
+
+std::vector<JointTurn> joint_turns(const RobotModel& robot, const Trajectory& trajectory) {
+  std::vector<JointTurn> turns;
+  for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
+    const JointCoordinate coordinate = find_coordinate(robot, trajectory.joint_names[k]);
+    if (!is_endless(robot, coordinate)) {
+      continue;
+    }
+    const bool is_short =
+        trajectory.turning == Turning::shortest && takes_short_way(robot, coordinate);
+    JointTurn turn{.joint = trajectory.joint_names[k],
+                   .from = trajectory.points.front().positions.at(k),
+                   .to = trajectory.points.back().positions.at(k),
+                   .turning = is_short ? Turning::shortest : Turning::as_given};
+    bool moves = false;
+    for (std::size_t i = 0; i + 1 < trajectory.points.size(); ++i) {
+      const double from = trajectory.points[i].positions.at(k);
+      const double to = trajectory.points[i + 1].positions.at(k);
+      const double way = shortest_way(from, to);
+      turn.turned += is_short ? way : to - from;
+      turn.differs = turn.differs || way != to - from;
+      moves = moves || from != to;
+    }
+    if (!is_short) {
+      turn.turned = turn.to - turn.from;
+    }
+    if (moves) {
+      turns.push_back(std::move(turn));
+    }
+  }
+  return turns;
+}
+
+const char* to_string(Turning turning) { return turning == Turning::shortest ? "short" : "long"; }
+
+Turning turning_of(std::string_view word) {
+  if (word != "long" && word != "short") {
+    throw std::invalid_argument("expected \"long\" or \"short\", got " + detail::in_quotes(word));
+  }
+  return word == "short" ? Turning::shortest : Turning::as_given;
+}
+
+}  // namespace firstcontact
