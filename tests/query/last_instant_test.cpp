@@ -51,10 +51,9 @@ detail::PieceResult search_last_instant(double gap) {
   const Motion falling = fall(gap);
   ConstantRatePair motion(rest, falling, floor.hierarchy().centre, tip.hierarchy().centre, 1e-6);
   motion.enter(1.0);
-  const RelativeState start = motion.state(1.0);
   const detail::MovingPair pair(floor.hierarchy(), tip.hierarchy(), motion);
   const WorkBudget budget;
-  const detail::SearchLimits limits{.tolerance = 1e-6, .start = start, .budget = budget};
+  const detail::SearchLimits limits{.tolerance = 1e-6, .band = 1e-6, .budget = budget};
   Workspace workspace;
   WorkCount work;
   return detail::search_piece(pair, 1.0, 1.0, limits, workspace.data(), work);

@@ -56,6 +56,8 @@ void bind_linear(py::module_& m) {
   py::class_<LinearContact>(m, "LinearContact", "First contact of two deforming features.")
       .def_readonly("verdict", &LinearContact::verdict)
       .def_readonly("t", &LinearContact::t, "[-] Before it they are proven apart; 1 when free.")
+      .def_readonly("tolerance_used", &LinearContact::tolerance_used,
+                    "[m] Holds in place of the asked one; larger only where doubles of t need it.")
       .def_readonly("steps", &LinearContact::steps)
       .def("__repr__", [](const LinearContact& found) {
         return "<LinearContact: " + std::string(py::str(py::cast(found.verdict))) +

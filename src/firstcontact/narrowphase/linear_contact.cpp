@@ -11,6 +11,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/narrowphase/detail/turning_gap.h>
+#include <firstcontact/narrowphase/precise_linear_contact.h>
 #include <firstcontact/narrowphase/separating_direction.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 
@@ -29,7 +30,7 @@ class LinearPair {
  public:
   LinearPair(std::span<const LinearPoint> A, std::span<const LinearPoint> B,
              const LinearContactOptions& options)
-      : size_A_(A.size()), size_B_(B.size()), options_(options) {
+      : corners_A_(A), corners_B_(B), options_(options) {
     const LinearPoint& origin = A[0];
     place(A, origin, A_);
     place(B, origin, B_);
@@ -38,26 +39,27 @@ class LinearPair {
 
   LinearContact solve() const {
     LinearContact result;
+    result.tolerance_used = options_.tolerance;
     if (is_apart_along_axes()) {
-      return {LinearVerdict::free, 1.0, 0};
+      return freed(result);
     }
     for (; result.steps < options_.maximum_steps; ++result.steps) {
       const TrianglePair now = at(result.t);
       const ClosestFeatures closest = triangle_distance(now.A, now.B);
+      const double apart = closest.distance + error_ - options_.margin;
       // Half of the tolerance is left for steps that stop short of the margin.
-      if (closest.distance + error_ <= options_.margin + 0.5 * options_.tolerance) {
-        result.verdict = LinearVerdict::contact;
-        return result;
+      if (apart <= 0.5 * options_.tolerance) {
+        return contact_at(result, options_.tolerance);
       }
-      const double next = free_until(now, closest, result.t);
+      const bool cannot_tell = apart <= resolution() && options_.tolerance < resolution();
+      const double next = cannot_tell ? result.t : free_until(now, closest, result.t);
       if (next > 1.0) {
-        return {LinearVerdict::free, 1.0, result.steps + 1};
+        ++result.steps;
+        return freed(result);
       }
       if (!(next > result.t)) {
-        result.verdict = closest.distance + error_ <= options_.margin + options_.tolerance
-                             ? LinearVerdict::contact
-                             : LinearVerdict::undecided;
-        return result;
+        return apart <= options_.tolerance ? contact_at(result, options_.tolerance)
+                                           : solve_precisely(result, apart);
       }
       result.t = next;
     }
@@ -72,6 +74,55 @@ class LinearPair {
       placed[k] = {corner.from - origin.from, corner.to - origin.to};
       reach_ = std::max({reach_, placed[k].from.norm(), placed[k].to.norm()});
     }
+  }
+
+  /// [m]  Nearer to the margin doubles cannot tell.
+  [[nodiscard]] double resolution() const { return 16.0 * error_; }
+
+  static LinearContact freed(LinearContact result) {
+    result.verdict = LinearVerdict::free;
+    result.t = 1.0;
+    return result;
+  }
+
+  static LinearContact contact_at(LinearContact result, double tolerance) {
+    result.verdict = LinearVerdict::contact;
+    result.tolerance_used = tolerance;
+    return result;
+  }
+
+  /// Goes on from where doubles came.
+  ///
+  /// @param apart  [m]  above the margin, at most
+  [[nodiscard]] LinearContact solve_precisely(LinearContact result, double apart) const {
+    if (!suits_double_doubles(reach_)) {
+      return apart <= resolution() ? contact_at(result, std::max(apart, options_.tolerance))
+                                   : result;
+    }
+    const PreciseLinearContact found =
+        precise_linear_contact(precise(corners_A_), precise(corners_B_),
+                               {.threshold = options_.margin,
+                                .tolerance = options_.tolerance,
+                                .least_tolerance = resolution(),
+                                .t_begin = result.t});
+    result.steps += found.steps;
+    result.t = found.t;
+    if (found.verdict == PreciseLinearVerdict::contact) {
+      return contact_at(result, found.tolerance_used);
+    }
+    result.verdict = found.verdict == PreciseLinearVerdict::free ? LinearVerdict::free
+                                                                 : LinearVerdict::undecided;
+    return result;
+  }
+
+  static PreciseLinearFeature precise(std::span<const LinearPoint> corners) {
+    PreciseLinearFeature feature;
+    feature.count = corners.size();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      feature.corners[k] = {DoubleDoubleVector3(corners[k].from),
+                            DoubleDoubleVector3(corners[k].to)};
+    }
+    return feature;
   }
 
   [[nodiscard]] TrianglePair at(double t) const {
@@ -133,8 +184,8 @@ class LinearPair {
   /// beyond 1 where that is to the end.
   [[nodiscard]] double free_until(const TrianglePair& now, const ClosestFeatures& closest,
                                   double t) const {
-    const detail::MovingCorners A = moving(now.A, A_, size_A_);
-    const detail::MovingCorners B = moving(now.B, B_, size_B_);
+    const detail::MovingCorners A = moving(now.A, A_, corners_A_.size());
+    const detail::MovingCorners B = moving(now.B, B_, corners_B_.size());
     const double enough = (1.0 - t) * (1.0 + 0x1p-40) + 0x1p-50;
     double best = 0.0;
     const Vector3d d = closest.p_B - closest.p_A;
@@ -163,8 +214,8 @@ class LinearPair {
     return std::max(t, t + best * (1.0 - 0x1p-45) - 0x1p-53);
   }
 
-  std::size_t size_A_;
-  std::size_t size_B_;
+  std::span<const LinearPoint> corners_A_;
+  std::span<const LinearPoint> corners_B_;
   LinearContactOptions options_;
   std::array<LinearPoint, 3> A_;
   std::array<LinearPoint, 3> B_;

@@ -29,13 +29,15 @@ struct LinearContactOptions {
 enum class LinearVerdict {
   free,       ///< Proven: farther apart than the margin for all t in [0, 1].
   contact,    ///< Proven: so before t; at t no farther than margin + tolerance.
-  undecided,  ///< Proven so before t; nothing known after it: steps spent, or coordinates too
-              ///< large for doubles to resolve the tolerance.
+  undecided,  ///< Proven so before t; nothing known after it: steps spent.
 };
 
 struct LinearContact {
   LinearVerdict verdict = LinearVerdict::undecided;
   double t = 0.0;  ///< [-]  1 when free.
+  /// [m]  Holds in place of the asked one. Larger where features move farther than that between two
+  /// neighbouring doubles of t, or coordinates are so large that no arithmetic here resolves it.
+  double tolerance_used = 0.0;
   int steps = 0;
 };
 
@@ -53,7 +55,8 @@ struct LinearContact {
 /// advancement (B. Mirtich, 1996) with the exact bound that linear motion allows.
 ///
 /// Holds in the arithmetic as executed, also far from the origin: only differences of coordinates
-/// are rounded.
+/// are rounded. Where doubles cannot tell, the question is asked again in double-double
+/// (precise_linear_contact.h): a gap of 1e-18 of the size is told from none.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range
 [[nodiscard]] FIRSTCONTACT_API LinearContact linear_vertex_face_contact(

@@ -11,6 +11,7 @@
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
+#include <firstcontact/query/detail/nearest_triangles.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/shape_pair.h>
@@ -66,14 +67,55 @@ detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& par
   }
 }
 
+/// How near two bodies may come.
+struct Hold {
+  double distance = 0.0;  ///< [m]  They are proven to be farther apart before the first contact.
+  /// [m]  A contact is no farther than both together, nor than margin + tolerance.
+  double tolerance = std::numeric_limits<double>::infinity();
+  UndecidedReason stopped = UndecidedReason::none;  ///< By the budget; then nothing is claimed.
+};
+
+/// keep_half: two bodies that start within the band, but apart, are held to half of their start
+/// distance d0 and are in contact at 3/4 of it at most, so not at the start, nor for as long as
+/// they stay as far apart.
+///
+/// Derivation: the nearest points that are found are at least d0 apart but for rounding, which 16
+/// errors outweigh, and at most d0 / (1 - kSlack). A half and a quarter of that is less than d0.
+Hold hold_half(const ShapePair& shapes, const RelativeState& start,
+               detail::WorkspaceData& workspace, const FirstContactOptions& options,
+               WorkCount& work) {
+  constexpr double kSlack = 0x1p-10;
+  const auto& [A, B, motion] = shapes;
+  const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const double radii = A.radius() + B.radius();
+  const double margin = options.margin + radii;
+  const double tolerance = std::max(options.tolerance, resolvable_distance(pair, start, margin));
+  const double error = pair.gap_error(start);
+  const detail::NearestTriangles nearest = detail::nearest_triangles(
+      pair, start, workspace, work,
+      {.within = margin + tolerance + 2.0 * error, .slack = kSlack, .budget = options.budget});
+  const double apart = nearest.distance - radii;
+  Hold hold{.distance = options.margin, .stopped = nearest.stopped};
+  if (apart > 16.0 * error && std::isfinite(apart)) {
+    hold.distance = 0.5 * apart;
+    hold.tolerance = 0.25 * apart;
+  }
+  return hold;
+}
+
 /// Searches a part of a piece with the tolerance in use; where time is too coarse for it, with a
 /// larger one.
-detail::PieceResult search(const MovingPair& pair, const TimeWindow& part,
+///
+/// @param margin  [m]  radii included
+detail::PieceResult search(const MovingPair& pair, const TimeWindow& part, double margin,
                            detail::SearchLimits limits, detail::WorkspaceData& workspace,
                            FirstContactResult& result) {
   detail::PieceResult found = search_windows(pair, part, limits, workspace, result.work);
   if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
-    limits.tolerance = result.tolerance_used = resolvable_motion(pair);
+    limits.tolerance = resolvable_motion(pair);
+    const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
+    result.tolerance_used = std::max(result.tolerance_used, above + limits.tolerance);
+    limits.band = margin + result.tolerance_used;
     found = search_windows(pair, part, limits, workspace, result.work);
   }
   return found;
@@ -101,24 +143,22 @@ void report_contacts(const ShapePair& shapes, const MovingPair& pair,
 }
 
 /// Searches the piece that was entered; whether that ends the query.
-bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const RelativeState& start,
+bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Hold& hold,
                  detail::WorkspaceData& workspace, const FirstContactOptions& options,
                  FirstContactResult& result) {
   const auto& [A, B, motion] = shapes;
   const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
   const double radii = A.radius() + B.radius();
-  result.tolerance_used =
-      std::max(result.tolerance_used,
-               resolvable_distance(pair, motion.state(part.begin), options.margin + radii));
-  const detail::SearchLimits limits{.margin = options.margin + radii,
-                                    .radii = radii,
-                                    .tolerance = result.tolerance_used,
-                                    .start_contacts = options.start_contacts,
-                                    .start = start,
+  const double margin = options.margin + radii;
+  const double resolvable = resolvable_distance(pair, motion.state(part.begin), margin);
+  result.tolerance_used = std::max(result.tolerance_used, resolvable);
+  const detail::SearchLimits limits{.threshold = hold.distance + radii,
+                                    .tolerance = std::min(result.tolerance_used, hold.tolerance),
+                                    .band = margin + result.tolerance_used,
                                     .budget = options.budget,
                                     .A = &A,
                                     .B = &B};
-  const detail::PieceResult found = search(pair, part, limits, workspace, result);
+  const detail::PieceResult found = search(pair, part, margin, limits, workspace, result);
   result.t = found.t;
   if (found.contact) {
     result.t_upper = found.t;
@@ -136,15 +176,19 @@ bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Relative
   return found.contact;
 }
 
-/// @param start  where start distances are taken, if they are
-void solve(const ShapePair& shapes, const TimeWindow& window, const RelativeState& start,
+void solve(const ShapePair& shapes, const TimeWindow& window, const Hold& hold,
            detail::WorkspaceData& workspace, const FirstContactOptions& options,
            FirstContactResult& result) {
-  result.tolerance_used = options.tolerance;
+  if (hold.stopped != UndecidedReason::none) {
+    result.verdict = Verdict::undecided;
+    result.reason = hold.stopped;
+    return;
+  }
+  result.clearance = hold.distance;
   double begin = window.begin;
   while (true) {
     const double end = std::min(shapes.motion.enter(begin), window.end);
-    if (solve_piece(shapes, {begin, end}, start, workspace, options, result)) {
+    if (solve_piece(shapes, {begin, end}, hold, workspace, options, result)) {
       return;
     }
     if (end >= window.end) {
@@ -163,7 +207,6 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
   result.clearance = 0.0;
   result.t = 0.0;
   result.t_upper = 0.0;
-  result.tolerance_used = options.tolerance;
   if (options.contacts != ContactState::none) {
     const auto& [A, B, motion] = shapes;
     const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
@@ -174,8 +217,8 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
 
 /// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
 void solve_solids(const ShapePair& shapes, const TimeWindow& window, const RelativeState& start,
-                  detail::WorkspaceData& workspace, const FirstContactOptions& options,
-                  FirstContactResult& result) {
+                  const Hold& hold, detail::WorkspaceData& workspace,
+                  const FirstContactOptions& options, FirstContactResult& result) {
   const auto& [A, B, motion] = shapes;
   const detail::Containment found =
       detail::find_containment(A, B, MovingPair(A.hierarchy(), B.hierarchy(), motion), start);
@@ -183,7 +226,7 @@ void solve_solids(const ShapePair& shapes, const TimeWindow& window, const Relat
     report_contained(shapes, start, found, options, result);
     return;
   }
-  solve(shapes, window, start, workspace, options, result);
+  solve(shapes, window, hold, workspace, options, result);
   if (found.inside == detail::Inside::unsure && result.verdict != Verdict::contact_at_start) {
     result.verdict = Verdict::undecided;
     result.reason = UndecidedReason::precision;
@@ -210,20 +253,24 @@ void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& w
   result.reason = UndecidedReason::none;
   result.t = window.begin;
   result.t_upper.reset();
-  result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
+  result.clearance = 0.0;
+  result.tolerance_used = options.tolerance;
   result.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
   result.contacts.clear();
   result.work = {};
   const bool has_inside = window.begin == 0.0 && (pair.A.is_solid() || pair.B.is_solid());
+  const bool keeps = options.start_contacts == StartContacts::keep_half;
   RelativeState start;
-  if (has_inside || options.start_contacts == StartContacts::keep_half) {
+  if (has_inside || keeps) {
     pair.motion.enter(0.0);
     start = pair.motion.state(0.0);
   }
+  const Hold hold = keeps ? hold_half(pair, start, workspace.data(), options, result.work)
+                          : Hold{.distance = options.margin};
   if (has_inside) {
-    solve_solids(pair, window, start, workspace.data(), options, result);
+    solve_solids(pair, window, start, hold, workspace.data(), options, result);
   } else {
-    solve(pair, window, start, workspace.data(), options, result);
+    solve(pair, window, hold, workspace.data(), options, result);
   }
 }
 

@@ -35,7 +35,12 @@ struct WorkBudget {
 
 enum class StartContacts {
   report,  ///< A start within margin + tolerance is `contact_at_start`.
-  /// A pair of triangles that starts there, but apart, is held to half its start distance.
+  /// Two bodies that start there, but apart, are held to half of their start distance d0 (to
+  /// rounding) in place of the margin: d(t) > d0 / 2 before a contact, which is within margin +
+  /// tolerance as ever. That holds for all features of both bodies, whichever started near. So
+  /// sliding, rolling and leaving go on however the surfaces are cut into triangles, and as d0 > 0
+  /// nothing passes through anything. Parts that started farther apart than the margin are held to
+  /// d0 / 2, too. A start at distance 0 is `contact_at_start`.
   keep_half,
 };
 

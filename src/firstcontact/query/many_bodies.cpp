@@ -55,13 +55,12 @@ void for_each_tested_pair(const BodySet& bodies, const Use& use) {
 /// Takes the answers of pairs together; a pair that ends what is proven hides all after it.
 class FirstOfAll {
  public:
-  explicit FirstOfAll(const BodySet& bodies, const ManyBodiesOptions& options) {
+  FirstOfAll(const BodySet& bodies, const ManyBodiesOptions& options)
+      : keeps_half_(options.pair.start_contacts == StartContacts::keep_half) {
     result_.tolerance_used = options.pair.tolerance;
     result_.clearance = std::numeric_limits<double>::infinity();
     for_each_tested_pair(bodies, [&](const BodyPair&, double) {
-      result_.clearance = options.pair.start_contacts == StartContacts::report
-                              ? bodies.rules().least_margin()
-                              : 0.0;
+      result_.clearance = bodies.rules().least_margin();
       return false;
     });
   }
@@ -73,6 +72,9 @@ class FirstOfAll {
     add(answer.work, result_.work);
     result_.tolerance_used = std::max(result_.tolerance_used, answer.tolerance_used);
     result_.enclosure_error = std::max(result_.enclosure_error, answer.enclosure_error);
+    if (keeps_half_) {
+      result_.clearance = std::min(result_.clearance, answer.clearance);
+    }
     if (answer.t_upper) {
       result_.t_upper = std::min(result_.t_upper.value_or(1.0), *answer.t_upper);
     }
@@ -102,6 +104,7 @@ class FirstOfAll {
   }
 
  private:
+  bool keeps_half_;
   ManyBodiesResult result_;
 };
 

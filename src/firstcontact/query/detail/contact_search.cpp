@@ -9,6 +9,7 @@
 
 #include <firstcontact/narrowphase/advance_deforming.h>
 #include <firstcontact/narrowphase/separating_direction.h>
+#include <firstcontact/query/detail/budget_watch.h>
 #include <firstcontact/query/detail/glide_cover.h>
 
 namespace firstcontact::detail {
@@ -78,8 +79,10 @@ class Search {
         work_(work),
         steps_before_(work.node_groups + work.steps),
         patience_(std::min(limits.patience, kLongSearch)),
+        watch_(limits.budget),
         frame_(pair.box_frame()),
-        box_threshold_(box_threshold() + limits.tolerance),
+        all_remembered_(limits.threshold + limits.tolerance >= limits.band),
+        box_threshold_(limits.threshold + (all_remembered_ ? limits.tolerance : 0.0)),
         boxes_window_(pair.motion().boxes_window() * pair.unit() /
                       std::max(pair.speed_bound(), 1e-300)),
         // A quarter of the tolerance may be spent on the order of ties, a half on stopping early.
@@ -127,17 +130,6 @@ class Search {
   }
 
  private:
-  /// Boxes must not drop a pair that may be held to half its start distance.
-  ///
-  /// As long as the tolerance is added, no pair of boxes that is left at the end has anything
-  /// within the contact band: the contacts are among the pairs of triangles that were opened.
-  [[nodiscard]] double box_threshold() const {
-    return limits_.start_contacts == StartContacts::keep_half
-               ? std::max(limits_.margin,
-                          0.5 * (limits_.radii + limits_.margin + limits_.tolerance))
-               : limits_.margin;
-  }
-
   void clear_queue() {
     queue_.clear();
     groups_.clear();
@@ -153,7 +145,7 @@ class Search {
   /// one by one. Goes on without them from what is proven.
   void forget_opened() {
     all_remembered_ = false;
-    box_threshold_ = box_threshold();
+    box_threshold_ = limits_.threshold;
     frame_t_ = std::numeric_limits<double>::quiet_NaN();  // The frame holds the threshold.
     const double t = proven_free();
     if (!glide_on(t)) {
@@ -198,7 +190,6 @@ class Search {
     for (const IndexPair& left : workspace_.left_by_glide) {
       TriangleEntry entry;
       entry.key = t;
-      entry.threshold = limits_.margin;
       entry.a = left.a;
       entry.b = left.b;
       entry.opened = kNotRemembered;
@@ -242,25 +233,8 @@ class Search {
   [[nodiscard]] std::uint64_t steps() const { return work_.node_groups + work_.steps; }
 
   [[nodiscard]] UndecidedReason spent() {
-    const WorkBudget& budget = limits_.budget;
-    if (steps() >= budget.steps) {
-      return UndecidedReason::work;
-    }
-    if (queue_.size() * sizeof(QueueItem) + groups_.bytes() + triangle_pairs_.bytes() >
-        budget.memory) {
-      return UndecidedReason::memory;
-    }
-    if (budget.stop.stop_requested()) {
-      return UndecidedReason::cancelled;
-    }
-    constexpr std::uint64_t kClockInterval = 64;  // Reading the clock costs as much as a step.
-    if (budget.deadline && steps() >= next_clock_) {
-      next_clock_ = steps() + kClockInterval;
-      if (std::chrono::steady_clock::now() >= *budget.deadline) {
-        return UndecidedReason::deadline;
-      }
-    }
-    return UndecidedReason::none;
+    return watch_.spent(
+        steps(), queue_.size() * sizeof(QueueItem) + groups_.bytes() + triangle_pairs_.bytes());
   }
 
   /// All that is left is proven free before the least priority.
@@ -319,7 +293,6 @@ class Search {
     drop_next(index);
     TriangleEntry entry;
     entry.key = t;
-    entry.threshold = limits_.margin;
     entry.a = inside.triangle_A;
     entry.b = inside.triangle_B;
     entry.opened = remember(entry);
@@ -486,15 +459,13 @@ class Search {
     for (unsigned lanes = live & lanes_of(a.leaves(), b.leaves()); lanes != 0; lanes &= lanes - 1) {
       const int k = std::countr_zero(lanes);
       TriangleEntry entry;
-      entry.threshold = limits_.margin;
       entry.a = a.child_triangle(k / HierarchyNode::kWidth);
       entry.b = b.child_triangle(k % HierarchyNode::kWidth);
-      check_start(entry);
       ++work_.triangle_pairs;
       ++work_.steps;
       const TrianglePair triangles = pair_.place(state_, entry.a, entry.b);
       const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
-      if (closest.distance + error_ <= entry.threshold + tolerance_of(entry)) {
+      if (closest.distance + error_ <= limits_.threshold + limits_.tolerance) {
         continue;  // Perhaps the contact: followed when it is due.
       }
       const double tau = step(entry, triangles, closest, state_t_);
@@ -568,7 +539,6 @@ class Search {
   /// Advances a pair of triangles until it is in contact, leaves the step, or another pair is due.
   void follow_triangles(TriangleEntry entry) {
     ++work_.triangle_pairs;
-    check_start(entry);
     const double due = queue_.empty() ? horizon() : queue_.top().priority() + tie_window_;
     double t = entry.key;
     do {
@@ -583,9 +553,9 @@ class Search {
         opened_[entry.opened].t = t;
         opened_[entry.opened].distance = closest.distance;
       }
-      const double tolerance = tolerance_of(entry);
-      if (closest.distance + error_ <= entry.threshold + 0.5 * tolerance) {
-        found(entry, t, entry.threshold + tolerance - closest.distance - error_);
+      const double apart = closest.distance + error_;
+      if (apart <= limits_.threshold + 0.5 * limits_.tolerance) {
+        found(entry, t, limits_.threshold + limits_.tolerance - apart);
         return;
       }
       const double tau = step(entry, triangles, closest, t);
@@ -595,11 +565,12 @@ class Search {
       }
       const double next = after(t, tau);
       if (!(next > t)) {
-        if (closest.distance + error_ <= entry.threshold + tolerance) {
-          found(entry, t, entry.threshold + tolerance - closest.distance - error_);
+        // Doubles cannot take the pair any further.
+        if (apart <= limits_.band) {
+          found(entry, t, limits_.band - apart);
           return;
         }
-        unresolved_ = true;  // Doubles cannot take the pair any further.
+        unresolved_ = true;
         break;
       }
       t = next;
@@ -608,10 +579,7 @@ class Search {
     push_triangles(entry);
   }
 
-  [[nodiscard]] bool exhausted() const {
-    return steps() >= limits_.budget.steps || limits_.budget.stop.stop_requested() ||
-           (limits_.budget.deadline && steps() >= next_clock_);
-  }
+  [[nodiscard]] bool exhausted() const { return watch_.may_be_spent(steps()); }
 
   /// The longest certificate of the direction between the closest points and of the direction that
   /// the features define, which stays accurate when the points nearly coincide; should both fail,
@@ -643,33 +611,10 @@ class Search {
   [[nodiscard]] double step_along(const TriangleEntry& entry, const TrianglePair& triangles,
                                   const ClosestFeatures& closest, const Eigen::Vector3d& n) const {
     if (!pair_.deforms()) {
-      return advance(state_, triangles, n, entry.threshold, error_, horizon());
+      return advance(state_, triangles, n, limits_.threshold, error_, horizon());
     }
     return advance_deforming(state_, triangles, pair_.rates(state_, entry.a, entry.b), closest, n,
-                             entry.threshold, error_, horizon());
-  }
-
-  [[nodiscard]] double tolerance_of(const TriangleEntry& entry) const {
-    // A held pair must not count as in contact at its start distance.
-    return entry.held_tolerance > 0.0 ? std::min(limits_.tolerance, entry.held_tolerance)
-                                      : limits_.tolerance;
-  }
-
-  /// keep_half: a pair that starts within the band, but apart, is held to half its start distance.
-  void check_start(TriangleEntry& entry) const {
-    if (limits_.start_contacts != StartContacts::keep_half || entry.start_checked) {
-      return;
-    }
-    entry.start_checked = true;
-    entry.threshold = limits_.margin;
-    const TrianglePair triangles = pair_.place(limits_.start, entry.a, entry.b);
-    const double distance = triangle_distance(triangles.A, triangles.B).distance;
-    const double error = pair_.gap_error(limits_.start);
-    const double apart = distance - limits_.radii;
-    if (apart > 16.0 * error && distance <= limits_.margin + limits_.tolerance) {
-      entry.threshold = limits_.radii + 0.5 * apart;
-      entry.held_tolerance = 0.25 * apart;
-    }
+                             limits_.threshold, error_, horizon());
   }
 
   void found(const TriangleEntry& entry, double t, double slack) {
@@ -697,22 +642,24 @@ class Search {
   WorkCount& work_;
   std::uint64_t steps_before_;
   std::uint64_t patience_;  // Work until something is done about it.
+  BudgetWatch watch_;
   double glide_width_ = std::numeric_limits<double>::infinity();  // Of the next window.
   double state_t_ = std::numeric_limits<double>::quiet_NaN();     // Of the next two.
   RelativeState state_;
   double error_ = 0.0;
   double frame_t_ = std::numeric_limits<double>::quiet_NaN();
   BoxFrame frame_;  // For boxes; pairs of triangles do without.
+  /// All pairs of triangles within the band at the contact are to be among those opened: boxes are
+  /// then tested against threshold + tolerance, so that no pair of them that is left holds any.
+  bool all_remembered_;
   double box_threshold_;
   double boxes_window_;
   double tie_window_;
   double stop_window_ = 0.0;
-  std::uint64_t next_clock_ = 0;
   std::uint64_t freed_ = 0;     // Pairs of triangles.
   std::uint64_t repeated_ = 0;  // Bounds in double precision.
   std::uint64_t worth_repeating_ = 0;
   bool unresolved_ = false;
-  bool all_remembered_ = true;
   PieceResult best_;
 };
 

@@ -14,10 +14,10 @@ namespace firstcontact::detail {
 /// What the search of one piece found.
 struct PieceResult {
   double t = 0.0;          ///< Proven: no contact of the piece before t.
-  bool contact = false;    ///< At t some pair is within its threshold + tolerance.
+  bool contact = false;    ///< At t some pair is within the band.
   bool finished = false;   ///< Neither: the whole piece is proven free.
   bool impatient = false;  ///< Neither: the work that one search may take was spent.
-  /// WorkspaceData::opened_pairs holds every pair of triangles within margin + tolerance at t.
+  /// WorkspaceData::opened_pairs holds every pair of triangles within the band at t.
   bool all_remembered = false;
   UndecidedReason reason = UndecidedReason::none;
   std::uint32_t triangle_A = 0;  ///< The pair that decided, in the hierarchies' order.
@@ -25,11 +25,11 @@ struct PieceResult {
 };
 
 struct SearchLimits {
-  double margin = 0.0;     ///< [m]  Radii of the shapes included.
-  double radii = 0.0;      ///< [m]  Sum of the two.
+  double threshold = 0.0;  ///< [m]  Closer than this is contact; radii of the shapes included.
   double tolerance = 0.0;  ///< [m]
-  StartContacts start_contacts = StartContacts::report;
-  const RelativeState& start;  ///< At t = 0, where start distances are taken.
+  /// [m]  At most so far apart are contacts that may be reported; at least threshold + tolerance
+  /// but for rounding. Greater where a pair is held to less than the margin.
+  double band = 0.0;
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
   const Shape* A = nullptr;  ///< Of the pair, where it may be asked whether one glides.

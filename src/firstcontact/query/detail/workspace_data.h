@@ -36,13 +36,10 @@ struct BoxGroup {
 
 /// A pair of triangles that still may come into contact, as indices in the hierarchies' order.
 struct TriangleEntry {
-  double key = 0.0;             ///< [-]  No contact of the pair before this time is proven.
-  double threshold = 0.0;       ///< [m]  Closer than this is contact.
-  double held_tolerance = 0.0;  ///< [m]  Positive: held to half its start distance, to this.
+  double key = 0.0;  ///< [-]  No contact of the pair before this time is proven.
   std::uint32_t a = 0;
   std::uint32_t b = 0;
-  std::uint32_t opened = 0;    ///< Its place among the opened pairs, if it has one.
-  bool start_checked = false;  ///< The threshold accounts for the start distance.
+  std::uint32_t opened = 0;  ///< Its place among the opened pairs, if it has one.
 };
 
 /// Two triangles.

@@ -1,0 +1,286 @@
+#include <firstcontact/narrowphase/precise_linear_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <firstcontact/math/root_isolation.h>
+#include <firstcontact/narrowphase/detail/precise_closest.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::PreciseClosest;
+using detail::PreciseCorners;
+using Type = TriangleFeature::Type;
+using Vector = DoubleDoubleVector3;
+
+constexpr double kRounding = 0x1p-96;     // Of a gap or a rate, to its terms: see the header.
+constexpr double kDifference = 0x1p-102;  // Of two positions, to their size.
+constexpr double kUp = 1.0 + 0x1p-40;
+
+/// Steps without an answer: features that slide along each other, nearer than doubles can tell.
+constexpr int kMostSteps = 400;
+
+double length(const Vector& v) { return v.value().stableNorm(); }
+
+/// At least the value, which is within `error`.
+double above(const DoubleDouble& x, double error) {
+  return x.hi + 0x1p-52 * std::abs(x.hi) + error;
+}
+
+/// Unit to 32 u^2; zero where v is.
+Vector normalised(const Vector& v) {
+  const double size = length(v);
+  if (!(size > 0.0) || !std::isfinite(size)) {
+    return {};
+  }
+  const Vector scaled = DoubleDouble(std::exp2(-std::ilogb(size))) * v;  // Squares stay in range.
+  return DoubleDouble(1.0) / norm(scaled) * scaled;
+}
+
+/// Positions at one time, and rates.
+struct Moving {
+  PreciseCorners at;
+  std::array<Vector, 3> rate;
+};
+
+/// The edges of the closest features with their rates, which a direction that turns keeps across.
+struct Directions {
+  std::array<Vector, 2> edge;
+  std::array<Vector, 2> rate;
+  std::size_t count = 0;
+
+  void add(const Moving& m, int from) {
+    const auto i = static_cast<std::size_t>(from);
+    const Vector along = edge_of(m.at, from);
+    if (count < edge.size() && length(along) > 0.0) {
+      edge[count] = along;
+      rate[count] = m.rate[(i + 1) % m.at.count] - m.rate[i];
+      ++count;
+    }
+  }
+  void add(const Moving& m, const TriangleFeature& feature) {
+    if (feature.type == Type::edge) {
+      add(m, feature.index);
+    } else if (feature.type == Type::face) {
+      add(m, 0);
+      add(m, 1);
+    }
+  }
+};
+
+/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e.
+Vector keep_across(const Vector& n, const Directions& d) {
+  if (d.count == 0) {
+    return {};
+  }
+  if (d.count == 2) {
+    const Vector m = cross(d.edge[0], d.edge[1]);
+    const DoubleDouble area2 = dot(m, m);
+    const double sine2 = area2.hi / (dot(d.edge[0], d.edge[0]).hi * dot(d.edge[1], d.edge[1]).hi);
+    if (sine2 > 1e-16) {
+      return (dot(n, d.rate[0]) / area2) * cross(m, d.edge[1]) -
+             (dot(n, d.rate[1]) / area2) * cross(m, d.edge[0]);
+    }
+  }
+  return -(dot(n, d.rate[0]) / dot(d.edge[0], d.edge[0])) * d.edge[0];
+}
+
+class PreciseSearch {
+ public:
+  PreciseSearch(const PreciseLinearFeature& A, const PreciseLinearFeature& B,
+                const PreciseLinearOptions& options)
+      : A_(A), B_(B), options_(options), t_(options.t_begin) {
+    double size = 0.0;  // Of the coordinates.
+    const PreciseLinearPoint origin = A.corners[0];
+    for (PreciseLinearFeature* feature : {&A_, &B_}) {
+      for (std::size_t k = 0; k < feature->count; ++k) {
+        PreciseLinearPoint& p = feature->corners[k];
+        size = std::max({size, length(p.from), length(p.to)});
+        p = {p.from - origin.from, p.to - origin.to};
+        reach_ = std::max({reach_, 4.0 * length(p.from), 4.0 * length(p.to)});
+      }
+    }
+    error_ = kRounding * (reach_ + options.threshold) + kDifference * size +
+             4.0 * options.position_error;
+    tolerance_ = std::max(options.tolerance, 8.0 * error_);
+  }
+
+  PreciseLinearContact run() {
+    for (; result_.steps < kMostSteps; ++result_.steps) {
+      move_to(t_);
+      closest_ = precise_closest(now_A_.at, now_B_.at);
+      const double apart = distance_above(closest_);
+      if (apart <= options_.threshold + 0.5 * tolerance_) {
+        return contact();
+      }
+      const double tau = free_for();
+      if (tau >= time_left()) {
+        result_.verdict = PreciseLinearVerdict::free;
+        result_.t = 1.0;
+        return result_;
+      }
+      const DoubleDouble next = t_ + DoubleDouble(tau * (1.0 - 0x1p-45));
+      if (!(tau > 0x1p-90)) {
+        break;
+      }
+      t_ = next;
+    }
+    return stalled();
+  }
+
+ private:
+  void move_to(const DoubleDouble& t) {
+    place(A_, t, now_A_);
+    place(B_, t, now_B_);
+  }
+  static Vector at(const PreciseLinearPoint& p, const DoubleDouble& t) {
+    return p.from + t * (p.to - p.from);
+  }
+  static void place(const PreciseLinearFeature& feature, const DoubleDouble& t, Moving& now) {
+    now.at.count = feature.count;
+    for (std::size_t k = 0; k < feature.count; ++k) {
+      const PreciseLinearPoint& p = feature.corners[k];
+      now.at.p[k] = at(p, t);
+      now.rate[k] = p.to - p.from;
+    }
+  }
+
+  [[nodiscard]] double distance_above(const PreciseClosest& closest) const {
+    return std::sqrt(closest.square.hi) * (1.0 + 0x1p-50) + error_;
+  }
+
+  /// Rounded up.
+  [[nodiscard]] double time_left() const { return above(DoubleDouble(1.0) - t_, 0x1p-100); }
+
+  /// Until when the features are proven apart, by the longest that any direction proves.
+  [[nodiscard]] double free_for() const {
+    const double enough = time_left();
+    double best = 0.0;
+    const auto consider = [&](const Vector& direction) {
+      if (best < enough) {
+        const Vector n = normalised(direction);
+        if (length(n) > 0.5) {
+          best = std::max(best, time_apart_along(n, enough));
+        }
+      }
+    };
+    const Vector by_features = precise_direction(now_A_.at, now_B_.at, closest_);
+    consider(dot(by_features, closest_.d).hi < 0.0 ? Vector(DoubleDouble(-1.0) * by_features)
+                                                   : by_features);
+    consider(closest_.d);
+    if (!(best > 0.0)) {
+      for_each_plane_normal(consider);
+    }
+    return best;
+  }
+
+  /// As the function of separating_direction.h.
+  template <class Use>
+  void for_each_plane_normal(const Use& use) const {
+    const auto both = [&](const Vector& n) {
+      use(n);
+      use(DoubleDouble(-1.0) * n);
+    };
+    for (const PreciseCorners* c : {&now_A_.at, &now_B_.at}) {
+      const Vector normal = c->count == 3 ? cross(edge_of(*c, 0), edge_of(*c, 1)) : Vector{};
+      both(normal);
+      for (std::size_t k = 0; k < c->count && c->count == 3; ++k) {
+        both(cross(normal, edge_of(*c, static_cast<int>(k))));
+      }
+    }
+    for (std::size_t i = 0; i < now_A_.at.count; ++i) {
+      for (std::size_t j = 0; j < now_B_.at.count; ++j) {
+        both(cross(edge_of(now_A_.at, static_cast<int>(i)),
+                   edge_of(now_B_.at, static_cast<int>(j))));
+      }
+    }
+  }
+
+  [[nodiscard]] double time_apart_along(const Vector& n, double enough) const {
+    const double fixed = time_open(n, {}, enough);
+    if (fixed >= enough) {
+      return fixed;
+    }
+    Directions directions;
+    directions.add(now_A_, closest_.feature_A);
+    directions.add(now_B_, closest_.feature_B);
+    const Vector turning = keep_across(n, directions);
+    const double size = length(turning);
+    return size > 0.0 && std::isfinite(size) ? std::max(fixed, time_open(n, turning, enough))
+                                             : fixed;
+  }
+
+  /// For how long n(tau) = n + tau n' keeps all corners of B farther than the threshold from all of
+  /// A; advance_deforming() has the derivation. The error of positions holds at all times: it is
+  /// part of the threshold.
+  [[nodiscard]] double time_open(const Vector& n, const Vector& n_rate, double enough) const {
+    const double h = options_.threshold + error_;
+    const double turning = length(n_rate) * kUp;
+    const double growth =
+        turning > 0.0 ? std::max(0.0, above(dot(n, n_rate), kRounding * turning)) : 0.0;
+    double tau = enough;
+    for (std::size_t i = 0; i < now_A_.at.count && tau > 0.0; ++i) {
+      for (std::size_t j = 0; j < now_B_.at.count && tau > 0.0; ++j) {
+        const Vector e = now_B_.at.p[j] - now_A_.at.p[i];
+        const Vector e_rate = now_B_.rate[j] - now_A_.rate[i];
+        const double gap = -above(DoubleDouble(h) - dot(n, e), kRounding * reach_);
+        const double speed =
+            above(-(dot(n, e_rate) + dot(n_rate, e)), kRounding * (1.0 + turning) * reach_) +
+            h * growth;
+        const double bend = above(-dot(n_rate, e_rate), kRounding * turning * reach_);
+        const double half_acceleration = std::max(0.0, bend) + 0.5 * h * turning * turning * kUp;
+        tau = std::min(tau, time_to_close(gap, speed, half_acceleration));
+      }
+    }
+    return tau;
+  }
+
+  /// At the last double that is not after t_: it was proven free until then.
+  PreciseLinearContact contact() {
+    const double t = t_.lo < 0.0 ? std::nextafter(t_.hi, 0.0) : t_.hi;
+    result_.t = std::max(options_.t_begin, t);
+    move_to(result_.t);
+    const double apart = distance_above(precise_closest(now_A_.at, now_B_.at));
+    result_.verdict = PreciseLinearVerdict::contact;
+    result_.tolerance_used =
+        std::max(options_.tolerance, (apart - options_.threshold) * (1.0 + 0x1p-50));
+    return result_;
+  }
+
+  /// What doubles would have called a contact is one.
+  PreciseLinearContact stalled() {
+    move_to(t_);
+    const double apart = distance_above(precise_closest(now_A_.at, now_B_.at));
+    if (apart <= options_.threshold + std::max(tolerance_, options_.least_tolerance)) {
+      return contact();
+    }
+    result_.t = std::max(options_.t_begin, std::nextafter(t_.hi, 0.0));
+    return result_;
+  }
+
+  PreciseLinearFeature A_;  // Relative to A's first corner at the same time.
+  PreciseLinearFeature B_;
+  const PreciseLinearOptions& options_;
+  double reach_ = 0.0;
+  double error_ = 0.0;
+  double tolerance_ = 0.0;
+  DoubleDouble t_;  // Proven: no contact before.
+  Moving now_A_;
+  Moving now_B_;
+  PreciseClosest closest_;
+  PreciseLinearContact result_;
+};
+
+}  // namespace
+
+bool suits_double_doubles(double size) { return size > 0x1p-200 && size < 0x1p200; }
+
+PreciseLinearContact precise_linear_contact(const PreciseLinearFeature& A,
+                                            const PreciseLinearFeature& B,
+                                            const PreciseLinearOptions& options) {
+  return PreciseSearch(A, B, options).run();
+}
+
+}  // namespace firstcontact
