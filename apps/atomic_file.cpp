@@ -22,17 +22,28 @@ mode_t new_file_mode() {
   return 0666 & ~mask;
 }
 
-/// Where a symbolic link leads, so that the link stays one.
-std::filesystem::path resolved(const std::filesystem::path& path) {
+/// Where a symbolic link leads, so that the link stays one; it need not lead to a file yet.
+std::filesystem::path resolved(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // As the kernel.
   std::error_code error;
-  const std::filesystem::path canonical = std::filesystem::canonical(path, error);
-  return error ? path : canonical;
+  for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, error); ++k) {
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error) {
+      break;
+    }
+    path = path.parent_path() / target;  // An absolute target replaces the folder.
+  }
+  return path;
 }
 
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(resolved(target)) {
   std::error_code error;
+  if (std::filesystem::is_symlink(target_, error)) {
+    errno = ELOOP;
+    fail("cannot write this file");
+  }
   const auto status = std::filesystem::status(target_, error);
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
     descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);

@@ -148,10 +148,20 @@ class Batch {
   /// Counts what an earlier run has done, and passes over its jobs.
   void keep_results() {
     results_.for_each_kept([this](std::size_t number, const std::string& line) {
-      tally_.keep(read_verdict(line, arguments_.results, number));
-      if (!next_of(arguments_.shard, lines_)) {
+      const ResultSummary kept = read_summary(line, arguments_.results, number);
+      const std::optional<SceneLine> job = next_of(arguments_.shard, lines_);
+      if (!job) {
         throw ParseError(arguments_.results, number, "expected no more results than jobs");
       }
+      if (kept.line != job->number) {
+        throw ParseError(
+            arguments_.results, number,
+            fmt::format("expected the result of line {} of the jobs, got that of {}; results have "
+                        "to stay as they were written",
+                        job->number,
+                        kept.line ? fmt::format("line {}", *kept.line) : "an unknown one"));
+      }
+      tally_.keep(kept.verdict);
     });
   }
 

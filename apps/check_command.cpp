@@ -143,7 +143,7 @@ class Check {
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
     ++answered_;
     status_ = worse(status_, status_of(answer.result.verdict));
-    write_json(result_text(answer, question_.all_pairs));
+    write_json(result_text(answer, question_.all_pairs, source.line));
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
       fmt::print("{}", describe(title, answer, question_.all_pairs));
@@ -155,15 +155,16 @@ class Check {
       write_file(arguments_.gap, gap_table(answer));
     }
     if (!arguments_.page.empty()) {
-      const std::string result = result_text(answer, /*all_pairs=*/true);
+      const std::string result = result_text(answer, /*all_pairs=*/true, source.line);
       const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
       write_file(arguments_.page, write_page(page_, answer.loaded, result, {answer.curve, bound}));
     }
   }
 
-  static std::string result_text(const SceneAnswer& answer, bool all_pairs) {
+  static std::string result_text(const SceneAnswer& answer, bool all_pairs,
+                                 std::optional<std::size_t> line) {
     return write_result(answer.loaded, answer.result,
-                        {.all_pairs = all_pairs, .sampling = answer.sampling});
+                        {.all_pairs = all_pairs, .line = line, .sampling = answer.sampling});
   }
 
   static std::string title_of(const SceneSource& source, const SceneAnswer& answer) {
@@ -243,7 +244,8 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   Question& question = arguments->question;
   command->add_option("SCENE", arguments->files,
                       ".json: one scene. .jsonl: one scene in each line; the answers are one line "
-                      "each, in order, and a bad line gets an error as its answer");
+                      "each, in order, and a bad line gets an error as its answer. -: either, from "
+                      "standard input");
   add_file(*command, "-o,--output", arguments->output, "Writes the result as JSON to a file");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   add_file(*command, "--svg", arguments->plot, "Draws the gap over time (one scene)");

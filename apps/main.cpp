@@ -73,6 +73,7 @@ ExitStatus run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using firstcontact::app::ExitStatus;
   firstcontact::app::occupy_closed_streams();
+  firstcontact::app::refuse_long_files_by_error();
   firstcontact::app::keep_freed_memory();
   try {
     return static_cast<int>(firstcontact::app::run(argc, argv));

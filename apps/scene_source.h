@@ -24,6 +24,7 @@ struct SceneSource {
 [[nodiscard]] bool is_json_lines(const std::filesystem::path& file);
 
 /// Visits the scenes of a file in order until a visit returns false. Blank lines are no scenes.
+/// Of standard input, "-": one scene, or one in each line where the first line is a whole one.
 void for_each_scene(const std::filesystem::path& file,
                     const std::function<bool(const SceneSource&)>& visit);
 

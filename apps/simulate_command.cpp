@@ -46,7 +46,9 @@ Simulator load(const Arguments& arguments) {
   const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
   require_different(outputs);
   require_no_input(outputs, {arguments.scene});
-  Scene scene = read_simulation_scene(arguments.scene);
+  Scene scene = arguments.scene == kStdin
+                    ? parse_simulation_scene(read_stdin(), std::filesystem::path(kStdinName))
+                    : read_simulation_scene(arguments.scene);
   require_no_input(outputs, files_of(scene));
   if (!scene.simulation) {
     throw ParseError(arguments.scene,
@@ -228,7 +230,8 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
       "simulate", "Moves bodies under forces and contacts; nothing ever interpenetrates");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("SCENE", arguments->scene, "The scene, .json")->required();
+  command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
+      ->required();
   CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
                                  "Records the run: JSON Lines, a line a step");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");

@@ -3,7 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
+#include <iostream>
+#include <iterator>
 #include <stdexcept>
 
 namespace firstcontact::app {
@@ -26,6 +29,16 @@ void flush_stdout() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw std::runtime_error("standard output: cannot write all of the answer");
   }
+}
+
+void refuse_long_files_by_error() { std::signal(SIGXFSZ, SIG_IGN); }
+
+std::string read_stdin() {
+  std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::cin.bad()) {
+    throw std::runtime_error("standard input: cannot read all of it");
+  }
+  return text;
 }
 
 }  // namespace firstcontact::app

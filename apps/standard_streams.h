@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace firstcontact::app {
@@ -18,5 +19,20 @@ void say_on_stderr(std::string_view text);
 ///
 /// @throws std::runtime_error where any of it could not be written
 void flush_stdout();
+
+/// A limit on the size of files becomes an error of the write, as a full disk is, not the end of
+/// the process.
+void refuse_long_files_by_error();
+
+/// What a command line calls standard input.
+inline constexpr std::string_view kStdin = "-";
+
+/// What errors call it.
+inline constexpr std::string_view kStdinName = "standard input";
+
+/// All that comes from standard input.
+///
+/// @throws std::runtime_error where it cannot be read
+std::string read_stdin();
 
 }  // namespace firstcontact::app

@@ -77,7 +77,8 @@ class Answers(BatchTest):
         self.assertTrue(complaints[0].startswith("firstcontact: jobs.jsonl:2: bodies[0].pose.positon: "))
         self.assertTrue(complaints[1].startswith("firstcontact: jobs.jsonl:4: cut.obj:1: "))
         answers = [json.loads(line) for line in self.results().splitlines()]
-        self.assertEqual([a.get("verdict", a.get("line")) for a in answers], ["contact", 2, 4, "free"])
+        self.assertEqual([a.get("verdict", "error") for a in answers], ["contact", "error", "error", "free"])
+        self.assertEqual([a["line"] for a in answers], [1, 2, 4, 5])
 
     def test_are_summed_up(self):
         self.file("jobs.jsonl", "\n".join([scenes.CONTACT, scenes.FREE, scenes.FREE, scenes.AT_START, scenes.BAD]))
@@ -215,6 +216,29 @@ class Resume(BatchTest):
         self.assert_refused(self.batch("--resume"), 'out.jsonl:1: expected a result with a "verdict" or an "error"')
         self.file("out.jsonl", 4 * '{"error": ""}\n')
         self.assert_refused(self.batch("--resume"), "out.jsonl:4: expected no more results than jobs")
+
+
+    def test_refuses_results_that_changed_places(self):
+        """A result says of which line it is: nobody notices two that were swapped by their verdicts."""
+        self.file("jobs.jsonl", "\n".join([scenes.CONTACT, "", scenes.FREE, scenes.BAD, scenes.CONTACT]))
+        self.batch()
+        lines = self.results().splitlines(keepends=True)
+        self.assertEqual([json.loads(line)["line"] for line in lines], [1, 3, 4, 5])
+        for order, place, got in [([1, 0, 2, 3], "out.jsonl:1: expected the result of line 1", "line 3"),
+                                  ([0, 1, 3, 2], "out.jsonl:3: expected the result of line 4", "line 5"),
+                                  ([0, 0], "out.jsonl:2: expected the result of line 3", "line 1"),
+                                  ([3], "out.jsonl:1: expected the result of line 1", "line 5")]:
+            self.file("out.jsonl", b"".join(lines[k] for k in order))
+            self.assert_refused(self.batch("--resume"), f"{place} of the jobs, got that of {got}; results have to stay "
+                                "as they were written")
+        self.file("out.jsonl", b"".join(lines[:2]))
+        self.assertEqual(self.batch("--resume").returncode, 2)  # Of the bad line.
+        self.assertEqual(self.results(), b"".join(lines))
+
+    def test_of_a_shard_say_their_lines(self):
+        self.file("jobs.jsonl", some_jobs(5))
+        self.batch("--shard", "2/2")
+        self.assertEqual([json.loads(line)["line"] for line in self.results().splitlines()], [2, 4])
 
 
 class Files(BatchTest):

@@ -532,6 +532,80 @@ class Errors(ToolTest):
         self.assertEqual(result.stderr.count("\n"), 1)
 
 
+class StandardInput(ToolTest):
+    def ask(self, text: str, *arguments: str) -> subprocess.CompletedProcess:
+        return subprocess.run([TOOL, *arguments], cwd=self.folder, input=text, capture_output=True, text=True,
+                              timeout=120, check=False)
+
+    def test_is_a_scene(self):
+        self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        with_mesh = scenes.scene({"name": "a", "shape": {"mesh": "m.obj"}}, scenes.falling(1))
+        for text, status in [(scenes.FREE, 0), (scenes.CONTACT, 1), (with_mesh, 1),
+                             (json.dumps(json.loads(scenes.FREE), indent=2), 0)]:
+            result = self.ask(text, "check", "-")
+            self.assertEqual(result.returncode, status, result)
+        self.assertTrue(self.ask(with_mesh, "check", "-").stdout.startswith("standard input: contact at "))
+
+    def test_may_hold_a_scene_in_each_line(self):
+        result = self.ask("\n".join(["", scenes.CONTACT, scenes.FREE, scenes.BAD]) + "\n", "check", "-", "--json")
+        self.assertEqual(result.returncode, 2)
+        answers = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual([a.get("verdict", "error") for a in answers], ["contact", "free", "error"])
+        self.assertEqual([a["line"] for a in answers], [2, 3, 4])
+
+    def test_is_named_in_errors(self):
+        for text, message in [("", "standard input:1: expected a value"), ("{", "standard input:1: expected"),
+                              (scenes.BAD, "standard input:1: bodies[0].pose.positon: unknown key")]:
+            result = self.ask(text, "check", "-")
+            self.assertEqual(result.returncode, 2)
+            self.assertTrue(result.stderr.startswith("firstcontact: " + message), result.stderr)
+
+    def test_is_a_simulation(self):
+        result = self.ask(scenes.DROP, "simulate", "-", "-o", "run.jsonl")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+
+
+class Outputs(ToolTest):
+    def test_follow_a_symbolic_link(self):
+        """People link outputs to other disks: to a file, to none yet, along several links, into folders."""
+        scene = self.file("s.json", scenes.FREE)
+        (self.folder / "disk").mkdir()
+        for name, target, there in [("a.json", "target.json", True), ("b.json", "new.json", False),
+                                    ("c.json", "b.json", True), ("d.json", "disk/far.json", False),
+                                    ("e.json", str(self.folder / "disk" / "absolute.json"), False)]:
+            if there and target == "target.json":
+                self.file(target, "old")
+            (self.folder / name).symlink_to(target)
+            self.assertEqual(self.run_tool("check", scene, "-o", name).returncode, 0)
+            self.assertTrue((self.folder / name).is_symlink(), name)
+            self.assertEqual(json.loads((self.folder / name).read_text())["verdict"], "free", name)
+        self.assertEqual(sorted(p.name for p in (self.folder / "disk").iterdir()), ["absolute.json", "far.json"])
+
+    def test_refuse_a_ring_of_links(self):
+        scene = self.file("s.json", scenes.FREE)
+        (self.folder / "a.json").symlink_to("b.json")
+        (self.folder / "b.json").symlink_to("a.json")
+        result = self.run_tool("check", scene, "-o", "a.json")
+        self.assertEqual(result.returncode, 2)
+        self.assertTrue((self.folder / "a.json").is_symlink())
+
+    def test_beyond_a_limit_of_file_sizes_are_errors(self):
+        """As on a full disk: a message, status 2, nothing half-written."""
+        many = [scenes.body(f"body {k}", pose={"position": [3 * k, 0, 0]}) for k in range(40)]
+        self.file("s.json", scenes.scene(*many))
+        self.file("jobs.jsonl", scenes.scene(*many))
+        for arguments, message in [
+                ("check s.json -o out.json", "out.json: cannot write this file: File too large"),
+                ("batch jobs.jsonl -o out.jsonl", "out.jsonl: cannot write all results: File too large")]:
+            result = subprocess.run(["bash", "-c", f'ulimit -f 1; "$0" {arguments}', TOOL], cwd=self.folder,
+                                    capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(result.returncode, 2, result)
+            self.assertEqual(result.stderr, f"firstcontact: {message}\n")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["jobs.jsonl", "out.jsonl", "out.jsonl.batch", "s.json"])
+
+
 class JsonLines(ToolTest):
     LINES = "\n".join([scenes.CONTACT, scenes.BAD, "", scenes.FREE, "{", scenes.AT_START])
 
@@ -539,7 +613,7 @@ class JsonLines(ToolTest):
         answers = [json.loads(line) for line in text.splitlines()]
         self.assertEqual([a.get("verdict", "error") for a in answers],
                          ["contact", "error", "free", "error", "contact_at_start"])
-        self.assertEqual([a.get("line") for a in answers], [None, 2, None, 5, None])
+        self.assertEqual([a.get("line") for a in answers], [1, 2, 4, 5, 6])
         self.assertTrue(answers[1]["error"].startswith("s.jsonl:2: bodies[0].pose.positon: unknown key"))
 
     def test_answers_every_line_in_order(self):

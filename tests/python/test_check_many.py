@@ -63,6 +63,7 @@ def test_batch_is_the_tools(tmp_path, tool):
     subprocess.run([tool, "batch", lines, "-o", tmp_path / "results.jsonl"], check=False,
                    capture_output=True)
     expected = [json.loads(line) for line in (tmp_path / "results.jsonl").read_text().splitlines()]
+    assert [e.pop("line") for e in expected] == list(range(1, 30))
     answers = fc.check_many(scenes)
     assert [told(a) for a in answers] == [without_work(e) for e in expected]
 
@@ -102,6 +103,21 @@ def test_bad_arguments():
     with pytest.raises(ValueError, match="deadline must be > 0"):
         fc.check_many([falling_scene()], deadline=0)
     assert fc.check_many([]) == []
+
+
+@pytest.mark.parametrize("make", [lambda: None, lambda: InlineExecutor()], ids=["own", "inline"])
+def test_progress_rises_to_the_end(make):
+    seen: list[float] = []
+    fc.check_many([falling_scene()] * 40, make(), threads=1, progress=seen.append)
+    assert seen == sorted(seen) and seen[-1] == 1.0 and len(seen) > 1
+
+
+def test_an_exception_of_progress_ends_the_batch():
+    def refuse(done: float) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        fc.check_many([falling_scene()] * 40, threads=1, progress=refuse)
 
 
 def test_jobs_may_come_from_a_generator():

@@ -223,6 +223,64 @@ def test_bad_arguments_are_errors(arm, scene):
         scene.add_body("flag", flag.shape)
 
 
+@pytest.mark.parametrize(("make", "complaint"), [
+    (lambda fc, arm, scene: scene.check(np.zeros((3, 1))), "trajectory: expected a Trajectory, .*, got ndarray"),
+    (lambda fc, arm, scene: scene.along(3), "trajectory: expected a Trajectory, .*, got int"),
+    (lambda fc, arm, scene: fc.RobotScene(None), "robot: expected a RobotModel, or the path .*, got NoneType"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, 7), "srdf: expected .*, got int"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, environment={"bodies": []}), "environment: expected .*, got dict"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, environment=[1, 2]), "environment: expected .*, got list"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, padding="much"), "padding: expected a number, .*, got str"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, padding={"bar": "much"}), "padding: expected .*, got dict"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, tracking_error=[0.1]), "tracking_error: expected .*, got list"),
+    (lambda fc, arm, scene: fc.RobotScene(arm, state={"elbow": "up"}), "positions: expected .*, got dict"),
+])
+def test_arguments_of_a_wrong_type_are_named(arm, scene, make, complaint):
+    with pytest.raises(TypeError, match=complaint):
+        make(fc, arm, scene)
+
+
+class Frame:
+    """What of a data frame of pandas is asked for."""
+
+    def __init__(self, columns: dict, index):
+        self._columns, self.columns, self.index = columns, list(columns), index
+
+    def __getitem__(self, name):
+        return self._columns[name]
+
+
+@pytest.mark.parametrize("like", [
+    {"joint_names": ["elbow"], "points": [{"time": 0, "positions": [0]}, {"time": 4, "positions": [2]}]},
+    {"joint_names": ["elbow"], "points": [{"time": 0, "positions": np.zeros(1)}, {"time": 4, "positions": [2]}]},
+    {"time": [0, 4], "elbow": [0, 2]},
+    {"Time": np.array([0, 4]), "elbow": np.array([0, 2])},
+    Frame({"time": [0, 4], "elbow": [0, 2]}, range(2)),
+    Frame({"elbow": [0, 2]}, np.array([0.0, 4.0])),
+], ids=["points", "arrays in points", "columns", "arrays", "frame", "frame by its index"])
+def test_trajectory_may_be_a_dict_or_a_data_frame(scene, swing, like):
+    answer, expected = scene.check(like), scene.check(swing)
+    assert (answer.verdict, answer.t) == (expected.verdict, expected.t)
+
+
+def test_columns_have_velocities_too(scene):
+    columns = {"time": [0, 2], "elbow": [0, 1], "elbow.velocity": [0, 0]}
+    cubic = fc.Trajectory(["elbow"], [0, 2], [[0], [1]], [[0], [0]])
+    assert scene.check(columns).t == scene.check(cubic).t
+
+
+@pytest.mark.parametrize(("columns", "complaint"), [
+    ({"elbow": [0, 1]}, 'expected one column "time"'), ({"time": [0, 1]}, "a column for at least one joint"),
+    ({"time": [0, 1], "elbo": [0, 1]}, 'did you mean "elbow"'),
+    ({"time": [0, 1], "elbow": [0, math.nan]}, "expected finite numbers"),
+    ({"time": [1, 0], "elbow": [0, 1]}, "times: expected numbers >= 0 that increase"),
+    ({"time": [0, 1], "elbow": [0, 1], "wrist.velocity": [0, 0]}, "of all joints or of none"),
+])
+def test_bad_columns_are_errors(scene, columns, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        scene.check(columns)
+
+
 def test_implausible_sizes_are_warned_of(arm, arm_folder):
     scene = fc.RobotScene(arm)
     scene.add_body("near", fc.make_box((900, 1, 1)), fc.Motion.fixed(fc.Pose((0, 0, 9))))

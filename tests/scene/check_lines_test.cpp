@@ -84,7 +84,8 @@ TEST_F(CheckLines, AnswersInOrderAndAlikeForEveryNumberOfThreads) {
     EXPECT_EQ(alone[k].line, k + 1);
     EXPECT_EQ(alone[k].verdict.has_value(), (k + 1) % 5 != 0) << k;
     EXPECT_EQ(alone[k].error.empty(), (k + 1) % 5 != 0) << k;
-    EXPECT_EQ(read_verdict(alone[k].text, "text"), alone[k].verdict) << k;
+    EXPECT_EQ(read_summary(alone[k].text, "text").verdict, alone[k].verdict) << k;
+    EXPECT_EQ(read_summary(alone[k].text, "text").line, alone[k].line) << k;
   }
   for (const std::size_t threads : {0, 2, 8}) {
     const std::vector<LineAnswer> together = answers(kCount, {.threads = threads});

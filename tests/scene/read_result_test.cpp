@@ -25,15 +25,15 @@ TEST(ReadVerdict, ReadsBackWhatWasWritten) {
     const std::string text = scene(body("floor") + "," + body("stone", falling(height, "-4")));
     const LoadedScene loaded = load_scene(parse_scene(text, "s"), cache);
     const SceneResult result = check_scene(loaded, workspace);
-    EXPECT_EQ(read_verdict(write_result(loaded, result), "r"), result.verdict);
+    EXPECT_EQ(read_summary(write_result(loaded, result), "r").verdict, result.verdict);
   }
-  EXPECT_EQ(read_verdict(write_error("a", "s.jsonl", 3, "wrong"), "r"), std::nullopt);
+  EXPECT_EQ(read_summary(write_error("a", "s.jsonl", 3, "wrong"), "r").verdict, std::nullopt);
 }
 
 TEST(ReadVerdict, RefusesWhatIsNoResult) {
   for (const std::string text : {"", "{", "[]", "{}", R"({"verdict": "maybe"})"}) {
     try {
-      (void)read_verdict(text, "r.jsonl", 7);
+      (void)read_summary(text, "r.jsonl", 7);
       ADD_FAILURE() << "accepted: " << text;
     } catch (const ParseError& error) {
       EXPECT_EQ(error.line(), 7) << text;

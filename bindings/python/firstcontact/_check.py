@@ -107,7 +107,8 @@ def _answer_chunk(batch: uuid.UUID, jobs: Sequence[Scene | SceneSource | Pair],
 
 
 def _answer_by(executor: Executor, jobs: Sequence[Scene | SceneSource | Pair],
-               question: Mapping[str, Any]) -> list[Any]:
+               question: Mapping[str, Any],
+               progress: Callable[[float], object] | None) -> list[Any]:
     workers = getattr(executor, "_max_workers", None) or os.cpu_count() or 1
     size = max(1, min(len(jobs) // (_CHUNKS_PER_WORKER * workers), _GREATEST_CHUNK))
     batch = uuid.uuid4()
@@ -117,7 +118,12 @@ def _answer_by(executor: Executor, jobs: Sequence[Scene | SceneSource | Pair],
         for begin in range(0, len(jobs), size):
             futures.append(executor.submit(_answer_chunk, batch, jobs[begin:begin + size], question,
                                            stop))
-        return [answer for future in futures for answer in future.result()]
+        answers: list[Any] = []
+        for future in futures:
+            answers.extend(future.result())
+            if progress is not None:
+                progress(len(answers) / len(jobs))
+        return answers
     except BaseException:
         stop.request_stop()
         for future in futures:
@@ -130,7 +136,8 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
                all_contacts_in_time: bool = False, margin: float | None = None,
                tolerance: float | None = None, deadline: float | None = None,
                strict: bool = False,
-               errors: Literal["raise", "return"] = "raise") -> list[Any]:
+               errors: Literal["raise", "return"] = "raise",
+               progress: Callable[[float], object] | None = None) -> list[Any]:
     """Answers many jobs, in order: scenes with a Result, pairs with a FirstContactResult.
 
     jobs: scenes as check takes them, and pairs of moving shapes as first_contact takes them, in any
@@ -139,8 +146,8 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
     at most `threads`, 0 for one on each core. The rest is asked of every job, as by check.
 
     errors: "raise" raises the first error in the order of jobs, after all of them; "return" puts
-    errors in the place of their answers. Mesh files are read once. Ctrl-C raises
-    KeyboardInterrupt.
+    errors in the place of their answers. Mesh files are read once. progress: called now and then
+    with the part that is done, in [0, 1]. Ctrl-C raises KeyboardInterrupt.
     """
     if errors not in ("raise", "return"):
         raise ValueError(f'errors: expected "raise" or "return", got {errors!r}')
@@ -149,9 +156,9 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
                 "all_contacts_in_time": all_contacts_in_time, "margin": margin,
                 "tolerance": tolerance, "deadline": deadline, "strict": strict}
     if executor is None:
-        answers = _core.answer_jobs(prepared, threads=threads, **question)
+        answers = _core.answer_jobs(prepared, threads=threads, progress=progress, **question)
     else:
-        answers = _answer_by(executor, prepared, question)
+        answers = _answer_by(executor, prepared, question, progress)
     if errors == "raise":
         for answer in answers:
             if isinstance(answer, Exception):

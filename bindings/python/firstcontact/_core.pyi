@@ -1,6 +1,6 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, overload
+from typing import Any, Protocol, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -511,9 +511,20 @@ def answer_jobs(jobs: Iterable[Scene | SceneSource | tuple[_Moving, _Moving]], *
                 all_contacts_in_time: bool = ..., margin: float | None = ...,
                 tolerance: float | None = ..., deadline: float | None = ..., strict: bool = ...,
                 shapes: ShapeCache | None = ...,
+                progress: Callable[[float], object] | None = ...,
                 stop: StopSource | None = ...) -> list[Any]: ...
 
 # Robots
+
+class _Columns(Protocol):
+    """A data frame."""
+    @property
+    def columns(self) -> Any: ...
+    @property
+    def index(self) -> Any: ...
+    def __getitem__(self, name: Any) -> Any: ...
+
+_TrajectoryLike = Trajectory | _Path | Mapping[str, Any] | _Columns | None
 
 _Positions = str | Mapping[str, float] | Sequence[str | Mapping[str, float]]
 
@@ -575,8 +586,8 @@ class RobotScene:
     def set_margin(self, name: str, other: str, margin: float) -> None: ...
     def straight_motion(self, start: _Positions, goal: _Positions,
                         turning: Turning | str = ...) -> Trajectory: ...
-    def along(self, trajectory: Trajectory | _Path | None) -> Scene: ...
-    def check(self, trajectory: Trajectory | _Path | None,
+    def along(self, trajectory: _TrajectoryLike) -> Scene: ...
+    def check(self, trajectory: _TrajectoryLike,
               workspace: ManyBodiesWorkspace | None = ..., *, all_pairs: bool = ...,
               closest: bool = ..., all_contacts_in_time: bool = ..., margin: float | None = ...,
               tolerance: float | None = ..., deadline: float | None = ...,

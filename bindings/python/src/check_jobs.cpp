@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include <firstcontact/scene/parallel_sampling.h>
 #include <firstcontact/scene/read_scene.h>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "errors.h"
 #include "interrupts.h"
@@ -138,21 +140,28 @@ class JobAnswerer {
   Workspace two_bodies_;
 };
 
+/// @param progress  called by this thread, with the part that is done; may be empty
 std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& options,
-                               std::size_t threads) {
+                               std::size_t threads, const std::function<void(double)>& progress) {
   std::vector<Answer> answers(jobs.size());
   std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
+  std::atomic<std::size_t> done = 0;
+  const auto work_and_report = [&](const std::function<void(double)>& report) {
     JobAnswerer answer(options);
     for (std::size_t k = next++; k < jobs.size(); k = next++) {
       answers[k] = answer(jobs[k]);
+      const std::size_t count = ++done;
+      if (report) {
+        report(static_cast<double>(count) / static_cast<double>(jobs.size()));
+      }
     }
   };
+  const auto work = [&] { work_and_report({}); };
   std::vector<std::jthread> others;
   for (std::size_t k = 1; k < std::min(threads, jobs.size()); ++k) {
     others.emplace_back(work);
   }
-  work();
+  work_and_report(progress);
   others.clear();  // Waits for them.
   return answers;
 }
@@ -164,11 +173,11 @@ Job job_from(py::handle value) {
   if (py::isinstance<SceneSource>(value)) {
     return value.cast<SceneSource>();
   }
-  const auto two = value.cast<py::tuple>();
-  if (two.size() != 2) {
-    throw py::type_error("job: expected a scene or two pairs (Shape, Motion), got " +
-                         std::string(py::repr(value)));
+  const char* const what = "a scene or two pairs (Shape, Motion)";
+  if (!py::isinstance<py::sequence>(value) || py::len(value) != 2) {
+    refuse_type(value, "job", what);
   }
+  const auto two = argument<py::tuple>(value, "job", what);
   return TwoShapes{moving_shape_from(two[0], "A"), moving_shape_from(two[1], "B")};
 }
 
@@ -182,16 +191,17 @@ struct ToPython {
 };
 
 py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions options,
-                     const std::stop_source* stop) {
+                     const py::object& progress, const std::stop_source* stop) {
   const py::tuple kept(given);  // Keeps shapes and motions.
   std::vector<Job> jobs;
   jobs.reserve(kept.size());
   for (const py::handle job : kept) {
     jobs.push_back(job_from(job));
   }
-  std::vector<Answer> answers = run_query(stop, [&](const QueryStop& query) {
+  std::vector<Answer> answers = run_query(stop, [&](QueryStop& query) {
     options.check.stop = query.token();
-    return answer_all(jobs, options, threads > 0 ? threads : std::thread::hardware_concurrency());
+    return answer_all(jobs, options, threads > 0 ? threads : std::thread::hardware_concurrency(),
+                      progress_of(progress, query));
   });
   py::list list(answers.size());
   for (std::size_t k = 0; k < answers.size(); ++k) {
@@ -250,7 +260,7 @@ void bind_check_jobs(py::module_& m) {
       [](const py::iterable& jobs, std::size_t threads, bool all_pairs, bool closest,
          bool all_contacts_in_time, std::optional<double> margin, std::optional<double> tolerance,
          std::optional<double> deadline, bool strict, const SharedCache& shapes,
-         OrNone<std::stop_source> stop) {
+         const py::object& progress, OrNone<std::stop_source> stop) {
         return answer_jobs(jobs, threads,
                            {.check = {.all_pairs = all_pairs,
                                       .closest = closest,
@@ -258,13 +268,13 @@ void bind_check_jobs(py::module_& m) {
                                       .threads = 1},
                             .question = {.other = {margin, tolerance, deadline}, .strict = strict},
                             .shapes = shapes ? shapes : std::make_shared<ShapeCache>()},
-                           stop);
+                           progress, stop);
       },
       py::arg("jobs"), py::kw_only(), py::arg("threads") = 0, py::arg("all_pairs") = false,
       py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
       py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
       py::arg("deadline") = py::none(), py::arg("strict") = false, py::arg("shapes") = py::none(),
-      py::arg("stop") = py::none(),
+      py::arg("progress") = py::none(), py::arg("stop") = py::none(),
       "Of each job its answer, or the exception that it raised, in order.");
 }
 

@@ -8,6 +8,7 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
@@ -138,11 +139,8 @@ py::object read_semantics(const path& file, const HeldRobotModel& robot) {
 
 }  // namespace
 
-path path_of(const py::object& value) {
-  if (py::hasattr(value, "path")) {
-    return value.attr("path").cast<std::string>();
-  }
-  return value.cast<path>();
+path path_of(const py::object& value, const std::string& name, const std::string& what) {
+  return argument<path>(py::hasattr(value, "path") ? value.attr("path") : value, name, what);
 }
 
 void bind_robot_model(py::module_& m) {

@@ -15,6 +15,7 @@
 #include <firstcontact/scene/robot_question.h>
 #include <firstcontact/scene/write_scene.h>
 
+#include "arguments.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
@@ -90,14 +91,16 @@ py::object contents_of(const Trajectory& trajectory) {
   return py::make_tuple(trajectory.joint_names, digest, to_string(trajectory.turning));
 }
 
-std::vector<path> paths_from(const py::object& value) {
+std::vector<path> environment_from(const py::object& value) {
+  const char* const name = "environment";
+  const char* const what = "a path or a sequence of paths (a scene as a dict: firstcontact.check)";
   if (value.is_none()) {
     return {};
   }
   if (PyUnicode_Check(value.ptr()) || py::hasattr(value, "__fspath__")) {
-    return {value.cast<path>()};
+    return {argument<path>(value, name, what)};
   }
-  return value.cast<std::vector<path>>();
+  return argument<std::vector<path>>(value, name, what);
 }
 
 void require_not_negative(double number, const std::string& name) {
@@ -106,17 +109,21 @@ void require_not_negative(double number, const std::string& name) {
   }
 }
 
+std::map<std::string, double> by_name(const py::handle value, const char* name) {
+  return argument<std::map<std::string, double>>(value, name, "a dict of numbers by name");
+}
+
 /// One number for all links, or numbers by their names.
 void set_padding(HeldRobotScene& scene, const py::object& value) {
   std::map<std::size_t, double>& padding = scene.robot().padding;
   if (py::isinstance<py::dict>(value)) {
-    for (const auto& [name, number] : value.cast<std::map<std::string, double>>()) {
+    for (const auto& [name, number] : by_name(value, "padding")) {
       require_not_negative(number, "padding");
       padding[scene.link(name)] = number;
     }
     return;
   }
-  const auto all = value.cast<double>();
+  const auto all = argument<double>(value, "padding", "a number, or numbers by link");
   require_not_negative(all, "padding");
   for (std::size_t k = 0; all > 0.0 && k < scene.robot().model.links().size(); ++k) {
     padding[k] = all;
@@ -140,14 +147,14 @@ std::size_t moving_joint(const RobotModel& model, const std::string& name) {
 void set_tracking_error(HeldRobotScene& scene, const py::object& value) {
   SceneRobot& robot = scene.robot();
   if (py::isinstance<py::dict>(value)) {
-    for (const auto& [name, number] : value.cast<std::map<std::string, double>>()) {
+    for (const auto& [name, number] : by_name(value, "tracking_error")) {
       require_not_negative(number, "tracking_error");
       const std::size_t joint = moving_joint(robot.model, name);
       robot.tracking_error[joint] = joint_error(robot.model.joints()[joint], number);
     }
     return;
   }
-  const auto all = value.cast<double>();
+  const auto all = argument<double>(value, "tracking_error", "a number, or numbers by joint");
   require_not_negative(all, "tracking_error");
   if (all > 0.0) {
     robot.tracking_error = joint_errors(robot.model, all);
@@ -155,8 +162,11 @@ void set_tracking_error(HeldRobotScene& scene, const py::object& value) {
 }
 
 RobotFile file_from(const py::object& robot) {
-  return py::isinstance<HeldRobotModel>(robot) ? robot.cast<const HeldRobotModel&>().file
-                                               : RobotFile{.urdf = path_of(robot)};
+  return py::isinstance<HeldRobotModel>(robot)
+             ? robot.cast<const HeldRobotModel&>().file
+             : RobotFile{.urdf = path_of(robot, "robot",
+                                         "a RobotModel, or the path "
+                                         "of a URDF")};
 }
 
 HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
@@ -166,10 +176,10 @@ HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
   RobotQuestion question{.robot = file_from(robot), .base = base};
   require_file(question.robot.urdf);
   if (!srdf.is_none()) {
-    question.srdf = path_of(srdf);
+    question.srdf = path_of(srdf, "srdf", "a RobotSemantics, or the path of an SRDF");
     require_file(question.srdf);
   }
-  question.environment = paths_from(environment);
+  question.environment = environment_from(environment);
   for (const path& file : question.environment) {
     require_file(file);
   }
@@ -203,8 +213,8 @@ void add_positions(const py::handle& value, const SceneRobot& robot, JointPositi
       positions[name] = position;
     }
   } else if (PyMapping_Check(value.ptr()) && py::hasattr(value, "items")) {
-    for (const auto& [name, position] : py::dict(py::reinterpret_borrow<py::object>(value))
-                                            .cast<std::map<std::string, double>>()) {
+    for (const auto& [name, position] :
+         by_name(py::dict(py::reinterpret_borrow<py::object>(value)), "positions")) {
       if (names_fixed_joint(robot.model, name)) {
         warn("a position is given for a fixed joint, " + name + "; it is where the URDF has it");
         continue;
@@ -384,6 +394,16 @@ void HeldRobotScene::note(const py::object& said) {
   scene_.text_digest = digest_after(scene_.text_digest, said);
 }
 
+/// Of a dict or of columns by joint.
+Trajectory trajectory_from(const py::object& value, const RobotModel& robot) {
+  const py::object made =
+      py::module_::import("firstcontact._trajectory").attr("trajectory_from")(value);
+  if (py::isinstance<Trajectory>(made)) {
+    return made.cast<Trajectory>();
+  }
+  return parse_trajectory(made.cast<std::string>(), "trajectory.json", robot);
+}
+
 std::shared_ptr<HeldScene> scene_along(const HeldRobotScene& scene, const py::object& trajectory) {
   if (trajectory.is_none()) {
     return scene.along(nullptr, scene.robot().name);
@@ -391,7 +411,11 @@ std::shared_ptr<HeldScene> scene_along(const HeldRobotScene& scene, const py::ob
   if (py::isinstance<Trajectory>(trajectory)) {
     return scene.along(&trajectory.cast<const Trajectory&>(), scene.robot().name);
   }
-  const auto file = trajectory.cast<path>();
+  if (!PyUnicode_Check(trajectory.ptr()) && !py::hasattr(trajectory, "__fspath__")) {
+    const Trajectory made = trajectory_from(trajectory, scene.robot().model);
+    return scene.along(&made, scene.robot().name);
+  }
+  const auto file = argument<path>(trajectory, "trajectory", "a path");
   require_file(file);
   const Trajectory read = read_trajectory(file, scene.robot().model);
   return scene.along(&read, file.filename().string());

@@ -28,7 +28,12 @@ struct HeldRobotModel {
 };
 
 /// The file that an argument names: a path, or something that was read from one and has its path.
-std::filesystem::path path_of(const pybind11::object& value);
+///
+/// @param name  of the argument
+/// @param what  it has to be: "a RobotModel, or the path of a URDF"
+/// @throws pybind11::type_error
+std::filesystem::path path_of(const pybind11::object& value, const std::string& name,
+                              const std::string& what);
 
 /// Positions by the names of coordinates: a mapping, the name of a state of the SRDF, or a sequence
 /// of both, of which the later ones prevail.

@@ -68,6 +68,10 @@ enum class Verdict {
 
 enum class UndecidedReason { none, work, deadline, memory, precision, cancelled };
 
+/// The word of result files: "contact_at_start".
+[[nodiscard]] FIRSTCONTACT_API const char* to_string(Verdict verdict);
+[[nodiscard]] FIRSTCONTACT_API const char* to_string(UndecidedReason reason);
+
 /// Work done, for budgets and benchmarks.
 struct WorkCount {
   std::uint64_t node_groups = 0;     ///< Evaluations of up to 16 node pairs.

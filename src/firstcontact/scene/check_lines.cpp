@@ -64,7 +64,8 @@ class LineChecker {
                                             .stop = options_.stop,
                                             .progress = {}});
     answer.verdict = result.verdict;
-    answer.text = write_result(loaded, result, {.all_pairs = options_.all_pairs, .sampling = {}});
+    answer.text = write_result(
+        loaded, result, {.all_pairs = options_.all_pairs, .line = answer.line, .sampling = {}});
   }
 
   const std::filesystem::path& file_;

@@ -27,18 +27,24 @@ double find_number(const detail::JsonObject& object, std::string_view key) {
 
 }  // namespace
 
-std::optional<Verdict> read_verdict(std::string_view result, const std::filesystem::path& source,
-                                    std::size_t line) {
+ResultSummary read_summary(std::string_view result, const std::filesystem::path& source,
+                           std::size_t line) {
   const detail::JsonValue root = detail::parse_json(result, source.string(), line);
   if (const auto* object = std::get_if<detail::JsonObject>(&root.value)) {
+    const double number = find_number(*object, "line");
+    ResultSummary summary;
+    if (number >= 1.0 && number < 0x1p53) {
+      summary.line = static_cast<std::size_t>(number);
+    }
     if (find_string(*object, "error") != nullptr) {
-      return std::nullopt;
+      return summary;
     }
     const std::string* found = find_string(*object, "verdict");
     for (const Verdict verdict :
          {Verdict::free, Verdict::contact, Verdict::contact_at_start, Verdict::undecided}) {
       if (found != nullptr && *found == word(verdict)) {
-        return verdict;
+        summary.verdict = verdict;
+        return summary;
       }
     }
   }

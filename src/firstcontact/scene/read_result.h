@@ -14,14 +14,21 @@
 
 namespace firstcontact {
 
-/// The verdict of a result; none where it is an error that stands in place of one.
+/// What a batch has to know of a result that is there already.
+struct ResultSummary {
+  std::optional<Verdict> verdict;   ///< None where an error stands in place of one.
+  std::optional<std::size_t> line;  ///< Of the jobs, the first being 1; none where it says none.
+};
+
+/// Reads what a batch has to know of a result.
 ///
 /// @param result  one JSON object, as write_result and write_error write it
 /// @param source  the file that it is from, named in errors
 /// @param line    of that file
 /// @throws ParseError if it is neither
-[[nodiscard]] FIRSTCONTACT_API std::optional<Verdict> read_verdict(
-    std::string_view result, const std::filesystem::path& source, std::size_t line = 1);
+[[nodiscard]] FIRSTCONTACT_API ResultSummary read_summary(std::string_view result,
+                                                          const std::filesystem::path& source,
+                                                          std::size_t line = 1);
 
 /// A result as far as a page that plays it has to know it.
 struct StoredResult {

@@ -270,9 +270,12 @@ Scene read_rigid_ipc(const std::filesystem::path& path) {
 }
 
 Scene read_simulation_scene(const std::filesystem::path& path) {
-  const std::string text = detail::read_file(path, "a scene file");
-  return is_fixture(detail::parse_json(text, path.string())) ? parse_rigid_ipc(text, path)
-                                                             : parse_scene(text, path);
+  return parse_simulation_scene(detail::read_file(path, "a scene file"), path);
+}
+
+Scene parse_simulation_scene(std::string_view text, const std::filesystem::path& source) {
+  return is_fixture(detail::parse_json(text, source.string())) ? parse_rigid_ipc(text, source)
+                                                               : parse_scene(text, source);
 }
 
 }  // namespace firstcontact

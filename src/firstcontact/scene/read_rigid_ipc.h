@@ -34,4 +34,8 @@ namespace firstcontact {
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path);
 
+/// @param source  names the text in errors; files are looked for from its folder on
+[[nodiscard]] FIRSTCONTACT_API Scene parse_simulation_scene(std::string_view text,
+                                                            const std::filesystem::path& source);
+
 }  // namespace firstcontact

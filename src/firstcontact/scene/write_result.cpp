@@ -186,6 +186,9 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
   JsonObject object = result.robots
                           ? detail::robot_result(loaded, *result.robots, options.all_pairs)
                           : writer.result(result, options.all_pairs);
+  if (options.line) {
+    object.insert(object.begin() + 1, {"line", to_json(*options.line)});  // After the id.
+  }
   const std::vector<std::string> warnings = check_warnings(loaded);
   if (!result.robots && !warnings.empty()) {
     object.push_back({"warnings", to_json(warnings)});

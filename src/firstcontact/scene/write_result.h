@@ -29,7 +29,8 @@ struct SamplingReport {
                                                               std::span<const GapSample> samples);
 
 struct WriteResultOptions {
-  bool all_pairs = false;  ///< Also the answer of every pair.
+  bool all_pairs = false;                ///< Also the answer of every pair.
+  std::optional<std::size_t> line = {};  ///< Of the file that the scene is from, for JSON Lines.
   std::optional<SamplingReport> sampling;
 };
 

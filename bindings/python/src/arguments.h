@@ -1,0 +1,36 @@
+/// @file
+/// Arguments of any type, taken as what they have to be, or refused by their name.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+namespace firstcontact::python {
+
+/// @throws pybind11::type_error  "name: expected `what`, got TYPE"
+[[noreturn]] inline void refuse_type(pybind11::handle value, const std::string& name,
+                                     const std::string& what) {
+  const auto type = pybind11::str(pybind11::type::handle_of(value).attr("__name__"));
+  throw pybind11::type_error(name + ": expected " + what + ", got " + std::string(type));
+}
+
+/// The argument as a type of C++.
+///
+/// @param name  of the argument, for complaints
+/// @param what  it has to be, for complaints: "a path"
+/// @throws pybind11::type_error  where it is none
+template <typename T>
+T argument(pybind11::handle value, const std::string& name, const std::string& what) {
+  try {
+    return value.cast<T>();
+  } catch (const pybind11::cast_error&) {
+    refuse_type(value, name, what);
+  }
+}
+
+}  // namespace firstcontact::python
