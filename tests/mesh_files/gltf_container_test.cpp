@@ -139,7 +139,8 @@ TEST_F(GltfContainer, RefusesAGlbThatIsNotOne) {
   const std::string binary = GltfWriter::chunk(std::string("BIN\0", 4), "more", '\0');
   EXPECT_TRUE(is_refused("a.glb", gltf.glb(binary), "one chunk of each type"));
   EXPECT_TRUE(is_refused("a.glb", GltfWriter::glb_of(gltf.json(""), "short"), "byteLength"));
-  EXPECT_TRUE(is_refused("a.glb", "", "value"));
+  EXPECT_TRUE(is_refused("a.glb", "", "the header 'glTF'"));
+  EXPECT_TRUE(is_refused("a.glb", "solid part", "the header 'glTF'"));
   const auto reading = read("a.glb", good + "more");
   EXPECT_TRUE(has_corners(reading.mesh, float_corners()));
   EXPECT_EQ(reading.report.warnings.size(), 1u);

@@ -249,6 +249,15 @@ TEST_F(GltfSkins, TakeTheMeanOfJointsByWeightsOfEachType) {
       has_corners(read_glb(bound<std::uint16_t, std::uint16_t>(32767, 32767)), moved({16, 16, 0})));
 }
 
+TEST_F(GltfSkins, WarnWhereWeightsDoNotAddUpToOne) {
+  const auto reading = read("body.glb", bound<std::uint8_t, float>(0.25f, 0.25f).glb());
+  EXPECT_TRUE(has_corners(reading.mesh, moved({16, 16, 0})));
+  ASSERT_EQ(reading.report.warnings.size(), 1u);  // One for all of the vertices.
+  EXPECT_NE(reading.report.warnings[0].find("add up to 0.5"), std::string::npos);
+  EXPECT_TRUE(
+      read("body.glb", bound<std::uint8_t, std::uint8_t>(127, 127).glb()).report.warnings.empty());
+}
+
 TEST_F(GltfSkins, HeedInverseBindMatrices) {
   GltfWriter gltf = bound<std::uint8_t, float>(0.5f, 0.5f, R"(,"inverseBindMatrices":4)");
   std::vector<float> matrices;

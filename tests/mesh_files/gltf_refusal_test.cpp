@@ -142,7 +142,7 @@ TEST_F(GltfRefusal, NamesRingsOfTenThousandNodes) {
 
 TEST_F(GltfRefusal, IsOneLineForDeepText) {
   const std::string deep = std::string(10'000, '[') + std::string(10'000, ']');
-  EXPECT_TRUE(is_refused("a.gltf", deep, "brackets inside each other"));
+  EXPECT_TRUE(is_refused("a.gltf", "{\"asset\":" + deep, "brackets inside each other"));
   GltfWriter gltf = plain_gltf();
   gltf.more = "\"extras\":" + deep + ",";
   EXPECT_TRUE(is_refused(gltf, "brackets inside each other"));

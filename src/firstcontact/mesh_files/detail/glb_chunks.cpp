@@ -43,6 +43,12 @@ std::string_view chunks_of(std::string_view bytes, ReadingLog& log) {
   return bytes.substr(cursor.offset(), length - cursor.offset());
 }
 
+/// A document of text is an object, perhaps after blanks and a mark of the byte order.
+bool looks_like_json(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first != std::string_view::npos && bytes[first] == '{';
+}
+
 /// Some writers fill up the text with zeros in place of spaces.
 std::string_view without_zeros_at_end(std::string_view text) {
   const std::size_t last = text.find_last_not_of('\0');
@@ -52,8 +58,12 @@ std::string_view without_zeros_at_end(std::string_view text) {
 }  // namespace
 
 GlbChunks split_glb(std::string_view bytes, ReadingLog& log) {
-  if (!bytes.starts_with(kMagic)) {
+  if (looks_like_json(bytes)) {
     return {bytes, std::nullopt};
+  }
+  if (!bytes.starts_with(kMagic)) {
+    throw ParseError::at_byte(log.path(), 0,
+                              "expected the header 'glTF' of a GLB file, or the '{' of a document");
   }
   constexpr std::size_t kHeader = 12;
   ByteCursor cursor(chunks_of(bytes, log), log.path(), /*big_endian=*/false, kHeader);

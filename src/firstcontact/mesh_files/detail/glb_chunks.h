@@ -17,11 +17,12 @@ struct GlbChunks {
 };
 
 /// The chunks of a GLB file of version 2. Chunks of other types are left out, as the standard says.
-/// Bytes without the header 'glTF' are a document of text: all of them are JSON.
+/// Bytes that begin as JSON does are a document of text: all of them are JSON.
 ///
 /// Source: Khronos Group, "glTF 2.0 Specification", 4 (GLB file format).
 ///
-/// @throws ParseError  a header of another version, a chunk that is cut off, two binary chunks
+/// @throws ParseError  neither form, a header of another version, a chunk that is cut off, two
+/// binary chunks
 [[nodiscard]] GlbChunks split_glb(std::string_view bytes, ReadingLog& log);
 
 }  // namespace firstcontact::detail

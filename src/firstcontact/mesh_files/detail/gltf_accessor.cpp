@@ -27,6 +27,9 @@ double whole_or_share(const char* bytes, bool normalized) {
   return normalized ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
 }
 
+/// An accessor without bytes may have so many rows in a file of any size.
+constexpr std::size_t kMostZeros = std::size_t{1} << 20;
+
 /// The numbers in a row of each type.
 std::size_t columns_of(std::string_view type) {
   return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : type == "VEC4" ? 4 : 16;
@@ -143,12 +146,13 @@ GltfAccessor GltfAccessorReader::read(const JsonValue& value, const GltfExpected
   GltfAccessor accessor(count, columns_of(expected.type), shape);
   if (find(object, "bufferView") != nullptr) {
     accessor.base_ = rows(where, shape, count, accessor.columns_);
-  } else if (count > std::max<std::size_t>(65536, file_size_ + buffers_.size_read())) {
-    document_.fail(where, "expected a bufferView for " + std::to_string(count) +
-                              " elements, which is more than there are bytes, got none");
   }
   if (const JsonValue* const sparse = find(object, "sparse")) {
     add_sparse(*sparse, place + ".sparse", accessor);
+  }
+  if (!accessor.has_bytes() && count > std::max(kMostZeros, file_size_ + buffers_.size_read())) {
+    document_.fail(where, "expected a bufferView for " + std::to_string(count) +
+                              " elements, which are more than the file has bytes, got none");
   }
   return accessor;
 }

@@ -97,7 +97,7 @@ class GltfAccessorReader {
  public:
   /// @param buffers    outlives this
   /// @param file_size  [byte]  of the document; an accessor without bytes has no more rows than it
-  ///                   (or 65536), as nothing else backs its count
+  ///                   (or 2^20), as nothing else backs its count
   GltfAccessorReader(const GltfDocument& document, GltfBuffers& buffers, std::size_t file_size)
       : document_(document), buffers_(buffers), file_size_(file_size) {}
 

@@ -28,8 +28,8 @@ void note_left_out(const GltfDocument& document, const std::vector<bool>& used) 
   for (const Kind& kind : kKinds) {
     const JsonValue* const value = find(document.root(), kind.key);
     const auto* const elements = value == nullptr ? nullptr : std::get_if<JsonArray>(&value->value);
-    for (std::size_t i = 0; elements != nullptr && i < elements->size(); ++i) {
-      document.log().leave_out(kind.name, kind.reason);
+    if (elements != nullptr && !elements->empty()) {
+      document.log().leave_out(kind.name, kind.reason, elements->size());
     }
   }
   for (const bool is_used : used) {

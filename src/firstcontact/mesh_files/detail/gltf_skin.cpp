@@ -11,6 +11,18 @@
 namespace firstcontact::detail {
 namespace {
 
+/// Four weights that were rounded to bytes add up to 1 within 4 / 255.
+constexpr double kRounding = 4.0 / 255.0;
+
+void warn_of_sum(const GltfDocument& document, const GltfPrimitive& primitive, double sum,
+                 std::size_t vertex) {
+  document.log().warn(
+      ParseError(document.log().path(), primitive.where->line,
+                 "the weights of vertex " + std::to_string(vertex) + " add up to " +
+                     write_json(sum) + " and not to 1; they were taken as shares of their sum"),
+      "weights of joints");
+}
+
 Eigen::Matrix4d matrix_of(const GltfAccessor& accessor, std::size_t row) {
   Eigen::Matrix4d matrix;
   for (std::size_t i = 0; i < 16; ++i) {
@@ -79,6 +91,9 @@ Eigen::Affine3d blend(const GltfDocument& document, const GltfPrimitive& primiti
   if (!(sum > 0.0)) {
     document.fail(*primitive.where, "expected a joint that moves vertex " + std::to_string(vertex) +
                                         ", got weights of zero");
+  }
+  if (!(std::abs(sum - 1.0) <= kRounding)) {
+    warn_of_sum(document, primitive, sum, vertex);
   }
   Eigen::Affine3d X_WM;
   X_WM.matrix() = mean / sum;

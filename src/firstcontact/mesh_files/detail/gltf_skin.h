@@ -29,7 +29,7 @@ struct GltfSkin {
                                       std::size_t index);
 
 /// The map of one vertex: the mean of its joints' maps by its weights, of all sets. The sum of the
-/// weights, which writers round, is divided out.
+/// weights, which writers round, is divided out; a warning tells where it is far from 1.
 ///
 /// @param primitive  has influences
 /// @throws ParseError  a joint that the skin does not have, a weight that is negative or not
