@@ -67,10 +67,10 @@ class DaeReader {
     note_unused("library_visual_scenes", "visual_scene");
     document_.log().add_content("geometries", geometries_.size());
     document_.log().add_content("instances", scene_.placements().size());
-    document_.log().throw_errors();
     if (mesh_.is_empty()) {
       document_.fail(scene_.element(), "expected at least one polygon in the scene, found none");
     }
+    document_.log().throw_errors();
     return mesh_.finish();
   }
 
@@ -217,9 +217,18 @@ class DaeReader {
 }  // namespace
 
 Mesh parse_dae(std::string_view bytes, ReadingLog& log) {
-  const DaeDocument document(bytes, log);
-  note_libraries(document);
-  return DaeReader(document, bytes.size()).read();
+  try {
+    const DaeDocument document(bytes, log);
+    note_libraries(document);
+    return DaeReader(document, bytes.size()).read();
+  } catch (const ParseError& error) {
+    if (!log.has_errors()) {
+      throw;
+    }
+    log.add_error(error);  // Names that were not known may be the cause.
+  }
+  log.throw_errors();
+  return {};
 }
 
 }  // namespace firstcontact::detail
