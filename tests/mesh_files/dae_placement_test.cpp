@@ -112,6 +112,39 @@ TEST(DaeTriangles, KeepTheirOrderAndCorners) {
   }
 }
 
+// A plate of 4 by 4 with two holes, from above; its holes turn either way.
+TEST(DaeHoles, AreLeftOpen) {
+  for (const char* const scale : {"1 1 1", "-1 1 1"}) {
+    DaeWriter dae;
+    dae.geometries = test::dae_geometry(
+        "body",
+        test::dae_source("body-p", {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, 1, 1, 0, 2, 1,
+                                    0, 2, 2, 0, 1, 2, 0, 3, 3, 0, 3, 2, 0, 2, 3, 0},
+                         "XYZ"),
+        "<polygons count='2'><input semantic='VERTEX' source='#body-v' offset='0'/>"
+        "<ph><p>0 1 2 3</p><h>4 5 6 7</h><h>8 9 10</h></ph><p>8 10 9</p></polygons>");
+    dae.nodes =
+        "<node><scale>" + std::string(scale) + "</scale><instance_geometry url='#body'/></node>";
+    EXPECT_NEAR(test::volume_and_area(test::read_dae(dae).mesh)[1] / 2.0, 15.0, 1e-12);
+  }
+}
+
+TEST(DaeHoles, OfPolygonsWithoutThreeCornersAreRefused) {
+  DaeWriter dae;
+  dae.geometries = test::dae_geometry(
+      "body", test::dae_source("body-p", {0, 0, 0, 4, 0, 0, 4, 4, 0}, "XYZ"),
+      "<polygons count='1'><input semantic='VERTEX' source='#body-v' offset='0'/>"
+      "<ph><p>0 1</p><h>0 1 2</h></ph></polygons>");
+  EXPECT_TRUE(test::is_refused(dae, "three corners"));
+}
+
+TEST(DaeReferences, MayHaveSpacesInPercent) {
+  DaeWriter dae;
+  dae.geometries = test::dae_body("my body");
+  dae.nodes = "<node><instance_geometry url='#my%20body'/></node>";
+  test::expect_same_body(test::read_dae(dae).mesh, test::moved_body(0.1, test::same));
+}
+
 TEST(DaeUnit, ScalesThePlacedBody) {
   for (const double unit : {1.0, 0.01, 0.0254, 1000.0, 0.5}) {
     SCOPED_TRACE(unit);

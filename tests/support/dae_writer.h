@@ -88,8 +88,7 @@ inline std::string dae_matrix_source(const std::string& id,
          "</source>";
 }
 
-/// The twelve triangles of the reference body as lists of corners of one kind of primitive. Faces
-/// of four corners that are not convex are given in two triangles.
+/// The faces of the reference body as lists of corners of one kind of primitive.
 inline std::vector<std::vector<std::size_t>> dae_lists(DaePrimitive kind) {
   switch (kind) {
     case DaePrimitive::tristrips:
@@ -107,8 +106,7 @@ inline std::vector<std::vector<std::size_t>> dae_lists(DaePrimitive kind) {
     case DaePrimitive::polygons:
       break;
   }
-  return {{0, 3, 1},    {1, 3, 2},    {4, 5, 7},    {5, 6, 7},
-          {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  return reference_body().polygons;
 }
 
 /// The primitive element. Corners have an index of another input before and behind that of the

@@ -71,7 +71,7 @@ class DaeReader {
       document_.fail(scene_.element(), "expected at least one polygon in the scene, found none");
     }
     document_.log().throw_errors();
-    return mesh_.finish();
+    return mesh_.finish(document_.log());
   }
 
  private:
@@ -179,17 +179,23 @@ class DaeReader {
     for (const DaePolygons& polygons : all) {
       const auto line = static_cast<std::size_t>(std::max(polygons.element->GetLineNum(), 1));
       std::size_t at = 0;
-      for (std::size_t i = 0; at < polygons.corners.size(); ++i) {
-        const std::size_t size = polygons.sizes.empty() ? 3 : polygons.sizes[i];
-        mesh_.begin_polygon(line);
+      const auto add_corners = [&](std::size_t size) {
         for (std::size_t k = 0; k < size; ++k) {
           const std::size_t corner = mirrors ? at + size - 1 - k : at + k;
           if (!mesh_.add_corner(number(polygons.corners[corner]))) {
             document_.fail(instance, "expected less than 2^32 vertices");
           }
         }
-        mesh_.end_polygon();
         at += size;
+      };
+      for (std::size_t ring = 0; at < polygons.corners.size();) {
+        mesh_.begin_polygon(line);
+        add_corners(polygons.rings.empty() ? 3 : polygons.rings[ring].size);
+        for (++ring; ring < polygons.rings.size() && polygons.rings[ring].hole; ++ring) {
+          mesh_.begin_hole();
+          add_corners(polygons.rings[ring].size);
+        }
+        mesh_.end_polygon();
       }
     }
   }
