@@ -9,7 +9,6 @@
 #include <firstcontact/mesh_files/detail/parse_dae.h>
 #include <firstcontact/mesh_files/detail/parse_gltf.h>
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
-#include <firstcontact/mesh_files/detail/read_with_assimp.h>
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
 #include <firstcontact/text/parse_error.h>
@@ -52,10 +51,7 @@ Mesh parse(std::string_view bytes, const std::string& extension, detail::Reading
   if (extension == "gltf" || extension == "glb") {
     return detail::parse_gltf(bytes, log.path(), log);
   }
-  if (extension == "dae") {
-    return detail::parse_dae(bytes, log);
-  }
-  return detail::read_with_assimp(log.path(), bytes, extension);
+  return detail::parse_dae(bytes, log);
 }
 
 }  // namespace

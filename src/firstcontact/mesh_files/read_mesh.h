@@ -21,15 +21,16 @@ struct MeshReading {
 
 /// Reads a mesh in double precision and welds vertices of equal position (weld.h).
 ///
-/// The ending of the name says the format, in upper or lower case: obj, stl, ply, off; and dae,
-/// glb, gltf through assimp, which rounds coordinates to single precision. Coordinates are taken
-/// as metres; of the assimp formats the node transforms (and the unit of a dae) are applied, but
-/// the up axis of a dae is not turned.
+/// The ending of the name says the format, in upper or lower case: obj, stl, ply, off, dae, glb,
+/// gltf. Coordinates are taken as metres, those of a dae in its unit. In dae, glb and gltf files
+/// the transforms of nodes act, morphs have the weights that the file states, and skins the pose of
+/// the nodes that are their joints. The up axis of a dae is not turned, but reported.
 ///
-/// A polygon becomes a fan of triangles about its first corner. An element of one or two corners
-/// is a point or an edge: a triangle with repeated corners; in dae, glb and gltf files these are
-/// left out, as they are drawings there. Materials, normals, colours and texture coordinates are
-/// passed over. The locale changes nothing.
+/// Polygons are cut into triangles within themselves. An element of one or two corners is a point
+/// or an edge: a triangle with repeated corners; in dae, glb and gltf files these are left out, as
+/// they are drawings there. Materials, normals, colours and texture coordinates are passed over.
+/// What could hold or place geometry and is not understood is refused; the report lists what was
+/// left out. The locale changes nothing.
 ///
 /// The file must not shrink while it is read.
 ///

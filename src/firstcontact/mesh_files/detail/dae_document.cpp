@@ -5,6 +5,7 @@
 #include <charconv>
 #include <optional>
 
+#include <firstcontact/mesh_files/detail/gltf_uri.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact::detail {
@@ -135,24 +136,35 @@ std::string_view DaeDocument::reference(const XmlElement& where, const char* att
   return text.substr(1);
 }
 
+/// Some writers have %20 for a space in references, and the space in ids.
+const DaeDocument::Named* DaeDocument::named(std::string_view id, std::string_view kind) const {
+  auto known = by_id_.find(key_of(kind, id));
+  if (known == by_id_.end()) {
+    if (const std::optional<std::string> decoded = decode_percent(id)) {
+      known = by_id_.find(key_of(kind, *decoded));
+    }
+  }
+  return known == by_id_.end() ? nullptr : &known->second;
+}
+
 const XmlElement* DaeDocument::find_id(std::string_view id, std::string_view kind) const {
-  const auto known = by_id_.find(key_of(kind, id));
-  return known == by_id_.end() ? nullptr : known->second.element;
+  const Named* const found = named(id, kind);
+  return found == nullptr || found->repeated ? nullptr : found->element;
 }
 
 const XmlElement& DaeDocument::find(const XmlElement& where, const char* attribute,
                                     std::string_view kind) const {
   const std::string_view id = reference(where, attribute);
-  const auto known = by_id_.find(key_of(kind, id));
-  if (known == by_id_.end()) {
+  const Named* const found = named(id, kind);
+  if (found == nullptr) {
     fail(where, "expected an element <" + std::string(kind) + "> with the id " +
                     detail::quoted(id) + ", got none");
   }
-  if (known->second.repeated) {
+  if (found->repeated) {
     fail(where, "expected one element <" + std::string(kind) + "> with the id " +
                     detail::quoted(id) + ", got several");
   }
-  return *known->second.element;
+  return *found->element;
 }
 
 const XmlElement& DaeDocument::find_in(const XmlElement& scope, const XmlElement& where,

@@ -44,7 +44,7 @@ class DaeDocument {
   [[nodiscard]] const XmlElement& find_in(const XmlElement& scope, const XmlElement& where,
                                           const char* attribute, std::string_view kind) const;
 
-  /// The element of this kind and id, or null.
+  /// The element of this kind and id; null where there is none, or several.
   [[nodiscard]] const XmlElement* find_id(std::string_view id, std::string_view kind) const;
 
   [[noreturn]] void fail(const XmlElement& where, const std::string& message) const {
@@ -80,6 +80,7 @@ class DaeDocument {
   void read_asset();
   void check_asset(const XmlElement& asset) const;
   void leave_out_profile(const XmlElement& element) const;
+  [[nodiscard]] const Named* named(std::string_view id, std::string_view kind) const;
   [[nodiscard]] std::string_view reference(const XmlElement& where, const char* attribute) const;
   [[nodiscard]] double unit_of(const XmlElement& asset) const;
 

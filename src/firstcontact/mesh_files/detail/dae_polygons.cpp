@@ -143,15 +143,12 @@ class PrimitiveReader {
 
   void read_lists(const std::vector<const XmlElement*>& lists) {
     const std::string_view kind = primitive_.Name();
-    if (const XmlElement* holed = primitive_.FirstChildElement("ph")) {
-      document_.fail(*holed, "polygons with holes are not read; write triangles");
-    }
     if (kind == "triangles") {
       read_triangles(lists);
     } else if (kind == "polylist") {
       read_polylist(lists);
     } else if (kind == "polygons") {
-      read_polygons(lists);
+      read_polygons();
     } else {
       read_strips(lists, kind == "tristrips");
     }
@@ -181,7 +178,7 @@ class PrimitiveReader {
     const XmlText text = document_.xml().content(counts);
     TextCursor cursor(text.view(), document_.xml().source(), {}, text.line());
     std::uint64_t total = 0;
-    std::vector<std::uint32_t> sizes;
+    std::vector<DaeRing> rings;
     while (cursor.find_line()) {
       const std::int64_t size = cursor.integer("a number of corners");
       total += static_cast<std::uint64_t>(std::max<std::int64_t>(size, 0));
@@ -189,42 +186,63 @@ class PrimitiveReader {
         cursor.fail("expected numbers >= 0 of " + std::to_string(result_.corners.size()) +
                     " corners in all, got more");
       }
-      sizes.push_back(static_cast<std::uint32_t>(size));
+      rings.push_back({static_cast<std::uint32_t>(size), false});
     }
     if (total != result_.corners.size()) {
       document_.fail(counts, "expected numbers of " + std::to_string(result_.corners.size()) +
                                  " corners in all, got " + std::to_string(total));
     }
-    expect_count(sizes.size());
-    keep_polygons(std::move(sizes));
+    expect_count(rings.size());
+    keep_polygons(rings);
   }
 
-  void read_polygons(const std::vector<const XmlElement*>& lists) {
-    std::vector<std::uint32_t> sizes;
-    for (const XmlElement* list : lists) {
-      sizes.push_back(static_cast<std::uint32_t>(append(*list)));
+  void read_polygons() {
+    std::vector<DaeRing> rings;
+    std::uint64_t count = 0;
+    for (const XmlElement* child = primitive_.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      const std::string_view name = child->Name();
+      if (name == "p") {
+        rings.push_back({static_cast<std::uint32_t>(append(*child)), false});
+        ++count;
+      } else if (name == "ph") {
+        append_holed(*child, rings);
+        ++count;
+      }
     }
-    expect_count(sizes.size());
-    keep_polygons(std::move(sizes));
+    expect_count(count);
+    keep_polygons(rings);
+  }
+
+  void append_holed(const XmlElement& polygon, std::vector<DaeRing>& rings) {
+    document_.check_children(polygon, {"p", "h"});
+    const XmlElement& outer = document_.xml().required_child(polygon, "p");
+    const std::size_t corners = append(outer);
+    if (corners < 3) {
+      document_.fail(outer, "expected at least three corners around holes");
+    }
+    rings.push_back({static_cast<std::uint32_t>(corners), false});
+    for (const XmlElement* hole : document_.xml().children(polygon, "h")) {
+      rings.push_back({static_cast<std::uint32_t>(append(*hole)), true});
+    }
   }
 
   /// Leaves out those of less than three corners.
-  void keep_polygons(std::vector<std::uint32_t> sizes) {
-    std::size_t from = 0;
-    std::size_t to = 0;
-    for (const std::uint32_t size : sizes) {
-      if (size < 3) {
+  void keep_polygons(const std::vector<DaeRing>& rings) {
+    auto from = result_.corners.begin();
+    auto to = from;
+    for (const DaeRing& ring : rings) {
+      if (ring.size < 3) {
         document_.log().leave_out(
-            "polygons of " + std::to_string(size) + (size == 1 ? " corner" : " corners"), kDrawing);
+            "polygons of " + std::to_string(ring.size) + (ring.size == 1 ? " corner" : " corners"),
+            kDrawing);
       } else {
-        std::copy_n(result_.corners.begin() + static_cast<std::ptrdiff_t>(from), size,
-                    result_.corners.begin() + static_cast<std::ptrdiff_t>(to));
-        result_.sizes.push_back(size);
-        to += size;
+        to = std::copy_n(from, ring.size, to);
+        result_.rings.push_back(ring);
       }
-      from += size;
+      from += ring.size;
     }
-    result_.corners.resize(to);
+    result_.corners.erase(to, result_.corners.end());
   }
 
   void read_strips(const std::vector<const XmlElement*>& lists, bool strips) {

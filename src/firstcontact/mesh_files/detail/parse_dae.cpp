@@ -67,11 +67,11 @@ class DaeReader {
     note_unused("library_visual_scenes", "visual_scene");
     document_.log().add_content("geometries", geometries_.size());
     document_.log().add_content("instances", scene_.placements().size());
-    document_.log().throw_errors();
     if (mesh_.is_empty()) {
       document_.fail(scene_.element(), "expected at least one polygon in the scene, found none");
     }
-    return mesh_.finish();
+    document_.log().throw_errors();
+    return mesh_.finish(document_.log());
   }
 
  private:
@@ -179,17 +179,23 @@ class DaeReader {
     for (const DaePolygons& polygons : all) {
       const auto line = static_cast<std::size_t>(std::max(polygons.element->GetLineNum(), 1));
       std::size_t at = 0;
-      for (std::size_t i = 0; at < polygons.corners.size(); ++i) {
-        const std::size_t size = polygons.sizes.empty() ? 3 : polygons.sizes[i];
-        mesh_.begin_polygon(line);
+      const auto add_corners = [&](std::size_t size) {
         for (std::size_t k = 0; k < size; ++k) {
           const std::size_t corner = mirrors ? at + size - 1 - k : at + k;
           if (!mesh_.add_corner(number(polygons.corners[corner]))) {
             document_.fail(instance, "expected less than 2^32 vertices");
           }
         }
-        mesh_.end_polygon();
         at += size;
+      };
+      for (std::size_t ring = 0; at < polygons.corners.size();) {
+        mesh_.begin_polygon(line);
+        add_corners(polygons.rings.empty() ? 3 : polygons.rings[ring].size);
+        for (++ring; ring < polygons.rings.size() && polygons.rings[ring].hole; ++ring) {
+          mesh_.begin_hole();
+          add_corners(polygons.rings[ring].size);
+        }
+        mesh_.end_polygon();
       }
     }
   }
@@ -217,9 +223,18 @@ class DaeReader {
 }  // namespace
 
 Mesh parse_dae(std::string_view bytes, ReadingLog& log) {
-  const DaeDocument document(bytes, log);
-  note_libraries(document);
-  return DaeReader(document, bytes.size()).read();
+  try {
+    const DaeDocument document(bytes, log);
+    note_libraries(document);
+    return DaeReader(document, bytes.size()).read();
+  } catch (const ParseError& error) {
+    if (!log.has_errors()) {
+      throw;
+    }
+    log.add_error(error);  // Names that were not known may be the cause.
+  }
+  log.throw_errors();
+  return {};
 }
 
 }  // namespace firstcontact::detail
