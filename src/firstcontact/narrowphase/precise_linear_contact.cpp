@@ -19,6 +19,9 @@ constexpr double kRounding = 0x1p-96;     // Of a gap or a rate, to its terms: s
 constexpr double kDifference = 0x1p-102;  // Of two positions, to their size.
 constexpr double kUp = 1.0 + 0x1p-40;
 
+/// Of two edges at a smaller angle the part across is but rounding.
+constexpr double kParallel = 0x1p-80;
+
 /// Steps without an answer: features that slide along each other, nearer than doubles can tell.
 constexpr int kMostSteps = 400;
 
@@ -70,21 +73,24 @@ struct Directions {
   }
 };
 
-/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e.
+/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e. The part
+/// w of the second across the first takes its place, so that nearly parallel ones serve: as n is
+/// across the first, n . w' does not depend on how w's share of it changes.
 Vector keep_across(const Vector& n, const Directions& d) {
   if (d.count == 0) {
     return {};
   }
-  if (d.count == 2) {
-    const Vector m = cross(d.edge[0], d.edge[1]);
-    const DoubleDouble area2 = dot(m, m);
-    const double sine2 = area2.hi / (dot(d.edge[0], d.edge[0]).hi * dot(d.edge[1], d.edge[1]).hi);
-    if (sine2 > 1e-16) {
-      return (dot(n, d.rate[0]) / area2) * cross(m, d.edge[1]) -
-             (dot(n, d.rate[1]) / area2) * cross(m, d.edge[0]);
-    }
+  const DoubleDouble square = dot(d.edge[0], d.edge[0]);
+  const Vector turning = -(dot(n, d.rate[0]) / square) * d.edge[0];
+  if (d.count == 1) {
+    return turning;
   }
-  return -(dot(n, d.rate[0]) / dot(d.edge[0], d.edge[0])) * d.edge[0];
+  const DoubleDouble share = dot(d.edge[1], d.edge[0]) / square;
+  const Vector w = d.edge[1] - share * d.edge[0];
+  if (!(length(w) > kParallel * length(d.edge[1]))) {
+    return turning;
+  }
+  return turning - (dot(n, d.rate[1] - share * d.rate[0]) / dot(w, w)) * w;
 }
 
 /// A cubic c0 + c1 tau + c2 tau^2 + c3 tau^3.
