@@ -1,5 +1,6 @@
 #include "support/linear_query.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -16,17 +17,17 @@ class Generator {
   LinearQuery query() {
     LinearQuery q;
     q.edges = rng_() % 2 == 0;
-    has_few_bits_ = rng_() % 3 == 0;
+    has_few_bits_ = tilts() || rng_() % 3 == 0;
     gap_ = random_gap();
     t_ = family_ == LinearFamily::at_end ? static_cast<double>(rng_() % 2) : time();
     place(q.edges);
     choose_velocities(q.edges);
+    if (tilts()) {
+      tilt(q);
+    }
     for (std::size_t k = 0; k < 4; ++k) {
       q.from[k] = at_[k] - t_ * velocity_[k];
       q.to[k] = at_[k] + (1.0 - t_) * velocity_[k];
-    }
-    if (family_ == LinearFamily::grazing) {
-      turn_back(q);
     }
     if (!has_few_bits_ && family_ != LinearFamily::thin) {
       rotate(q);
@@ -72,7 +73,7 @@ class Generator {
     } else {
       const Vec u = flat(vector());
       const Vec v = flat(vector());
-      const double w = beside ? 0.0 : uniform(0.0, 1.0 - s);
+      const double w = beside ? 0.0 : uniform(0.25, 0.75) * (1.0 - s);
       at_[0] = -s * u - w * v;
       at_[1] = (1.0 - s) * u - w * v;
       at_[2] = -s * u + (1.0 - w) * v;
@@ -98,7 +99,6 @@ class Generator {
 
   void choose_velocities(bool edges) {
     const Vec shared = vector();
-    const Vec spin = 0.5 * vector();
     for (std::size_t k = 0; k < 4; ++k) {
       const bool is_B = k > (edges ? 1u : 2u);
       Vec& v = velocity_[k];
@@ -116,25 +116,43 @@ class Generator {
         case LinearFamily::thin:
           v.z *= rng_() % 2 == 0 ? 0.0 : 0x1p-58;
           break;
-        case LinearFamily::sliding:
-          v = cross(spin, at_[k]) + (is_B ? flat(0.25 * vector()) : Vec{});
-          break;
         default:
           break;
       }
     }
   }
 
-  /// A tilts about an axis through the nearest points, B goes across that: the height of B over A
-  /// has its minimum, or its maximum, at t_.
-  void turn_back(LinearQuery& q) {
-    const double tilt = uniform(-1.0, 1.0);
-    const Vec along = flat(vector());
+  [[nodiscard]] bool tilts() const {
+    return family_ == LinearFamily::grazing || family_ == LinearFamily::tilting;
+  }
+
+  /// A tilts about the y axis, on which its nearest point is; B stays at a height, and goes across
+  /// where it is to graze. With few bits all of that is exact.
+  ///
+  /// Derivation: A's plane, or edge, has the height a s x at the time s after t_. A corner at x = b
+  /// s is gap - a b s^2 above it, and so is an edge along v from one along u, with b the rate at
+  /// which they cross: b = u.x (way x v) / (u x v). So for a b < 0 the gap is least at s = 0, where
+  /// it is nearest. Along the common normal it is less by the cosine of its inclination.
+  void tilt(LinearQuery& q) {
+    const Vec way = family_ == LinearFamily::grazing ? flat(vector()) : Vec{};
+    const Vec u = at_[1] - at_[0];
+    const Vec v = q.edges ? at_[3] - at_[2] : at_[2] - at_[0];
+    const double area = u.x * v.y - u.y * v.x;
+    const double b = q.edges && area != 0.0 ? u.x * (way.x * v.y - way.y * v.x) / area : way.x;
+    const double a = b > 0.0 ? -0.5 : 0.5;
     for (std::size_t k = 0; k < 4; ++k) {
       const bool is_B = k > (q.edges ? 1u : 2u);
-      const Vec v = is_B ? along : Vec{0.0, 0.0, tilt * at_[k].x};
-      q.from[k] = at_[k] - t_ * v;
-      q.to[k] = at_[k] + (1.0 - t_) * v;
+      velocity_[k] = is_B ? way : Vec{0.0, 0.0, a * at_[k].x};
+    }
+    const double size = std::sqrt(dot(u, u) * dot(v, v));
+    if (area == 0.0 || (family_ == LinearFamily::grazing && b == 0.0)) {
+      return;
+    }
+    if (gap_ == 0.0 || (gap_ < 0.0 && family_ == LinearFamily::grazing && std::abs(b) > 0.01)) {
+      q.built_in = BuiltIn::touch;
+    } else if (gap_ > 0.0 || family_ == LinearFamily::tilting) {
+      q.built_in = BuiltIn::gap;
+      q.least_distance = 0.25 * std::abs(gap_) * std::abs(area) / size;
     }
   }
 
@@ -180,18 +198,24 @@ std::array<MovingSoup, 2> soups_of(const LinearQuery& query) {
   return soups;
 }
 
-/// More are spent only on features that slide along each other at a gap, which no window ends.
+/// More are spent only where a tiny gap lasts.
 constexpr std::size_t kWindows = 4000;
 
 LinearTruth linear_truth(const LinearQuery& query, double tolerance) {
-  const auto [A, B] = soups_of(query);
   LinearTruth truth;
+  if (query.built_in != BuiltIn::nothing) {
+    truth.touches = query.built_in == BuiltIn::touch;
+    truth.is_apart = query.least_distance > tolerance;
+    return truth;
+  }
+  const auto [A, B] = soups_of(query);
   const Truth exact = FirstContactOracle(A, B, 0.0).first_contact(kWindows);
   if (exact.kind == TruthKind::contact) {
     truth.touches = true;
     truth.t = exact.hi;
   } else {
-    truth.is_apart = FirstContactOracle(A, B, tolerance).first_contact(kWindows).kind == TruthKind::free;
+    truth.is_apart =
+        FirstContactOracle(A, B, tolerance).first_contact(kWindows).kind == TruthKind::free;
   }
   return truth;
 }

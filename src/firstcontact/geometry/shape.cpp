@@ -223,6 +223,8 @@ struct Shape::Data {
   double enclosure_error = 0.0;
   EdgeTable edges;
   Hierarchy hierarchy;
+  std::vector<Eigen::Vector3d> to;  // Empty: it does not deform.
+  Eigen::Vector3d translation_to = Eigen::Vector3d::Zero();
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
@@ -275,6 +277,8 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
   }
   auto data = std::make_shared<Data>(*data_);
   data->hierarchy = deforming_hierarchy(rest, std::move(relative));
+  data->to.assign(to.begin(), to.end());
+  data->translation_to = translation;
   data->hash = hash;
   data->bounds = std::make_shared<LazyBounds>();
   data->gliding = std::make_shared<LazyGlide>();
@@ -284,6 +288,10 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
 }
 
 const Mesh& Shape::mesh() const { return data_->mesh; }
+
+std::span<const Eigen::Vector3d> Shape::vertices_to() const { return data_->to; }
+
+const Eigen::Vector3d& Shape::translation_to() const { return data_->translation_to; }
 
 double Shape::radius() const { return data_->radius; }
 

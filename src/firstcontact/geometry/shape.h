@@ -56,7 +56,10 @@ class FIRSTCONTACT_API Shape {
                                 const Eigen::Vector3d& translation = Eigen::Vector3d::Zero()) const;
 
   [[nodiscard]] const Mesh& mesh() const;  ///< At t = 0.
-  [[nodiscard]] double radius() const;     ///< [m]
+  /// [m]  As deforming() was given them; empty, and zero, where the shape does not deform.
+  [[nodiscard]] std::span<const Eigen::Vector3d> vertices_to() const;
+  [[nodiscard]] const Eigen::Vector3d& translation_to() const;
+  [[nodiscard]] double radius() const;  ///< [m]
   [[nodiscard]] bool is_solid() const;
 
   /// [m]  Where the triangles enclose a curved body from outside: no point of theirs is farther

@@ -57,9 +57,15 @@ class LinearPair {
         ++result.steps;
         return freed(result);
       }
-      if (!(next > result.t)) {
-        return apart <= options_.tolerance ? contact_at(result, options_.tolerance)
-                                           : solve_precisely(result, apart);
+      const bool is_stuck = !(next > result.t);
+      if (is_stuck && apart <= options_.tolerance) {
+        return contact_at(result, options_.tolerance);
+      }
+      if (is_stuck || result.steps == kPatience) {
+        const LinearContact precise = solve_precisely(result, apart);
+        if (is_stuck || precise.verdict != LinearVerdict::undecided) {
+          return precise;
+        }
       }
       result.t = next;
     }
@@ -75,6 +81,10 @@ class LinearPair {
       reach_ = std::max({reach_, placed[k].from.norm(), placed[k].to.norm()});
     }
   }
+
+  /// A dozen times what most features take: a tiny gap lasts while they turn. Double-doubles know a
+  /// direction for that.
+  static constexpr int kPatience = 100;
 
   /// [m]  Nearer to the margin doubles cannot tell.
   [[nodiscard]] double resolution() const { return 16.0 * error_; }

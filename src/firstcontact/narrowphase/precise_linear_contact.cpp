@@ -19,6 +19,9 @@ constexpr double kRounding = 0x1p-96;     // Of a gap or a rate, to its terms: s
 constexpr double kDifference = 0x1p-102;  // Of two positions, to their size.
 constexpr double kUp = 1.0 + 0x1p-40;
 
+/// Of two edges at a smaller angle the part across is but rounding.
+constexpr double kParallel = 0x1p-80;
+
 /// Steps without an answer: features that slide along each other, nearer than doubles can tell.
 constexpr int kMostSteps = 400;
 
@@ -70,21 +73,38 @@ struct Directions {
   }
 };
 
-/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e.
+/// As in detail/turning_gap.cpp: the least n' with n' . e = -n . e' for each direction e. The part
+/// w of the second across the first takes its place, so that nearly parallel ones serve: as n is
+/// across the first, n . w' does not depend on how w's share of it changes.
 Vector keep_across(const Vector& n, const Directions& d) {
   if (d.count == 0) {
     return {};
   }
-  if (d.count == 2) {
-    const Vector m = cross(d.edge[0], d.edge[1]);
-    const DoubleDouble area2 = dot(m, m);
-    const double sine2 = area2.hi / (dot(d.edge[0], d.edge[0]).hi * dot(d.edge[1], d.edge[1]).hi);
-    if (sine2 > 1e-16) {
-      return (dot(n, d.rate[0]) / area2) * cross(m, d.edge[1]) -
-             (dot(n, d.rate[1]) / area2) * cross(m, d.edge[0]);
-    }
+  const DoubleDouble square = dot(d.edge[0], d.edge[0]);
+  const Vector turning = -(dot(n, d.rate[0]) / square) * d.edge[0];
+  if (d.count == 1) {
+    return turning;
   }
-  return -(dot(n, d.rate[0]) / dot(d.edge[0], d.edge[0])) * d.edge[0];
+  const DoubleDouble share = dot(d.edge[1], d.edge[0]) / square;
+  const Vector w = d.edge[1] - share * d.edge[0];
+  if (!(length(w) > kParallel * length(d.edge[1]))) {
+    return turning;
+  }
+  return turning - (dot(n, d.rate[1] - share * d.rate[0]) / dot(w, w)) * w;
+}
+
+/// A cubic c0 + c1 tau + c2 tau^2 + c3 tau^3.
+using Cubic = std::array<double, 4>;
+
+/// Whether it is positive on [0, tau]: it lies in the hull of its Bernstein coefficients there.
+/// Each is a sum of four terms, within 2^-50 of these.
+bool is_positive_until(const Cubic& c, double tau) {
+  const double b1 = c[1] * tau;
+  const double b2 = c[2] * tau * tau;
+  const double b3 = c[3] * tau * tau * tau;
+  const double error = 0x1p-50 * (std::abs(c[0]) + std::abs(b1) + std::abs(b2) + std::abs(b3));
+  return c[0] > error && c[0] + b1 / 3.0 > error && c[0] + 2.0 / 3.0 * b1 + b2 / 3.0 > error &&
+         c[0] + b1 + b2 + b3 > error;
 }
 
 class PreciseSearch {
@@ -170,6 +190,9 @@ class PreciseSearch {
     consider(dot(by_features, closest_.d).hi < 0.0 ? Vector(DoubleDouble(-1.0) * by_features)
                                                    : by_features);
     consider(closest_.d);
+    if (best < enough) {
+      best = std::max(best, time_across_features(enough));
+    }
     if (!(best > 0.0)) {
       for_each_plane_normal(consider);
     }
@@ -203,13 +226,54 @@ class PreciseSearch {
     if (fixed >= enough) {
       return fixed;
     }
-    Directions directions;
-    directions.add(now_A_, closest_.feature_A);
-    directions.add(now_B_, closest_.feature_B);
-    const Vector turning = keep_across(n, directions);
+    const Vector turning = keep_across(n, directions());
     const double size = length(turning);
     return size > 0.0 && std::isfinite(size) ? std::max(fixed, time_open(n, turning, enough))
                                              : fixed;
+  }
+
+  /// For how long the corners stay apart along the product N(tau) of two edges, those of the
+  /// closest features, as these go on: N(tau) is what stays across a face, or two edges, that turn.
+  /// No other direction does so where a tiny gap lasts.
+  ///
+  /// Derivation: N is of the second degree and N . e of the third for each pair of corners, e
+  /// linear. The corners are farther apart than h as long as N . e > h |N|, with |N| <= M. Each of
+  /// the four coefficients errs by kRounding of M reach at most, as rates do.
+  [[nodiscard]] double time_across_features(double enough) const {
+    const Directions d = directions();
+    if (d.count < 2) {
+      return 0.0;
+    }
+    const Vector N0 = cross(d.edge[0], d.edge[1]);
+    const Vector N1 = cross(d.rate[0], d.edge[1]) + cross(d.edge[0], d.rate[1]);
+    const Vector N2 = cross(d.rate[0], d.rate[1]);
+    const double M = (length(d.edge[0]) + enough * length(d.rate[0])) *
+                     (length(d.edge[1]) + enough * length(d.rate[1])) * kUp;
+    const double lost = (options_.threshold + error_) * M + 8.0 * kRounding * M * reach_;
+    const double sign = dot(N0, closest_.d).hi < 0.0 ? -1.0 : 1.0;
+    double tau = enough;
+    for (std::size_t i = 0; i < now_A_.at.count; ++i) {
+      for (std::size_t j = 0; j < now_B_.at.count; ++j) {
+        const Vector e = now_B_.at.p[j] - now_A_.at.p[i];
+        const Vector e_rate = now_B_.rate[j] - now_A_.rate[i];
+        const Cubic gap{sign * dot(N0, e).hi - lost, sign * (dot(N1, e) + dot(N0, e_rate)).hi,
+                        sign * (dot(N2, e) + dot(N1, e_rate)).hi, sign * dot(N2, e_rate).hi};
+        while (!is_positive_until(gap, tau)) {
+          tau *= 0.5;
+          if (!(tau > 0x1p-90)) {
+            return 0.0;
+          }
+        }
+      }
+    }
+    return tau;
+  }
+
+  [[nodiscard]] Directions directions() const {
+    Directions directions;
+    directions.add(now_A_, closest_.feature_A);
+    directions.add(now_B_, closest_.feature_B);
+    return directions;
   }
 
   /// For how long n(tau) = n + tau n' keeps all corners of B farther than the threshold from all of

@@ -11,6 +11,7 @@
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
+#include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/nearest_triangles.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/pair_query.h>
@@ -103,28 +104,42 @@ Hold hold_half(const ShapePair& shapes, const RelativeState& start,
   return hold;
 }
 
-/// Searches a part of a piece with the tolerance in use; where time is too coarse for it, with a
-/// larger one.
+/// Searches a part of a piece; where doubles come no further, because time is too coarse for the
+/// tolerance or triangles are too thin, with a larger one, which `limits` then has.
 ///
 /// @param margin  [m]  radii included
 detail::PieceResult search(const MovingPair& pair, const TimeWindow& part, double margin,
-                           detail::SearchLimits limits, detail::WorkspaceData& workspace,
-                           FirstContactResult& result) {
-  detail::PieceResult found = search_windows(pair, part, limits, workspace, result.work);
-  if (found.reason == UndecidedReason::precision && resolvable_motion(pair) > limits.tolerance) {
-    limits.tolerance = resolvable_motion(pair);
+                           detail::SearchLimits& limits, detail::WorkspaceData& workspace,
+                           WorkCount& work) {
+  constexpr double kLarger = 8.0;
+  constexpr double kLargest = 0x1p-34;  // Of the size; beyond, it would be no answer.
+  const double coarse = resolvable_motion(pair);
+  const double largest = std::max(coarse, kLargest * (pair.A().radius + pair.B().radius));
+  detail::PieceResult found = search_windows(pair, part, limits, workspace, work);
+  while (found.reason == UndecidedReason::precision && limits.tolerance < largest) {
+    limits.tolerance = std::min(std::max(coarse, kLarger * limits.tolerance), largest);
     const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
-    result.tolerance_used = std::max(result.tolerance_used, above + limits.tolerance);
-    limits.band = margin + result.tolerance_used;
-    found = search_windows(pair, part, limits, workspace, result.work);
+    limits.band = std::max(limits.band, margin + (above + limits.tolerance));
+    found = search_windows(pair, part, limits, workspace, work);
   }
   return found;
 }
 
-void report_contacts(const ShapePair& shapes, const MovingPair& pair,
-                     const detail::PieceResult& found, const FirstContactOptions& options,
-                     detail::WorkspaceData& workspace, FirstContactResult& result) {
-  const auto& [A, B, motion] = shapes;
+/// One query: what is asked, and what is at hand for it.
+struct Query {
+  const ShapePair& shapes;
+  const TimeWindow& window;
+  const FirstContactOptions& options;
+  const detail::CornerLines* lines;  ///< null: not known
+  detail::WorkspaceData& workspace;
+  Hold hold;
+};
+
+/// @param tolerance  [m]  what the search could resolve
+void report_contacts(const Query& query, const MovingPair& pair, const detail::PieceResult& found,
+                     double tolerance, FirstContactResult& result) {
+  const auto& [A, B, motion] = query.shapes;
+  const FirstContactOptions& options = query.options;
   const detail::ContactFrame frame{A, B, pair, result.t, motion.origin(result.t)};
   if (options.contacts == ContactState::first) {
     const RelativeState state = motion.state(result.t);
@@ -132,33 +147,55 @@ void report_contacts(const ShapePair& shapes, const MovingPair& pair,
     result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
                                                    triangle_distance(triangles.A, triangles.B)));
   } else if (options.contacts == ContactState::all) {
-    const double band =
-        options.margin + result.tolerance_used + options.contact_band + A.radius() + B.radius();
+    const double band = options.margin + tolerance + options.contact_band + A.radius() + B.radius();
     if (found.all_remembered && options.contact_band == 0.0) {
-      detail::collect_contacts_of(frame, band, workspace, result.contacts);
+      detail::collect_contacts_of(frame, band, query.workspace, result.contacts);
     } else {
-      detail::collect_contacts(frame, band, workspace, result.contacts);
+      detail::collect_contacts(frame, band, query.workspace, result.contacts);
     }
   }
 }
 
+/// [m]  The tolerance that an answer holds to.
+///
+/// @param limits   as they were in the end
+/// @param above    [m]  of the threshold, above the margin
+double tolerance_of(const detail::PieceResult& found, const detail::SearchLimits& limits,
+                    double above, double coarse, double asked) {
+  const bool is_precise = limits.lines != nullptr && found.reason == UndecidedReason::none &&
+                          (!found.contact || found.precise_tolerance > 0.0);
+  if (is_precise) {
+    return found.contact ? std::max(asked, above + found.precise_tolerance) : asked;
+  }
+  return coarse;
+}
+
 /// Searches the piece that was entered; whether that ends the query.
-bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Hold& hold,
-                 detail::WorkspaceData& workspace, const FirstContactOptions& options,
-                 FirstContactResult& result) {
-  const auto& [A, B, motion] = shapes;
+bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult& result) {
+  const auto& [A, B, motion] = query.shapes;
+  const FirstContactOptions& options = query.options;
   const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
   const double radii = A.radius() + B.radius();
   const double margin = options.margin + radii;
-  const double resolvable = resolvable_distance(pair, motion.state(part.begin), margin);
-  result.tolerance_used = std::max(result.tolerance_used, resolvable);
-  const detail::SearchLimits limits{.threshold = hold.distance + radii,
-                                    .tolerance = std::min(result.tolerance_used, hold.tolerance),
-                                    .band = margin + result.tolerance_used,
-                                    .budget = options.budget,
-                                    .A = &A,
-                                    .B = &B};
-  const detail::PieceResult found = search(pair, part, margin, limits, workspace, result);
+  const RelativeState state = motion.state(part.begin);
+  double coarse = std::max(result.tolerance_used, resolvable_distance(pair, state, margin));
+  detail::SearchLimits limits{
+      .threshold = query.hold.distance + radii,
+      .tolerance = std::min(coarse, query.hold.tolerance),
+      .band = margin + coarse,
+      .asked = std::min(options.tolerance, query.hold.tolerance),
+      .lines = query.lines != nullptr && query.lines->exist(state) ? query.lines : nullptr,
+      .budget = options.budget,
+      .A = &A,
+      .B = &B};
+  const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
+  const double first = limits.tolerance;
+  const detail::PieceResult found =
+      search(pair, part, margin, limits, query.workspace, result.work);
+  if (limits.tolerance > first) {
+    coarse = std::max(coarse, above + limits.tolerance);
+  }
+  result.tolerance_used = tolerance_of(found, limits, above, coarse, options.tolerance);
   result.t = found.t;
   if (found.contact) {
     result.t_upper = found.t;
@@ -171,27 +208,25 @@ bool solve_piece(const ShapePair& shapes, const TimeWindow& part, const Hold& ho
   if (found.contact) {
     result.verdict = found.t > 0.0 ? Verdict::contact : Verdict::contact_at_start;
     result.clearance = found.t > 0.0 ? result.clearance : 0.0;
-    report_contacts(shapes, pair, found, options, workspace, result);
+    report_contacts(query, pair, found, coarse, result);
   }
   return found.contact;
 }
 
-void solve(const ShapePair& shapes, const TimeWindow& window, const Hold& hold,
-           detail::WorkspaceData& workspace, const FirstContactOptions& options,
-           FirstContactResult& result) {
-  if (hold.stopped != UndecidedReason::none) {
+void solve(const Query& query, FirstContactResult& result) {
+  if (query.hold.stopped != UndecidedReason::none) {
     result.verdict = Verdict::undecided;
-    result.reason = hold.stopped;
+    result.reason = query.hold.stopped;
     return;
   }
-  result.clearance = hold.distance;
-  double begin = window.begin;
+  result.clearance = query.hold.distance;
+  double begin = query.window.begin;
   while (true) {
-    const double end = std::min(shapes.motion.enter(begin), window.end);
-    if (solve_piece(shapes, {begin, end}, hold, workspace, options, result)) {
+    const double end = std::min(query.shapes.motion.enter(begin), query.window.end);
+    if (solve_piece(query, {begin, end}, result)) {
       return;
     }
-    if (end >= window.end) {
+    if (end >= query.window.end) {
       break;
     }
     begin = end;
@@ -216,17 +251,15 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
 }
 
 /// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
-void solve_solids(const ShapePair& shapes, const TimeWindow& window, const RelativeState& start,
-                  const Hold& hold, detail::WorkspaceData& workspace,
-                  const FirstContactOptions& options, FirstContactResult& result) {
-  const auto& [A, B, motion] = shapes;
+void solve_solids(const Query& query, const RelativeState& start, FirstContactResult& result) {
+  const auto& [A, B, motion] = query.shapes;
   const detail::Containment found =
       detail::find_containment(A, B, MovingPair(A.hierarchy(), B.hierarchy(), motion), start);
   if (found.inside == detail::Inside::yes) {
-    report_contained(shapes, start, found, options, result);
+    report_contained(query.shapes, start, found, query.options, result);
     return;
   }
-  solve(shapes, window, hold, workspace, options, result);
+  solve(query, result);
   if (found.inside == detail::Inside::unsure && result.verdict != Verdict::contact_at_start) {
     result.verdict = Verdict::undecided;
     result.reason = UndecidedReason::precision;
@@ -235,19 +268,9 @@ void solve_solids(const ShapePair& shapes, const TimeWindow& window, const Relat
   }
 }
 
-}  // namespace
-
-void detail::validate(const FirstContactOptions& options) {
-  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin", "finite and >= 0",
-                options.margin);
-  require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
-                "finite and > 0", options.tolerance);
-  require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
-                "finite and >= 0", options.contact_band);
-}
-
-void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,
-                   const FirstContactOptions& options, FirstContactResult& result) {
+/// @param lines  null where they are not known
+void answer(const ShapePair& pair, const TimeWindow& window, const detail::CornerLines* lines,
+            Workspace& workspace, const FirstContactOptions& options, FirstContactResult& result) {
   detail::validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
@@ -265,13 +288,34 @@ void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& w
     pair.motion.enter(0.0);
     start = pair.motion.state(0.0);
   }
-  const Hold hold = keeps ? hold_half(pair, start, workspace.data(), options, result.work)
-                          : Hold{.distance = options.margin};
+  const Query query{pair,
+                    window,
+                    options,
+                    lines,
+                    workspace.data(),
+                    keeps ? hold_half(pair, start, workspace.data(), options, result.work)
+                          : Hold{.distance = options.margin}};
   if (has_inside) {
-    solve_solids(pair, window, start, hold, workspace.data(), options, result);
+    solve_solids(query, start, result);
   } else {
-    solve(pair, window, hold, workspace.data(), options, result);
+    solve(query, result);
   }
+}
+
+}  // namespace
+
+void detail::validate(const FirstContactOptions& options) {
+  require_range(options.margin >= 0.0 && std::isfinite(options.margin), "margin", "finite and >= 0",
+                options.margin);
+  require_range(options.tolerance > 0.0 && std::isfinite(options.tolerance), "tolerance",
+                "finite and > 0", options.tolerance);
+  require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
+                "finite and >= 0", options.contact_band);
+}
+
+void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  answer(pair, window, nullptr, workspace, options, result);
 }
 
 void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
@@ -279,7 +323,8 @@ void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
                                   const FirstContactOptions& options, FirstContactResult& result) {
   const auto ask = [&](const MovingShape& first, const MovingShape& second) {
     ConstantRatePair motion = detail::motion_of(first, second, options.tolerance);
-    first_contact({first.shape, second.shape, motion}, window, workspace, options, result);
+    const CornerLines lines(first, second);
+    answer({first.shape, second.shape, motion}, window, &lines, workspace, options, result);
   };
   const FloatEnvironmentGuard guard;
   if (in_order(A, B)) {

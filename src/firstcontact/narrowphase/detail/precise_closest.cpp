@@ -17,6 +17,11 @@ DoubleDouble clamped(const DoubleDouble& x) {
   return x.hi > 1.0 || (x.hi == 1.0 && x.lo >= 0.0) ? DoubleDouble(1.0) : x;
 }
 
+Vector across(const Vector& d, const Vector& along) {
+  const DoubleDouble square = dot(along, along);
+  return is_positive(square) ? d - (dot(d, along) / square) * along : d;
+}
+
 /// Of a corner over a face: the foot is p[0] + u (p[1] - p[0]) + v (p[2] - p[0]).
 struct Foot {
   DoubleDouble height;  ///< Over the plane, of any unit.
@@ -76,6 +81,8 @@ class Search {
  private:
   static int edges(const PreciseCorners& c) { return c.count == 3 ? 3 : 1; }
 
+  static bool is_end(const DoubleDouble& s) { return s.hi == 0.0 || (s.hi == 1.0 && s.lo == 0.0); }
+
   static TriangleFeature feature(const PreciseCorners& c, int edge, const DoubleDouble& s) {
     if (s.hi == 0.0) {
       return {Type::vertex, edge};
@@ -92,26 +99,24 @@ class Search {
     }
   }
 
-  /// One parameter from the normal equations, then each the best for the other, twice:
-  /// near-parallel edges lose much in the first.
+  /// One parameter by what v and r have across u, which keeps its digits for nearly parallel edges;
+  /// then the other is the best for it.
   void try_edges(int i, int j) {
-    const Vector& a = A_.p[static_cast<std::size_t>(i)];
-    const Vector& b = B_.p[static_cast<std::size_t>(j)];
     const Vector u = edge_of(A_, i);
     const Vector v = edge_of(B_, j);
-    const Vector r = b - a;
+    const Vector r = B_.p[static_cast<std::size_t>(j)] - A_.p[static_cast<std::size_t>(i)];
     const DoubleDouble uu = dot(u, u);
     const DoubleDouble vv = dot(v, v);
     const DoubleDouble uv = dot(u, v);
     const DoubleDouble ur = dot(u, r);
     const DoubleDouble vr = dot(v, r);
-    const Vector across = cross(u, v);
-    const DoubleDouble determinant = dot(across, across);
-    DoubleDouble s = is_positive(determinant) ? clamped((ur * vv - vr * uv) / determinant) : 0.0;
-    DoubleDouble t = 0.0;
-    for (int round = 0; round < 2; ++round) {
-      t = is_positive(vv) ? clamped((s * uv - vr) / vv) : 0.0;
-      s = is_positive(uu) ? clamped((t * uv + ur) / uu) : 0.0;
+    const Vector w = across(v, u);
+    const DoubleDouble ww = dot(w, w);
+    DoubleDouble t = is_positive(ww) ? clamped(-dot(across(r, u), w) / ww) : DoubleDouble(0.0);
+    const DoubleDouble s = is_positive(uu) ? clamped((t * uv + ur) / uu) : DoubleDouble(0.0);
+    // Only then: rounding would move t from an end of its edge.
+    if (is_positive(vv) && (is_end(s) || !is_positive(ww))) {
+      t = clamped((s * uv - vr) / vv);
     }
     offer((r + t * v) - s * u, feature(A_, i, s), feature(B_, j, t));
   }
@@ -161,9 +166,10 @@ class Search {
   PreciseClosest best_;
 };
 
-Vector across(const Vector& d, const Vector& along) {
-  const DoubleDouble square = dot(along, along);
-  return is_positive(square) ? d - (dot(d, along) / square) * along : d;
+/// The product of two edges. Of nearly parallel ones it is short, and its rounding, of the size of
+/// the edges' own product, turns it; what it then has along them is taken off again.
+Vector across_both(const Vector& u, const Vector& v) {
+  return across(across(cross(u, v), u), across(v, u));
 }
 
 }  // namespace
@@ -177,13 +183,13 @@ DoubleDoubleVector3 precise_direction(const PreciseCorners& A, const PreciseCorn
   const Type a = closest.feature_A.type;
   const Type b = closest.feature_B.type;
   if (a == Type::face) {
-    return cross(edge_of(A, 0), edge_of(A, 1));
+    return across_both(edge_of(A, 0), edge_of(A, 1));
   }
   if (b == Type::face) {
-    return cross(edge_of(B, 0), edge_of(B, 1));
+    return across_both(edge_of(B, 0), edge_of(B, 1));
   }
   if (a == Type::edge && b == Type::edge) {
-    return cross(edge_of(A, closest.feature_A.index), edge_of(B, closest.feature_B.index));
+    return across_both(edge_of(A, closest.feature_A.index), edge_of(B, closest.feature_B.index));
   }
   if (a == Type::edge) {
     return across(closest.d, edge_of(A, closest.feature_A.index));

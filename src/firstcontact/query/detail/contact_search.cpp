@@ -54,6 +54,9 @@ constexpr double kLongerGlide = 2.0;
 constexpr int kGlideTrials = 7;
 constexpr double kShortestGlide = 0x1p-16;
 
+/// Steps of one pair of triangles in a row; a dozen times what most take.
+constexpr int kPatience = 100;
+
 constexpr std::uint32_t kNotRemembered = std::numeric_limits<std::uint32_t>::max();
 
 /// [m^2]  Of the larger triangle, roughly.
@@ -541,6 +544,7 @@ class Search {
     ++work_.triangle_pairs;
     const double due = queue_.empty() ? horizon() : queue_.top().priority() + tie_window_;
     double t = entry.key;
+    int steps_left = kPatience;
     do {
       if (best_.contact && t >= best_.t) {
         return;  // Nothing of it is left before the contact.
@@ -555,7 +559,10 @@ class Search {
       }
       const double apart = closest.distance + error_;
       if (apart <= limits_.threshold + 0.5 * limits_.tolerance) {
-        found(entry, t, limits_.threshold + limits_.tolerance - apart);
+        if (limits_.lines == nullptr || limits_.asked >= limits_.tolerance ||
+            !decide_precisely(entry, t)) {
+          found(entry, t, limits_.threshold + limits_.tolerance - apart);
+        }
         return;
       }
       const double tau = step(entry, triangles, closest, t);
@@ -566,6 +573,9 @@ class Search {
       const double next = after(t, tau);
       if (!(next > t)) {
         // Doubles cannot take the pair any further.
+        if (limits_.lines != nullptr && decide_precisely(entry, t)) {
+          return;
+        }
         if (apart <= limits_.band) {
           found(entry, t, limits_.band - apart);
           return;
@@ -573,10 +583,43 @@ class Search {
         unresolved_ = true;
         break;
       }
+      // A tiny gap lasts while triangles turn; double-doubles know a direction for that.
+      if (--steps_left == 0 && limits_.lines != nullptr && decide_precisely(entry, t)) {
+        return;
+      }
       t = next;
     } while (t <= due && !exhausted());
     entry.key = t;
     push_triangles(entry);
+  }
+
+  /// Follows a pair of triangles to its contact or to the end, from t on, in double-double. False
+  /// where that does not decide either.
+  [[nodiscard]] bool decide_precisely(const TriangleEntry& entry, double t) {
+    const LinearTriangles triangles = limits_.lines->triangles(entry.a, entry.b);
+    const PreciseLinearContact precise =
+        precise_linear_contact(triangles.A, triangles.B,
+                               {.threshold = limits_.threshold,
+                                .tolerance = limits_.asked,
+                                .least_tolerance = limits_.tolerance,
+                                .position_error = triangles.position_error + threshold_rounding(),
+                                .t_begin = t});
+    work_.steps += static_cast<std::uint64_t>(precise.steps);
+    if (precise.verdict == PreciseLinearVerdict::unresolved) {
+      return false;
+    }
+    if (precise.verdict == PreciseLinearVerdict::free || precise.t > t_end_) {
+      ++freed_;
+    } else {
+      found(entry, precise.t, 0.0, precise.tolerance_used);
+    }
+    return true;
+  }
+
+  /// [m]  Of the sum of margin and radii.
+  [[nodiscard]] double threshold_rounding() const {
+    const bool is_exact = limits_.A == nullptr || limits_.A->radius() + limits_.B->radius() == 0.0;
+    return is_exact ? 0.0 : 0x1p-52 * limits_.threshold;
   }
 
   [[nodiscard]] bool exhausted() const { return watch_.may_be_spent(steps()); }
@@ -617,7 +660,9 @@ class Search {
                              limits_.threshold, error_, horizon());
   }
 
-  void found(const TriangleEntry& entry, double t, double slack) {
+  /// @param slack              [m]  by which it is nearer than it has to be
+  /// @param precise_tolerance  [m]  as of the result
+  void found(const TriangleEntry& entry, double t, double slack, double precise_tolerance = 0.0) {
     if (best_.contact && best_.t <= t) {
       return;
     }
@@ -625,6 +670,7 @@ class Search {
     best_.t = t;
     best_.triangle_A = entry.a;
     best_.triangle_B = entry.b;
+    best_.precise_tolerance = precise_tolerance;
     // Stopping this much earlier keeps the pair within its tolerance.
     stop_window_ = std::max(0.0, slack) * (1.0 - 0x1p-20) / std::max(pair_.speed_bound(), 1e-300);
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -19,6 +20,8 @@ struct PieceResult {
   bool impatient = false;  ///< Neither: the work that one search may take was spent.
   /// WorkspaceData::opened_pairs holds every pair of triangles within the band at t.
   bool all_remembered = false;
+  /// [m]  Above the threshold, at t: of a contact that was asked again in double-double; else 0.
+  double precise_tolerance = 0.0;
   UndecidedReason reason = UndecidedReason::none;
   std::uint32_t triangle_A = 0;  ///< The pair that decided, in the hierarchies' order.
   std::uint32_t triangle_B = 0;
@@ -30,6 +33,10 @@ struct SearchLimits {
   /// [m]  At most so far apart are contacts that may be reported; at least threshold + tolerance
   /// but for rounding. Greater where a pair is held to less than the margin.
   double band = 0.0;
+  /// [m]  What was asked: below `tolerance` where doubles cannot tell. Then, and where doubles come
+  /// no further, corners that move on lines are asked again in double-double.
+  double asked = 0.0;
+  const CornerLines* lines = nullptr;  ///< If there are any.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
   const Shape* A = nullptr;  ///< Of the pair, where it may be asked whether one glides.
