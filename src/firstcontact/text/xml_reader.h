@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,9 +12,17 @@
 #include <tinyxml2.h>
 #include <Eigen/Core>
 
+#include <firstcontact/text/parse_error.h>
+
 namespace firstcontact::detail {
 
 using XmlElement = tinyxml2::XMLElement;
+
+/// In quotes, cut short.
+[[nodiscard]] std::string in_single_quotes(std::string_view text);
+
+/// "<joint name='a'>".
+[[nodiscard]] std::string shown(const XmlElement& element);
 
 /// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
 /// where something is not what its name says. Numbers are read exactly, whatever the locale.
@@ -27,17 +34,19 @@ class XmlReader {
   /// The one outermost element, which has to be named so.
   [[nodiscard]] const XmlElement& root(const char* name) const;
 
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+  /// The error that fail() throws.
+  [[nodiscard]] ParseError error(const XmlElement& where, const std::string& message) const;
+
   [[noreturn]] void fail(const XmlElement& where, const std::string& message) const;
   [[noreturn]] void fail_at_line(std::size_t line, const std::string& message) const;
-
-  /// Refuses children and attributes of other names than these.
-  void expect_only(const XmlElement& element, std::initializer_list<std::string_view> attributes,
-                   std::initializer_list<std::string_view> children) const;
 
   /// All children of this name, in order.
   [[nodiscard]] std::vector<const XmlElement*> children(const XmlElement& element,
                                                         const char* name) const;
-  /// The only child of this name, or null.
+  /// The only child of this name, or null. Repeats that say the same without children of their own
+  /// count once.
   [[nodiscard]] const XmlElement* child(const XmlElement& element, const char* name) const;
   /// The only child of this name, which has to be there.
   [[nodiscard]] const XmlElement& required_child(const XmlElement& element, const char* name) const;
