@@ -27,6 +27,7 @@ struct RobotArguments {
   std::optional<double> padding;         ///< [m]
   std::optional<double> tracking_error;  ///< [rad or m]
   bool visual = false;
+  bool visual_where_missing = false;
 };
 
 void add_robot_options(CLI::App& command, RobotArguments& arguments);

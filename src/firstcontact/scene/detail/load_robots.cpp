@@ -10,23 +10,13 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/size_warning.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// "a, b and 7 more".
-std::string some_of(const std::vector<std::string>& names) {
-  constexpr std::size_t kMost = 9;
-  std::string text;
-  for (std::size_t k = 0; k < names.size() && k < kMost; ++k) {
-    text += (k == 0 ? "" : ", ") + names[k];
-  }
-  return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more"
-                              : text;
-}
 
 class RobotLoader {
  public:
@@ -75,6 +65,9 @@ class RobotLoader {
     for (const FileReport& report : *cached.files) {
       add_report(report, loaded_);
     }
+    if (!robot.semantics.report.path.empty()) {
+      add_report(robot.semantics.report, loaded_);
+    }
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);
@@ -95,8 +88,6 @@ class RobotLoader {
 
   void warn(const SceneRobot& robot, const std::vector<std::string>& at_default) {
     std::vector<std::string>& warnings = loaded_.warnings;
-    warnings.insert(warnings.end(), robot.semantics.warnings.begin(),
-                    robot.semantics.warnings.end());
     if (!at_default.empty()) {
       warnings.push_back(robot.name + ": nothing says where " + some_of(at_default) +
                          (at_default.size() == 1 ? " is; it rests" : " are; they rest") +
