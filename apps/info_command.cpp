@@ -118,6 +118,7 @@ bool is_robot(const std::string& file) {
 struct InfoArguments {
   std::vector<std::string> files;
   std::vector<std::string> package_roots;
+  bool visual_where_missing = false;
   bool in_contact = false;
   bool json = false;
 };
@@ -125,6 +126,9 @@ struct InfoArguments {
 void inform_robot(const std::string& file, const InfoArguments& arguments) {
   UrdfOptions options;
   options.package_roots.assign(arguments.package_roots.begin(), arguments.package_roots.end());
+  if (arguments.visual_where_missing) {
+    options.surface = RobotSurface::collision_or_visual;
+  }
   const RobotModel robot = read_urdf(file, options);
   if (arguments.in_contact) {
     print_always_in_contact(robot);
@@ -164,6 +168,8 @@ void add_info_command(CLI::App& app) {
       ->add_option("--package-root", arguments->package_roots,
                    "Folder that holds packages which a robot names as package://; repeatable")
       ->allow_extra_args(false);
+  command->add_flag("--visual-where-missing", arguments->visual_where_missing,
+                    "Of robots takes links without collision geometry as they look");
   command->add_flag("--json", arguments->json,
                     "Prints JSON in place of text for people, one line for each file");
   command

@@ -11,6 +11,17 @@
 #include "command_line_number.h"
 
 namespace firstcontact::app {
+namespace {
+
+RobotSurface surface_of(const RobotArguments& arguments) {
+  if (arguments.visual) {
+    return RobotSurface::visual;
+  }
+  return arguments.visual_where_missing ? RobotSurface::collision_or_visual
+                                        : RobotSurface::collision;
+}
+
+}  // namespace
 
 void add_robot_options(CLI::App& command, RobotArguments& arguments) {
   const auto file = [&](const char* name, std::string& value, const char* text) {
@@ -61,6 +72,11 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
       .add_flag("--visual", arguments.visual,
                 "Takes links as they look, not their collision geometry")
       ->group("Robot");
+  command
+      .add_flag("--visual-where-missing", arguments.visual_where_missing,
+                "Takes links without collision geometry as they look")
+      ->group("Robot")
+      ->excludes("--visual");
 }
 
 std::vector<std::string> files_of(const RobotArguments& arguments) {
@@ -93,7 +109,8 @@ void require_no_option_of_a_robot(const RobotArguments& arguments) {
       Option{arguments.tracking_error.has_value(), "--tracking-error", "robots[].tracking_error"},
       Option{arguments.visual, "--visual", "robots[].surface"},
       Option{!arguments.turning.empty(), "--turning", "robots[].turning"},
-      Option{arguments.unwrap, "--unwrap", "robots[].unwrap"}};
+      Option{arguments.unwrap, "--unwrap", "robots[].unwrap"},
+      Option{arguments.visual_where_missing, "--visual-where-missing", "robots[].surface"}};
   for (const Option& option : options) {
     if (option.is_given) {
       throw std::invalid_argument(fmt::format("{} belongs to --robot; in a scene, say it in {}",
@@ -114,7 +131,7 @@ Scene read_robot_scene(const RobotArguments& arguments) {
   question.robot.urdf = arguments.robot;
   question.robot.package_roots.assign(arguments.package_roots.begin(),
                                       arguments.package_roots.end());
-  question.robot.surface = arguments.visual ? RobotSurface::visual : RobotSurface::collision;
+  question.robot.surface = surface_of(arguments);
   question.srdf = arguments.srdf;
   question.trajectory = arguments.trajectory;
   question.request = arguments.request;

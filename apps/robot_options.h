@@ -27,6 +27,7 @@ struct RobotArguments {
   std::optional<double> padding;         ///< [m]
   std::optional<double> tracking_error;  ///< [rad or m]
   bool visual = false;
+  bool visual_where_missing = false;
   std::string turning;  ///< "long", "short", or empty.
   bool unwrap = false;
 };

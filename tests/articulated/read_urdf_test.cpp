@@ -128,7 +128,8 @@ TEST(ReadUrdf, NamesFileElementAndMend) {
             "r.urdf:2: expected XML, got XML_ERROR_MISMATCHED_ELEMENT");
   EXPECT_EQ(urdf_error("<sdf/>"), "r.urdf:1: <sdf>: expected <robot> as the outermost element");
   EXPECT_EQ(urdf_error("<robot/>"),
-            "r.urdf:1: <robot>: expected an attribute 'name' that is not empty");
+            "r.urdf:1: <robot>: expected an attribute 'name' that is not empty; line 1: <robot>: "
+            "the robot has no link");
   EXPECT_EQ(urdf_error(robot_text(joint_text("", "hinge"))),
             "r.urdf:5: <joint name='j'>: unknown joint type 'hinge'; known are: fixed, revolute, "
             "continuous, prismatic, planar, floating, screw, ball, spherical");
@@ -156,18 +157,16 @@ TEST(ReadUrdf, NamesFileElementAndMend) {
 
 /// A misspelt name must not mean "cannot collide".
 TEST(ReadUrdf, RefusesWhatItDoesNotKnowInsideOfALink) {
-  EXPECT_EQ(
-      urdf_error(robot_text(joint_text("", "fixed"), "<link name='arm'><colision/></link>")),
-      "r.urdf:4: <colision>: not known inside <link name='arm'>; known are: inertial, visual, "
-      "collision, material, verbose, contact, sensor, collision_checking, self_collision_checking");
+  EXPECT_EQ(urdf_error(robot_text(joint_text("", "fixed"), "<link name='arm'><colision/></link>")),
+            "r.urdf:4: <colision>: not known inside <link name='arm'>; did you mean <collision>?");
   EXPECT_EQ(
       urdf_error(robot_text(joint_text("", "fixed"),
                             "<link name='arm'><collision><geometry><ball radius='1'/>"
                             "</geometry></collision></link>")),
       "r.urdf:4: <ball>: not known inside <geometry>; known are: mesh, box, sphere, cylinder, "
-      "capsule");
+      "capsule, drake:capsule");
   EXPECT_EQ(urdf_error(robot_text(joint_text("<origin xzy='1 0 0'/>", "fixed"))),
-            "r.urdf:5: <origin>: unknown attribute 'xzy'; known are: xyz, rpy");
+            "r.urdf:5: <origin>: unknown attribute 'xzy'; did you mean 'xyz'?");
   EXPECT_EQ(urdf_error(robot_text(joint_text("<origin xyz='1 0 0' xyz='2 0 0'/>", "fixed"))),
             "r.urdf:5: expected XML, got XML_ERROR_PARSING_ATTRIBUTE");
 }

@@ -62,7 +62,7 @@ TEST(RobotModel, DoesNotMindTheOrderOfLinks) {
 TEST(RobotModel, RefusesALoopByItsJoint) {
   RobotDescription robot = fork();
   robot.joints[0].parent = "b";
-  EXPECT_EQ(defect_of(robot), "joint 'jb' is part of a loop of links; remove a joint of the loop");
+  EXPECT_EQ(defect_of(robot), "joint 'ja' is part of a loop of links; remove a joint of the loop");
 }
 
 TEST(RobotModel, RefusesASecondParentByItsJoint) {

@@ -266,6 +266,8 @@ TEST(Mechanism, NamesWhatMovesNoMass) {
   robot.links[1].inertia =
       LinkInertia{.mass = 1.0, .about_C_L = Vector3d(1.0, 1.0, -1.0).asDiagonal()};
   expect_refused(robot, "link \"bob\": a principal moment");
+  robot.links[1].inertia = LinkInertia{.mass = 1.0, .defect = "r.urdf:7: a second one"};
+  expect_refused(robot, "link \"bob\": r.urdf:7: a second one");
 }
 
 }  // namespace

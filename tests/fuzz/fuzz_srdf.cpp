@@ -7,10 +7,39 @@
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"
+#include "fuzz/small_stack.h"
+#include "fuzz/xml_mutator.h"
 
 namespace {
 
 using firstcontact::test::require;
+
+const firstcontact::test::XmlWords& srdf_words() {
+  static const firstcontact::test::XmlWords words{
+      .names = {"robot",
+                "group",
+                "group_state",
+                "end_effector",
+                "disable_collisions",
+                "enable_collisions",
+                "disable_default_collisions",
+                "link",
+                "joint",
+                "passive_joint",
+                "chain",
+                "virtual_joint",
+                "name",
+                "link1",
+                "link2",
+                "reason",
+                "base_link",
+                "tip_link",
+                "value",
+                "parent_link",
+                "parent_group"},
+      .values = {"fork", "base", "a", "b", "c", "ja", "jb", "jc", "arm", "hand"}};
+  return words;
+}
 
 /// base -ja- a -jb- b, base -jc- c.
 firstcontact::RobotModel fork() {
@@ -47,6 +76,13 @@ void fuzz_srdf(std::string_view text) {
 }
 
 }  // namespace
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t greatest);
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t greatest, unsigned seed) {
+  return firstcontact::test::mutate_xml(data, size, greatest, seed, srdf_words(), LLVMFuzzerMutate);
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz_srdf({reinterpret_cast<const char*>(data), size});

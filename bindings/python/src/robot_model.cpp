@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,11 +71,17 @@ py::tuple coordinates_of(const RobotModel& model) {
   return py::tuple(names);
 }
 
-HeldRobotModel read_model(const path& urdf, std::vector<path> package_roots, bool visual) {
+HeldRobotModel read_model(const path& urdf, std::vector<path> package_roots, bool visual,
+                          bool visual_where_missing) {
   require_file(urdf);
+  if (visual && visual_where_missing) {
+    throw std::invalid_argument("read_urdf: expected one of visual and visual_where_missing");
+  }
   RobotFile file{.urdf = urdf,
                  .package_roots = std::move(package_roots),
-                 .surface = visual ? RobotSurface::visual : RobotSurface::collision};
+                 .surface = visual                 ? RobotSurface::visual
+                            : visual_where_missing ? RobotSurface::collision_or_visual
+                                                   : RobotSurface::collision};
   const py::gil_scoped_release release;
   RobotModel model = read_robot_model(file);
   return {std::move(file), std::move(model)};
@@ -170,18 +177,19 @@ Its meshes are read when a question needs them. Pickled, it holds its path, and 
       .def(py::pickle(
           [](const HeldRobotModel& r) {
             return py::make_tuple(r.file.urdf, r.file.package_roots,
-                                  r.file.surface == RobotSurface::visual);
+                                  r.file.surface == RobotSurface::visual,
+                                  r.file.surface == RobotSurface::collision_or_visual);
           },
           [](const py::tuple& state) {
             return read_model(state[0].cast<path>(), state[1].cast<std::vector<path>>(),
-                              state[2].cast<bool>());
+                              state[2].cast<bool>(), state[3].cast<bool>());
           }));
   m.def("read_urdf", &read_model, py::arg("path"), py::arg("package_roots") = py::tuple(),
-        py::arg("visual") = false, R"(Reads a robot.
+        py::arg("visual") = false, py::arg("visual_where_missing") = false, R"(Reads a robot.
 
 package_roots: folders that hold packages, for `package://`; those above the file are searched
-anyway. visual: takes links as they look, not their collision geometry. ParseError where the file
-cannot be used.)");
+anyway. visual: takes links as they look, not their collision geometry. visual_where_missing: takes
+links without collision geometry as they look. ParseError where the file cannot be used.)");
   m.def("read_srdf", &read_semantics, py::arg("path"), py::arg("robot"),
         "Reads what a robot's maker says about it: pairs not to test, groups, named states.");
 }

@@ -23,24 +23,26 @@ struct MeshGeometry {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< [-]  Of each axis; not 0. < 0 mirrors.
 };
 
+/// Sizes of 0 make what is left: a rectangle, a segment or a point, which touch as well.
 struct BoxGeometry {
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]  >= 0.
 };
 
+/// A point where the radius is 0.
 struct SphereGeometry {
-  double radius = 0.0;  ///< [m]
+  double radius = 0.0;  ///< [m]  >= 0.
 };
 
-/// About z.
+/// About z. A disc where the length is 0, a segment where the radius is, a point where both are.
 struct CylinderGeometry {
-  double radius = 0.0;  ///< [m]
-  double length = 0.0;  ///< [m]
+  double radius = 0.0;  ///< [m]  >= 0.
+  double length = 0.0;  ///< [m]  >= 0.
 };
 
 /// About z.
 struct CapsuleGeometry {
-  double radius = 0.0;  ///< [m]
-  double length = 0.0;  ///< [m]  Of the segment, without the caps.
+  double radius = 0.0;  ///< [m]  >= 0.
+  double length = 0.0;  ///< [m]  >= 0.  Of the segment, without the caps.
 };
 
 using GeometrySource =

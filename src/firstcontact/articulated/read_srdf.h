@@ -12,6 +12,7 @@
 
 #include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -54,9 +55,11 @@ struct RobotSemantics {
   std::vector<GroupState> states;
   std::vector<EndEffector> end_effectors;
 
-  /// Lines that name what the robot does not have, as files shared by variants of a robot do. They
-  /// have no effect: no such line can hide a contact. Each is "path:line: <element>: what".
-  std::vector<std::string> warnings;
+  /// What became of the file. Elements that name what the robot does not have, or has fixed, as
+  /// files shared by variants of a robot do, are counted in one warning for each kind. They have no
+  /// effect: none can hide a contact.
+  FileReport report;
+  std::vector<std::string> warnings;  ///< Those of the report.
 
   /// Whether the pair is in `disabled`.
   [[nodiscard]] FIRSTCONTACT_API bool is_disabled(std::size_t link, std::size_t other) const;
@@ -67,15 +70,18 @@ struct RobotSemantics {
 /// A group holds its links with their parent joints, its joints with their child links, its chains
 /// with both ends, and what its subgroups hold. `disable_default_collisions` disables a link
 /// against all others, which `enable_collisions` takes back. Virtual and passive joints, sphere
-/// approximations and elements of other tools are passed over.
+/// approximations and elements of other tools are left out by name. A name near a known one is an
+/// error, as in read_robot().
 ///
-/// @throws ParseError  one line with path, place, element and what was expected
+/// @throws ParseError  one line with path, place, element and what was expected, for all errors
 [[nodiscard]] FIRSTCONTACT_API RobotSemantics read_srdf(const std::filesystem::path& path,
-                                                        const RobotModel& robot);
+                                                        const RobotModel& robot,
+                                                        const ReadingOptions& options = {});
 
 /// @param source  names the text in errors
 [[nodiscard]] FIRSTCONTACT_API RobotSemantics parse_srdf(std::string_view text,
                                                          const std::string& source,
-                                                         const RobotModel& robot);
+                                                         const RobotModel& robot,
+                                                         const ReadingOptions& options = {});
 
 }  // namespace firstcontact

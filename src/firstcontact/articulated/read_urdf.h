@@ -15,13 +15,25 @@
 namespace firstcontact {
 
 /// Which shapes are made while reading; the others stay descriptions.
-enum class LoadShapes { none, collision, all };
+enum class LoadShapes {
+  none,
+  collision,  ///< Of what can touch.
+  all,
+};
+
+/// What of a robot can touch.
+enum class RobotSurface {
+  collision,
+  visual,
+  collision_or_visual,  ///< How a link looks, where it has no collision geometry.
+};
 
 struct UrdfOptions {
   /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest, of the first root that
   /// has NAME; then of the folders above the file.
   std::vector<std::filesystem::path> package_roots = {};
   LoadShapes shapes = LoadShapes::collision;
+  RobotSurface surface = RobotSurface::collision;  ///< Becomes the collision geometry of links.
   ReadingOptions reading = {};
 };
 
@@ -33,15 +45,18 @@ struct RobotReading {
 
 /// Reads a URDF file. Each mesh file is read once for each scale.
 ///
-/// Beyond URDF: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and `ball`
-/// or `spherical`, and `<capsule radius length>`, its length without the caps. Inertia, materials,
-/// dynamics and what is outside of links and joints is passed over. Inside of them a name that
-/// URDF does not know is an error: a misspelt `<collision>` must not mean "cannot collide".
+/// Beyond URDF 1.2: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and
+/// `ball` or `spherical`, and Drake's `<drake:capsule>` and `<drake:mimic>`.
+///
+/// What says nothing of contacts is left out by name: looks, settings of simulators and
+/// controllers, sensors, elements and attributes with a prefix, an `<inertial>` that is wrong
+/// (LinkInertia::defect). A name that is not known is an error where it is near a known one, holds
+/// or places geometry, or is xacro's; elsewhere it is a warning. docs/robots.md has the table.
 ///
 /// Numbers are read exactly, whatever the locale. An `rpy` becomes a quaternion of doubles, which
 /// from then on means the exact rotation.
 ///
-/// @throws ParseError  one line with path, place, element and what was expected
+/// @throws ParseError  one line with path, place, element and what was expected, for all errors
 [[nodiscard]] FIRSTCONTACT_API RobotReading read_robot(const std::filesystem::path& path,
                                                        const UrdfOptions& options = {});
 

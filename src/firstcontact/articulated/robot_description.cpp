@@ -8,20 +8,11 @@
 namespace firstcontact {
 namespace {
 
-using Defect = std::optional<RobotDefect>;
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
 /// Beyond these sizes motions refuse coordinates and quaternions.
 constexpr double kGreatest = 1e60;
 constexpr double kLeast = 1e-60;
-
-Defect at_joint(std::size_t joint, const std::string& message) {
-  return RobotDefect{.message = message, .joint = joint, .link = {}};
-}
-
-Defect at_link(std::size_t link, const std::string& message) {
-  return RobotDefect{.message = message, .joint = {}, .link = link};
-}
 
 bool is_length(double size) { return size >= kLeast && size <= kGreatest; }  // False for NaN.
 
@@ -61,115 +52,178 @@ std::string wrong_number(const Joint& joint) {
   return wrong_limits(joint.limits);
 }
 
-/// The link names, each once.
-Defect index_links(const RobotDescription& robot, Index& links) {
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    const std::string& name = robot.links[i].name;
-    if (name.empty()) {
-      return at_link(i, "a link has no name; give it one");
-    }
-    if (!links.emplace(name, i).second) {
-      return at_link(i, "two links are named '" + name + "'; rename one of them");
-    }
-    for (const LinkGeometry& geometry : robot.links[i].collision) {
-      if (!is_pose(geometry.X_LG)) {
-        return at_link(i, "link '" + name + "': a collision geometry has no finite pose");
-      }
-    }
-  }
-  return {};
-}
+/// Where a walk along parents, or along mimicked joints, has been.
+enum class Visit { none, open, done };
 
-Defect index_joints(const RobotDescription& robot, Index& joints) {
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    if (joint.name.empty()) {
-      return at_joint(j, "a joint has no name; give it one");
-    }
-    if (!joints.emplace(joint.name, j).second) {
-      return at_joint(j, "two joints are named '" + joint.name + "'; rename one of them");
-    }
-    if (const std::string wrong = wrong_number(joint); !wrong.empty()) {
-      return at_joint(j, "joint '" + joint.name + "': " + wrong);
-    }
-  }
-  return {};
-}
+/// Collects what is wrong, step by step: each needs what the steps before it found sound.
+class DefectSearch {
+ public:
+  explicit DefectSearch(const RobotDescription& robot)
+      : robot_(robot), parent_joint_(robot.links.size()) {}
 
-/// Fills in each link's parent joint.
-Defect connect(const RobotDescription& robot, const Index& links,
-               std::vector<std::optional<std::size_t>>& parent_joint) {
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const Joint& joint = robot.joints[j];
-    for (const std::string* end : {&joint.parent, &joint.child}) {
-      if (links.find(*end) == links.end()) {
-        const char* role = end == &joint.parent ? "parent" : "child";
-        return at_joint(j, "joint '" + joint.name + "': its " + role + " link '" + *end +
-                               "' is not a link of the robot");
-      }
+  std::vector<RobotDefect> run() {
+    if (robot_.links.empty()) {
+      defects_.push_back({.message = "the robot has no link", .joint = {}, .link = {}});
+      return std::move(defects_);
     }
-    std::optional<std::size_t>& parent = parent_joint[links.find(joint.child)->second];
-    if (parent) {
-      return at_joint(j, "joint '" + joint.name + "': its child link '" + joint.child +
-                             "' already hangs on joint '" + robot.joints[*parent].name +
-                             "'; a link has one parent");
+    index_links();
+    index_joints();
+    connect();
+    if (defects_.empty()) {
+      check_tree();
+      check_mimics();
     }
-    parent = j;
+    return std::move(defects_);
   }
-  return {};
-}
 
-/// Every link hangs on the one root.
-Defect check_tree(const RobotDescription& robot, const Index& links,
-                  const std::vector<std::optional<std::size_t>>& parent_joint) {
-  std::optional<std::size_t> root;
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    std::size_t link = i;
-    for (std::size_t steps = 0; parent_joint[link]; ++steps) {
-      const Joint& joint = robot.joints[*parent_joint[link]];
-      if (steps > robot.links.size()) {
-        return at_joint(*parent_joint[link], "joint '" + joint.name +
-                                                 "' is part of a loop of links; remove a joint "
-                                                 "of the loop");
-      }
-      link = links.find(joint.parent)->second;
-    }
-    if (root && *root != link) {
-      return at_link(link, "links '" + robot.links[*root].name + "' and '" +
-                               robot.links[link].name +
-                               "' both have no parent; connect them by a joint");
-    }
-    root = link;
+ private:
+  void at_joint(std::size_t joint, const std::string& message) {
+    defects_.push_back({.message = message, .joint = joint, .link = {}});
   }
-  return {};
-}
 
-Defect check_mimics(const RobotDescription& robot, const Index& joints) {
-  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    std::size_t at = j;
-    for (std::size_t steps = 0; robot.joints[at].mimic; ++steps) {
-      const Joint& joint = robot.joints[at];
-      const std::string place = "joint '" + joint.name + "': ";
-      const auto source = joints.find(joint.mimic->joint);
-      if (source == joints.end()) {
-        return at_joint(at, place + "it mimics '" + joint.mimic->joint +
-                                "', which is not a joint of the robot");
+  void at_link(std::size_t link, const std::string& message) {
+    defects_.push_back({.message = message, .joint = {}, .link = link});
+  }
+
+  [[nodiscard]] std::string place(std::size_t joint) const {
+    return "joint '" + robot_.joints[joint].name + "': ";
+  }
+
+  void index_links() {
+    for (std::size_t i = 0; i < robot_.links.size(); ++i) {
+      const std::string& name = robot_.links[i].name;
+      if (name.empty()) {
+        at_link(i, "a link has no name; give it one");
+      } else if (!links_.emplace(name, i).second) {
+        at_link(i, "two links are named '" + name + "'; rename one of them");
       }
-      if (coordinate_count(joint.type) != 1 ||
-          coordinate_count(robot.joints[source->second].type) != 1) {
-        return at_joint(at, place + "only joints of one coordinate mimic and are mimicked");
+      for (const LinkGeometry& geometry : robot_.links[i].collision) {
+        if (!is_pose(geometry.X_LG)) {
+          at_link(i, "link '" + name + "': a collision geometry has no finite pose");
+        }
       }
-      if (!is_finite(joint.mimic->multiplier) || !is_finite(joint.mimic->offset)) {
-        return at_joint(at, place + "multiplier and offset of its mimic must be finite");
-      }
-      if (steps > robot.joints.size()) {
-        return at_joint(at, place + "it mimics itself, by way of other joints");
-      }
-      at = source->second;
     }
   }
-  return {};
-}
+
+  void index_joints() {
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      const Joint& joint = robot_.joints[j];
+      if (joint.name.empty()) {
+        at_joint(j, "a joint has no name; give it one");
+      } else if (!joints_.emplace(joint.name, j).second) {
+        at_joint(j, "two joints are named '" + joint.name + "'; rename one of them");
+      }
+      if (const std::string wrong = wrong_number(joint); !wrong.empty()) {
+        at_joint(j, place(j) + wrong);
+      }
+    }
+  }
+
+  /// Fills in each link's parent joint.
+  void connect() {
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      const Joint& joint = robot_.joints[j];
+      for (const std::string* end : {&joint.parent, &joint.child}) {
+        if (links_.find(*end) == links_.end()) {
+          const char* role = end == &joint.parent ? "parent" : "child";
+          at_joint(j, place(j) + "its " + role + " link '" + *end + "' is not a link of the robot");
+        }
+      }
+      const auto child = links_.find(joint.child);
+      if (child == links_.end()) {
+        continue;
+      }
+      std::optional<std::size_t>& parent = parent_joint_[child->second];
+      if (parent) {
+        at_joint(j, place(j) + "its child link '" + joint.child + "' already hangs on joint '" +
+                        robot_.joints[*parent].name + "'; a link has one parent");
+      } else {
+        parent = j;
+      }
+    }
+  }
+
+  /// Every link hangs on the one root. Each link is walked over once.
+  void check_tree() {
+    std::optional<std::size_t> root;
+    std::vector<Visit> visits(robot_.links.size(), Visit::none);
+    std::vector<std::size_t> path;
+    for (std::size_t i = 0; i < robot_.links.size(); ++i) {
+      path.clear();
+      std::size_t link = i;
+      while (visits[link] == Visit::none) {
+        visits[link] = Visit::open;
+        path.push_back(link);
+        if (parent_joint_[link]) {
+          link = links_.find(robot_.joints[*parent_joint_[link]].parent)->second;
+        } else if (root) {
+          at_link(link, "links '" + robot_.links[*root].name + "' and '" + robot_.links[link].name +
+                            "' both have no parent; connect them by a joint");
+        } else {
+          root = link;
+        }
+      }
+      if (visits[link] == Visit::open && parent_joint_[link]) {
+        at_joint(*parent_joint_[link],
+                 "joint '" + robot_.joints[*parent_joint_[link]].name +
+                     "' is part of a loop of links; remove a joint of the loop");
+      }
+      for (const std::size_t passed : path) {
+        visits[passed] = Visit::done;
+      }
+    }
+  }
+
+  void check_mimics() {
+    std::vector<Visit> visits(robot_.joints.size(), Visit::none);
+    std::vector<std::size_t> path;
+    for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
+      path.clear();
+      std::optional<std::size_t> at = j;
+      while (at && visits[*at] == Visit::none) {
+        visits[*at] = Visit::open;
+        path.push_back(*at);
+        at = mimicked(*at);
+      }
+      if (at && visits[*at] == Visit::open) {
+        at_joint(*at, place(*at) + "it mimics itself, by way of other joints");
+      }
+      for (const std::size_t passed : path) {
+        visits[passed] = Visit::done;
+      }
+    }
+  }
+
+  /// The joint that a joint mimics, if that makes sense.
+  std::optional<std::size_t> mimicked(std::size_t j) {
+    const Joint& joint = robot_.joints[j];
+    if (!joint.mimic) {
+      return {};
+    }
+    const auto source = joints_.find(joint.mimic->joint);
+    if (source == joints_.end()) {
+      at_joint(j, place(j) + "it mimics '" + joint.mimic->joint +
+                      "', which is not a joint of the robot");
+      return {};
+    }
+    if (coordinate_count(joint.type) != 1 ||
+        coordinate_count(robot_.joints[source->second].type) != 1) {
+      at_joint(j, place(j) + "only joints of one coordinate mimic and are mimicked");
+      return {};
+    }
+    if (!is_finite(joint.mimic->multiplier) || !is_finite(joint.mimic->offset)) {
+      at_joint(j, place(j) + "multiplier and offset of its mimic must be finite");
+      return {};
+    }
+    return source->second;
+  }
+
+  const RobotDescription& robot_;
+  std::vector<RobotDefect> defects_;
+  Index links_;
+  Index joints_;
+  std::vector<std::optional<std::size_t>> parent_joint_;
+};
 
 }  // namespace
 
@@ -196,26 +250,13 @@ const char* to_string(JointType type) {
   return kWords[static_cast<std::size_t>(type)];
 }
 
-Defect find_defect(const RobotDescription& robot) {
-  if (robot.links.empty()) {
-    return RobotDefect{.message = "the robot has no link", .joint = {}, .link = {}};
-  }
-  Index links;
-  Index joints;
-  std::vector<std::optional<std::size_t>> parent_joint(robot.links.size());
-  if (Defect defect = index_links(robot, links)) {
-    return defect;
-  }
-  if (Defect defect = index_joints(robot, joints)) {
-    return defect;
-  }
-  if (Defect defect = connect(robot, links, parent_joint)) {
-    return defect;
-  }
-  if (Defect defect = check_tree(robot, links, parent_joint)) {
-    return defect;
-  }
-  return check_mimics(robot, joints);
+std::vector<RobotDefect> find_defects(const RobotDescription& robot) {
+  return DefectSearch(robot).run();
+}
+
+std::optional<RobotDefect> find_defect(const RobotDescription& robot) {
+  const std::vector<RobotDefect> defects = find_defects(robot);
+  return defects.empty() ? std::nullopt : std::optional(defects.front());
 }
 
 }  // namespace firstcontact

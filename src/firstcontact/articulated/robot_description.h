@@ -21,6 +21,9 @@ struct LinkInertia {
   double mass = 0.0;                                    ///< [kg]
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();       ///< [m]  Centre of mass.
   Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  Axes of L; symmetric.
+  /// What is wrong with how its file says it, with place; may be empty. Nothing that moves as it is
+  /// told minds; simulations refuse it.
+  std::string defect = {};
 };
 
 /// A rigid part of a robot, frame L.
@@ -95,8 +98,12 @@ struct RobotDefect {
   std::optional<std::size_t> link;   ///< Index into links.
 };
 
-/// The first reason why the description is no tree of links: an unknown or doubled name, a second
-/// parent, a loop, a second root; or a joint whose numbers make no sense. None if it is sound.
+/// The reasons why the description is no tree of links: unknown or doubled names, second parents,
+/// loops, second roots; and joints whose numbers make no sense. Empty if it is sound. What only
+/// follows from other defects is left out.
+FIRSTCONTACT_API std::vector<RobotDefect> find_defects(const RobotDescription& description);
+
+/// The first of find_defects(). None if the description is sound.
 FIRSTCONTACT_API std::optional<RobotDefect> find_defect(const RobotDescription& description);
 
 }  // namespace firstcontact

@@ -105,6 +105,9 @@ Eigen::Matrix<double, 6, 6> spatial_inertia(const LinkInertia& inertia, const Po
 
 /// What is wrong with the inertia of a link; empty if some body has it.
 std::string wrong_inertia(const LinkInertia& inertia) {
+  if (!inertia.defect.empty()) {
+    return inertia.defect;
+  }
   if (!std::isfinite(inertia.mass) || !inertia.p_LC.allFinite() || !inertia.about_C_L.allFinite() ||
       inertia.mass < 0.0) {
     return "its mass must be >= 0, and all numbers of its inertia finite";

@@ -17,10 +17,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-const std::vector<LinkGeometry>& surface_of(const SceneRobot& robot, const Link& link) {
-  return robot.file.surface == RobotSurface::visual ? link.visual : link.collision;
-}
-
 std::string piece_name(const SceneRobot& robot, const Link& link, std::size_t geometry) {
   return robot.name + "/" + link.name + (geometry == 0 ? "" : "#" + std::to_string(geometry + 1));
 }
@@ -297,7 +293,7 @@ std::vector<std::string> names_with_links(const Scene& scene) {
   }
   for (const SceneRobot& robot : scene.robots) {
     for (const Link& link : robot.model.links()) {
-      for (std::size_t g = 0; g < surface_of(robot, link).size(); ++g) {
+      for (std::size_t g = 0; g < link.collision.size(); ++g) {
         names.push_back(piece_name(robot, link, g));
       }
     }

@@ -3,7 +3,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/write_json.h>
 
@@ -32,8 +31,11 @@ std::string known_states(const RobotSemantics& semantics) {
 
 }  // namespace
 
-RobotModel read_robot_model(const RobotFile& file) {
-  return read_urdf(file.urdf, {.package_roots = file.package_roots, .shapes = LoadShapes::none});
+RobotModel read_robot_model(const RobotFile& file, const ReadingOptions& reading) {
+  return read_urdf(file.urdf, {.package_roots = file.package_roots,
+                               .shapes = LoadShapes::none,
+                               .surface = file.surface,
+                               .reading = reading});
 }
 
 JointPositions group_state(const RobotModel& model, const RobotSemantics& semantics,

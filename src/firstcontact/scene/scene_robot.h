@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
@@ -19,9 +20,6 @@
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact {
-
-/// What of a robot can touch.
-enum class RobotSurface { collision, visual };
 
 /// A robot that lies in a file of its own.
 struct RobotFile {
@@ -59,10 +57,11 @@ struct SceneRobot {
   std::string srdf_digest = {};  ///< SHA-256 of the SRDF; may be empty.
 };
 
-/// The collision model of a file without shapes: enough for names and limits.
+/// The model of what can touch, without shapes: enough for names and limits.
 ///
 /// @throws ParseError as read_urdf
-[[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file);
+[[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file,
+                                                           const ReadingOptions& reading = {});
 
 /// The coordinates of a named state of the SRDF.
 ///

@@ -93,27 +93,18 @@ CachedShape make(const BodyShape& shape, const ReadingOptions& options) {
 
 /// The robot with what can touch as its collision geometry.
 RobotReading read_touching(const RobotFile& file, const ReadingOptions& options) {
-  const bool visual = file.surface == RobotSurface::visual;
-  RobotReading reading =
-      read_robot(file.urdf, {.package_roots = file.package_roots,
-                             .shapes = visual ? LoadShapes::all : LoadShapes::collision,
-                             .reading = options});
-  RobotModel& model = reading.model;
-  if (visual) {
-    RobotDescription description{.name = model.name(),
-                                 .links = {model.links().begin(), model.links().end()},
-                                 .joints = {model.joints().begin(), model.joints().end()}};
-    for (Link& link : description.links) {
-      link.collision = link.visual;
-    }
-    model = RobotModel(std::move(description));
-  }
+  RobotReading reading = read_robot(file.urdf, {.package_roots = file.package_roots,
+                                                .shapes = LoadShapes::collision,
+                                                .surface = file.surface,
+                                                .reading = options});
   const auto is_empty = [](const Link& link) { return link.collision.empty(); };
-  if (std::all_of(model.links().begin(), model.links().end(), is_empty)) {
+  const auto links = reading.model.links();
+  if (std::all_of(links.begin(), links.end(), is_empty)) {
     throw ParseError(file.urdf.string(),
-                     visual ? "expected links with <visual> geometry, none has any"
-                            : "expected links with <collision> geometry, none has any; surface "
-                              "\"visual\" (--visual) takes what they look like");
+                     file.surface != RobotSurface::collision
+                         ? "expected links with <visual> geometry, none has any"
+                         : "expected links with <collision> geometry, none has any; surface "
+                           "\"visual\" (--visual) takes what they look like");
   }
   return reading;
 }

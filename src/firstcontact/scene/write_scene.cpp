@@ -269,8 +269,9 @@ JsonValue robot_to_json(const SceneRobot& robot, const Scene& scene) {
     object.push_back({"srdf", to_json(robot.srdf.string())});
   }
   object.push_back({"package_roots", {.value = paths(robot.file.package_roots)}});
-  if (robot.file.surface == RobotSurface::visual) {
-    object.push_back({"surface", to_json("visual")});
+  if (robot.file.surface != RobotSurface::collision) {
+    const bool is_visual = robot.file.surface == RobotSurface::visual;
+    object.push_back({"surface", to_json(is_visual ? "visual" : "collision_or_visual")});
   }
   JsonMember base = std::visit(MotionMember{}, robot.base);
   object.push_back({base.key == "pose" ? "base" : "base_motion", std::move(base.value)});

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <variant>
 
+#include <firstcontact/text/edit_distance.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/write_json.h>
 
@@ -22,28 +22,6 @@ struct Description {
   }
   std::string operator()(const JsonObject&) const { return "an object"; }
 };
-
-/// The least number of letters to insert, remove, replace or swap with a neighbour (the optimal
-/// string alignment distance).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before_last(b.size() + 1);
-  std::vector<std::size_t> last(b.size() + 1);
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    before_last.swap(last);
-    last.swap(row);
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        row[j] = std::min(row[j], before_last[j - 2] + 1);
-      }
-    }
-  }
-  return row[b.size()];
-}
 
 /// How far a word is from a known one; half a word that was meant whole is near.
 std::size_t distance(std::string_view word, std::string_view known) {

@@ -82,7 +82,8 @@ void ReadingLog::throw_errors() const {
   }
   std::string message = errors_.front().message();
   for (std::size_t i = 1; i < std::min(errors_.size(), kMostErrors); ++i) {
-    message += "; " + place(errors_[i]) + errors_[i].message();
+    const bool is_same_file = errors_[i].path() == errors_.front().path();
+    message += "; " + (is_same_file ? place(errors_[i]) + errors_[i].message() : errors_[i].what());
   }
   if (errors_.size() > kMostErrors) {
     message += "; and " + std::to_string(errors_.size() - kMostErrors) + " more errors";

@@ -52,6 +52,7 @@ class FIRSTCONTACT_API ReadingLog {
   void refuse(const ParseError& error, std::string_view cause = {});
 
   [[nodiscard]] bool has_errors() const { return !errors_.empty(); }
+  [[nodiscard]] std::size_t error_count() const { return errors_.size(); }
 
   /// @throws ParseError  one line with all errors, if there are any
   void throw_errors() const;

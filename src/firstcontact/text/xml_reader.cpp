@@ -6,44 +6,16 @@
 #include <system_error>
 #include <utility>
 
+#include <firstcontact/text/text_cursor.h>
+
 namespace firstcontact::detail {
 namespace {
-
-using Names = std::initializer_list<std::string_view>;
 
 constexpr double kGreatest = 1e60;
 constexpr std::string_view kBlanks = " \t\r\n";
 
-bool holds(Names names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-std::string listed(Names names) {
-  std::string text;
-  for (const std::string_view name : names) {
-    text += (text.empty() ? "" : ", ") + std::string(name);
-  }
-  return names.size() == 0 ? "none" : text;
-}
-
-/// In quotes, cut short.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
-  return "'" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...'" : "'");
-}
-
 std::size_t line_of(const XmlElement& element) {
   return static_cast<std::size_t>(std::max(element.GetLineNum(), 1));
-}
-
-/// "<joint name='a'>"
-std::string shown(const XmlElement& element) {
-  for (const char* const attribute : {"name", "id"}) {
-    if (const char* value = element.Attribute(attribute)) {
-      return "<" + std::string(element.Name()) + " " + attribute + "=" + quoted(value) + ">";
-    }
-  }
-  return "<" + std::string(element.Name()) + ">";
 }
 
 std::string_view without_blanks(std::string_view text) {
@@ -62,6 +34,29 @@ std::optional<double> parse_number(std::string_view word) {
   return complete && std::abs(value) <= kGreatest ? std::optional(value) : std::nullopt;
 }
 
+/// Whether the other says at least as much, in whatever order.
+bool says_all_of(const XmlElement& element, const XmlElement& other) {
+  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
+    if (other.Attribute(a->Name(), a->Value()) == nullptr) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether the two say the same and hold nothing else.
+bool is_repeat(const XmlElement& element, const XmlElement& other) {
+  return element.NoChildren() && other.NoChildren() && says_all_of(element, other) &&
+         says_all_of(other, element);
+}
+
+/// Xacro puts values where such a word stands.
+const char* hint_of(std::string_view word) {
+  return word.find("${") != std::string_view::npos || word.find("$(") != std::string_view::npos
+             ? "; run xacro first"
+             : "";
+}
+
 }  // namespace
 
 void XmlText::append(std::string_view text) {
@@ -69,6 +64,15 @@ void XmlText::append(std::string_view text) {
     joined_ = whole_;
   }
   joined_ += text;
+}
+
+std::string shown(const XmlElement& element) {
+  for (const char* const attribute : {"name", "id"}) {
+    if (const char* value = element.Attribute(attribute)) {
+      return "<" + std::string(element.Name()) + " " + attribute + "=" + detail::quoted(value) + ">";
+    }
+  }
+  return "<" + std::string(element.Name()) + ">";
 }
 
 XmlReader::XmlReader(std::string_view text, std::string source) : source_(std::move(source)) {
@@ -79,6 +83,10 @@ XmlReader::XmlReader(std::string_view text, std::string source) : source_(std::m
     fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
                  "expected at most " + std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) +
                      " elements inside of each other, got more");
+  }
+  if (document_.ErrorID() == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
+    fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
+                 "expected <?xml ...?> before everything else; move it there, or remove it");
   }
   if (document_.Error()) {
     fail_at_line(static_cast<std::size_t>(std::max(document_.ErrorLineNum(), 1)),
@@ -116,21 +124,6 @@ const XmlElement& XmlReader::root(const char* name) const {
   return *root;
 }
 
-void XmlReader::expect_only(const XmlElement& element, Names attributes, Names children) const {
-  for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-    const std::string_view name = a->Name();
-    if (!holds(attributes, name)) {
-      fail(element, "unknown attribute " + quoted(name) + "; known are: " + listed(attributes));
-    }
-  }
-  for (const XmlElement* child = element.FirstChildElement(); child != nullptr;
-       child = child->NextSiblingElement()) {
-    if (!holds(children, child->Name())) {
-      fail(*child, "not known inside " + shown(element) + "; known are: " + listed(children));
-    }
-  }
-}
-
 std::vector<const XmlElement*> XmlReader::children(const XmlElement& element,
                                                    const char* name) const {
   std::vector<const XmlElement*> found;
@@ -143,9 +136,10 @@ std::vector<const XmlElement*> XmlReader::children(const XmlElement& element,
 
 const XmlElement* XmlReader::child(const XmlElement& element, const char* name) const {
   const XmlElement* first = element.FirstChildElement(name);
-  if (first != nullptr && first->NextSiblingElement(name) != nullptr) {
-    fail(*first->NextSiblingElement(name),
-         "a second <" + std::string(name) + "> inside " + shown(element) + "; keep one");
+  for (const XmlElement* next = first; next != nullptr; next = next->NextSiblingElement(name)) {
+    if (next != first && !is_repeat(*first, *next)) {
+      fail(*next, "a second <" + std::string(name) + "> inside " + shown(element) + "; keep one");
+    }
   }
   return first;
 }
@@ -179,7 +173,7 @@ std::vector<double> XmlReader::numbers(const XmlElement& element, const char* at
     const std::optional<double> value = parse_number(word);
     if (!value) {
       fail(element, "expected finite numbers of at most 1e60 in size in '" +
-                        std::string(attribute) + "', got " + quoted(word));
+                        std::string(attribute) + "', got " + detail::quoted(word) + hint_of(word));
     }
     values.push_back(*value);
     rest.remove_prefix(word.size());
@@ -247,7 +241,7 @@ std::uint64_t XmlReader::whole_number(const XmlElement& element, const char* att
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) {
     fail(element,
-         "expected a whole number >= 0 in '" + std::string(attribute) + "', got " + quoted(word));
+         "expected a whole number >= 0 in '" + std::string(attribute) + "', got " + detail::quoted(word));
   }
   return value;
 }

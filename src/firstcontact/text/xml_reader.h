@@ -37,6 +37,9 @@ class XmlText {
   std::size_t line_;
 };
 
+/// "<joint name='a'>".
+[[nodiscard]] std::string shown(const XmlElement& element);
+
 /// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
 /// where something is not what its name says. Numbers are read exactly, whatever the locale.
 class XmlReader {
@@ -55,14 +58,11 @@ class XmlReader {
   [[noreturn]] void fail(const XmlElement& where, const std::string& message) const;
   [[noreturn]] void fail_at_line(std::size_t line, const std::string& message) const;
 
-  /// Refuses children and attributes of other names than these.
-  void expect_only(const XmlElement& element, std::initializer_list<std::string_view> attributes,
-                   std::initializer_list<std::string_view> children) const;
-
   /// All children of this name, in order.
   [[nodiscard]] std::vector<const XmlElement*> children(const XmlElement& element,
                                                         const char* name) const;
-  /// The only child of this name, or null.
+  /// The only child of this name, or null. Repeats that say the same without children of their own
+  /// count once.
   [[nodiscard]] const XmlElement* child(const XmlElement& element, const char* name) const;
   /// The only child of this name, which has to be there.
   [[nodiscard]] const XmlElement& required_child(const XmlElement& element, const char* name) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <firstcontact/scene/detail/some_of.h>
+#include <firstcontact/text/brief_list.h>
 
 namespace firstcontact::detail {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <firstcontact/scene/detail/fixed_joints.h>
-#include <firstcontact/scene/detail/some_of.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

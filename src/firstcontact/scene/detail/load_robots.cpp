@@ -10,8 +10,8 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/size_warning.h>
-#include <firstcontact/scene/detail/some_of.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
@@ -66,6 +66,9 @@ class RobotLoader {
     for (const FileReport& report : *cached.files) {
       add_report(report, loaded_);
     }
+    if (!robot.semantics.report.path.empty()) {
+      add_report(robot.semantics.report, loaded_);
+    }
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);
@@ -86,8 +89,6 @@ class RobotLoader {
 
   void warn(const SceneRobot& robot, const std::vector<std::string>& at_default) {
     std::vector<std::string>& warnings = loaded_.warnings;
-    warnings.insert(warnings.end(), robot.semantics.warnings.begin(),
-                    robot.semantics.warnings.end());
     if (!at_default.empty()) {
       warnings.push_back(robot.name + ": nothing says where " + some_of(at_default) +
                          (at_default.size() == 1 ? " is; it rests" : " are; they rest") +

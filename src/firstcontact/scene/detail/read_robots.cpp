@@ -76,8 +76,10 @@ class RobotReader {
       file.package_roots = read_package_roots(*roots, folders_.scene, read_);
     }
     if (const JsonValue* surface = find(object, "surface")) {
-      constexpr std::array kSurfaces{RobotSurface::collision, RobotSurface::visual};
-      file.surface = kSurfaces.at(read_.word(*surface, {{"collision", "visual"}}));
+      constexpr std::array kSurfaces{RobotSurface::collision, RobotSurface::visual,
+                                     RobotSurface::collision_or_visual};
+      file.surface =
+          kSurfaces.at(read_.word(*surface, {{"collision", "visual", "collision_or_visual"}}));
     }
     return file;
   }

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/some_of.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

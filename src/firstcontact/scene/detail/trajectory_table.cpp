@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/some_of.h>
 #include <firstcontact/scene/detail/table_columns.h>
 #include <firstcontact/scene/detail/table_text.h>
 #include <firstcontact/scene/detail/trajectory_points.h>
+#include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/utf8.h>
 #include <firstcontact/text/write_json.h>

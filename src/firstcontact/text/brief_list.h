@@ -1,5 +1,5 @@
 /// @file
-/// A list of names as warnings have it.
+/// Long lists of names, cut short for a line.
 
 #pragma once
 
