@@ -269,10 +269,14 @@ Scene read_rigid_ipc(const std::filesystem::path& path) {
   return parse_rigid_ipc(detail::read_file(path, "a scene of Rigid IPC"), path);
 }
 
-Scene read_simulation_scene(const std::filesystem::path& path) {
+Scene read_simulation_scene(const std::filesystem::path& path, const ReadingOptions& options) {
   const std::string text = detail::read_file(path, "a scene file");
-  return is_fixture(detail::parse_json(text, path.string())) ? parse_rigid_ipc(text, path)
-                                                             : parse_scene(text, path);
+  if (!is_fixture(detail::parse_json(text, path.string()))) {
+    return parse_scene(text, path, 1, options);
+  }
+  Scene scene = parse_rigid_ipc(text, path);
+  scene.options.lenient = options.lenient;
+  return scene;
 }
 
 }  // namespace firstcontact

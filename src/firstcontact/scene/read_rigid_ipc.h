@@ -32,6 +32,7 @@ namespace firstcontact {
 /// "rigid_body_problem", else read_scene.
 ///
 /// @throws ParseError
-[[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path);
+[[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path,
+                                                           const ReadingOptions& options = {});
 
 }  // namespace firstcontact

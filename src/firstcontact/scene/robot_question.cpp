@@ -13,6 +13,7 @@
 #include <variant>
 
 #include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
@@ -104,7 +105,8 @@ class SceneBuilder {
 
  private:
   SceneRobot read_robot() {
-    RobotModel model = read_robot_model(question_.robot);
+    scene_.options.lenient = question_.reading.lenient;
+    RobotModel model = read_robot_model(question_.robot, question_.reading);
     std::string name = model.name().empty() ? "robot" : model.name();
     SceneRobot robot{.name = std::move(name),
                      .file = question_.robot,
@@ -114,6 +116,7 @@ class SceneBuilder {
       robot.srdf = question_.srdf;
       robot.semantics =
           parse_srdf(text_of(robot.srdf, "an SRDF file"), robot.srdf.string(), robot.model);
+      scene_.file_reports.push_back(detail::srdf_report(robot));
     }
     return robot;
   }
@@ -143,6 +146,8 @@ class SceneBuilder {
     if (!question_.trajectory.empty()) {
       robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
                                           question_.trajectory, robot.model);
+      scene_.file_reports.push_back(
+          detail::trajectory_report(question_.trajectory, robot.trajectory));
       scene_.id = question_.trajectory.filename().string();
     } else if (!question_.request.empty()) {
       take_request(robot);
@@ -174,12 +179,12 @@ class SceneBuilder {
     }
     const std::string text = text_of(file, "surroundings");
     if (extension == ".json" && is_scene(text, file)) {
-      add_scene(parse_scene(text, file), file);
+      add_scene(parse_scene(text, file, 1, question_.reading), file);
     } else {
       require_base_at_origin(robot, file);
       const std::string& root = robot.model.links()[robot.model.root()].name;
       try {
-        add_planning_scene(parse_planning_scene(text, file, root), robot);
+        add_planning_scene(parse_planning_scene(text, file, root), file, robot);
       } catch (const std::invalid_argument& error) {
         throw ParseError(file.string(), error.what());
       }
@@ -208,7 +213,9 @@ class SceneBuilder {
                        "expected surroundings (a mesh, a planning scene in .yaml, or "
                        "a scene in .json), found no such file");
     }
-    add({.name = file.stem().string(), .shape = {.source = MeshFile{file}}, .motion = {}});
+    add({.name = file.stem().string(),
+         .shape = {.source = MeshFile{file, question_.environment_scale}},
+         .motion = {}});
   }
 
   void add(Body body) {
@@ -234,6 +241,7 @@ class SceneBuilder {
       throw ParseError(file.string(),
                        "expected a scene as the first of the surroundings: its rules go by bodies");
     }
+    scene_.file_reports.push_back(detail::surroundings_report(file, "scene", around.bodies.size()));
     around_ = file;
     around_duration_ = around.duration;
     scene_.bodies = std::move(around.bodies);
@@ -243,9 +251,13 @@ class SceneBuilder {
     scene_.ignored_groups = std::move(around.ignored_groups);
     scene_.group_margins = std::move(around.group_margins);
     scene_.options = around.options;
+    scene_.options.lenient = around.options.lenient || question_.reading.lenient;
   }
 
-  void add_planning_scene(PlanningScene around, SceneRobot& robot) {
+  void add_planning_scene(PlanningScene around, const std::filesystem::path& file,
+                          SceneRobot& robot) {
+    scene_.file_reports.push_back(detail::surroundings_report(
+        file, "planning scene", around.bodies.size() + around.attached.size()));
     for (std::size_t k = 0; k < around.bodies.size(); ++k) {
       add(std::move(around.bodies[k]));
       ids_[scene_.bodies.size() - 1] = around.object_ids[k];
@@ -329,6 +341,7 @@ class SceneBuilder {
         };
         if (std::any_of(allowed_.begin(), allowed_.end(), allows)) {
           scene_.ignored_pairs.push_back({other, link});
+          scene_.allowed_pairs.push_back({other, link});
         }
       }
     }

@@ -32,8 +32,10 @@ std::string known_states(const RobotSemantics& semantics) {
 
 }  // namespace
 
-RobotModel read_robot_model(const RobotFile& file) {
-  return read_urdf(file.urdf, {.package_roots = file.package_roots, .shapes = LoadShapes::none});
+RobotModel read_robot_model(const RobotFile& file, const ReadingOptions& options) {
+  return read_urdf(
+      file.urdf,
+      {.package_roots = file.package_roots, .shapes = LoadShapes::none, .reading = options});
 }
 
 JointPositions group_state(const RobotModel& model, const RobotSemantics& semantics,

@@ -17,6 +17,7 @@
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -62,7 +63,8 @@ struct SceneRobot {
 /// The collision model of a file without shapes: enough for names and limits.
 ///
 /// @throws ParseError as read_urdf
-[[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file);
+[[nodiscard]] FIRSTCONTACT_API RobotModel read_robot_model(const RobotFile& file,
+                                                           const ReadingOptions& options = {});
 
 /// The coordinates of a named state of the SRDF.
 ///
