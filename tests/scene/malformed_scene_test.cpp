@@ -116,10 +116,11 @@ TEST(UnknownKey, NamesTheNearestKnownOne) {
        "s:1: options.tolerence: unknown key; did you mean \"tolerance\"?"},
       {with_options(R"("elephants": 1)"),
        "s:1: options.elephants: unknown key; known are \"tolerance\", \"margin\", \"contacts\", "
-       "\"start_contacts\", \"contact_band\", \"deadline\", \"duration\""},
+       "\"start_contacts\", \"contact_band\", \"deadline\", \"duration\", \"lenient\""},
       {with_options(R"("a \"b\"": 1)"),
        "s:1: options[\"a \\\"b\\\"\"]: unknown key; known are \"tolerance\", \"margin\", "
-       "\"contacts\", \"start_contacts\", \"contact_band\", \"deadline\", \"duration\""},
+       "\"contacts\", \"start_contacts\", \"contact_band\", \"deadline\", \"duration\", "
+       "\"lenient\""},
       {posed(R"({"quaternion": [1, 0, 0, 0]})"),
        "s:1: bodies[0].pose.quaternion: unknown key; did you mean \"quaternion_wxyz\"?"},
       {moved(R"({"type": "scerw"})"),

@@ -246,7 +246,7 @@ TEST(CheckWarnings, SayThatFreeBodiesRest) {
   const auto warnings = [&](const std::string& bodies) {
     return check_warnings(load_scene(parse_scene(scene(bodies), "s"), cache));
   };
-  EXPECT_TRUE(warnings(body("a")).empty());
+  EXPECT_TRUE(warnings(body("a") + "," + body("b")).empty());
   EXPECT_EQ(warnings(body("a") + "," + body("b", free)).at(0),
             "\"b\" with \"dynamics\": at rest here; \"firstcontact simulate\" moves what has "
             "dynamics");

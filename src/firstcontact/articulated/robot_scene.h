@@ -126,6 +126,8 @@ class FIRSTCONTACT_API RobotScene {
   [[nodiscard]] std::optional<RobotLink> robot_link(std::size_t member) const {
     return members_[member].link;
   }
+  /// Whether it is a body that never moves.
+  [[nodiscard]] bool rests(std::size_t member) const { return members_[member].rests; }
   /// Of a body; it holds before the body is attached for the first time.
   [[nodiscard]] const Motion& body_motion(std::size_t member) const;
   /// Of a body, in order, without gaps, from 0 to 1.

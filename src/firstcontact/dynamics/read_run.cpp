@@ -173,7 +173,8 @@ class Line {
 
 constexpr std::size_t kAnyCount = std::numeric_limits<std::size_t>::max();
 
-RunHeader read_header(const std::string& text, const std::string& path) {
+RunHeader read_header(const std::string& text, const std::string& path,
+                      const ReadingOptions& options) {
   const Line line(text, path, 1);
   const json& root = line.root();
   const auto version = root.find("firstcontact_run");
@@ -183,7 +184,7 @@ RunHeader read_header(const std::string& text, const std::string& path) {
   line.require_keys(root, {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
                            "masses", "centres_of_mass"});
   RunHeader header;
-  header.scene = parse_embedded_scene(text, path);
+  header.scene = parse_embedded_scene(text, path, 1, options);
   header.version = line.string(root["version"]);
   header.scene.text_digest = line.string(root["scene_digest"]);
   header.input_digest = line.string(root["input_digest"]);
@@ -353,12 +354,13 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
 
 }  // namespace
 
-RunReader::RunReader(std::istream& run, std::string path) : stream_(run), path_(std::move(path)) {
+RunReader::RunReader(std::istream& run, std::string path, const ReadingOptions& options)
+    : stream_(run), path_(std::move(path)) {
   const std::optional<std::string> line = next_line();
   if (!line) {
     throw ParseError(path_, 1, "expected the header of a run, got no whole line");
   }
-  header_ = read_header(*line, path_);
+  header_ = read_header(*line, path_, options);
   bodies_ = header_.masses.size();
 }
 

@@ -25,8 +25,9 @@ class FIRSTCONTACT_API RunReader {
   ///
   /// @param run   outlives the reader
   /// @param path  of the file, for errors: "path:line: what was expected"
+  /// @param options  of the files of its scene
   /// @throws ParseError if there is no header
-  RunReader(std::istream& run, std::string path);
+  RunReader(std::istream& run, std::string path, const ReadingOptions& options = {});
 
   [[nodiscard]] const RunHeader& header() const { return header_; }
 

@@ -147,6 +147,7 @@ class Simulator::Implementation {
   }
 
   const RunHeader& header() const { return header_; }
+  const LoadedScene& loaded() const { return loaded_; }
   double time() const { return time_; }
   std::size_t step_count() const { return count_; }
   const std::vector<RigidState>& states() const { return states_; }
@@ -569,6 +570,7 @@ Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
 
 const RunHeader& Simulator::header() const { return implementation_->header(); }
+const LoadedScene& Simulator::loaded() const { return implementation_->loaded(); }
 double Simulator::time() const { return implementation_->time(); }
 std::size_t Simulator::step_count() const { return implementation_->step_count(); }
 const std::vector<RigidState>& Simulator::states() const { return implementation_->states(); }

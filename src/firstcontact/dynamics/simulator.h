@@ -39,6 +39,9 @@ class FIRSTCONTACT_API Simulator {
   Simulator& operator=(Simulator&&) noexcept;
 
   [[nodiscard]] const RunHeader& header() const;
+  /// With the links of robots as bodies, the warnings of reading, and the counts of the pairs that
+  /// are held apart.
+  [[nodiscard]] const LoadedScene& loaded() const;
   [[nodiscard]] double time() const;             ///< [s]  Simulated so far.
   [[nodiscard]] std::size_t step_count() const;  ///< Steps taken.
 

@@ -83,6 +83,8 @@ class Verification {
         follower_(members_, header.scene, options.scripted_tolerance) {
     result_.verdict = RunVerdict::proven;
     result_.least_distance = kInfinity;
+    result_.pair_counts = loaded_.pair_counts;
+    result_.warnings = loaded_.warnings;
   }
 
   RunVerification run(const std::function<std::optional<RunStep>()>& next) {

@@ -9,10 +9,12 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/pair_rules.h>
+#include <firstcontact/scene/pair_counts.h>
 
 namespace firstcontact {
 
@@ -53,6 +55,9 @@ struct RunVerification {
   /// [m]  The greatest of a scripted body at the end of a piece; steps that lost time count, but
   /// may be off by more than the tolerance.
   double scripted_deviation = 0.0;
+  /// What the proof is about: pairs of which one is free, links of robots counted as such.
+  PairCounts pair_counts = {};
+  std::vector<std::string> warnings = {};  ///< Of reading the scene's files.
 };
 
 /// Proves a run, with other code than that which simulates.

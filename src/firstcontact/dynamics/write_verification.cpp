@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/write_reports.h>
 
 namespace firstcontact {
 namespace {
@@ -37,8 +38,10 @@ std::string write_verification(const RunHeader& header, const RunVerification& v
                        {"least_distance", to_json(verification.least_distance)},
                        {"closest", to_json(header, verification.closest)},
                        {"greatest_jump", to_json(verification.greatest_jump)},
-                       {"scripted_deviation", to_json(verification.scripted_deviation)}};
-  return result.dump();
+                       {"scripted_deviation", to_json(verification.scripted_deviation)},
+                       {"pair_counts", Json::parse(write_pair_counts(verification.pair_counts))},
+                       {"warnings", verification.warnings}};
+  return result.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 const char* word(RunVerdict verdict) {

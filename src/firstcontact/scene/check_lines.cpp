@@ -33,7 +33,7 @@ class LineChecker {
     LineAnswer answer{.line = line.number, .text = {}, .verdict = {}, .error = {}};
     std::string id;
     try {
-      Scene scene = parse_scene(line.text, file_, line.number);
+      Scene scene = parse_scene(line.text, file_, line.number, options_.reading);
       id = scene.id;
       check(std::move(scene), answer);
     } catch (const std::invalid_argument& error) {

@@ -14,13 +14,15 @@
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_lines.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
 struct CheckLinesOptions {
-  std::size_t threads = 0;    ///< 0: as many as there are processors.
-  bool closest = false;       ///< Also the closest approach of every pair.
-  bool all_pairs = false;     ///< Also the answer of every pair.
+  std::size_t threads = 0;  ///< 0: as many as there are processors.
+  bool closest = false;     ///< Also the closest approach of every pair.
+  bool all_pairs = false;   ///< Also the answer of every pair.
+  ReadingOptions reading = {};
   std::stop_token stop = {};  ///< Ends the work early.
   /// Called with the options of each scene before it is answered, from any thread; may be empty.
   std::function<void(SceneOptions&)> adjust = {};

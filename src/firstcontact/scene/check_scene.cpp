@@ -187,6 +187,9 @@ std::vector<std::string> check_warnings(const LoadedScene& loaded) {
     }
   }
   std::vector<std::string> warnings = loaded.warnings;
+  if (std::string warning = no_pair_warning(loaded.pair_counts); !warning.empty()) {
+    warnings.push_back(std::move(warning));
+  }
   if (!names.empty()) {
     warnings.push_back(
         detail::in_quotes(names.front()) +

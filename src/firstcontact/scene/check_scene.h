@@ -65,7 +65,8 @@ struct SceneResult {
                                                        ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});
 
-/// What a user should know of the answer: what loading warns of, and that free bodies rest in it.
+/// What a user should know of the answer: what loading warns of, that no pair is tested, and that
+/// free bodies rest in it.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::string> check_warnings(const LoadedScene& loaded);
 
 }  // namespace firstcontact

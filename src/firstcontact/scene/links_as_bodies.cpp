@@ -9,6 +9,7 @@
 
 #include <firstcontact/geometry/mass_properties.h>
 #include <firstcontact/scene/detail/load_robots.h>
+#include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -259,7 +260,9 @@ class Links {
                        .input_digest = given_.input_digest,
                        .robots = {},
                        .limits = given_.limits,
-                       .warnings = given_.warnings};
+                       .warnings = given_.warnings,
+                       .files = given_.files,
+                       .pair_counts = {}};
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const bool is_piece = b >= given_.scene.bodies.size();
       loaded.bodies.add(is_piece ? std::get<Shape>(scene_.bodies[b].shape.source)
@@ -280,10 +283,11 @@ class Links {
 }  // namespace
 
 LinksAsBodies links_as_bodies(const LoadedScene& loaded) {
-  if (!loaded.robots) {
-    return {.loaded = loaded, .pieces = {}, .models = {}};
-  }
-  return Links(loaded).run();
+  LinksAsBodies result = loaded.robots
+                             ? Links(loaded).run()
+                             : LinksAsBodies{.loaded = loaded, .pieces = {}, .models = {}};
+  result.loaded.pair_counts = count_simulated_pairs(loaded);
+  return result;
 }
 
 std::vector<std::string> names_with_links(const Scene& scene) {

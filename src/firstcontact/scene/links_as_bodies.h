@@ -27,7 +27,8 @@ struct LinkPiece {
 /// A piece is called "robot/link", all but the first of a link "robot/link#2" and so on. Of a robot
 /// with dynamics it is a free body, with its share of the link's mass; of another one it rests or
 /// has waypoints at every step of the simulation. Pairs that a robot leaves out are ignored, rules
-/// for links hold for all of their pieces, and margins contain the padding.
+/// for links hold for all of their pieces, and margins contain the padding. Pairs are counted by
+/// links, not by their pieces, as a simulation looks at them (count_simulated_pairs).
 struct LinksAsBodies {
   LoadedScene loaded;
   std::vector<LinkPiece> pieces = {};  ///< Of the bodies behind those of the scene.

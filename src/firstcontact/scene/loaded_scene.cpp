@@ -10,6 +10,7 @@
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/size_warning.h>
+#include <firstcontact/scene/detail/start_warnings.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/sha256.h>
 
@@ -36,16 +37,16 @@ DeformingBody moving(const Body& body, Shape shape, double duration) {
 LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
   LoadedScene loaded{.scene = {}, .bodies = BodySet(detail::rules_of(scene)), .input_digest = {}};
   loaded.warnings = scene.warnings;
+  detail::add_reports(scene.file_reports, loaded);
   std::string digests = scene.text_digest + '\n';
   for (const Body& body : scene.bodies) {
-    CachedShape cached = cache.load(body.shape);
+    CachedShape cached = cache.load(body.shape, {.lenient = scene.options.lenient});
     if (!cached.digest.empty()) {
       digests += cached.digest + '\n';
     }
     if (cached.report) {
       detail::add_report(*cached.report, loaded);
     }
-    detail::warn_of_size(body, cached.shape, loaded.warnings);
     DeformingBody moved = moving(body, std::move(cached.shape), scene.duration);
     loaded.bodies.add(std::move(moved.shape), std::move(moved.X_WS));
   }
@@ -57,8 +58,12 @@ LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
 }  // namespace
 
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
-  return scene.robots.empty() ? load_bodies(std::move(scene), cache)
-                              : detail::load_robots(std::move(scene), cache);
+  LoadedScene loaded = scene.robots.empty() ? load_bodies(std::move(scene), cache)
+                                            : detail::load_robots(std::move(scene), cache);
+  detail::warn_of_sizes(loaded);
+  detail::warn_of_begins_inside(loaded, cache);
+  loaded.pair_counts = count_checked_pairs(loaded);
+  return loaded;
 }
 
 }  // namespace firstcontact

@@ -12,6 +12,7 @@
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/body_set.h>
+#include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/text/file_report.h>
@@ -41,6 +42,7 @@ struct LoadedScene {
   std::vector<SceneLimits> limits = {};    ///< Of robots that leave any.
   std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
   std::vector<FileReport> files = {};      ///< What became of each file, in the order of their use.
+  PairCounts pair_counts = {};             ///< Of a check; see also LinksAsBodies.
 };
 
 /// What `--strict` asks for.

@@ -51,7 +51,8 @@ ResultSummary read_summary(std::string_view result, const std::filesystem::path&
   throw ParseError(source.string(), line, "expected a result with a \"verdict\" or an \"error\"");
 }
 
-StoredResult read_result(std::string_view result, const std::filesystem::path& source) {
+StoredResult read_result(std::string_view result, const std::filesystem::path& source,
+                         const ReadingOptions& options) {
   const detail::JsonValue root = detail::parse_json(result, source.string());
   const auto* object = std::get_if<detail::JsonObject>(&root.value);
   const detail::JsonValue* scene = object == nullptr ? nullptr : detail::find(*object, "scene");
@@ -59,8 +60,8 @@ StoredResult read_result(std::string_view result, const std::filesystem::path& s
     throw ParseError(source.string(),
                      "expected one result, as `firstcontact check SCENE -o FILE` writes it");
   }
-  return {parse_scene(detail::write_json(*scene), "scene of the result"), find_number(*object, "t"),
-          find_number(*object, "clearance")};
+  return {parse_scene(detail::write_json(*scene), "scene of the result", 1, options),
+          find_number(*object, "t"), find_number(*object, "clearance")};
 }
 
 }  // namespace firstcontact

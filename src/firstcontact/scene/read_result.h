@@ -43,6 +43,7 @@ struct StoredResult {
 /// @param source  the file that it is from, named in errors
 /// @throws ParseError if it is none, or its scene is none
 [[nodiscard]] FIRSTCONTACT_API StoredResult read_result(std::string_view result,
-                                                        const std::filesystem::path& source);
+                                                        const std::filesystem::path& source,
+                                                        const ReadingOptions& options = {});
 
 }  // namespace firstcontact

@@ -269,13 +269,18 @@ Scene read_rigid_ipc(const std::filesystem::path& path) {
   return parse_rigid_ipc(detail::read_file(path, "a scene of Rigid IPC"), path);
 }
 
-Scene read_simulation_scene(const std::filesystem::path& path) {
-  return parse_simulation_scene(detail::read_file(path, "a scene file"), path);
+Scene read_simulation_scene(const std::filesystem::path& path, const ReadingOptions& options) {
+  return parse_simulation_scene(detail::read_file(path, "a scene file"), path, options);
 }
 
-Scene parse_simulation_scene(std::string_view text, const std::filesystem::path& source) {
-  return is_fixture(detail::parse_json(text, source.string())) ? parse_rigid_ipc(text, source)
-                                                               : parse_scene(text, source);
+Scene parse_simulation_scene(std::string_view text, const std::filesystem::path& source,
+                             const ReadingOptions& options) {
+  if (!is_fixture(detail::parse_json(text, source.string()))) {
+    return parse_scene(text, source, 1, options);
+  }
+  Scene scene = parse_rigid_ipc(text, source);
+  scene.options.lenient = options.lenient;
+  return scene;
 }
 
 }  // namespace firstcontact

@@ -32,10 +32,12 @@ namespace firstcontact {
 /// "rigid_body_problem", else read_scene.
 ///
 /// @throws ParseError
-[[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path);
+[[nodiscard]] FIRSTCONTACT_API Scene read_simulation_scene(const std::filesystem::path& path,
+                                                           const ReadingOptions& options = {});
 
 /// @param source  names the text in errors; files are looked for from its folder on
 [[nodiscard]] FIRSTCONTACT_API Scene parse_simulation_scene(std::string_view text,
-                                                            const std::filesystem::path& source);
+                                                            const std::filesystem::path& source,
+                                                            const ReadingOptions& options = {});
 
 }  // namespace firstcontact

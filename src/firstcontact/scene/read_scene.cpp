@@ -163,6 +163,9 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   if (const JsonValue* deadline = find(object, "deadline")) {
     options.deadline = read.positive(*deadline);
   }
+  if (const JsonValue* lenient = find(object, "lenient")) {
+    options.lenient = read.boolean(*lenient);
+  }
   return options;
 }
 
@@ -259,7 +262,24 @@ const JsonValue* take_simulation(const JsonObject& object, Scene& scene, const J
   return nullptr;
 }
 
-Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read) {
+/// What a scene says of all it asks, and of how its files are read.
+///
+/// @returns  "options"; null where there are none
+const JsonObject* take_options(const JsonObject& object, bool lenient, Scene& scene,
+                               const JsonReader& read) {
+  const JsonValue* options = find(object, "options");
+  const JsonObject* given = nullptr;
+  if (options != nullptr) {
+    given = &read.object(*options, {{"tolerance", "margin", "contacts", "start_contacts",
+                                     "contact_band", "deadline", "duration", "lenient"}});
+    scene.options = read_options(*given, read);
+  }
+  scene.options.lenient = scene.options.lenient || lenient;
+  return given;
+}
+
+Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read,
+               const ReadingOptions& options) {
   require_version(root, read);
   const JsonObject& object = read.object(root, {{"firstcontact", "id", "package_roots", "bodies",
                                                  "robots", "pairs", "options", "simulation"}});
@@ -268,18 +288,12 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
     const auto* text = std::get_if<std::string>(&id->value);
     scene.id = text != nullptr ? *text : read.string(*id, "a string");
   }
+  const JsonObject* given = take_options(object, options.lenient, scene, read);
   read_members(root, object, read_folders(object, source, read), scene, read);
   if (const JsonValue* pairs = find(object, "pairs")) {
     detail::read_pairs(*pairs, scene, read);
   }
-  const JsonValue* duration = nullptr;
-  if (const JsonValue* options = find(object, "options")) {
-    const JsonObject& given =
-        read.object(*options, {{"tolerance", "margin", "contacts", "start_contacts", "contact_band",
-                                "deadline", "duration"}});
-    scene.options = read_options(given, read);
-    duration = find(given, "duration");
-  }
+  const JsonValue* duration = given == nullptr ? nullptr : find(*given, "duration");
   const JsonValue* simulated = take_simulation(object, scene, read);
   scene.duration = scene_duration(scene, duration, simulated, read);
   if (scene.simulation && simulated == nullptr) {
@@ -295,11 +309,11 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& source,
-                  std::size_t first_line) {
+                  std::size_t first_line, const ReadingOptions& options) {
   const FloatEnvironmentGuard guard;
   const std::string name = source.string();
   const JsonValue root = detail::parse_json(text, name, first_line);
-  Scene scene = to_scene(root, source, JsonReader(root, name));
+  Scene scene = to_scene(root, source, JsonReader(root, name), options);
   const std::string own_digest = detail::sha256(text);
   scene.text_digest = scene.text_digest.empty()
                           ? own_digest
@@ -307,7 +321,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& source,
   return scene;
 }
 
-Scene parse_embedded_scene(std::string_view text, const std::string& name, std::size_t first_line) {
+Scene parse_embedded_scene(std::string_view text, const std::string& name, std::size_t first_line,
+                           const ReadingOptions& options) {
   const JsonValue root = detail::parse_json(text, name, first_line);
   const auto* object = std::get_if<JsonObject>(&root.value);
   const JsonValue* scene = object == nullptr ? nullptr : find(*object, "scene");
@@ -315,14 +330,14 @@ Scene parse_embedded_scene(std::string_view text, const std::string& name, std::
     throw ParseError(name, first_line, "expected an object with a \"scene\"");
   }
   try {
-    return parse_scene(detail::write_json(*scene), "scene");
+    return parse_scene(detail::write_json(*scene), "scene", 1, options);
   } catch (const ParseError& error) {
     throw ParseError(name, scene->line, "scene: " + error.message());
   }
 }
 
-Scene read_scene(const std::filesystem::path& path) {
-  return parse_scene(detail::read_file(path, "a scene file"), path);
+Scene read_scene(const std::filesystem::path& path, const ReadingOptions& options) {
+  return parse_scene(detail::read_file(path, "a scene file"), path, 1, options);
 }
 
 }  // namespace firstcontact

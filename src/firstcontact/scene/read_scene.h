@@ -10,6 +10,7 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -22,8 +23,11 @@ namespace firstcontact {
 /// certificate holds for the motion that the converted numbers define, which the result states
 /// as its resolved scene. The locale changes nothing.
 ///
+/// Where the options are lenient, the scene's own become so, and its files are read as these say.
+///
 /// @throws ParseError  one line: "path:line: bodies[2].motion.from: what was expected"
-[[nodiscard]] FIRSTCONTACT_API Scene read_scene(const std::filesystem::path& path);
+[[nodiscard]] FIRSTCONTACT_API Scene read_scene(const std::filesystem::path& path,
+                                                const ReadingOptions& options = {});
 
 /// Reads a scene from text.
 ///
@@ -34,7 +38,8 @@ namespace firstcontact {
 /// @throws ParseError  as read_scene
 [[nodiscard]] FIRSTCONTACT_API Scene parse_scene(std::string_view text,
                                                  const std::filesystem::path& source,
-                                                 std::size_t first_line = 1);
+                                                 std::size_t first_line = 1,
+                                                 const ReadingOptions& options = {});
 
 /// The scene under the key "scene" of a JSON object, as results and runs embed it. Its paths are as
 /// they were opened, not relative to the object's file.
@@ -44,6 +49,7 @@ namespace firstcontact {
 /// @throws ParseError  as read_scene, or if there is no scene
 [[nodiscard]] FIRSTCONTACT_API Scene parse_embedded_scene(std::string_view text,
                                                           const std::string& name,
-                                                          std::size_t first_line = 1);
+                                                          std::size_t first_line = 1,
+                                                          const ReadingOptions& options = {});
 
 }  // namespace firstcontact

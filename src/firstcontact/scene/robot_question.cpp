@@ -10,6 +10,7 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/scene/detail/given_positions.h>
+#include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
@@ -62,7 +63,8 @@ class SceneBuilder {
 
  private:
   SceneRobot read_robot() {
-    RobotModel model = read_robot_model(question_.robot);
+    scene_.options.lenient = question_.reading.lenient;
+    RobotModel model = read_robot_model(question_.robot, question_.reading);
     std::string name = model.name().empty() ? "robot" : model.name();
     SceneRobot robot{.name = std::move(name),
                      .file = question_.robot,
@@ -72,6 +74,7 @@ class SceneBuilder {
       robot.srdf = question_.srdf;
       robot.semantics =
           parse_srdf(text_of(robot.srdf, "an SRDF file"), robot.srdf.string(), robot.model);
+      scene_.file_reports.push_back(detail::srdf_report(robot));
     }
     return robot;
   }
@@ -104,6 +107,8 @@ class SceneBuilder {
     if (!question_.trajectory.empty()) {
       robot.trajectory = parse_trajectory(text_of(question_.trajectory, "a trajectory file"),
                                           question_.trajectory, robot.model);
+      scene_.file_reports.push_back(
+          detail::trajectory_report(question_.trajectory, robot.trajectory));
       robot.trajectory.turning = question_.turning.value_or(Turning::as_given);
       if (question_.unwrap) {
         robot.trajectory = unwrapped(robot.model, std::move(robot.trajectory));
@@ -155,7 +160,7 @@ class SceneBuilder {
     }
     const std::string text = text_of(file, "surroundings");
     if (extension == ".json" && is_scene(text, file)) {
-      add_scene(parse_scene(text, file), file);
+      add_scene(parse_scene(text, file, 1, question_.reading), file);
     } else {
       require_base_at_origin(robot, file);
       const std::string& root = robot.model.links()[robot.model.root()].name;
@@ -166,7 +171,7 @@ class SceneBuilder {
         robot.state.insert(rest.positions.begin(), rest.positions.end());
         add_warnings(rest.warnings);
         add_warnings(around.warnings);
-        add_planning_scene(std::move(around), robot);
+        add_planning_scene(std::move(around), file, robot);
       } catch (const std::invalid_argument& error) {
         throw ParseError(file.string(), error.what());
       }
@@ -195,7 +200,9 @@ class SceneBuilder {
                        "expected surroundings (a mesh, a planning scene in .yaml, or "
                        "a scene in .json), found no such file");
     }
-    add({.name = file.stem().string(), .shape = {.source = MeshFile{file}}, .motion = {}});
+    add({.name = file.stem().string(),
+         .shape = {.source = MeshFile{file, question_.environment_scale}},
+         .motion = {}});
   }
 
   void add(Body body) {
@@ -221,6 +228,7 @@ class SceneBuilder {
       throw ParseError(file.string(),
                        "expected a scene as the first of the surroundings: its rules go by bodies");
     }
+    scene_.file_reports.push_back(detail::surroundings_report(file, "scene", around.bodies.size()));
     around_ = file;
     around_duration_ = around.duration;
     scene_.bodies = std::move(around.bodies);
@@ -230,9 +238,13 @@ class SceneBuilder {
     scene_.ignored_groups = std::move(around.ignored_groups);
     scene_.group_margins = std::move(around.group_margins);
     scene_.options = around.options;
+    scene_.options.lenient = around.options.lenient || question_.reading.lenient;
   }
 
-  void add_planning_scene(PlanningScene around, SceneRobot& robot) {
+  void add_planning_scene(PlanningScene around, const std::filesystem::path& file,
+                          SceneRobot& robot) {
+    scene_.file_reports.push_back(detail::surroundings_report(
+        file, "planning scene", around.bodies.size() + around.attached.size()));
     for (std::size_t k = 0; k < around.bodies.size(); ++k) {
       add(std::move(around.bodies[k]));
       ids_[scene_.bodies.size() - 1] = around.object_ids[k];
@@ -316,6 +328,7 @@ class SceneBuilder {
         };
         if (std::any_of(allowed_.begin(), allowed_.end(), allows)) {
           scene_.ignored_pairs.push_back({other, link});
+          scene_.allowed_pairs.push_back({other, link});
         }
       }
     }

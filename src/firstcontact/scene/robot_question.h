@@ -33,8 +33,10 @@ struct RobotQuestion {
   bool unwrap = false;  ///< Takes whole turns out of a trajectory; see `unwrapped`.
   /// Meshes; planning scenes (.yaml); scenes (.json), with the rules for their bodies and options.
   std::vector<std::filesystem::path> environment = {};
-  double padding = 0.0;         ///< [m]  Of every link.
-  double tracking_error = 0.0;  ///< [rad or m]  Of every joint.
+  double environment_scale = 1.0;  ///< [-]  Of the meshes among the surroundings; > 0.
+  double padding = 0.0;            ///< [m]  Of every link.
+  double tracking_error = 0.0;     ///< [rad or m]  Of every joint.
+  ReadingOptions reading = {};
 };
 
 /// Reads all files but meshes. The scene's id is the name of the trajectory's file; the robot's

@@ -43,6 +43,9 @@ void add_body(Scene& scene, Body body) {
   for (BodyPair& pair : scene.ignored_pairs) {
     renumber(pair);
   }
+  for (BodyPair& pair : scene.allowed_pairs) {
+    renumber(pair);
+  }
   for (PairMargin& pair : scene.pair_margins) {
     renumber(pair.bodies);
   }

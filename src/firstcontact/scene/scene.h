@@ -18,6 +18,7 @@
 #include <firstcontact/scene/body_shape.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/simulation.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 
@@ -58,6 +59,7 @@ struct SceneOptions {
   StartContacts start_contacts = StartContacts::report;
   double contact_band = 0.0;       ///< [m]  >= 0
   std::optional<double> deadline;  ///< [s]  Wall clock for the whole scene; > 0.
+  bool lenient = false;            ///< As ReadingOptions::lenient, of the files that it names.
 };
 
 /// A scene, read and resolved: every pose is a position and a quaternion.
@@ -70,6 +72,9 @@ struct Scene {
   std::vector<PairMargin> pair_margins;  ///< Prevail over those of groups.
   std::vector<GroupPair> ignored_groups;
   std::vector<GroupMargin> group_margins;  ///< Of several the greatest holds.
+  /// Those of the ignored pairs that planning scenes allow to touch. Only the counts of pairs tell
+  /// them apart.
+  std::vector<BodyPair> allowed_pairs = {};
   SceneOptions options;
   std::optional<Simulation> simulation = {};
   double duration = 1.0;  ///< [s]  Of the step; t = 1 there.
@@ -80,6 +85,7 @@ struct Scene {
   /// Files that were read into what stands above, such as trajectories and the meshes of Rigid IPC;
   /// as MeshFile::path.
   std::vector<std::filesystem::path> files_read = {};
+  std::vector<FileReport> file_reports = {};  ///< What became of files of text.
 };
 
 /// [s]  The greatest last time of waypoints and trajectories; 0 where there is none.

@@ -18,6 +18,7 @@
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
 

@@ -11,6 +11,7 @@
 #include <tbb/task_arena.h>
 
 #include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/scene/detail/make_shape.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/sha256.h>
@@ -150,6 +151,22 @@ CachedShape ShapeCache::load(const BodyShape& shape, const ReadingOptions& optio
     tbb::this_task_arena::isolate([&] { entry.shape = make(shape, options); });
   }
   return *entry.shape;
+}
+
+bool ShapeCache::encloses_space(const Shape& shape, const BodyShape* source) {
+  if (source != nullptr && is_inline(*source)) {
+    return why_not_solid(shape.mesh()).empty();
+  }
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto known = encloses_space_.find(&shape.hierarchy());
+        known != encloses_space_.end()) {
+      return known->second;
+    }
+  }
+  const bool encloses = why_not_solid(shape.mesh()).empty();
+  const std::scoped_lock lock(mutex_);
+  return encloses_space_[&shape.hierarchy()] = encloses;
 }
 
 CachedRobot ShapeCache::load(const RobotFile& file, const ReadingOptions& options) {

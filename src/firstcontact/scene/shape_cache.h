@@ -52,6 +52,12 @@ class FIRSTCONTACT_API ShapeCache {
   /// @throws ParseError as read_urdf, and where the surface has no geometry at all
   CachedRobot load(const RobotFile& file, const ReadingOptions& options = {});
 
+  /// Whether a shape's mesh is closed and its triangles agree on their inner side; looked at once
+  /// for each shape of a file.
+  ///
+  /// @param source  of a body; null for that of a link
+  bool encloses_space(const Shape& shape, const BodyShape* source);
+
  private:
   /// The kind of shape, the file, and all numbers.
   using Key = std::tuple<std::size_t, std::string, std::vector<double>>;
@@ -72,6 +78,8 @@ class FIRSTCONTACT_API ShapeCache {
   std::mutex mutex_;  // Of the maps; their entries stay where they are.
   std::map<Key, Entry> shapes_;
   std::map<RobotKey, RobotEntry> robots_;
+  /// By the place of the shape's hierarchy; of shapes that the cache holds.
+  std::map<const Hierarchy*, bool> encloses_space_;
 };
 
 }  // namespace firstcontact

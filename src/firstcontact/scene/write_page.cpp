@@ -8,6 +8,7 @@
 
 #include <firstcontact/scene/detail/page_meshes.h>
 #include <firstcontact/scene/detail/page_robots.h>
+#include <firstcontact/scene/detail/reports_json.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/write_json.h>
@@ -101,7 +102,13 @@ std::string write_page(std::string_view page_template, const LoadedScene& loaded
 
 std::string write_page(std::string_view page_template, const LoadedScene& loaded,
                        const PageRecord& record) {
-  return fill(page_template, record, look_of(loaded));
+  JsonObject view = look_of(loaded);
+  if (!loaded.robots) {
+    view.push_back({"warnings", to_json(loaded.warnings)});
+  }
+  view.push_back({"pair_counts", detail::pair_counts_json(loaded.pair_counts)});
+  view.push_back({"files", detail::reports_json(loaded.files)});
+  return fill(page_template, record, std::move(view));
 }
 
 }  // namespace firstcontact

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/detail/reports_json.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/robot_result.h>
 #include <firstcontact/scene/version.h>
@@ -196,6 +197,8 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
   if (options.sampling) {
     object.push_back({"sampling", writer.sampling(*options.sampling)});
   }
+  object.push_back({"pair_counts", detail::pair_counts_json(loaded.pair_counts)});
+  object.push_back({"files", detail::reports_json(loaded.files)});
   object.push_back({"scene", detail::parse_json(write_scene(loaded.scene), "scene", 1)});
   object.push_back({"version", to_json(version())});
   object.push_back({"input_digest", to_json(loaded.input_digest)});

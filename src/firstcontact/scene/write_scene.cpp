@@ -363,6 +363,9 @@ JsonValue options_to_json(const Scene& scene) {
   if (options.deadline) {
     object.push_back({"deadline", to_json(*options.deadline)});
   }
+  if (options.lenient) {
+    object.push_back({"lenient", {.value = true}});
+  }
   object.push_back({"duration", to_json(scene.duration)});
   return {.value = std::move(object)};
 }

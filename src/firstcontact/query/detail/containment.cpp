@@ -306,6 +306,16 @@ Feature vertex_feature(const Mesh& mesh, std::uint32_t vertex) {
 
 }  // namespace
 
+Inside winds_around(const Hierarchy& surface, const Vector3d& p_CP, double error) {
+  const Vector3d p = p_CP / surface.unit;
+  const double own_error = error / surface.unit;
+  const Eigen::AlignedBox3d around = bounds(surface, 0.0);
+  if (around.squaredExteriorDistance(p) > own_error * own_error) {
+    return Inside::no;
+  }
+  return WindingNumber(surface, 0.0, p, own_error).inside();
+}
+
 Containment find_containment(const Shape& A, const Shape& B, const MovingPair& pair,
                              const RelativeState& state) {
   const double error = 2.0 * pair.gap_error(state);  // Positions are turned once more.

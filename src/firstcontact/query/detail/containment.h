@@ -15,6 +15,13 @@ namespace firstcontact::detail {
 /// What is known of a point and a solid.
 enum class Inside { no, yes, unsure };
 
+/// Whether the triangles of a surface wind around a point other than zero times.
+///
+/// @param p_CP   [m]  the point, from the centre of the hierarchy
+/// @param error  [m]  the exact point is no farther from it than this
+[[nodiscard]] Inside winds_around(const Hierarchy& surface, const Eigen::Vector3d& p_CP,
+                                  double error);
+
 /// A vertex of one body that lies in the other, and a face of that which encloses it.
 struct Containment {
   Inside inside = Inside::no;

@@ -13,4 +13,8 @@ void add_report(const FileReport& report, LoadedScene& scene) {
   scene.warnings.insert(scene.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
+void add_reports(const std::vector<FileReport>& reports, LoadedScene& scene) {
+  scene.files.insert(scene.files.end(), reports.begin(), reports.end());
+}
+
 }  // namespace firstcontact::detail

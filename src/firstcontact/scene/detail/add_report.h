@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <vector>
+
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact::detail {
@@ -10,5 +12,8 @@ namespace firstcontact::detail {
 /// Adds a report to the files of a scene, and what it warns of to the warnings; a file that the
 /// scene has already counts once.
 void add_report(const FileReport& report, LoadedScene& scene);
+
+/// Adds those of the scene's text, of whose warnings the scene knows already.
+void add_reports(const std::vector<FileReport>& reports, LoadedScene& scene);
 
 }  // namespace firstcontact::detail

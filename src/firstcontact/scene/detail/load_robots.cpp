@@ -9,7 +9,6 @@
 
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/scene/detail/add_report.h>
-#include <firstcontact/scene/detail/size_warning.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/quantity.h>
@@ -27,6 +26,7 @@ class RobotLoader {
   LoadedScene load() {
     robots_.rules() = rules_of(scene_);
     loaded_.warnings = scene_.warnings;
+    add_reports(scene_.file_reports, loaded_);
     for (const Body& body : scene_.bodies) {
       add(body);
     }
@@ -44,24 +44,25 @@ class RobotLoader {
   }
 
  private:
+  [[nodiscard]] ReadingOptions reading() const { return {.lenient = scene_.options.lenient}; }
+
   void add(const Body& body) {
     if (std::holds_alternative<VertexMotion>(body.motion)) {
       throw std::invalid_argument("body " + in_quotes(body.name) +
                                   ": expected a rigid motion in a scene with robots, got "
                                   "\"vertices\"");
     }
-    CachedShape cached = cache_.load(body.shape);
+    CachedShape cached = cache_.load(body.shape, reading());
     digests_ += cached.digest.empty() ? "" : cached.digest + '\n';
     if (cached.report) {
       add_report(*cached.report, loaded_);
     }
-    warn_of_size(body, cached.shape, loaded_.warnings);
     robots_.add_body(body.name, std::move(cached.shape),
                      normalised_motion(body.motion, scene_.duration));
   }
 
   void add(const SceneRobot& robot) {
-    CachedRobot cached = cache_.load(robot.file);
+    CachedRobot cached = cache_.load(robot.file, reading());
     digests_ += cached.digest + '\n' + robot.srdf_digest + '\n';
     for (const FileReport& report : *cached.files) {
       add_report(report, loaded_);
@@ -72,7 +73,6 @@ class RobotLoader {
     TrajectoryMotion motion =
         joint_motions(robot.model, robot.trajectory, robot.state, scene_.duration);
     warn(robot, motion.at_default);
-    warn_of_sizes(robot, cached.model, loaded_.warnings);
     const std::size_t first = robots_.size();
     const std::size_t index =
         robots_.add_robot(robot.name,

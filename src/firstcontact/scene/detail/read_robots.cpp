@@ -16,6 +16,7 @@
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_robot_dynamics.h>
+#include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/read_file.h>
@@ -39,12 +40,13 @@ class RobotReader {
     const RobotFile urdf = file(value, object);
     SceneRobot robot{.name = read_.string(read_.member(value, "name"), "a name"),
                      .file = urdf,
-                     .model = read_robot_model(urdf)};
+                     .model = read_robot_model(urdf, {.lenient = scene_.options.lenient})};
     if (const JsonValue* srdf = find(object, "srdf")) {
       robot.srdf = read_path(*srdf, "an SRDF file", folders_, read_);
       const std::string text = read_file(robot.srdf, "an SRDF file");
       robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
       robot.srdf_digest = sha256(text);
+      scene_.file_reports.push_back(srdf_report(robot));
     }
     robot.base = base(object);
     take_motion(object, robot);
@@ -110,6 +112,7 @@ class RobotReader {
     robot.trajectory = parse_trajectory(text, path, robot.model);
     scene_.text_digest += sha256(text) + '\n';
     scene_.files_read.push_back(path);
+    scene_.file_reports.push_back(trajectory_report(path, robot.trajectory));
   }
 
   void take_turning(const JsonObject& object, SceneRobot& robot) const {

@@ -9,7 +9,8 @@
 
 namespace firstcontact::detail {
 
-/// Reads "robots" into a scene that has its bodies: reads their URDF and SRDF and trajectories, but
+/// Reads "robots" into a scene that has its bodies, and in its options whether it is lenient: reads
+/// their URDF and SRDF and trajectories, but
 /// no meshes.
 ///
 /// @throws ParseError

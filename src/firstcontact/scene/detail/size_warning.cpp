@@ -1,6 +1,14 @@
 #include <firstcontact/scene/detail/size_warning.h>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <string>
 #include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/write_json.h>
@@ -8,35 +16,150 @@
 namespace firstcontact::detail {
 namespace {
 
+constexpr double kImplausible = 1000.0;     // [m]
+constexpr double kImplausibleLink = 100.0;  // [m]
+constexpr double kSuspicious = 100.0;       // [m]  Of a mesh beside what is much smaller.
+constexpr double kMuchSmaller = 0.01;       // [-]
+
 double diameter(const Shape& shape) { return 2.0 * (shape.hierarchy().radius + shape.radius()); }
 
-std::string warning(const std::string& what, double size) {
-  return what + " is " + quantity(size, "m") + " across: is its unit right?";
+/// A body or robot, and how large it is.
+struct Sized {
+  std::string name;      ///< 'body "post"'
+  double size = 0.0;     ///< [m]
+  bool is_mesh = false;  ///< Its coordinates are not said in a unit.
+  bool in_file = false;  ///< So too, and a scale can be said.
+};
+
+const Shape& shape_of(const LoadedScene& loaded, std::size_t body) {
+  return loaded.robots ? loaded.robots->geometries(body).front().shape : loaded.bodies.shape(body);
+}
+
+Sized size_of_body(const LoadedScene& loaded, std::size_t index) {
+  const Body& body = loaded.scene.bodies[index];
+  const auto& source = body.shape.source;
+  const auto* hull = std::get_if<ConvexHullShape>(&source);
+  const bool in_file = std::holds_alternative<MeshFile>(source) ||
+                       (hull != nullptr && std::holds_alternative<MeshFile>(hull->of));
+  return {.name = "body " + in_quotes(body.name),
+          .size = diameter(shape_of(loaded, index)),
+          .is_mesh = std::holds_alternative<MeshFile>(source) ||
+                     std::holds_alternative<Mesh>(source) || std::holds_alternative<Shape>(source),
+          .in_file = in_file};
+}
+
+Eigen::Vector3d at(const Pose& X_AB, const Eigen::Vector3d& p_BP) {
+  return X_AB.position + X_AB.rotation.normalized() * p_BP;
+}
+
+/// By the balls around its geometries, where the step begins.
+Sized size_of_robot(const LoadedScene& loaded, std::size_t robot) {
+  const RobotScene& members = *loaded.robots;
+  const std::size_t first = members.first_member(robot);
+  Eigen::AlignedBox3d box;
+  for (std::size_t k = 0; k < loaded.scene.robots[robot].model.links().size(); ++k) {
+    const Pose X_WL = members.pose(first + k, 0.0);
+    for (const MemberGeometry& geometry : members.geometries(first + k)) {
+      const Eigen::Vector3d centre = at(X_WL, at(geometry.X_MG, geometry.shape.hierarchy().centre));
+      const Eigen::Vector3d reach = Eigen::Vector3d::Constant(0.5 * diameter(geometry.shape));
+      box.extend(centre - reach);
+      box.extend(centre + reach);
+    }
+  }
+  return {.name = "robot " + in_quotes(loaded.scene.robots[robot].name),
+          .size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff()};
+}
+
+/// "6,000", "1.2e+07"
+std::string times(double ratio) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), ratio, std::chars_format::general, 2)
+          .ptr;
+  std::string digits(text.data(), end);
+  if (ratio < 1e6) {
+    digits = std::to_string(static_cast<long long>(ratio));
+  }
+  return digits;
+}
+
+std::string offer() {
+  return "; if its file is in millimetres, \"scale\": 0.001 reads it so (--environment-scale 0.001 "
+         "on the command line, scale=0.001 in Python)";
+}
+
+/// What is there beside a body.
+std::string warning(const Sized& body, const Sized* next_smaller) {
+  std::string text = body.name + " is " + quantity(body.size, "m") + " across";
+  if (next_smaller != nullptr) {
+    text +=
+        ", " + times(body.size / next_smaller->size) + " times as much as " + next_smaller->name;
+  }
+  return text + ": is its unit right?" + (body.in_file ? offer() : "");
+}
+
+void warn_of_links(const LoadedScene& loaded, std::vector<std::string>& warnings) {
+  for (std::size_t robot = 0; robot < loaded.scene.robots.size(); ++robot) {
+    const SceneRobot& described = loaded.scene.robots[robot];
+    const std::size_t first = loaded.robots->first_member(robot);
+    for (std::size_t k = 0; k < described.model.links().size(); ++k) {
+      for (const MemberGeometry& geometry : loaded.robots->geometries(first + k)) {
+        if (diameter(geometry.shape) > kImplausibleLink) {
+          warnings.push_back(
+              described.name + ": link " + in_quotes(described.model.links()[k].name) + " is " +
+              quantity(diameter(geometry.shape), "m") + " across: is its unit right?");
+        }
+      }
+    }
+  }
+}
+
+/// The largest of those that are much smaller than the next larger one, which is suspicious; null
+/// where there is none. Sorted by size.
+const Sized* largest_of_usual(const std::vector<Sized>& by_size) {
+  for (std::size_t k = 0; k + 1 < by_size.size(); ++k) {
+    const Sized& larger = by_size[k + 1];
+    if (larger.size >= kSuspicious && by_size[k].size > 0.0 &&
+        by_size[k].size <= kMuchSmaller * larger.size) {
+      return &by_size[k];
+    }
+  }
+  return nullptr;
 }
 
 }  // namespace
 
-void warn_of_size(const Body& body, const Shape& shape, std::vector<std::string>& warnings) {
-  constexpr double kImplausible = 1000.0;  // [m]
-  const auto& source = body.shape.source;
-  const bool is_mesh = std::holds_alternative<MeshFile>(source) ||
-                       std::holds_alternative<Mesh>(source) ||
-                       std::holds_alternative<Shape>(source);
-  if (is_mesh && diameter(shape) >= kImplausible) {
-    warnings.push_back(warning("body " + in_quotes(body.name), diameter(shape)));
+void warn_of_sizes(LoadedScene& loaded) {
+  std::vector<Sized> all;
+  for (std::size_t body = 0; body < loaded.scene.bodies.size(); ++body) {
+    all.push_back(size_of_body(loaded, body));
   }
-}
-
-void warn_of_sizes(const SceneRobot& robot, const RobotModel& loaded,
-                   std::vector<std::string>& warnings) {
-  constexpr double kImplausible = 100.0;  // [m]
-  for (const Link& link : loaded.links()) {
-    for (const LinkGeometry& geometry : link.collision) {
-      if (geometry.shape && diameter(*geometry.shape) > kImplausible) {
-        warnings.push_back(
-            warning(robot.name + ": link " + in_quotes(link.name), diameter(*geometry.shape)));
-      }
+  for (std::size_t robot = 0; robot < loaded.scene.robots.size(); ++robot) {
+    all.push_back(size_of_robot(loaded, robot));
+  }
+  if (all.empty()) {
+    return;
+  }
+  std::vector<Sized> by_size = all;
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [](const Sized& a, const Sized& b) { return a.size < b.size; });
+  const Sized* usual = largest_of_usual(by_size);
+  const bool all_large = by_size.front().size >= kSuspicious;
+  for (const Sized& body : all) {
+    const bool beside = usual != nullptr && body.size > usual->size;
+    if (body.in_file && body.size >= kSuspicious && (beside || all_large)) {
+      loaded.warnings.push_back(warning(body, beside ? usual : nullptr));
+    } else if (body.is_mesh && body.size >= kImplausible) {
+      loaded.warnings.push_back(warning(body, nullptr));
     }
+  }
+  warn_of_links(loaded, loaded.warnings);
+  const double tolerance = loaded.scene.options.tolerance;
+  if (by_size.back().size > 0.0 && by_size.back().size < tolerance) {
+    loaded.warnings.push_back("nothing is as large as the tolerance of " +
+                              quantity(tolerance, "m") + "; the largest, " + by_size.back().name +
+                              ", is " + quantity(by_size.back().size, "m") +
+                              " across: are units and tolerance right?");
   }
 }
 

@@ -1,22 +1,19 @@
 /// @file
-/// What is so large that its unit is likely to be a wrong one.
+/// What is so large or so small that its unit is likely to be a wrong one.
 
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include <firstcontact/geometry/shape.h>
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact::detail {
 
-/// Warns of a body whose mesh is 1,000 m across or more. Of shapes whose size stands in the scene,
-/// of clouds and of height maps, any size is meant.
-void warn_of_size(const Body& body, const Shape& shape, std::vector<std::string>& warnings);
-
-/// Warns of links that are more than 100 m across.
-void warn_of_sizes(const SceneRobot& robot, const RobotModel& loaded,
-                   std::vector<std::string>& warnings);
+/// Warns of sizes, judged beside each other, once for each body, link or scene:
+/// - meshes of 1,000 m and more across, and links of more than 100 m;
+/// - meshes of files of 100 m and more, where they are 100 times as large as the next smaller body
+///   or robot, or where everything is as large;
+/// - scenes in which nothing is as large as the tolerance.
+///
+/// Of shapes whose size stands in the scene, of clouds and of height maps, any size is meant.
+void warn_of_sizes(LoadedScene& loaded);
 
 }  // namespace firstcontact::detail

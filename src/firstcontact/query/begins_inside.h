@@ -1,0 +1,42 @@
+/// @file
+/// Bodies that begin inside of the surface of another one.
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// A shape S where a step begins. Refers to the shape.
+struct ShapeAtStart {
+  const Shape* shape = nullptr;
+  Pose X_WS = {};
+};
+
+/// Two shapes by their index.
+struct BeginsInside {
+  std::size_t inside = 0;
+  std::size_t around = 0;
+
+  friend bool operator==(const BeginsInside&, const BeginsInside&) = default;
+};
+
+/// Finds shapes that begin inside of meshes that are surfaces (Filling::surface): were these meshes
+/// solids, the two would be in contact from the start.
+///
+/// One point of each shape is looked at, so a shape of several components may be missed. An answer
+/// is certified: the surface winds around the point other than zero times. Whether the surface is
+/// closed is not looked at: see why_not_solid(). Only points within a surface's bounds cost more
+/// than the look for them, which takes O(n log n).
+///
+/// @returns  in the order of `around`, then of `inside`
+[[nodiscard]] FIRSTCONTACT_API std::vector<BeginsInside> find_begins_inside(
+    std::span<const ShapeAtStart> shapes);
+
+}  // namespace firstcontact

@@ -1,0 +1,59 @@
+/// @file
+/// Members of a scene by how they move and by the groups that they are in.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::detail {
+
+/// How a member moves, as far as that decides whether its pairs are looked at.
+enum class MemberKind : std::uint8_t { moved, scripted, rests, cannot_touch };
+
+/// The same two members, the smaller number first.
+[[nodiscard]] inline BodyPair ordered(const BodyPair& pair) {
+  return {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
+}
+
+/// One number for a pair in order.
+[[nodiscard]] inline std::uint64_t code(const BodyPair& pair) {
+  return static_cast<std::uint64_t>(pair[0]) << 32 | static_cast<std::uint64_t>(pair[1]);
+}
+
+/// Members of one kind that are in the same groups: the rules for groups say the same of them, so
+/// that pairs are counted without looking at each.
+class MemberClasses {
+ public:
+  /// @param kinds  of each member
+  MemberClasses(const Scene& scene, const std::vector<MemberKind>& kinds);
+
+  /// Whether a rule for groups ignores the pair.
+  [[nodiscard]] bool is_ignored(const BodyPair& members) const {
+    return !ignored_.empty() && ignored_.contains(class_pair(members));
+  }
+
+  /// One number for the two classes of two members.
+  [[nodiscard]] std::uint64_t class_pair(const BodyPair& members) const {
+    return code(ordered({class_of_[members[0]], class_of_[members[1]]}));
+  }
+
+  /// The pairs of classes that rules ignore, in order; the two may be one and the same.
+  [[nodiscard]] std::vector<BodyPair> ignored() const;
+
+  [[nodiscard]] const std::vector<std::size_t>& members(std::size_t of) const {
+    return classes_[of];
+  }
+
+ private:
+  std::vector<std::size_t> class_of_;  // Of each member.
+  std::vector<std::vector<std::size_t>> classes_;
+  std::unordered_set<std::uint64_t> ignored_;  // By code().
+};
+
+}  // namespace firstcontact::detail

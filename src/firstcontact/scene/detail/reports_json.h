@@ -1,0 +1,18 @@
+/// @file
+/// Reports of files and counts of pairs as JSON trees.
+
+#pragma once
+
+#include <span>
+
+#include <firstcontact/scene/pair_counts.h>
+#include <firstcontact/text/file_report.h>
+#include <firstcontact/text/json_tree.h>
+
+namespace firstcontact::detail {
+
+[[nodiscard]] JsonValue reports_json(std::span<const FileReport> reports);
+
+[[nodiscard]] JsonValue pair_counts_json(const PairCounts& counts);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,27 @@
+/// @file
+/// What became of files of text that a scene is put together of.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/file_report.h>
+
+namespace firstcontact::detail {
+
+/// Of a scene or planning scene whose bodies another scene takes.
+///
+/// @param bodies  how many
+[[nodiscard]] FileReport surroundings_report(const std::filesystem::path& file, const char* format,
+                                             std::size_t bodies);
+
+/// @param robot  with the semantics of its SRDF
+[[nodiscard]] FileReport srdf_report(const SceneRobot& robot);
+
+[[nodiscard]] FileReport trajectory_report(const std::filesystem::path& file,
+                                           const Trajectory& trajectory);
+
+}  // namespace firstcontact::detail
