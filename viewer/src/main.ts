@@ -26,6 +26,7 @@ import { summaryPanel } from "./panels/summary";
 import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
 import { transport } from "./panels/transport";
+import { filesPanel } from "./panels/files";
 import { warningsPanel } from "./panels/warnings";
 import { Player } from "./player";
 import { Theme } from "./theme";
@@ -136,6 +137,7 @@ function start(model: Model): void {
     bodiesPanel(model, view, display),
     model.run && stepContactsPanel(model, model.run, view, player),
     warningsPanel(model),
+    filesPanel(model),
   ].filter((card) => card !== null);
   stage.append(toolbar(model, commands, panelOpen), triad(view));
   app.append(element("aside.panel", { "aria-label": "Details" }, ...cards));

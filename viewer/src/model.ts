@@ -1,6 +1,7 @@
 /// A result, or a run, made ready to be shown.
 
 import type { BodyData, Contact, Limit, PairAnswer, Result, Vector3 } from "./data/result";
+import type { FileReport, PairCounts } from "./data/reports";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
 import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
 import type { RunData, WayData } from "./data/run_data";
@@ -200,6 +201,9 @@ export class Model {
   readonly pairs: readonly PairAnswer[];
   /// What a person who looks should know.
   readonly warnings: readonly string[];
+  /// Which pairs the answer is about; null where that is not known.
+  readonly pairCounts: PairCounts | null;
+  readonly files: readonly FileReport[];
 
   private readonly indices: ReadonlyMap<string, number>;
 
@@ -229,6 +233,8 @@ export class Model {
     );
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
     this.pairs = result?.pairs ?? [];
+    this.pairCounts = page.pairCounts;
+    this.files = page.files;
     this.warnings = [...(result?.warnings ?? []), ...page.warnings];
   }
 

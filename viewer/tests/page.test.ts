@@ -570,6 +570,28 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await page.getByRole("region", { name: "Answer" }).isVisible()).toBe(true);
   });
 
+  test("says of which pairs and files it speaks", async () => {
+    const page = await show(arm);
+    const answer = page.getByRole("region", { name: "Answer" });
+    const { tested, untested } = arm.result.pair_counts!;
+    expect(tested).toBeGreaterThan(0);
+    expect(await answer.getByText("Pairs tested").count()).toBe(1);
+    expect(await answer.getByText("of links that joints connect").count()).toBe(1);
+    expect(untested.map(({ why }) => why)).toContain("joined_links");
+    const files = page.getByRole("region", { name: "Files" });
+    await files.locator("summary").click();
+    expect(await files.getByText("arm.urdf").isVisible()).toBe(true);
+    expect(await files.getByText(/^URDF, /).isVisible()).toBe(true);
+  });
+
+  test("proves nothing where no pair was tested", async () => {
+    const one = await folder.make("alone", { ...stones, id: "alone", bodies: [stones.bodies[0]] });
+    const page = await show(one);
+    const answer = page.getByRole("region", { name: "Answer" });
+    expect(await answer.getByText("No pair was tested").count()).toBe(1);
+    expect(await page.getByRole("region", { name: "Warnings" }).getByText("no pair is tested").count()).toBe(1); // prettier-ignore
+  });
+
   test("of nut and bolt is one file of at most 5 MB with the licences of what it bundles", async () => {
     const { file } = await nut;
     expect(statSync(file).size).toBeLessThan(5e6);

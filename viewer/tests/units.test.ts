@@ -5,6 +5,7 @@ import { lengthText, pointText, timeText } from "../src/core/format";
 import { readPageData } from "../src/data/page_data";
 import type { Vector3 } from "../src/data/result";
 import { momentOf } from "../src/link";
+import { noneOf, pairFacts, untestedText } from "../src/panels/pair_facts";
 import { runCharts } from "../src/panels/run_charts";
 import { Player } from "../src/player";
 import { Run } from "../src/run";
@@ -196,5 +197,40 @@ describe("the data of a page", () => {
 
   test("are missed with a word on how to make them", () => {
     expect(() => readPageData('"FIRSTCONTACT_RESULT"')).toThrow(/firstcontact check/);
+  });
+});
+
+describe("the pairs that an answer is about", () => {
+  const counts = {
+    tested: 3,
+    ignored: 5,
+    left_out: 1,
+    untested: [
+      {
+        why: "srdf",
+        count: 5,
+        first: [
+          ["a", "b"],
+          ["a", "c"],
+        ],
+      },
+      { why: "both_scripted", count: 1, first: [["d", "e"]] },
+    ],
+  } as const;
+
+  test("are told with a count, the first few names and a reason", () => {
+    expect(untestedText(counts.untested[0])).toBe("5 by the SRDF: a and b, a and c, and 3 more");
+    expect(pairFacts(counts)).toEqual([
+      ["Pairs tested", "3"],
+      ["Ignored", "5 by the SRDF: a and b, a and c, and 3 more"],
+      ["Left out", "1 of which neither is free (they may pass through each other): d and e"],
+    ]);
+    expect(pairFacts(null)).toEqual([]);
+  });
+
+  test("are the subject of what is claimed", () => {
+    expect(noneOf(counts, "touches")).toBe("none of the 3 tested pairs touches");
+    expect(noneOf({ ...counts, tested: 1 }, "touches")).toBe("the one tested pair never touches");
+    expect(noneOf(null, "touches")).toBe("none of the tested pairs touches");
   });
 });

@@ -1,6 +1,7 @@
 /// What the tool leaves in the page: a result or a run, and what the page needs to draw it.
 
 import { bytesOf } from "./bytes";
+import type { FileReport, PairCounts } from "./reports";
 import type { Result, SceneData, Vector3 } from "./result";
 import type { CarriedData, RobotData } from "./robot_data";
 import { runOf, type RunData, type StoredRun } from "./run_data";
@@ -29,8 +30,11 @@ export interface PageData {
   readonly bodies: readonly number[];
   readonly robots: readonly RobotData[];
   readonly carried: readonly CarriedData[];
-  /// What could not be drawn.
+  /// What could not be drawn, and what reading a run's scene warns of.
   readonly warnings: readonly string[];
+  /// What the answer is about; null where that is not known.
+  readonly pairCounts: PairCounts | null;
+  readonly files: readonly FileReport[];
   /// Samples of the gap, of results: they prove nothing of the times between them.
   readonly gap: GapLine;
   /// The gap is proven to be nowhere below; may be empty.
@@ -52,6 +56,9 @@ interface StoredPage {
     readonly robots?: readonly RobotData[];
     readonly carried?: readonly CarriedData[];
     readonly warnings?: readonly string[];
+    /// Of runs: a result has these itself.
+    readonly pair_counts?: PairCounts;
+    readonly files?: readonly FileReport[];
     readonly gap?: GapLine;
     readonly gap_bound?: GapLine;
   };
@@ -92,6 +99,8 @@ export function readPageData(text: string): PageData {
     robots: view.robots ?? [],
     carried: view.carried ?? [],
     warnings: view.warnings ?? [],
+    pairCounts: result?.pair_counts ?? view.pair_counts ?? null,
+    files: result?.files ?? view.files ?? [],
     gap: view.gap ?? noLine,
     gapBound: view.gap_bound ?? noLine,
   };

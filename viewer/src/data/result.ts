@@ -1,5 +1,7 @@
 /// The JSON that `firstcontact check` writes, as far as the page shows it (see docs/formats.md).
 
+import type { FileReport, PairCounts } from "./reports";
+
 export type Vector3 = readonly [number, number, number];
 export type QuaternionWxyz = readonly [number, number, number, number];
 
@@ -118,6 +120,9 @@ export interface Result extends Answer {
   readonly pairs?: readonly PairAnswer[];
   readonly limits?: readonly Limit[];
   readonly warnings?: readonly string[];
+  /// Results of earlier versions lack these two.
+  readonly pair_counts?: PairCounts;
+  readonly files?: readonly FileReport[];
   readonly scene: SceneData;
   readonly version: string;
 }

@@ -5,6 +5,7 @@ import { energyText, forceText, lengthText, number, timeText } from "../core/for
 import type { Model } from "../model";
 import type { Run } from "../run";
 import { factList } from "./facts";
+import { noneOf, noPair, pairFacts } from "./pair_facts";
 
 const sum = (values: readonly number[]): number => values.reduce((total, x) => total + x, 0);
 const least = (values: readonly number[]): number => values.reduce((a, b) => Math.min(a, b));
@@ -27,8 +28,20 @@ function facts(model: Model, run: Run): [string, string][] {
     ["Energy at the end", energyText(energies.at(-1)!)],
     ["Time lost", lost > 0 ? timeText(lost) : "none"],
     ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`],
+    ...pairFacts(model.pairCounts),
     ["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")],
   ];
+}
+
+/// Of a whole run, or of one that was stopped.
+function sentence({ pairCounts }: Model, run: Run, isWhole: boolean): string {
+  if (pairCounts?.tested === 0) {
+    return noPair;
+  }
+  const claim = noneOf(pairCounts, "interpenetrates");
+  return isWhole
+    ? `During all of it ${claim}.`
+    : `After ${timeText(run.duration)} of ${timeText(run.asked)}; until then ${claim}.`;
 }
 
 export function runPanel(model: Model, run: Run): HTMLElement {
@@ -42,13 +55,7 @@ export function runPanel(model: Model, run: Run): HTMLElement {
       { "data-verdict": isWhole ? "free" : "undecided" },
       isWhole ? "Simulated" : "Stopped early",
     ),
-    element(
-      "p",
-      {},
-      isWhole
-        ? "At no time do two bodies interpenetrate."
-        : `After ${timeText(run.duration)} of ${timeText(run.asked)}; until then no two bodies interpenetrate.`,
-    ),
+    element("p", {}, sentence(model, run, isWhole)),
     factList(facts(model, run)),
   );
 }

@@ -5,6 +5,7 @@ import { lengthText, number, timeText } from "../core/format";
 import type { Result } from "../data/result";
 import type { Model } from "../model";
 import { factList } from "./facts";
+import { noneOf, noPair, pairFacts } from "./pair_facts";
 
 const words = {
   free: "Free",
@@ -13,11 +14,16 @@ const words = {
   undecided: "Undecided",
 } as const;
 
-function sentence({ duration }: Model, { verdict, pair, time, reason }: Result): string {
+function sentence(
+  { duration, pairCounts }: Model,
+  { verdict, pair, time, reason }: Result,
+): string {
   const who = pair ? `${pair[0]} and ${pair[1]}` : "the bodies";
   switch (verdict) {
     case "free":
-      return `Proven: nothing touches during the whole ${timeText(duration)}.`;
+      return pairCounts?.tested === 0
+        ? noPair
+        : `Proven: ${noneOf(pairCounts, "touches")} during the whole ${timeText(duration)}.`;
     case "contact":
       return `Proven free until ${timeText(time)}; then ${who} touch.`;
     case "contact_at_start":
@@ -46,6 +52,7 @@ function facts(model: Model, result: Result): [string, string][] {
     list.push(["Margin", lengthText(margin)]);
   }
   list.push(["Duration", timeText(model.duration)]);
+  list.push(...pairFacts(model.pairCounts));
   list.push(["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")]);
   return list;
 }
