@@ -26,10 +26,13 @@ from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, Ele
                     linear_vertex_face_contact, make_box, make_capsule, make_cone, make_convex_hull,
                     make_cylinder, make_height_map, make_point_cloud, make_sphere, move_vertices,
                     parse_obj, parse_off, parse_pcd, parse_ply, parse_ply_points, parse_scene,
-                    parse_stl, parse_xyz, read_heights, read_mesh, read_points, read_request,
+                    parse_stl, parse_xyz, read_heights, read_mesh, read_mesh_file, read_points,
+                    read_points_file, read_request,
                     read_simulation_scene, read_srdf, read_trajectory, read_urdf, sample_gap,
                     verify_run, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
+from ._reports import (FileReport, LeftOut, MeshReading, PairCounts, PointReading,
+                       UntestedPairs)
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
@@ -40,20 +43,22 @@ from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Fill
 __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactInterval",
     "ContactState", "DistanceResult", "ElementaryContact", "ElementaryVerdict", "EndEffector",
-    "Feature", "FeatureType", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
-    "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LimitViolation", "LinearContact",
-    "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "Mimic", "Motion",
-    "MovingShape", "Pair", "PairAnswer", "PairRules", "ParseError", "PlanningRequest", "Pose",
+    "Feature", "FeatureType", "FileReport", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
+    "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
+    "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
+    "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
+    "PlanningRequest", "PointReading", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator",
-    "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "Verdict", "WorkCount", "Workspace",
+    "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
     "distance", "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",
     "linear_vertex_face_contact", "load_scene", "make_box", "make_capsule", "make_cone",
     "make_convex_hull", "make_cylinder", "make_height_map", "make_point_cloud", "make_sphere",
     "move_vertices", "parse_obj", "parse_off", "parse_pcd", "parse_ply", "parse_ply_points",
-    "parse_scene", "parse_stl", "parse_xyz", "read_heights", "read_mesh", "read_points",
+    "parse_scene", "parse_stl", "parse_xyz", "read_heights", "read_mesh", "read_mesh_file",
+    "read_points", "read_points_file",
     "read_request", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
     "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
 ]

@@ -36,16 +36,19 @@ def _plain(value: object) -> object:
     raise TypeError(f"scene: expected numbers, text, lists and dicts, got {type(value).__name__}")
 
 
-def _source(scene: str | os.PathLike[str] | Mapping[str, Any]) -> SceneSource:
+def _source(scene: str | os.PathLike[str] | Mapping[str, Any], lenient: bool) -> SceneSource:
     if isinstance(scene, Mapping):
-        return SceneSource(json.dumps(scene, default=_plain), "scene")
-    return SceneSource(None, scene)
+        return SceneSource(json.dumps(scene, default=_plain), "scene", lenient)
+    return SceneSource(None, scene, lenient)
 
 
-def load_scene(scene: SceneLike, shapes: ShapeCache | None = None) -> Scene:
+def load_scene(scene: SceneLike, shapes: ShapeCache | None = None, *,
+               lenient: bool = False) -> Scene:
     """Reads a scene and its meshes.
 
-    shapes: a ShapeCache to share meshes with other scenes.
+    shapes: a ShapeCache to share meshes with other scenes. lenient: names in files that no reader
+    knows become warnings, even where they could hold or place geometry; by default such names are
+    errors. A scene may ask for the same itself. What is loaded already stays as it is.
 
     FileNotFoundError where there is no such file. ParseError, one line that names file, line and
     key, where it cannot be used.
@@ -53,22 +56,22 @@ def load_scene(scene: SceneLike, shapes: ShapeCache | None = None) -> Scene:
     if isinstance(scene, Scene):
         return scene
     if isinstance(scene, Mapping):
-        return _core.parse_scene(json.dumps(scene, default=_plain), "scene", shapes)
-    return _core.read_scene(scene, shapes)
+        return _core.parse_scene(json.dumps(scene, default=_plain), "scene", shapes, lenient)
+    return _core.read_scene(scene, shapes, lenient)
 
 
-def load_simulation_scene(scene: SceneLike) -> Scene:
+def load_simulation_scene(scene: SceneLike, *, lenient: bool = False) -> Scene:
     """As load_scene, but a path may be that of a fixture of Rigid IPC."""
     if isinstance(scene, (Scene, Mapping)):
-        return load_scene(scene)
-    return _core.read_simulation_scene(scene)
+        return load_scene(scene, lenient=lenient)
+    return _core.read_simulation_scene(scene, lenient=lenient)
 
 
 def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
           all_pairs: bool = False, closest: bool = False, all_contacts_in_time: bool = False,
           margin: float | None = None, tolerance: float | None = None,
           deadline: float | None = None, sample_rate: float | None = None, strict: bool = False,
-          threads: int = 0,
+          lenient: bool = False, threads: int = 0,
           progress: Callable[[float], object] | None = None,
           stop: StopSource | None = None) -> Result:
     """Finds the first contact in a scene: when, where, or proven never.
@@ -77,21 +80,21 @@ def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
     closest: also the closest approach. all_contacts_in_time: also from when to when each pair is in
     contact, in scenes with robots. margin, tolerance [m], deadline [s]: in place of the scene's.
     sample_rate: [1/s] also what sampling at this rate would have seen. strict: ValueError where a
-    robot leaves its joint limits. threads: at most; 0 for one on each core; the answer does not
+    robot leaves its joint limits. lenient: as of load_scene. threads: at most; 0 for one on each core; the answer does not
     depend on it. progress: called now and then with the part that is done, in [0, 1]. Other threads
     run meanwhile. Ctrl-C raises KeyboardInterrupt.
     """
-    return _core.check(load_scene(scene), workspace, all_pairs=all_pairs, closest=closest,
+    return _core.check(load_scene(scene, lenient=lenient), workspace, all_pairs=all_pairs, closest=closest,
                        all_contacts_in_time=all_contacts_in_time, margin=margin,
                        tolerance=tolerance, deadline=deadline, sample_rate=sample_rate,
                        strict=strict, threads=threads, progress=progress, stop=stop)
 
 
-def _prepared(job: SceneLike | Pair) -> Scene | SceneSource | Pair:
+def _prepared(job: SceneLike | Pair, lenient: bool) -> Scene | SceneSource | Pair:
     """Light to send: a worker reads what there is to read."""
     if isinstance(job, (Scene, tuple)):
         return job
-    return _source(job)
+    return _source(job, lenient)
 
 
 _shapes_of_batch: tuple[uuid.UUID | None, ShapeCache] = (None, ShapeCache())
@@ -135,7 +138,7 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
                threads: int = 0, all_pairs: bool = False, closest: bool = False,
                all_contacts_in_time: bool = False, margin: float | None = None,
                tolerance: float | None = None, deadline: float | None = None,
-               strict: bool = False,
+               strict: bool = False, lenient: bool = False,
                errors: Literal["raise", "return"] = "raise",
                progress: Callable[[float], object] | None = None) -> list[Any]:
     """Answers many jobs, in order: scenes with a Result, pairs with a FirstContactResult.
@@ -151,7 +154,7 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
     """
     if errors not in ("raise", "return"):
         raise ValueError(f'errors: expected "raise" or "return", got {errors!r}')
-    prepared = [_prepared(job) for job in jobs]
+    prepared = [_prepared(job, lenient) for job in jobs]
     question: dict[str, Any] = {"all_pairs": all_pairs, "closest": closest,
                 "all_contacts_in_time": all_contacts_in_time, "margin": margin,
                 "tolerance": tolerance, "deadline": deadline, "strict": strict}

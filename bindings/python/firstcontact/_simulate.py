@@ -15,19 +15,20 @@ def _refuse_to_overwrite(scene: SceneLike, record: str | os.PathLike[str]) -> No
 
 
 def simulate(scene: SceneLike, duration: float | None = None, *, step: float | None = None,
-             record: str | os.PathLike[str] | None = None,
+             record: str | os.PathLike[str] | None = None, lenient: bool = False,
              progress: Callable[[float], object] | None = None,
              stop: StopSource | None = None) -> list[RunStep]:
     """Moves the bodies of a scene under forces and contacts; returns every step, in order.
 
     The same steps as the tool's ``firstcontact simulate``, bit for bit. scene: as Simulator takes
     it. duration, step: [s] in place of the scene's. record: path of a file that grows with every
-    step, for ``verify_run``, ``RunReader`` and the tool; what it held before is lost. progress:
+    step, for ``verify_run``, ``RunReader`` and the tool; what it held before is lost. lenient: as
+    of load_scene. progress:
     called after each step with the part that is done, in [0, 1]. stop: ends it early, with the
     steps that are done. Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt; the file
     keeps what is done.
     """
-    simulator = Simulator(scene, duration=duration, step=step)
+    simulator = Simulator(scene, duration=duration, step=step, lenient=lenient)
     if record is not None:
         _refuse_to_overwrite(scene, record)
     steps: list[RunStep] = []

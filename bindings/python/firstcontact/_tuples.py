@@ -9,6 +9,7 @@ from ._words import JointLimit, JointType, RunVerdict, Turning, UndecidedReason
 
 if TYPE_CHECKING:
     from ._core import Feature, Motion, Pose, Shape
+    from ._reports import PairCounts
 
 
 class Mesh(NamedTuple):
@@ -249,3 +250,7 @@ class RunVerification(NamedTuple):
     """[m]  The greatest of a scripted body from its motion in the scene."""
     is_cut_off: bool
     """Whether the file ends in the middle of a line, which was left out."""
+    pair_counts: "PairCounts"
+    """What the proof is about: pairs of which one is free."""
+    warnings: tuple[str, ...]
+    """Of reading the scene's files."""

@@ -78,6 +78,7 @@ std::shared_ptr<HeldResult> check(const SharedScene& scene,
 struct SceneSource {
   std::optional<std::string> text;  // None: the content of the file.
   std::filesystem::path source;
+  bool lenient = false;
 };
 
 /// Two shapes of Python, which somebody keeps.
@@ -120,8 +121,9 @@ class JobAnswerer {
     if (!source.text) {
       require_file(source.source);
     }
-    Scene scene =
-        source.text ? parse_scene(*source.text, source.source) : read_scene(source.source);
+    const ReadingOptions reading{.lenient = source.lenient};
+    Scene scene = source.text ? parse_scene(*source.text, source.source, 1, reading)
+                              : read_scene(source.source, reading);
     return answer(std::make_shared<HeldScene>(std::move(scene), options_.shapes));
   }
 
@@ -245,16 +247,17 @@ void bind_check_jobs(py::module_& m) {
   def_check([&](const auto&... extra) { m.def("check", extra...); }, &itself,
             "As firstcontact.check, of a Scene.", py::arg("scene"));
   py::class_<SceneSource>(m, "SceneSource", "A scene that is not read yet.")
-      .def(py::init([](std::optional<std::string> text, std::filesystem::path source) {
-             return SceneSource{std::move(text), std::move(source)};
-           }),
-           py::arg("text"), py::arg("source"))
       .def(
-          py::pickle([](const SceneSource& s) { return py::make_tuple(s.text, s.source.string()); },
-                     [](const py::tuple& state) {
-                       return SceneSource{state[0].cast<std::optional<std::string>>(),
-                                          state[1].cast<std::string>()};
-                     }));
+          py::init([](std::optional<std::string> text, std::filesystem::path source, bool lenient) {
+            return SceneSource{std::move(text), std::move(source), lenient};
+          }),
+          py::arg("text"), py::arg("source"), py::arg("lenient") = false)
+      .def(py::pickle(
+          [](const SceneSource& s) { return py::make_tuple(s.text, s.source.string(), s.lenient); },
+          [](const py::tuple& state) {
+            return SceneSource{state[0].cast<std::optional<std::string>>(),
+                               state[1].cast<std::string>(), state[2].cast<bool>()};
+          }));
   m.def(
       "answer_jobs",
       [](const py::iterable& jobs, std::size_t threads, bool all_pairs, bool closest,

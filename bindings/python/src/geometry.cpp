@@ -1,5 +1,7 @@
+#include <cmath>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,6 +26,7 @@
 #include "bindings.h"
 #include "errors.h"
 #include "motion.h"
+#include "reports.h"
 #include "words.h"
 
 namespace firstcontact::python {
@@ -286,16 +289,71 @@ py::object move(const Shape& shape, const py::object& to) {
       .attr("MovingShape")(std::move(body.shape), std::move(motion));
 }
 
+/// @throws std::invalid_argument
+void scale_by(double factor, std::vector<Eigen::Vector3d>& points) {
+  if (!(factor > 0.0 && std::isfinite(factor))) {
+    throw std::invalid_argument("scale must be > 0, got " + std::to_string(factor));
+  }
+  if (factor != 1.0) {
+    for (Eigen::Vector3d& point : points) {
+      point *= factor;
+    }
+  }
+}
+
+MeshReading scaled_mesh(const path& file, double scale, bool lenient) {
+  return read_file(file, [&](const path& found) {
+    MeshReading reading = read_mesh_file(found, {.lenient = lenient});
+    scale_by(scale, reading.mesh.vertices);
+    return reading;
+  });
+}
+
+PointReading scaled_points(const path& file, double scale, bool lenient) {
+  return read_file(file, [&](const path& found) {
+    PointReading reading = read_points_file(found, {.lenient = lenient});
+    scale_by(scale, reading.points);
+    return reading;
+  });
+}
+
 void bind_readers(py::module_& m) {
   m.def(
-      "read_mesh", [](const path& file) { return to_tuple(read_file(file, read_mesh)); },
-      py::arg("path"),
+      "read_mesh",
+      [](const path& file, double scale, bool lenient) {
+        return to_tuple(scaled_mesh(file, scale, lenient).mesh);
+      },
+      py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
       R"(Reads OBJ, STL, PLY, OFF (in double precision), DAE, GLB or glTF; welds equal vertices.
 
-FileNotFoundError where there is no such file, ParseError where it cannot be used.)");
+scale: [-] of coordinates; 0.001 reads millimetres where the format has no unit. lenient: names that
+the reader does not know are warnings of read_mesh_file, not errors. FileNotFoundError where there
+is no such file, ParseError where it cannot be used.)");
   m.def(
-      "read_points", [](const path& file) { return owning(read_file(file, read_points)); },
-      py::arg("path"), "Reads the points of a PLY, PCD or XYZ file: [m] n×3. Errors as read_mesh.");
+      "read_mesh_file",
+      [](const path& file, double scale, bool lenient) {
+        MeshReading reading = scaled_mesh(file, scale, lenient);
+        const std::string report = write_file_reports({&reading.report, 1});
+        return report_function("mesh_reading")(to_tuple(std::move(reading.mesh)), report);
+      },
+      py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
+      "A MeshReading: the mesh, and what became of its file. As read_mesh.");
+  m.def(
+      "read_points",
+      [](const path& file, double scale, bool lenient) {
+        return owning(scaled_points(file, scale, lenient).points);
+      },
+      py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
+      "Reads the points of a PLY, PCD or XYZ file: [m] n×3. Options and errors as read_mesh.");
+  m.def(
+      "read_points_file",
+      [](const path& file, double scale, bool lenient) {
+        PointReading reading = scaled_points(file, scale, lenient);
+        const std::string report = write_file_reports({&reading.report, 1});
+        return report_function("point_reading")(owning(std::move(reading.points)), report);
+      },
+      py::arg("path"), py::kw_only(), py::arg("scale") = 1.0, py::arg("lenient") = false,
+      "A PointReading: the points, and what became of their file. As read_points.");
   m.def(
       "read_heights",
       [](const path& file, const py::object& cell) {

@@ -19,6 +19,7 @@
 #include "pair_view.h"
 #include "pickled_robots.h"
 #include "query.h"
+#include "reports.h"
 #include "scene.h"
 #include "words.h"
 
@@ -192,9 +193,10 @@ std::string describe(const HeldResult& result) {
                      verdict_text(answer.verdict, answer.reason, answer.t);
   if (const auto first = first_pair(answer)) {
     const auto names = view_pair(result, *first).names;
-    text += ", " + names[0] + " and " + names[1];
+    text += ", " + printable(names[0] + " and " + names[1]);
   }
-  return text + ">";
+  const PairCounts& counts = loaded_without_gil(*result.scene).pair_counts;
+  return text + "; " + pairs_text(counts.tested) + " tested>";
 }
 
 py::tuple state_of(const HeldResult& result) {
@@ -371,7 +373,7 @@ void bind_pair(py::module_& m) {
       .def("__repr__",
            [](const ScenePair& p) {
              const PairView view = p.view();
-             return "<ScenePair " + view.names[0] + " and " + view.names[1] + ": " +
+             return "<ScenePair " + printable(view.names[0] + " and " + view.names[1]) + ": " +
                     verdict_text(view.verdict, view.reason, view.t) + ">";
            })
       .def(py::pickle([](const ScenePair& p) { return state_of(p); }, &scene_pair_from));
@@ -447,8 +449,18 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly(
           "warnings",
           [](const HeldResult& r) { return check_warnings(loaded_without_gil(*r.scene)); },
-          "What a user should know: joints that rest where nobody said, limits, free bodies that "
-          "rest.")
+          "What a user should know: what readers warn of, sizes that look wrong, bodies that begin "
+          "inside of others, limits that robots leave, that no pair is tested.")
+      .def_property_readonly(
+          "pair_counts",
+          [](const HeldResult& r) {
+            return pair_counts_tuple(loaded_without_gil(*r.scene).pair_counts);
+          },
+          "PairCounts: which pairs the answer is about.")
+      .def_property_readonly(
+          "files",
+          [](const HeldResult& r) { return files_tuple(loaded_without_gil(*r.scene).files); },
+          "FileReports: what became of every file that was read.")
       .def_property_readonly(
           "tolerance_used", [](const HeldResult& r) { return r.answer.tolerance_used; },
           "[m] The greatest of the pairs that were searched.")

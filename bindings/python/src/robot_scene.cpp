@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
+#include "reports.h"
 #include "robots.h"
 #include "words.h"
 
@@ -172,8 +174,15 @@ RobotFile file_from(const py::object& robot) {
 HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
                           const py::object& environment, const Pose& base, const py::object& state,
                           const py::object& padding, const py::object& tracking_error,
-                          std::optional<double> margin, const std::shared_ptr<ShapeCache>& shapes) {
-  RobotQuestion question{.robot = file_from(robot), .base = base};
+                          std::optional<double> margin, const std::shared_ptr<ShapeCache>& shapes,
+                          double scale, bool lenient) {
+  if (!(scale > 0.0 && std::isfinite(scale))) {
+    throw py::value_error("scale must be > 0, got " + std::string(py::repr(py::float_(scale))));
+  }
+  RobotQuestion question{.robot = file_from(robot),
+                         .base = base,
+                         .environment_scale = scale,
+                         .reading = {.lenient = lenient}};
   require_file(question.robot.urdf);
   if (!srdf.is_none()) {
     question.srdf = path_of(srdf, "srdf", "a RobotSemantics, or the path of an SRDF");
@@ -368,7 +377,8 @@ py::tuple HeldRobotScene::state() const {
     attached.append(py::make_tuple(a.body, a.link, a.from_time, a.to_time, a.touch_links, a.pose));
   }
   return py::make_tuple(write_scene(scene), scene.text_digest, scene.warnings, attached,
-                        in_step_time_, fixed_duration_);
+                        in_step_time_, fixed_duration_, reports_state(scene.file_reports),
+                        scene.allowed_pairs);
 }
 
 HeldRobotScene HeldRobotScene::from_state(const py::tuple& state) {
@@ -387,6 +397,8 @@ HeldRobotScene HeldRobotScene::from_state(const py::tuple& state) {
   }
   result.in_step_time_ = state[4].cast<std::set<std::size_t>>();
   result.fixed_duration_ = state[5].cast<std::optional<double>>();
+  result.scene_.file_reports = reports_from(state[6]);
+  result.scene_.allowed_pairs = state[7].cast<std::vector<BodyPair>>();
   return result;
 }
 
@@ -433,14 +445,15 @@ write a scene (check, load_scene).)");
            py::arg("environment") = py::tuple(), py::kw_only(), py::arg("base") = Pose{},
            py::arg("state") = py::tuple(), py::arg("padding") = 0.0,
            py::arg("tracking_error") = 0.0, py::arg("margin") = py::none(),
-           py::arg("shapes") = py::none(),
+           py::arg("shapes") = py::none(), py::arg("scale") = 1.0, py::arg("lenient") = false,
            R"(robot: a RobotModel, or the path of a URDF. srdf: a RobotSemantics, or its path.
 environment: paths of meshes, MoveIt planning scenes (.yaml) and scenes (.json) without robots.
 base: pose of the robot's root link. state: where joints rest that a trajectory does not name: a
 dict by joint, the name of a state of the SRDF, or a sequence of these. padding: [m] of every link,
 or a dict by link. tracking_error: [rad or m] of every joint, or a dict by joint; the answer then
 holds for every motion that stays so near. margin: [m] of every pair; that of surroundings or 0 by
-default. shapes: a ShapeCache to share meshes with other scenes.)")
+default. shapes: a ShapeCache to share meshes with other scenes. scale: [-] of the meshes among the
+environment; 0.001 reads millimetres. lenient: as of load_scene.)")
       .def_property_readonly(
           "robot",
           [](const HeldRobotScene& s) {

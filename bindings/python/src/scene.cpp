@@ -20,6 +20,7 @@
 #include "errors.h"
 #include "interrupts.h"
 #include "query.h"
+#include "reports.h"
 
 namespace firstcontact::python {
 
@@ -68,22 +69,23 @@ std::shared_ptr<HeldScene> hold(Scene scene, const SharedCache& shapes) {
   return held;
 }
 
-std::shared_ptr<HeldScene> read(const path& file, const SharedCache& shapes) {
+std::shared_ptr<HeldScene> read(const path& file, const SharedCache& shapes, bool lenient) {
   require_file(file);
   const py::gil_scoped_release release;
-  return hold(read_scene(file), shapes);
+  return hold(read_scene(file, {.lenient = lenient}), shapes);
 }
 
-std::shared_ptr<HeldScene> read_simulation(const path& file, const SharedCache& shapes) {
+std::shared_ptr<HeldScene> read_simulation(const path& file, const SharedCache& shapes,
+                                           bool lenient) {
   require_file(file);
   const py::gil_scoped_release release;
-  return hold(read_simulation_scene(file), shapes);
+  return hold(read_simulation_scene(file, {.lenient = lenient}), shapes);
 }
 
 std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
-                                 const SharedCache& shapes) {
+                                 const SharedCache& shapes, bool lenient) {
   const py::gil_scoped_release release;
-  return hold(parse_scene(text, source), shapes);
+  return hold(parse_scene(text, source, 1, {.lenient = lenient}), shapes);
 }
 
 /// Of bodies, or of robots.
@@ -96,13 +98,24 @@ py::tuple all_names(const std::vector<Named>& all) {
   return py::tuple(names);
 }
 
+/// Units that look wrong among them.
+std::string warnings_text(const HeldScene& scene) {
+  const std::vector<std::string>& warnings = loaded_without_gil(scene).warnings;
+  std::string text;
+  for (const std::string& warning : warnings) {
+    text += (text.empty() ? "; warnings: " : "; ") + printable(warning);
+  }
+  return text;
+}
+
 std::string describe_scene(const HeldScene& scene) {
   return "<Scene " + std::string(py::repr(py::str(scene.scene().id))) + " of " +
          std::to_string(scene.scene().bodies.size()) + " bodies, " +
          (scene.scene().robots.empty()
               ? ""
               : std::to_string(scene.scene().robots.size()) + " robots, ") +
-         std::string(py::repr(py::float_(scene.scene().duration))) + " s>";
+         std::string(py::repr(py::float_(scene.scene().duration))) + " s" + warnings_text(scene) +
+         ">";
 }
 
 void bind_scenes(py::module_& m) {
@@ -130,6 +143,17 @@ the working directory where they were so, and reads them again when they are nee
       .def_property_readonly(
           "input_digest", [](const HeldScene& s) { return loaded_without_gil(s).input_digest; },
           "SHA-256 over everything that was read.")
+      .def_property_readonly(
+          "files", [](const HeldScene& s) { return files_tuple(loaded_without_gil(s).files); },
+          "FileReports: what became of every file that was read.")
+      .def_property_readonly(
+          "warnings", [](const HeldScene& s) { return loaded_without_gil(s).warnings; },
+          "What reading warns of: names that nobody knows, sizes that look wrong, bodies that "
+          "begin inside of others.")
+      .def_property_readonly(
+          "pair_counts",
+          [](const HeldScene& s) { return pair_counts_tuple(loaded_without_gil(s).pair_counts); },
+          "PairCounts: which pairs a check looks at.")
       .def(
           "to_json", [](const HeldScene& s) { return write_scene(s.scene()); },
           "The resolved scene: poses as position and quaternion, every default written out.")
@@ -142,26 +166,30 @@ the working directory where they were so, and reads them again when they are nee
       .def("__repr__", &describe_scene)
       .def(py::pickle(
           [](const HeldScene& s) {
-            return py::make_tuple(write_scene(s.scene()), s.scene().text_digest,
-                                  s.scene().warnings);
+            return py::make_tuple(write_scene(s.scene()), s.scene().text_digest, s.scene().warnings,
+                                  reports_state(s.scene().file_reports), s.scene().allowed_pairs);
           },
           [](const py::tuple& state) {
             Scene scene = parse_scene(state[0].cast<std::string>(), "pickled scene");
             scene.text_digest = state[1].cast<std::string>();
             scene.warnings = state[2].cast<std::vector<std::string>>();
+            scene.file_reports = reports_from(state[3]);
+            scene.allowed_pairs = state[4].cast<std::vector<BodyPair>>();
             return std::make_shared<HeldScene>(std::move(scene));
           }));
   m.def("read_scene", &read, py::arg("path"), py::arg("shapes") = py::none(),
-        "Reads a scene file and its meshes.");
+        py::arg("lenient") = false, "Reads a scene file and its meshes.");
   m.def("read_simulation_scene", &read_simulation, py::arg("path"), py::arg("shapes") = py::none(),
+        py::arg("lenient") = false,
         R"(Reads a scene to simulate and its meshes: of this library, or a fixture of Rigid IPC.
 
-shapes: a ShapeCache to share meshes with other scenes. Errors as load_scene.)");
+shapes: a ShapeCache to share meshes with other scenes. lenient, and errors: as load_scene.)");
   m.def("parse_scene", &parse, py::arg("text"), py::arg("source") = "scene",
-        py::arg("shapes") = py::none(), R"(Reads a scene from text, one JSON object, and its meshes.
+        py::arg("shapes") = py::none(), py::arg("lenient") = false,
+        R"(Reads a scene from text, one JSON object, and its meshes.
 
 source: the file that the text is from: named in errors, and its folder is where relative paths
-begin. shapes: a ShapeCache to share meshes with other scenes. ParseError as load_scene.)");
+begin. shapes: a ShapeCache to share meshes with other scenes. lenient, ParseError: as load_scene.)");
 }
 
 py::object sample(const HeldScene& scene, const py::object& times, OrNone<std::stop_source> stop) {

@@ -21,6 +21,7 @@
 #include "interrupts.h"
 #include "motion.h"
 #include "query.h"
+#include "reports.h"
 #include "run.h"
 #include "scene.h"
 
@@ -79,11 +80,11 @@ void require_positive(const char* name, std::optional<double> seconds) {
 }
 
 std::unique_ptr<HeldSimulator> make(const py::object& scene, std::optional<double> duration,
-                                    std::optional<double> step) {
+                                    std::optional<double> step, bool lenient) {
   require_positive("duration", duration);
   require_positive("step", step);
   const auto held = py::module_::import("firstcontact._check")
-                        .attr("load_simulation_scene")(scene)
+                        .attr("load_simulation_scene")(scene, py::arg("lenient") = lenient)
                         .cast<std::shared_ptr<HeldScene>>();
   const py::gil_scoped_release release;
   Scene changed = held->scene();
@@ -248,8 +249,12 @@ void bind_looks(py::class_<HeldSimulator>& type) {
           [](HeldSimulator& s) { return std::make_shared<HeldScene>(s.idle().header().scene); },
           "The resolved Scene.")
       .def_property_readonly(
-          "warnings", [](HeldSimulator& s) { return s.idle().header().scene.warnings; },
+          "warnings", [](HeldSimulator& s) { return s.idle().loaded().warnings; },
           "What one should know of the scene that was read.")
+      .def_property_readonly(
+          "pair_counts",
+          [](HeldSimulator& s) { return pair_counts_tuple(s.idle().loaded().pair_counts); },
+          "PairCounts: which pairs are held apart.")
       .def_property_readonly(
           "dt", [](HeldSimulator& s) { return simulation_of(s).step; }, "[s] Of one step.")
       .def_property_readonly(
@@ -312,16 +317,17 @@ where the body is not free or would meet another one: then nothing is changed.)"
 
 void bind_simulator(py::module_& m) {
   py::class_<HeldSimulator> type(
-      m, "Simulator", R"(Bodies that move under forces and contacts, and never interpenetrate.
+      m, "Simulator",
+      R"(Bodies that move under forces and contacts; what is free never interpenetrates.
 
 Step by step, the in-between motion of every body is known, and every pair is proven apart over all
 of it. The same on every run, and as the tool's `firstcontact simulate`. Rows of arrays are bodies
 in the scene's order, then the geometries of robots' links; arrays are new ones at each look.)");
   type.def(
       py::init(&make), py::arg("scene"), py::kw_only(), py::arg("duration") = py::none(),
-      py::arg("step") = py::none(),
+      py::arg("step") = py::none(), py::arg("lenient") = false,
       R"(scene: as check takes it, with "dynamics" of bodies; or the path of a fixture of Rigid IPC.
-duration, step: [s] in place of the scene's. ValueError where two bodies meet at the start, or a mass
+duration, step: [s] in place of the scene's. lenient: as of load_scene. ValueError where two bodies meet at the start, or a mass
 cannot be found.)");
   bind_state(type);
   bind_looks(type);

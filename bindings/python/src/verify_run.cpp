@@ -15,6 +15,7 @@
 #include "errors.h"
 #include "interrupts.h"
 #include "query.h"
+#include "reports.h"
 #include "words.h"
 
 namespace firstcontact::python {
@@ -67,7 +68,8 @@ py::object verify(const std::filesystem::path& path, double scripted_tolerance, 
   return tuple_type("RunVerification")(
       found.verdict, found.problem, to_tuple(verified.header, found.problem_at), found.steps,
       found.time, found.time_lost, found.least_distance, to_tuple(verified.header, found.closest),
-      found.greatest_jump, found.scripted_deviation, verified.is_cut_off);
+      found.greatest_jump, found.scripted_deviation, verified.is_cut_off,
+      pair_counts_tuple(found.pair_counts), py::tuple(py::cast(found.warnings)));
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ void bind_verify_run(py::module_& m) {
       "verify_run", &verify, py::arg("path"), py::kw_only(),
       py::arg("scripted_tolerance") = defaults.scripted_tolerance, py::arg("work") = defaults.work,
       py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
-      R"(Proves of a recorded run, with other code than the simulation's, that nothing interpenetrates.
+      R"(Proves of a recorded run, with other code than the simulation's, that no free body interpenetrates.
 
 As the tool's `firstcontact verify`. path: of the file that simulate or the tool recorded.
 scripted_tolerance: [m] so far a scripted body may be from where its motion in the scene puts it.
