@@ -27,6 +27,7 @@
 #include "results_file.h"
 #include "scene_answer.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
@@ -96,6 +97,7 @@ std::string options_text(const Arguments& arguments) {
   number("--margin", question.margin);
   number("--tolerance", question.tolerance);
   number("--deadline", question.deadline);
+  text += question.lenient ? " --lenient" : "";
   text += question.closest ? " --closest" : "";
   text += question.all_pairs ? " --all-pairs" : "";
   return text.empty() ? " none" : text;
@@ -127,12 +129,13 @@ class Batch {
         {.threads = arguments_.threads,
          .closest = question.closest,
          .all_pairs = question.all_pairs,
+         .reading = question.reading(),
          .stop = interrupt_.token(),
          .adjust = [&](SceneOptions& options) { override_options(question, options); }});
     if (!interrupt_.token().stop_requested() && lines_.digest() != survey_.digest) {
       throw ParseError(arguments_.jobs, "changed while its scenes were answered");
     }
-    fmt::print("{}", tally_.summary(seconds()));
+    say(tally_.summary(seconds()));
     flush_stdout();
     return tally_.status();
   }

@@ -26,6 +26,7 @@
 #include "scene_answer.h"
 #include "scene_source.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 #include "viewer_page.h"
 
 namespace firstcontact::app {
@@ -38,6 +39,7 @@ struct Arguments {
   std::string gap;
   std::string page;
   bool json = false;
+  bool explain = false;
   RobotArguments robot;
   Question question;
 };
@@ -80,9 +82,10 @@ class Check {
       check_file(file);
     }
     if (arguments_.files.empty()) {
-      check_source({.file = named_in_errors(arguments_.robot),
-                    .line = std::nullopt,
-                    .read = [this] { return read_robot_scene(arguments_.robot); }});
+      check_source(
+          {.file = named_in_errors(arguments_.robot), .line = std::nullopt, .read = [this] {
+             return read_robot_scene(arguments_.robot, question_.reading());
+           }});
     }
     if (output_ && (batch_ || answered_ > 0)) {
       output_->commit();
@@ -108,7 +111,7 @@ class Check {
   void check_file(const std::string& file) {
     std::size_t scenes = 0;
     try {
-      for_each_scene(file, [&](const SceneSource& source) {
+      for_each_scene(file, question_.reading(), [&](const SceneSource& source) {
         ++scenes;
         if (question_.stop.stop_requested()) {
           status_ = worse(status_, ExitStatus::undecided);
@@ -146,7 +149,8 @@ class Check {
     write_json(result_text(answer, question_.all_pairs, source.line));
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
-      fmt::print("{}", describe(title, answer, question_.all_pairs));
+      say(describe(title, answer,
+                   {.all_pairs = question_.all_pairs, .explain = arguments_.explain}));
     }
     if (!arguments_.plot.empty()) {
       write_file(arguments_.plot, gap_plot(title, answer));
@@ -248,6 +252,8 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
                       "standard input");
   add_file(*command, "-o,--output", arguments->output, "Writes the result as JSON to a file");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
+  command->add_flag("--explain", arguments->explain,
+                    "Also what became of each file: what was taken, what was left out and why");
   add_file(*command, "--svg", arguments->plot, "Draws the gap over time (one scene)");
   add_file(*command, "--gap", arguments->gap,
            "Writes the gap over time and its proven lower bound as a table (one scene)")

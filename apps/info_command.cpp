@@ -14,16 +14,18 @@
 #include <firstcontact/mesh_files/read_points.h>
 #include <firstcontact/text/parse_error.h>
 
+#include "file_text.h"
 #include "info_json.h"
 #include "print_robot.h"
 #include "quantity_text.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
 
 void line(const char* label, const std::string& value) {
-  fmt::print("  {:<22} {}\n", label, value);
+  say(fmt::format("  {:<22} {}\n", label, visible(value)));
 }
 
 /// Silent where there is nothing unusual.
@@ -47,25 +49,49 @@ std::string point(Eigen::Vector3d p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-void print_bounds(const Eigen::AlignedBox3d& bounds) {
-  constexpr double kImplausible = 1000.0;  // [m]
+/// What lengths are taken for, and whether they are likely to be so.
+void print_unit(const FileReport& report, double size) {
+  constexpr double kImplausible = 100.0;  // [m]
+  line("unit", report.unit.empty() ? "none in the file: metres are taken" : report.unit);
+  if (size >= kImplausible) {
+    line("warning", fmt::format("{} across: is the unit right? If the file is in millimetres, "
+                                "\"scale\": 0.001 reads it so (--environment-scale 0.001 on the "
+                                "command line, scale=0.001 in Python)",
+                                length_text(size)));
+  }
+}
+
+void print_bounds(const Eigen::AlignedBox3d& bounds, const FileReport& report) {
   line("bounds", fmt::format("{} ... {} m", point(bounds.min()), point(bounds.max())));
   const Eigen::Vector3d size = bounds.sizes();
   line("size", fmt::format("{} x {} x {}", length_text(size.x()), length_text(size.y()),
                            length_text(size.z())));
-  if (size.maxCoeff() >= kImplausible) {
-    line("unit", "is it right? metres are expected");
+  print_unit(report, size.maxCoeff());
+}
+
+/// What became of the file.
+void print_report(const FileReport& report) {
+  line("format", report.format);
+  if (const std::string left_out = left_out_text(report); !left_out.empty()) {
+    line("left out", left_out);
+  }
+  for (const std::string& file : report.also_read) {
+    line("also read", file);
+  }
+  for (const std::string& warning : report.warnings) {
+    line("warning", warning);
   }
 }
 
-void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) {
-  fmt::print("{}\n", name);
+void print(const std::string& name, const Mesh& mesh, const MeshDefects& found,
+           const FileReport& report) {
+  say(visible(name) + "\n");
   line("triangles", fmt::format("{}", mesh.triangles.size()));
   line("vertices", fmt::format("{} of different position", mesh.vertices.size()));
   line("edges", fmt::format("{}", found.edges));
   line("components", fmt::format("{}", found.components));
   line("surface", surface(found));
-  print_bounds(found.bounds);
+  print_bounds(found.bounds, report);
   if (found.signed_volume) {
     line("volume", fmt::format("{:.6g} m^3", *found.signed_volume));
   }
@@ -74,38 +100,41 @@ void print(const std::string& name, const Mesh& mesh, const MeshDefects& found) 
   count("degenerate triangles", found.degenerate_triangles);
   count("doubled triangles", found.doubled_triangles);
   count("unused vertices", found.unused_vertices);
+  print_report(report);
 }
 
-void print(const std::string& name, const std::vector<Eigen::Vector3d>& points) {
+void print(const std::string& name, const std::vector<Eigen::Vector3d>& points,
+           const FileReport& report) {
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& p : points) {
     bounds.extend(p);
   }
-  fmt::print("{}\n", name);
+  say(visible(name) + "\n");
   line("points", fmt::format("{}", points.size()));
   Mesh mesh{.vertices = points, .triangles = {}};
   count("points at one place", weld(mesh));
-  print_bounds(bounds);
+  print_bounds(bounds, report);
+  print_report(report);
 }
 
-bool can_read_points(const std::string& file) {
+bool can_read_points(const std::string& file, const ReadingOptions& options) {
   try {
-    return !read_points(file).empty();
+    return !read_points_file(file, options).points.empty();
   } catch (const ParseError&) {
     return false;
   }
 }
 
 /// Only PLY files may be either.
-bool is_cloud(const std::string& file) {
+bool is_cloud(const std::string& file, const ReadingOptions& options) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (extension != ".ply" && extension != ".PLY") {
     return extension == ".pcd" || extension == ".PCD" || extension == ".xyz" || extension == ".XYZ";
   }
   try {
-    (void)read_mesh(file);
+    (void)read_mesh_file(file, options);
   } catch (const ParseError&) {
-    return can_read_points(file);
+    return can_read_points(file, options);
   }
   return false;
 }
@@ -121,6 +150,9 @@ struct InfoArguments {
   bool visual_where_missing = false;
   bool in_contact = false;
   bool json = false;
+  bool lenient = false;
+
+  [[nodiscard]] ReadingOptions reading() const { return {.lenient = lenient}; }
 };
 
 void inform_robot(const std::string& file, const InfoArguments& arguments) {
@@ -129,9 +161,10 @@ void inform_robot(const std::string& file, const InfoArguments& arguments) {
   if (arguments.visual_where_missing) {
     options.surface = RobotSurface::collision_or_visual;
   }
-  const RobotModel robot = read_urdf(file, options);
+  options.reading = arguments.reading();
+  const RobotReading robot = read_robot(file, options);
   if (arguments.in_contact) {
-    print_always_in_contact(robot);
+    print_always_in_contact(robot.model);
   } else if (arguments.json) {
     fmt::print("{}", robot_json(file, robot));
   } else {
@@ -144,13 +177,15 @@ void inform(const std::string& file, const InfoArguments& arguments) {
     inform_robot(file, arguments);
   } else if (arguments.in_contact) {
     throw ParseError(file, "--always-in-contact expects a robot, a .urdf file");
-  } else if (is_cloud(file)) {
-    const std::vector<Eigen::Vector3d> points = read_points(file);
-    arguments.json ? fmt::print("{}", points_json(file, points)) : print(file, points);
+  } else if (is_cloud(file, arguments.reading())) {
+    const PointReading cloud = read_points_file(file, arguments.reading());
+    arguments.json ? fmt::print("{}", points_json(file, cloud))
+                   : print(file, cloud.points, cloud.report);
   } else {
-    const Mesh mesh = read_mesh(file);
-    const MeshDefects found = inspect(mesh);
-    arguments.json ? fmt::print("{}", mesh_json(file, mesh, found)) : print(file, mesh, found);
+    const MeshReading reading = read_mesh_file(file, arguments.reading());
+    const MeshDefects found = inspect(reading.mesh);
+    arguments.json ? fmt::print("{}", mesh_json(file, reading, found))
+                   : print(file, reading.mesh, found, reading.report);
   }
 }
 
@@ -158,7 +193,9 @@ void inform(const std::string& file, const InfoArguments& arguments) {
 
 void add_info_command(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("info", "Counts, defects, bounds and masses of meshes, clouds and robots");
+      app.add_subcommand("info",
+                         "Counts, defects, bounds and masses of meshes, clouds and robots, and "
+                         "what became of their files");
   auto arguments = std::make_shared<InfoArguments>();
   command
       ->add_option("FILE", arguments->files,
@@ -172,6 +209,8 @@ void add_info_command(CLI::App& app) {
                     "Of robots takes links without collision geometry as they look");
   command->add_flag("--json", arguments->json,
                     "Prints JSON in place of text for people, one line for each file");
+  command->add_flag("--lenient", arguments->lenient,
+                    "Names in files that nobody knows are warnings, not errors");
   command
       ->add_flag("--always-in-contact", arguments->in_contact,
                  "Of robots only the pairs of links that touch where every coordinate is 0, or "

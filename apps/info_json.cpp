@@ -1,11 +1,14 @@
 #include "info_json.h"
 
 #include <optional>
+#include <span>
 #include <variant>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/geometry/weld.h>
+#include <firstcontact/scene/write_reports.h>
 
 #include "print_robot.h"
 
@@ -27,6 +30,10 @@ Json to_json(const Eigen::AlignedBox3d& box) {
 /// On one line, whatever bytes a file has for names.
 std::string line_of(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json files_json(std::span<const FileReport> reports) {
+  return Json::parse(write_file_reports(reports));
 }
 
 Json link_json(const Link& link) {
@@ -67,7 +74,9 @@ Json joint_json(const Joint& joint) {
 
 }  // namespace
 
-std::string mesh_json(const std::string& file, const Mesh& mesh, const MeshDefects& found) {
+std::string mesh_json(const std::string& file, const MeshReading& reading,
+                      const MeshDefects& found) {
+  const Mesh& mesh = reading.mesh;
   return line_of({{"file", file},
                   {"type", "mesh"},
                   {"triangles", mesh.triangles.size()},
@@ -82,10 +91,12 @@ std::string mesh_json(const std::string& file, const Mesh& mesh, const MeshDefec
                   {"nonmanifold_edges", found.nonmanifold_edges},
                   {"degenerate_triangles", found.degenerate_triangles},
                   {"doubled_triangles", found.doubled_triangles},
-                  {"unused_vertices", found.unused_vertices}});
+                  {"unused_vertices", found.unused_vertices},
+                  {"files", files_json({&reading.report, 1})}});
 }
 
-std::string points_json(const std::string& file, const std::vector<Eigen::Vector3d>& points) {
+std::string points_json(const std::string& file, const PointReading& cloud) {
+  const std::vector<Eigen::Vector3d>& points = cloud.points;
   Eigen::AlignedBox3d bounds;
   for (const Eigen::Vector3d& p : points) {
     bounds.extend(p);
@@ -95,10 +106,12 @@ std::string points_json(const std::string& file, const std::vector<Eigen::Vector
                   {"type", "points"},
                   {"points", points.size()},
                   {"points_at_one_place", weld(mesh)},
-                  {"bounds", to_json(bounds)}});
+                  {"bounds", to_json(bounds)},
+                  {"files", files_json({&cloud.report, 1})}});
 }
 
-std::string robot_json(const std::string& file, const RobotModel& robot) {
+std::string robot_json(const std::string& file, const RobotReading& reading) {
+  const RobotModel& robot = reading.model;
   Json links = Json::array();
   for (const Link& link : robot.links()) {
     links.push_back(link_json(link));
@@ -115,7 +128,8 @@ std::string robot_json(const std::string& file, const RobotModel& robot) {
                   {"links_without_mass", mass.missing},
                   {"links", std::move(links)},
                   {"joints", std::move(joints)},
-                  {"remarks", robot_remarks(robot)}});
+                  {"remarks", robot_remarks(robot)},
+                  {"files", files_json(reading.files)}});
 }
 
 }  // namespace firstcontact::app

@@ -4,24 +4,21 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include <Eigen/Core>
-
-#include <firstcontact/articulated/robot_model.h>
-#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/mesh_files/read_points.h>
 
 namespace firstcontact::app {
 
 /// @returns  with the line feed, as all here
-[[nodiscard]] std::string mesh_json(const std::string& file, const Mesh& mesh,
+[[nodiscard]] std::string mesh_json(const std::string& file, const MeshReading& reading,
                                     const MeshDefects& found);
 
-[[nodiscard]] std::string points_json(const std::string& file,
-                                      const std::vector<Eigen::Vector3d>& points);
+[[nodiscard]] std::string points_json(const std::string& file, const PointReading& cloud);
 
-/// @param robot  read with its collision shapes
-[[nodiscard]] std::string robot_json(const std::string& file, const RobotModel& robot);
+/// @param reading  with collision shapes
+[[nodiscard]] std::string robot_json(const std::string& file, const RobotReading& reading);
 
 }  // namespace firstcontact::app

@@ -16,6 +16,7 @@
 #include "info_command.h"
 #include "simulate_command.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 #include "verify_command.h"
 #include "view_command.h"
 
@@ -27,7 +28,7 @@ void complain(std::string message) {
   for (char& c : message) {
     c = c == '\n' || c == '\r' ? ' ' : c;
   }
-  say_on_stderr("firstcontact: " + message + '\n');
+  say_on_stderr("firstcontact: " + visible(message) + '\n');
 }
 
 /// With the help to look at: that of the command, where the first argument is one.

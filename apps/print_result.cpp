@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "contact_text.h"
+#include "file_text.h"
 #include "print_robot_answer.h"
 #include "quantity_text.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
@@ -21,7 +24,7 @@ class Description {
       : scene_(answer.loaded.scene), answer_(answer), result_(answer.result) {}
 
   std::string write(std::string_view title, bool all_pairs) {
-    print("{}: {}\n", title, describe_verdict(answer_));
+    print("{}: {}\n", visible(title), describe_verdict(answer_));
     if (result_.robots) {
       return text_ + describe_robots(answer_, all_pairs);
     }
@@ -42,8 +45,8 @@ class Description {
     if (all_pairs) {
       pairs();
     }
-    for (const std::string& warning : told_warnings(answer_.loaded)) {
-      line("warning", warning);
+    for (const auto& [label, value] : last_lines(answer_)) {
+      line(label, value);
     }
     return text_;
   }
@@ -54,15 +57,21 @@ class Description {
     text_ += fmt::format(format, std::forward<T>(values)...);
   }
 
-  void line(const char* label, const std::string& value) { print("  {:<10} {}\n", label, value); }
+  void line(const char* label, const std::string& value) {
+    print("  {:<10} {}\n", label, visible(value));
+  }
+
+  [[nodiscard]] std::string name(std::size_t body) const {
+    return visible(scene_.bodies[body].name);
+  }
 
   [[nodiscard]] std::string names(const BodyPair& bodies) const {
-    return scene_.bodies[bodies[0]].name + " and " + scene_.bodies[bodies[1]].name;
+    return name(bodies[0]) + " and " + name(bodies[1]);
   }
 
   void contact(const BodyPair& bodies, const Contact& found) {
-    print("    {}: {}; {}: {}\n", scene_.bodies[bodies[0]].name, feature_text(found.feature_A),
-          scene_.bodies[bodies[1]].name, feature_text(found.feature_B));
+    print("    {}: {}; {}: {}\n", name(bodies[0]), feature_text(found.feature_A), name(bodies[1]),
+          feature_text(found.feature_B));
     print("      {}\n", contact_text(found, scene_.duration));
   }
 
@@ -142,8 +151,21 @@ class Description {
 
 }  // namespace
 
-std::string describe(std::string_view title, const SceneAnswer& answer, bool all_pairs) {
-  return Description(answer).write(title, all_pairs);
+std::string describe(std::string_view title, const SceneAnswer& answer,
+                     const DescribeOptions& options) {
+  std::string text = Description(answer).write(title, options.all_pairs);
+  if (options.explain) {
+    text += "  files\n" + describe_files(answer.loaded.files);
+  }
+  return text;
+}
+
+std::vector<LabelledLine> last_lines(const SceneAnswer& answer) {
+  std::vector<LabelledLine> lines = pair_lines(answer.loaded.pair_counts);
+  for (std::string& warning : told_warnings(answer.loaded)) {
+    lines.push_back({"warning", std::move(warning)});
+  }
+  return lines;
 }
 
 std::vector<std::string> told_warnings(const LoadedScene& loaded) {
@@ -163,7 +185,8 @@ std::string describe_verdict(const SceneAnswer& answer) {
   const std::string when = fmt::format("t = {:.9g} ({})", result.t, time_text(result.t * duration));
   switch (result.verdict) {
     case Verdict::free:
-      return fmt::format("free for the whole step of {}", time_text(duration));
+      return fmt::format("free for the whole step of {}{}", time_text(duration),
+                         answer.loaded.pair_counts.tested == 0 ? ", but no pair is tested" : "");
     case Verdict::contact:
       return "contact at " + when;
     case Verdict::contact_at_start:

@@ -7,16 +7,24 @@
 #include <string_view>
 #include <vector>
 
+#include "pair_text.h"
 #include "scene_answer.h"
 
 namespace firstcontact::app {
 
-/// Verdict, time, bodies, features and clearance, in a few lines.
+struct DescribeOptions {
+  bool all_pairs = false;  ///< Also a line for each pair.
+  bool explain = false;    ///< Also what became of each file.
+};
+
+/// Verdict, time, bodies, features, clearance and which pairs were tested, in a few lines.
 ///
-/// @param title      names the scene
-/// @param all_pairs  also a line for each pair
+/// @param title  names the scene
 [[nodiscard]] std::string describe(std::string_view title, const SceneAnswer& answer,
-                                   bool all_pairs);
+                                   const DescribeOptions& options);
+
+/// Which pairs were tested, and the first warnings.
+[[nodiscard]] std::vector<LabelledLine> last_lines(const SceneAnswer& answer);
 
 /// The verdict and its time: "contact at t = 0.25 (12.5 ms)".
 [[nodiscard]] std::string describe_verdict(const SceneAnswer& answer);

@@ -13,13 +13,15 @@
 #include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/mesh_defects.h>
 
+#include "file_text.h"
 #include "quantity_text.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
 
 void line(const char* label, const std::string& value) {
-  fmt::print("  {:<22} {}\n", label, value);
+  say(fmt::format("  {:<22} {}\n", label, visible(value)));
 }
 
 /// "7 revolute, 2 fixed"
@@ -106,8 +108,9 @@ void print_links(const RobotModel& robot,
       const Joint& joint = robot.joints()[*parent];
       how = fmt::format(" by {}: {}{}", joint.name, to_string(joint.type), limit_text(joint));
     }
-    fmt::print("    {:{}}{}{}; {}; {}\n", "", 2 * at.depth, link.name, how, mass_text(link),
-               collision_text(link));
+    say(visible(fmt::format("    {:{}}{}{}; {}; {}", "", 2 * at.depth, link.name, how,
+                            mass_text(link), collision_text(link))) +
+        "\n");
     const std::vector<std::size_t>& joints = children_joints[at.link];
     for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) {
       open.push_back({robot.child_link(*joint), at.depth + 1});
@@ -120,7 +123,7 @@ void print_tree(const RobotModel& robot) {
   for (std::size_t j = 0; j < robot.joints().size(); ++j) {
     joints[robot.parent_link(j)].push_back(j);
   }
-  fmt::print("  tree\n");
+  say("  tree\n");
   print_links(robot, joints, robot.root());
 }
 
@@ -205,13 +208,14 @@ std::vector<std::string> robot_remarks(const RobotModel& robot) {
   return remarks;
 }
 
-void print_robot(const std::string& name, const RobotModel& robot) {
+void print_robot(const std::string& name, const RobotReading& reading) {
+  const RobotModel& robot = reading.model;
   std::size_t colliding = 0;
   for (const Link& link : robot.links()) {
     colliding += link.collision.empty() ? 0 : 1;
   }
   const std::vector<std::string> remarks = robot_remarks(robot);
-  fmt::print("{}\n", name);
+  say(visible(name) + "\n");
   line("robot", robot.name());
   line("links", fmt::format("{}, {} with collision geometry", robot.links().size(), colliding));
   line("joints", joint_counts(robot));
@@ -219,9 +223,15 @@ void print_robot(const std::string& name, const RobotModel& robot) {
   line("mass", total_text(robot));
   print_tree(robot);
   if (!remarks.empty()) {
-    fmt::print("  remarks\n");
+    say("  remarks\n");
     for (const std::string& remark : remarks) {
-      fmt::print("    {}\n", remark);
+      say("    " + visible(remark) + "\n");
+    }
+  }
+  say("  files\n" + describe_files(reading.files));
+  for (const FileReport& report : reading.files) {
+    for (const std::string& warning : report.warnings) {
+      line("warning", warning);
     }
   }
 }
@@ -229,8 +239,10 @@ void print_robot(const std::string& name, const RobotModel& robot) {
 void print_always_in_contact(const RobotModel& robot) {
   for (const LinkPairIndex& pair : touching_links(at_rest(robot))) {
     const char* reason = robot.are_adjacent(pair.link, pair.other) ? "Adjacent" : "Default";
-    fmt::print("<disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>\n",
-               robot.links()[pair.link].name, robot.links()[pair.other].name, reason);
+    say(visible(fmt::format("<disable_collisions link1=\"{}\" link2=\"{}\" reason=\"{}\"/>",
+                            robot.links()[pair.link].name, robot.links()[pair.other].name,
+                            reason)) +
+        "\n");
   }
 }
 

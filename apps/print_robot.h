@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/articulated/robot_model.h>
 
 namespace firstcontact::app {
@@ -26,11 +27,11 @@ struct RobotMass {
 /// @param robot  read with its collision shapes
 [[nodiscard]] std::vector<std::string> robot_remarks(const RobotModel& robot);
 
-/// Prints counts, masses, the tree with limits and collision geometry, and what is unusual about
-/// it.
+/// Prints counts, masses, the tree with limits and collision geometry, what is unusual about it,
+/// and what became of its files.
 ///
-/// @param robot  read with its collision shapes
-void print_robot(const std::string& name, const RobotModel& robot);
+/// @param reading  with collision shapes
+void print_robot(const std::string& name, const RobotReading& reading);
 
 /// Prints the pairs of links that touch in the default pose as lines of an SRDF file.
 ///

@@ -9,6 +9,7 @@
 #include "contact_text.h"
 #include "print_result.h"
 #include "quantity_text.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
@@ -29,9 +30,6 @@ class RobotAnswerText {
       line("clearance", fmt::format("more than {}{}", length_text(result_.clearance),
                                     result_.verdict == Verdict::free ? "" : " before"));
     }
-    if (std::isinf(result_.clearance)) {
-      line("clearance", "no pair is tested");
-    }
     turns();
     closest();
     if (result_.tolerance_used > loaded_.scene.options.tolerance) {
@@ -48,7 +46,9 @@ class RobotAnswerText {
     if (all_pairs) {
       pairs();
     }
-    warnings();
+    for (const auto& [label, value] : last_lines(answer_)) {
+      line(label, value);
+    }
     return text_;
   }
 
@@ -58,21 +58,27 @@ class RobotAnswerText {
     text_ += fmt::format(format, std::forward<T>(values)...);
   }
 
-  void line(const char* label, const std::string& value) { print("  {:<10} {}\n", label, value); }
+  void line(const char* label, const std::string& value) {
+    print("  {:<10} {}\n", label, visible(value));
+  }
+
+  [[nodiscard]] std::string name(std::size_t member) const {
+    return visible(loaded_.robots->name(member));
+  }
 
   [[nodiscard]] std::string seconds(double t) const {
     return time_text(t * loaded_.scene.duration);
   }
 
   [[nodiscard]] std::string names(const BodyPair& members) const {
-    return loaded_.robots->name(members[0]) + " and " + loaded_.robots->name(members[1]);
+    return name(members[0]) + " and " + name(members[1]);
   }
 
   /// "triangle 7", and of which geometry where a link has several.
   [[nodiscard]] std::string place(const RobotContact& found, std::size_t side) const {
     const Feature& feature = side == 0 ? found.contact.feature_A : found.contact.feature_B;
     const std::size_t member = found.members[side];
-    const std::string text = loaded_.robots->name(member) + ": " + feature_text(feature);
+    const std::string text = name(member) + ": " + feature_text(feature);
     return loaded_.robots->geometries(member).size() > 1
                ? text + fmt::format(" of geometry {}", found.geometries[side])
                : text;
@@ -158,12 +164,6 @@ class RobotAnswerText {
               seconds(pair.least_clearance->t));
       }
       print("\n");
-    }
-  }
-
-  void warnings() {
-    for (const std::string& warning : told_warnings(loaded_)) {
-      line("warning", warning);
     }
   }
 

@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <utility>
 
 #include <fmt/core.h>
 
 #include "standard_streams.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 
@@ -21,13 +21,13 @@ Progress::~Progress() = default;
 
 void Progress::doing(std::string text) {
   const std::scoped_lock lock(mutex_);
-  text_ = std::move(text);
+  text_ = visible(text);
 }
 
 void Progress::say(std::string_view line) {
   const std::scoped_lock lock(mutex_);
   wipe();
-  say_on_stderr(fmt::format("{}\n", line));
+  say_on_stderr(visible(line) + "\n");
 }
 
 void Progress::show(const std::stop_token& over) {

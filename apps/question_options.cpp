@@ -12,6 +12,9 @@ void add_question_options(CLI::App& command, Question& question) {
       "[m] A reported contact is no farther than margin + tolerance; in place of the scene's");
   add_number(command, "--deadline", question.deadline, Range::positive,
              "[s] For each scene; then its answer is undecided");
+  command.add_flag("--lenient", question.lenient,
+                   "Names in files that nobody knows are warnings, not errors, even where they "
+                   "could hold geometry");
   command.add_flag("--closest", question.closest, "Also the closest approach over the whole step");
   command.add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
 }

@@ -9,7 +9,7 @@
 
 namespace firstcontact::app {
 
-/// Adds --margin, --tolerance, --deadline, --closest and --all-pairs.
+/// Adds --margin, --tolerance, --deadline, --lenient, --closest and --all-pairs.
 void add_question_options(CLI::App& command, Question& question);
 
 }  // namespace firstcontact::app

@@ -62,6 +62,9 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
        "Mesh, MoveIt planning scene (.yaml), or scene (.json) without robots; repeatable");
   list("--package-root", arguments.package_roots, "FOLDER",
        "Holds packages that the robot names as package://; repeatable");
+  add_number(command, "--environment-scale", arguments.environment_scale, Range::positive,
+             "Of the meshes of the environment: 0.001 where they are in millimetres")
+      ->group("Robot");
   add_number(command, "--padding", arguments.padding, Range::not_negative,
              "[m] Thickens every link")
       ->group("Robot");
@@ -104,6 +107,8 @@ void require_no_option_of_a_robot(const RobotArguments& arguments) {
       Option{!arguments.goal.empty(), "--goal", "robots[].trajectory"},
       Option{!arguments.state.empty(), "--state", "robots[].state"},
       Option{!arguments.environment.empty(), "--environment", "bodies"},
+      Option{arguments.environment_scale.has_value(), "--environment-scale",
+             "\"scale\" of the mesh"},
       Option{!arguments.package_roots.empty(), "--package-root", "package_roots"},
       Option{arguments.padding.has_value(), "--padding", "robots[].padding"},
       Option{arguments.tracking_error.has_value(), "--tracking-error", "robots[].tracking_error"},
@@ -126,8 +131,10 @@ const std::string& named_in_errors(const RobotArguments& arguments) {
   return arguments.request.empty() ? arguments.robot : arguments.request;
 }
 
-Scene read_robot_scene(const RobotArguments& arguments) {
+Scene read_robot_scene(const RobotArguments& arguments, const ReadingOptions& reading) {
   RobotQuestion question;
+  question.reading = reading;
+  question.environment_scale = arguments.environment_scale.value_or(1.0);
   question.robot.urdf = arguments.robot;
   question.robot.package_roots.assign(arguments.package_roots.begin(),
                                       arguments.package_roots.end());

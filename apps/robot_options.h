@@ -24,8 +24,9 @@ struct RobotArguments {
   std::vector<std::string> state;
   std::vector<std::string> environment;
   std::vector<std::string> package_roots;
-  std::optional<double> padding;         ///< [m]
-  std::optional<double> tracking_error;  ///< [rad or m]
+  std::optional<double> padding;            ///< [m]
+  std::optional<double> tracking_error;     ///< [rad or m]
+  std::optional<double> environment_scale;  ///< [-]
   bool visual = false;
   bool visual_where_missing = false;
   std::string turning;  ///< "long", "short", or empty.
@@ -46,6 +47,7 @@ void require_no_option_of_a_robot(const RobotArguments& arguments);
 [[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);
 
 /// @throws ParseError, std::invalid_argument
-[[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments);
+[[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments,
+                                     const ReadingOptions& reading);
 
 }  // namespace firstcontact::app

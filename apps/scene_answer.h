@@ -25,11 +25,14 @@ struct Question {
   bool all_pairs = false;
   bool closest = false;
   bool all_contacts_in_time = false;
-  bool strict = false;  ///< Motions beyond joint limits are errors.
-  int threads = 0;      ///< 0 for one on each core.
+  bool strict = false;   ///< Motions beyond joint limits are errors.
+  bool lenient = false;  ///< As ReadingOptions::lenient.
+  int threads = 0;       ///< 0 for one on each core.
   bool gap_curve = false;
   std::stop_token stop;
   std::function<void(std::string)> doing;  ///< Called with what is being done.
+
+  [[nodiscard]] ReadingOptions reading() const { return {.lenient = lenient}; }
 };
 
 /// Puts what the command line says in the place of what the scene says.

@@ -33,11 +33,14 @@ bool is_lines_of_scenes(const std::string& text) {
   return true;
 }
 
-void for_each_scene_of_stdin(const std::function<bool(const SceneSource&)>& visit) {
+void for_each_scene_of_stdin(const ReadingOptions& reading,
+                             const std::function<bool(const SceneSource&)>& visit) {
   const std::string text = read_stdin();
   const std::string name(kStdinName);
   if (!is_lines_of_scenes(text)) {
-    visit({.file = name, .line = std::nullopt, .read = [&] { return parse_scene(text, name); }});
+    visit({.file = name, .line = std::nullopt, .read = [&] {
+             return parse_scene(text, name, 1, reading);
+           }});
     return;
   }
   std::istringstream lines(text);
@@ -45,7 +48,7 @@ void for_each_scene_of_stdin(const std::function<bool(const SceneSource&)>& visi
   for (std::size_t number = 1; std::getline(lines, line); ++number) {
     if (line.find_first_not_of(" \t\r") != std::string::npos &&
         !visit({.file = name, .line = number, .read = [&] {
-                  return parse_scene(line, name, number);
+                  return parse_scene(line, name, number, reading);
                 }})) {
       return;
     }
@@ -54,20 +57,22 @@ void for_each_scene_of_stdin(const std::function<bool(const SceneSource&)>& visi
 
 }  // namespace
 
-void for_each_scene(const std::filesystem::path& file,
+void for_each_scene(const std::filesystem::path& file, const ReadingOptions& reading,
                     const std::function<bool(const SceneSource&)>& visit) {
   if (file == kStdin) {
-    for_each_scene_of_stdin(visit);
+    for_each_scene_of_stdin(reading, visit);
     return;
   }
   if (!is_json_lines(file)) {
-    visit({.file = file.string(), .line = std::nullopt, .read = [&] { return read_scene(file); }});
+    visit({.file = file.string(), .line = std::nullopt, .read = [&] {
+             return read_scene(file, reading);
+           }});
     return;
   }
   SceneLines lines(file);
   while (const std::optional<SceneLine> line = lines.next()) {
     if (!visit({.file = file.string(), .line = line->number, .read = [&] {
-                  return parse_scene(line->text, file, line->number);
+                  return parse_scene(line->text, file, line->number, reading);
                 }})) {
       return;
     }

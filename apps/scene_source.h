@@ -25,7 +25,9 @@ struct SceneSource {
 
 /// Visits the scenes of a file in order until a visit returns false. Blank lines are no scenes.
 /// Of standard input, "-": one scene, or one in each line where the first line is a whole one.
-void for_each_scene(const std::filesystem::path& file,
+///
+/// @param reading  how the scenes are read
+void for_each_scene(const std::filesystem::path& file, const ReadingOptions& reading,
                     const std::function<bool(const SceneSource&)>& visit);
 
 }  // namespace firstcontact::app

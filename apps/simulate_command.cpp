@@ -24,10 +24,12 @@
 #include "command_line_number.h"
 #include "interrupt.h"
 #include "output_files.h"
+#include "pair_text.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "run_file.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 #include "viewer_page.h"
 
 namespace firstcontact::app {
@@ -40,15 +42,18 @@ struct Arguments {
   std::optional<double> duration;  // [s]
   std::optional<double> step;      // [s]
   bool resume = false;
+  bool lenient = false;
 };
 
 Simulator load(const Arguments& arguments) {
   const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
   require_different(outputs);
   require_no_input(outputs, {arguments.scene});
-  Scene scene = arguments.scene == kStdin
-                    ? parse_simulation_scene(read_stdin(), std::filesystem::path(kStdinName))
-                    : read_simulation_scene(arguments.scene);
+  const ReadingOptions reading{.lenient = arguments.lenient};
+  Scene scene =
+      arguments.scene == kStdin
+          ? parse_simulation_scene(read_stdin(), std::filesystem::path(kStdinName), reading)
+          : read_simulation_scene(arguments.scene, reading);
   require_no_input(outputs, files_of(scene));
   if (!scene.simulation) {
     throw ParseError(arguments.scene,
@@ -165,13 +170,15 @@ class Run {
   }
 
   static void line(const char* label, const std::string& value) {
-    fmt::print("  {:<10} {}\n", label, value);
+    say(fmt::format("  {:<10} {}\n", label, visible(value)));
   }
 
   void print(bool is_whole, std::size_t count) const {
     const Scene& scene = simulator_.header().scene;
-    fmt::print("{}: {}\n", arguments_.scene,
-               is_whole ? "simulated; no two bodies interpenetrate at any time" : "stopped early");
+    const LoadedScene& loaded = simulator_.loaded();
+    say(fmt::format(
+        "{}: {}\n", visible(arguments_.scene),
+        is_whole ? "simulated; " + no_penetration_text(loaded.pair_counts) : "stopped early"));
     const auto free =
         std::ranges::count_if(scene.bodies, [](const Body& b) { return b.free.has_value(); });
     line("bodies", fmt::format("{}, {} of them free", scene.bodies.size(), free));
@@ -195,6 +202,10 @@ class Run {
                                  *tally_.first_energy, tally_.last_energy));
       line("time lost", tally_.time_lost > 0.0 ? time_text(tally_.time_lost) : "none");
     }
+    for (const auto& [label, value] : pair_lines(loaded.pair_counts)) {
+      line(label, value);
+    }
+    print_warnings(loaded);
     if (file_) {
       line("run", arguments_.output + (is_whole ? "" : "; --resume goes on"));
     }
@@ -202,6 +213,15 @@ class Run {
       line("page", page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play");
     }
     flush_stdout();
+  }
+
+  static void print_warnings(const LoadedScene& loaded) {
+    for (const std::string& warning : loaded.warnings) {
+      line("warning", warning);
+    }
+    if (const std::string warning = no_pair_warning(loaded.pair_counts); !warning.empty()) {
+      line("warning", warning);
+    }
   }
 
   const Interrupt interrupt_;  // First: other threads inherit what it blocks.
@@ -219,7 +239,9 @@ class Run {
 constexpr const char* kFooter = R"(
 SCENE is a scene with "dynamics" (docs/simulation.md) or a fixture of Rigid IPC.
 RUN grows with every step: killed at any moment, it goes on with --resume, bit for bit.
-`firstcontact verify RUN` proves with other code that nothing interpenetrates.
+`firstcontact verify RUN` proves the same with other code.
+Held apart are pairs of which one is free. Scripted and resting bodies may pass through each other;
+the answer names such pairs.
 
 Exit status: 0 done; 2 bad input; 3 stopped early, or time was lost (the events of a step were
 spent). Ctrl-C ends after the step that is under way; again, at once.)";
@@ -228,7 +250,8 @@ spent). Ctrl-C ends after the step that is under way; again, at once.)";
 
 void add_simulate_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
-      "simulate", "Moves bodies under forces and contacts; nothing ever interpenetrates");
+      "simulate",
+      "Moves bodies under forces and contacts; what moves freely never interpenetrates");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
       ->required();
@@ -239,6 +262,8 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,
              "Seconds of a step, in place of the scene's");
+  command->add_flag("--lenient", arguments->lenient,
+                    "Names in files that nobody knows are warnings, not errors");
   command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
       ->needs(output);
   command->footer(kFooter);

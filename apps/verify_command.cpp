@@ -14,9 +14,11 @@
 #include <firstcontact/text/parse_error.h>
 
 #include "interrupt.h"
+#include "pair_text.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 struct Arguments {
   std::string run;
   bool json = false;
+  bool lenient = false;
   int threads = 0;
 };
 
@@ -46,7 +49,7 @@ class Description {
  public:
   Description(const std::string& file, const RunReader& run, const RunVerification& found)
       : scene_(run.header().scene), run_(run), found_(found) {
-    text_ = fmt::format("{}: {}\n", file, verdict());
+    text_ = fmt::format("{}: {}\n", visible(file), verdict());
   }
 
   std::string write() {
@@ -64,19 +67,28 @@ class Description {
     if (run_.is_cut_off()) {
       line("note", "the file ends in the middle of a line, which was left out");
     }
+    for (const auto& [label, value] : pair_lines(found_.pair_counts)) {
+      line(label, value);
+    }
+    for (const std::string& warning : found_.warnings) {
+      line("warning", warning);
+    }
+    if (const std::string warning = no_pair_warning(found_.pair_counts); !warning.empty()) {
+      line("warning", warning);
+    }
     return text_;
   }
 
  private:
-  [[nodiscard]] const char* verdict() const {
+  [[nodiscard]] std::string verdict() const {
     if (found_.verdict == RunVerdict::proven) {
-      return "proven: at no time do two bodies interpenetrate";
+      return "proven: " + no_penetration_text(found_.pair_counts);
     }
     return found_.verdict == RunVerdict::closer ? "refuted" : "not proven";
   }
 
   void line(const char* label, const std::string& value) {
-    text_ += fmt::format("  {:<10} {}\n", label, value);
+    text_ += fmt::format("  {:<10} {}\n", label, visible(value));
   }
 
   [[nodiscard]] std::string names(const BodyPair& bodies) const {
@@ -116,7 +128,7 @@ ExitStatus verify(const Arguments& arguments) {
   if (!stream) {
     throw ParseError(arguments.run, "expected a run, cannot open this one");
   }
-  RunReader run(stream, arguments.run);
+  RunReader run(stream, arguments.run, {.lenient = arguments.lenient});
   VerifyRunOptions options{.threads = arguments.threads, .stop = interrupt.token()};
   options.progress = [&](double time) { progress.doing(fmt::format("verified {:.4g} s", time)); };
   progress.doing("verifying");
@@ -133,13 +145,16 @@ ExitStatus verify(const Arguments& arguments) {
   } else if (found.verdict == RunVerdict::broken) {
     throw ParseError(arguments.run, found.problem);
   } else {
-    fmt::print("{}", Description(arguments.run, run, found).write());
+    say(Description(arguments.run, run, found).write());
   }
   flush_stdout();
   return status_of(found.verdict);
 }
 
 constexpr const char* kFooter = R"(
+Looked at are the pairs that a simulation holds apart: one of the two is free, and no rule ignores
+them. Scripted and resting bodies may pass through each other; the answer names such pairs.
+
 Exit status: 0 proven; 1 refuted: two bodies interpenetrate or come closer than the run
 promises; 2 bad input, such as a record that contradicts itself; 3 not proven.
 Ctrl-C ends with status 3; again, at once.)";
@@ -148,10 +163,14 @@ Ctrl-C ends with status 3; again, at once.)";
 
 void add_verify_command(CLI::App& app, ExitStatus& status) {
   CLI::App* command = app.add_subcommand(
-      "verify", "Proves that no two bodies interpenetrate at any time of a recorded run");
+      "verify",
+      "Proves that bodies that move freely never interpenetrate with any other in a recorded "
+      "run");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("RUN", arguments->run, "The .jsonl file that a simulation wrote")->required();
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
+  command->add_flag("--lenient", arguments->lenient,
+                    "Names in files that nobody knows are warnings, as where the run says so");
   command
       ->add_option("--threads", arguments->threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")

@@ -30,6 +30,7 @@
 #include "interrupt.h"
 #include "output_files.h"
 #include "standard_streams.h"
+#include "terminal_text.h"
 #include "viewer_page.h"
 
 extern char** environ;
@@ -41,6 +42,9 @@ struct Arguments {
   std::string result;
   std::string output;
   bool no_open = false;
+  bool lenient = false;
+
+  [[nodiscard]] ReadingOptions reading() const { return {.lenient = lenient}; }
 };
 
 std::string read_text(const std::string& path) {
@@ -64,7 +68,7 @@ void open(const std::string& page) {
   }
   if (status != 0) {
     say_on_stderr(
-        fmt::format("firstcontact: cannot open a browser here; open {} yourself\n", page));
+        fmt::format("firstcontact: cannot open a browser here; open {} yourself\n", visible(page)));
   }
 }
 
@@ -78,10 +82,10 @@ bool is_run(const std::string& path) {
 }
 
 /// Holds one line of the run at a time: it may be as large as a disk allows.
-std::string page_of_run(const std::string& page, const std::string& path,
-                        const OutputFile& output) {
+std::string page_of_run(const std::string& page, const std::string& path, const OutputFile& output,
+                        const ReadingOptions& reading) {
   std::ifstream stream(path, std::ios::binary);
-  RunReader run(stream, path);
+  RunReader run(stream, path, reading);
   require_no_input({output}, files_of(run.header().scene));
   RunPage collected(run.header());
   while (const std::optional<RunStep> step = run.next()) {
@@ -102,9 +106,9 @@ std::string page_of_run(const std::string& page, const std::string& path,
 }
 
 std::string page_of_result(const std::string& page, const std::string& path,
-                           const OutputFile& output) {
+                           const OutputFile& output, const ReadingOptions& reading) {
   const std::string text = read_text(path);
-  StoredResult stored = read_result(text, path);
+  StoredResult stored = read_result(text, path, reading);
   require_no_input({output}, files_of(stored.scene));
   const Interrupt interrupt;
   ShapeCache cache;
@@ -125,9 +129,10 @@ void view(const Arguments& arguments) {
                                  : arguments.output;
   const OutputFile file{.option = "-o", .path = output};
   require_no_input({file}, {path});
-  write_file(output,
-             is_run(path) ? page_of_run(page, path, file) : page_of_result(page, path, file));
-  fmt::print("{}\n", output);
+  const ReadingOptions reading = arguments.reading();
+  write_file(output, is_run(path) ? page_of_run(page, path, file, reading)
+                                  : page_of_result(page, path, file, reading));
+  say(visible(output) + "\n");
   flush_stdout();
   if (!arguments.no_open) {
     open(output);
@@ -149,6 +154,8 @@ void add_view_command(CLI::App& app) {
   add_file(*command, "-o,--output", arguments->output,
            "Where the page goes; beside the result where this is not given");
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
+  command->add_flag("--lenient", arguments->lenient,
+                    "Names in files that nobody knows are warnings, as where the result says so");
   command->callback([arguments] { view(*arguments); });
 }
 

@@ -217,10 +217,11 @@ class Verify(ToolTest):
         result = self.verify()
         self.assertEqual(result.returncode, 0, result)
         self.assertEqual(result.stderr, "")
-        self.assertRegex(result.stdout, r"""^run\.jsonl: proven: at no time do two bodies interpenetrate
+        self.assertRegex(result.stdout, r"""^run\.jsonl: proven: the one pair that was looked at interpenetrates at no time
   verified   2 steps, 750 ms of 900 ms
   least      1[45]\d.* mm \(proven\) to 15\d.* mm: ball and floor at 0\.7\d* s \(step 2\)
   time lost  250 ms
+  tested     1 pair
 $""")
 
     def test_writes_json(self):
@@ -233,6 +234,7 @@ $""")
         self.assertLessEqual(found["least_distance"], 0.15)
         self.assertGreaterEqual(found["least_distance"], 0.142)
         self.assertEqual((found["problem"], found["problem_at"]), ("", None))
+        self.assertEqual(found["pair_counts"], {"tested": 1, "ignored": 0, "left_out": 0, "untested": []})
 
     def test_refutes_a_run(self):
         self.steps.append(self.step(3, 0.75, 0.125, 0.25, 0.0625))
@@ -444,6 +446,67 @@ class Robot(ToolTest):
                 ("--visual", "", "robots[].surface")]:
             self.assert_refused(self.run_tool("check", scene, option, *filter(None, [value])),
                                 f"{option} belongs to --robot; in a scene, say it in {place}")
+
+
+class About(ToolTest):
+    """What an answer says it is about: its pairs and its files."""
+
+    BALL = {"name": "a", "shape": {"sphere": {"radius": 0.1}},
+            "motion": {"type": "constant_velocity", "from": {"position": [0, 0, 1]}, "translation": [0, 0, -2]}}
+    PLATE = {"name": "b", "shape": {"box": {"size": [1, 1, 0.1]}}}
+    CAN = {"name": "c", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [3, 0, 2]}, "dynamics": {}}
+
+    def test_no_pair_is_no_proof_of_anything(self):
+        scene = self.file("s.json", scenes.scene(self.BALL, self.PLATE, pairs={"ignore": [["a", "b"]]}))
+        result = self.run_tool("check", scene)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("s.json: free for the whole step of 1 s, but no pair is tested\n", result.stdout)
+        self.assertIn("  tested     no pair\n  ignored    1 by the scene's rules: a and b\n", result.stdout)
+        self.assertIn("  warning    no pair is tested", result.stdout)
+        answer = json.loads(self.run_tool("check", "--json", scene).stdout)
+        self.assertEqual(answer["pair_counts"], {"tested": 0, "ignored": 1, "left_out": 0, "untested": [
+            {"why": "rule", "count": 1, "first": [["a", "b"]]}]})
+        self.assertIn("no pair is tested", answer["warnings"][0])
+
+    def test_scripted_bodies_of_a_simulation_are_named(self):
+        scene = self.file("s.json", scenes.scene(self.BALL, self.PLATE, self.CAN, simulation={"duration": 0.1}))
+        for result in (self.run_tool("simulate", scene, "-o", "run.jsonl"), self.run_tool("verify", "run.jsonl")):
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("none of the 2 pairs that were looked at interpenetrates at any time", result.stdout)
+            self.assertIn("  tested     2 pairs\n  left out   1 of which neither is free (they may pass through each "
+                          "other): a and b\n", result.stdout)
+            self.assertNotIn("no two bodies", result.stdout)
+
+    def test_files_are_explained_where_that_is_asked(self):
+        self.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        scene = self.file("s.json", scenes.scene(self.BALL, {"name": "m", "shape": {"mesh": "m.obj"}}))
+        self.assertNotIn("files", self.run_tool("check", scene).stdout)
+        result = self.run_tool("check", "--explain", scene)
+        self.assertIn("  files\n    m.obj: ", result.stdout)
+        files = json.loads(self.run_tool("check", "--json", scene).stdout)["files"]
+        self.assertEqual([file["path"] for file in files], ["m.obj"])
+        self.assertIn({"what": "triangles", "count": 1}, files[0]["contents"])
+        of_info = json.loads(self.run_tool("info", "--json", "m.obj").stdout)["files"]
+        self.assertEqual(of_info, files)
+
+    def test_names_do_not_steer_the_terminal(self):
+        bad = "x\n\x1b[31mred\x07\x9b\u202e"
+        scene = self.file("s.json", scenes.scene({**self.BALL, "name": bad}, self.PLATE, id=bad))
+        shown = "x\\n\\x1b[31mred\\x07\\x9b\\u202e"
+        result = self.run_tool("check", "--all-pairs", "--closest", scene)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn(f"  bodies     {shown} and b\n", result.stdout)
+        self.assertTrue(result.stdout.startswith(f"{shown}: contact at"), result.stdout)
+        for letter in "\x1b\x07\x9b\u202e":
+            self.assertNotIn(letter, result.stdout)
+        answer = json.loads(self.run_tool("check", "--json", scene).stdout)
+        self.assertEqual(answer["pair"], [bad, "b"])
+
+    def test_lenient_reading_stays_in_the_result(self):
+        scene = self.file("s.json", scenes.FREE)
+        options = json.loads(self.run_tool("check", "--json", "--lenient", scene).stdout)["scene"]["options"]
+        self.assertIs(options["lenient"], True)
+        self.assertNotIn("lenient", json.loads(self.run_tool("check", "--json", scene).stdout)["scene"]["options"])
 
 
 class ExitStatus(ToolTest):
@@ -1015,15 +1078,19 @@ class Info(ToolTest):
             self.assertEqual((marked.returncode, marked.stdout), (0, plain.stdout), marked)
 
     def test_asks_whether_the_unit_is_right(self):
-        for size, asks in ((999, False), (1000, True)):
+        # Beside a ball of 2 m.
+        for size, alone, asks in ((99, False, False), (150, True, False), (250, True, True), (1000, True, True)):
             mesh = self.file("big.obj", f"v 0 0 0\nv {size} 0 0\nv 0 1 0\nf 1 2 3\n")
-            self.assertEqual("is it right?" in self.run_tool("info", mesh).stdout, asks)
+            said = self.run_tool("info", mesh).stdout
+            self.assertIn("unit                   none in the file: metres are taken", said)
+            self.assertEqual("is the unit right?" in said, alone)
             scene = self.file("big.json", json.dumps({"firstcontact": 1, "bodies": [
                 {"name": "big", "shape": {"mesh": "big.obj"}},
                 {"name": "ball", "shape": {"sphere": {"radius": 1}}, "pose": {"position": [0, 0, 9]}}]}))
             result = self.run_tool("check", scene)
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual('warning    body "big" is 1000' in result.stdout, asks)
+            self.assertEqual(f'warning    body "big" is {size}' in result.stdout, asks)
+            self.assertEqual("--environment-scale 0.001" in result.stdout, asks)
             told = json.loads(self.run_tool("check", "--json", scene).stdout).get("warnings", [])
             self.assertEqual(len(told), asks)
 
