@@ -154,7 +154,8 @@ CachedShape ShapeCache::load(const BodyShape& shape, const ReadingOptions& optio
 }
 
 bool ShapeCache::encloses_space(const Shape& shape, const BodyShape* source) {
-  if (source != nullptr && is_inline(*source)) {
+  const bool is_held = !shape.hierarchy().deforms() && (source == nullptr || !is_inline(*source));
+  if (!is_held) {
     return why_not_solid(shape.mesh()).empty();
   }
   {
