@@ -96,6 +96,7 @@ std::string options_text(const Arguments& arguments) {
   number("--margin", question.margin);
   number("--tolerance", question.tolerance);
   number("--deadline", question.deadline);
+  text += question.contacts ? " --contacts " + contacts_text(*question.contacts) : "";
   text += question.closest ? " --closest" : "";
   text += question.all_pairs ? " --all-pairs" : "";
   return text.empty() ? " none" : text;

@@ -84,20 +84,23 @@ void report_contacts(const ShapePair& shapes, const MovingPair& pair,
                      detail::WorkspaceData& workspace, FirstContactResult& result) {
   const auto& [A, B, motion] = shapes;
   const detail::ContactFrame frame{A, B, pair, result.t, motion.origin(result.t)};
+  if (options.contacts == ContactState::none) {
+    return;
+  }
   if (options.contacts == ContactState::first) {
     const RelativeState state = motion.state(result.t);
     const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
     result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
                                                    triangle_distance(triangles.A, triangles.B)));
-  } else if (options.contacts == ContactState::all) {
-    const double band =
-        options.margin + result.tolerance_used + options.contact_band + A.radius() + B.radius();
-    if (found.all_remembered && options.contact_band == 0.0) {
-      detail::collect_contacts_of(frame, band, workspace, result.contacts);
-    } else {
-      detail::collect_contacts(frame, band, workspace, result.contacts);
-    }
+    result.contact_count = {1, false};
+    return;
   }
+  const double band =
+      options.margin + result.tolerance_used + options.contact_band + A.radius() + B.radius();
+  const auto collect = found.all_remembered && options.contact_band == 0.0
+                           ? detail::collect_contacts_of
+                           : detail::collect_contacts;
+  result.contact_count = collect(frame, band, options.contacts.most, workspace, result.contacts);
 }
 
 /// Searches the piece that was entered; whether that ends the query.
@@ -169,6 +172,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
     const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
     result.contacts.push_back(
         detail::make_contact({A, B, pair, 0.0, motion.origin(0.0)}, state, found));
+    result.contact_count = {1, true};
   }
 }
 
@@ -189,6 +193,7 @@ void solve_solids(const ShapePair& shapes, const TimeWindow& window, const Relat
     result.reason = UndecidedReason::precision;
     result.t = 0.0;
     result.contacts.clear();
+    result.contact_count = {};
   }
 }
 
@@ -201,6 +206,8 @@ void detail::validate(const FirstContactOptions& options) {
                 "finite and > 0", options.tolerance);
   require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
                 "finite and >= 0", options.contact_band);
+  require_range(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
+                "contacts", "nearest(1) or more", static_cast<double>(options.contacts.most));
 }
 
 void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,
@@ -213,6 +220,7 @@ void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& w
   result.clearance = options.start_contacts == StartContacts::report ? options.margin : 0.0;
   result.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
   result.contacts.clear();
+  result.contact_count = {};
   result.work = {};
   const bool has_inside = window.begin == 0.0 && (pair.A.is_solid() || pair.B.is_solid());
   RelativeState start;

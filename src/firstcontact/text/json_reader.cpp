@@ -21,6 +21,7 @@ struct Description {
     return "an array of " + std::to_string(value.size());
   }
   std::string operator()(const JsonObject&) const { return "an object"; }
+  std::string operator()(const JsonText&) const { return "JSON"; }
 };
 
 /// The least number of letters to insert, remove, replace or swap with a neighbour (the optimal
