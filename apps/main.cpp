@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   using firstcontact::app::ExitStatus;
   firstcontact::app::occupy_closed_streams();
   firstcontact::app::keep_freed_memory();
+  firstcontact::app::take_stack();
   try {
     return static_cast<int>(firstcontact::app::run(argc, argv));
   } catch (const std::bad_alloc&) {
