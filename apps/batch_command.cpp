@@ -98,6 +98,7 @@ std::string options_text(const Arguments& arguments) {
   number("--tolerance", question.tolerance);
   number("--deadline", question.deadline);
   text += question.lenient ? " --lenient" : "";
+  text += question.contacts ? " --contacts " + contacts_text(*question.contacts) : "";
   text += question.closest ? " --closest" : "";
   text += question.all_pairs ? " --all-pairs" : "";
   return text.empty() ? " none" : text;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -135,12 +136,28 @@ class Check {
       Scene scene = source.read();
       id = scene.id;
       require_no_input(outputs_, files_of(scene));
-      take_answer(source, answer_scene(std::move(scene), question_, cache_, workspace_));
+      take_answer(source, answer_scene(std::move(scene), question_, *cache_, workspace_));
     } catch (const std::invalid_argument& error) {
       take_error(id, source.file, source.line, ParseError(source.file, error.what()));
     } catch (const ParseError& error) {
       take_error(id, source.file, source.line, error);
+    } catch (const std::bad_alloc&) {
+      take_lack_of_memory(id, source);
     }
+  }
+
+  /// Ends the work where there is only one scene.
+  void take_lack_of_memory(const std::string& id, const SceneSource& source) {
+    if (!batch_) {
+      throw;
+    }
+    cache_.emplace();
+    workspace_ = {};
+    constexpr const char* kWhat = "not enough memory to answer this scene";
+    take_error(
+        id, source.file, source.line,
+        source.line ? ParseError(source.file, *source.line, kWhat) : ParseError(source.file, kWhat),
+        UndecidedReason::memory);
   }
 
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
@@ -180,11 +197,11 @@ class Check {
   }
 
   void take_error(const std::string& id, const std::string& file, std::optional<std::size_t> line,
-                  const ParseError& error) {
+                  const ParseError& error, UndecidedReason reason = UndecidedReason::none) {
     status_ = ExitStatus::bad_input;
     progress_.say(fmt::format("firstcontact: {}", error.what()));
     if (batch_) {
-      write_json(write_error(id, file, line, error.what()));
+      write_json(write_error(id, file, line, error.what(), reason));
     }
   }
 
@@ -209,7 +226,7 @@ class Check {
   bool batch_;
   std::string page_;  // Without a result.
   std::optional<AtomicFile> output_;
-  ShapeCache cache_;
+  std::optional<ShapeCache> cache_ = std::make_optional<ShapeCache>();
   ManyBodiesWorkspace workspace_;
   ExitStatus status_ = kSuccess;
   std::size_t answered_ = 0;

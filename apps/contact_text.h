@@ -3,11 +3,17 @@
 
 #pragma once
 
+#include <cstddef>
 #include <string>
+
+#include <Eigen/Core>
 
 #include <firstcontact/query/contact.h>
 
 namespace firstcontact::app {
+
+/// "(1, 2, 3)"
+[[nodiscard]] std::string point_text(const Eigen::Vector3d& point);
 
 /// "triangle 7", "edge 12 of triangle 7"
 [[nodiscard]] std::string feature_text(const Feature& feature);
@@ -16,5 +22,10 @@ namespace firstcontact::app {
 ///
 /// @param duration  [s]  of the step
 [[nodiscard]] std::string contact_text(const Contact& contact, double duration);
+
+/// "7 feature pairs", "1000 of 180045 feature pairs", "1000 of more than 262144 feature pairs"
+///
+/// @param listed  of them
+[[nodiscard]] std::string contact_count_text(const ContactCount& count, std::size_t listed);
 
 }  // namespace firstcontact::app

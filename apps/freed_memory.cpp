@@ -1,5 +1,7 @@
 #include "freed_memory.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdlib>
 
 #ifdef __GLIBC__
@@ -15,6 +17,15 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, kKept);
   mallopt(M_MMAP_THRESHOLD, kLargest);
 #endif
+}
+
+void take_stack() {
+  constexpr std::size_t kSize = std::size_t{512} << 10;  // [bytes]
+  constexpr std::size_t kPage = 4096;                    // [bytes]  No larger than pages are.
+  std::array<volatile char, kSize> stack;
+  for (std::size_t k = 0; k < kSize; k += kPage) {
+    stack[k] = 0;
+  }
 }
 
 }  // namespace firstcontact::app

@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   firstcontact::app::occupy_closed_streams();
   firstcontact::app::refuse_long_files_by_error();
   firstcontact::app::keep_freed_memory();
+  firstcontact::app::take_stack();
   try {
     return static_cast<int>(firstcontact::app::run(argc, argv));
   } catch (const std::bad_alloc&) {

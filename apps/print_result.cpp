@@ -78,15 +78,17 @@ class Description {
   /// Those of every pair that touches at the scene's time.
   void contacts() {
     std::size_t count = 0;
+    ContactCount all{0, true};
     for (const PairAnswer& pair : result_.pairs) {
       if (result_.first && pair.first_contact.t == result_.t) {
         count += pair.first_contact.contacts.size();
+        all += pair.first_contact.contact_count;
       }
     }
     if (count == 0) {
       return;
     }
-    line("contacts", fmt::format("{} feature pair{}", count, count == 1 ? "" : "s"));
+    line("contacts", contact_count_text(all, count));
     std::size_t left = std::min(count, kMostContacts);
     for (const PairAnswer& pair : result_.pairs) {
       for (const Contact& found : pair.first_contact.contacts) {
@@ -118,6 +120,10 @@ class Description {
     const ClosestApproachResult& found = *pair.closest_approach;
     std::string text = fmt::format("{} at t = {:.6g}: {}", length_text(found.distance), found.t,
                                    names(pair.bodies));
+    if (found.closest) {
+      text += fmt::format(", between {} and {} m", point_text(found.closest->p_WA),
+                          point_text(found.closest->p_WB));
+    }
     if (found.reason != UndecidedReason::none) {
       text += fmt::format("; at least {} ({})", length_text(found.lower_bound), word(found.reason));
     }

@@ -92,7 +92,11 @@ class RobotAnswerText {
   /// Those of every pair that touches at the scene's time.
   void contacts() {
     std::vector<const RobotContact*> found;
+    ContactCount all{0, true};
     for (const RobotPairAnswer& pair : result_.pairs) {
+      if (result_.first && pair.t == result_.t) {
+        all += pair.contact_count;
+      }
       for (const RobotContact& contact : pair.contacts) {
         if (result_.first && pair.t == result_.t) {
           found.push_back(&contact);
@@ -102,7 +106,7 @@ class RobotAnswerText {
     if (found.empty()) {
       return;
     }
-    line("contacts", fmt::format("{} feature pair{}", found.size(), found.size() == 1 ? "" : "s"));
+    line("contacts", contact_count_text(all, found.size()));
     for (std::size_t k = 0; k < std::min(found.size(), kMostContacts); ++k) {
       contact(*found[k]);
     }
@@ -133,6 +137,10 @@ class RobotAnswerText {
     const LeastClearance& found = *pair.least_clearance;
     std::string text = fmt::format("{} at {}: {}", length_text(found.distance), seconds(found.t),
                                    names(pair.members));
+    if (found.closest) {
+      text += fmt::format(", between {} and {} m", point_text(found.closest->p_WA),
+                          point_text(found.closest->p_WB));
+    }
     if (found.reason != UndecidedReason::none) {
       text += fmt::format("; at least {} ({})", length_text(found.lower_bound), word(found.reason));
     }

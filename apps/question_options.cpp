@@ -1,8 +1,49 @@
 #include "question_options.h"
 
+#include <charconv>
+#include <cstddef>
+#include <system_error>
+
+#include <fmt/core.h>
+
 #include "command_line_number.h"
 
 namespace firstcontact::app {
+namespace {
+
+ContactState parse_contacts(const std::string& text) {
+  for (const ContactState& contacts :
+       {ContactState::none, ContactState::first, ContactState::all}) {
+    if (text == contacts_text(contacts)) {
+      return contacts;
+    }
+  }
+  std::size_t most = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, most);
+  if (error != std::errc() || rest != end || most == 0) {
+    throw CLI::ValidationError(
+        "--contacts",
+        fmt::format("expected none, first, all or a whole number > 0, got \"{}\"", text));
+  }
+  return ContactState::nearest(most);
+}
+
+}  // namespace
+
+std::string contacts_text(const ContactState& contacts) {
+  switch (contacts.kind) {
+    case ContactState::Kind::none:
+      return "none";
+    case ContactState::Kind::first:
+      return "first";
+    case ContactState::Kind::nearest:
+      return std::to_string(contacts.most);
+    case ContactState::Kind::all:
+      break;
+  }
+  return "all";
+}
 
 void add_question_options(CLI::App& command, Question& question) {
   add_number(command, "--margin", question.margin, Range::not_negative,
@@ -15,6 +56,15 @@ void add_question_options(CLI::App& command, Question& question) {
   command.add_flag("--lenient", question.lenient,
                    "Names in files that nobody knows are warnings, not errors, even where they "
                    "could hold geometry");
+  command
+      .add_option_function<std::string>(
+          "--contacts",
+          [&question](const std::string& text) { question.contacts = parse_contacts(text); },
+          fmt::format("Which feature pairs at the contact are listed of each two bodies: none, the "
+                      "first, all, or so many at most, the nearest and some of every region; in "
+                      "place of the scene's ({})",
+                      ContactState::kUsual))
+      ->type_name("none|first|all|N");
   command.add_flag("--closest", question.closest, "Also the closest approach over the whole step");
   command.add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
 }

@@ -3,13 +3,20 @@
 
 #pragma once
 
+#include <string>
+
 #include <CLI/CLI.hpp>
+
+#include <firstcontact/query/first_contact.h>
 
 #include "scene_answer.h"
 
 namespace firstcontact::app {
 
-/// Adds --margin, --tolerance, --deadline, --lenient, --closest and --all-pairs.
+/// Adds --margin, --tolerance, --deadline, --lenient, --contacts, --closest and --all-pairs.
 void add_question_options(CLI::App& command, Question& question);
+
+/// "none", "first", "all" or a number: as on the command line.
+[[nodiscard]] std::string contacts_text(const ContactState& contacts);
 
 }  // namespace firstcontact::app

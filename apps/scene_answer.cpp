@@ -12,7 +12,8 @@ namespace {
 
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
   const std::vector<Body>& bodies = loaded.scene.bodies;
-  const bool each_pair = question.all_pairs || question.closest || question.all_contacts_in_time;
+  const bool each_pair =
+      question.all_pairs || question.all_contacts_in_time || (question.closest && !loaded.robots);
   const auto tell = [&loaded, &bodies, &question, each_pair](double done) {
     if (loaded.robots) {
       question.doing(each_pair
@@ -41,6 +42,7 @@ void override_options(const Question& question, SceneOptions& options) {
   options.margin = question.margin.value_or(options.margin);
   options.tolerance = question.tolerance.value_or(options.tolerance);
   options.deadline = question.deadline ? question.deadline : options.deadline;
+  options.contacts = question.contacts.value_or(options.contacts);
 }
 
 SceneAnswer answer_scene(Scene scene, const Question& question, ShapeCache& cache,

@@ -18,10 +18,11 @@ namespace firstcontact::app {
 
 /// What a command line asks of every scene.
 struct Question {
-  std::optional<double> margin;       ///< [m]    In place of the scene's.
-  std::optional<double> tolerance;    ///< [m]    In place of the scene's.
-  std::optional<double> deadline;     ///< [s]    In place of the scene's.
-  std::optional<double> sample_rate;  ///< [1/s]  Also what sampling would have seen.
+  std::optional<double> margin;          ///< [m]    In place of the scene's.
+  std::optional<double> tolerance;       ///< [m]    In place of the scene's.
+  std::optional<double> deadline;        ///< [s]    In place of the scene's.
+  std::optional<ContactState> contacts;  ///< In place of the scene's.
+  std::optional<double> sample_rate;     ///< [1/s]  Also what sampling would have seen.
   bool all_pairs = false;
   bool closest = false;
   bool all_contacts_in_time = false;

@@ -247,28 +247,37 @@ Configuration configuration_of(const RobotModel& model, const JointPositions& po
   return q;
 }
 
+/// One of MotionBenchMaker's problems of the Panda.
+RobotQuestion problem_of_panda(const char* family, int problem) {
+  const fs::path panda = data_dir() / "robots/moveit_resources_panda_description";
+  char number[5];
+  std::snprintf(number, sizeof number, "%04d", problem);
+  const fs::path folder = data_dir() / "planning_mbm/panda" / family;
+  RobotQuestion question;
+  question.robot = {panda / "urdf/panda.urdf", {data_dir() / "robots"}};
+  question.srdf = panda / "srdf/panda.srdf";
+  question.request = folder / ("request" + std::string(number) + ".yaml");
+  question.environment = {folder / ("scene" + std::string(number) + ".yaml")};
+  return question;
+}
+
+/// Where the robot is at its start.
+Configuration start_of(const RobotQuestion& question, const RobotModel& model) {
+  return configuration_of(model, read_planning_request(question.request, model).start);
+}
+
 /// Motions that start at the starts of MotionBenchMaker's problems, in random directions.
 json panda_in_scenes(bool quick) {
-  const fs::path panda = data_dir() / "robots/moveit_resources_panda_description";
   ShapeCache cache;
   std::map<double, Tally> tallies;
   test::Random random(20261122);
   for (const char* family :
        {"bookshelf_small_panda", "box_panda", "cage_panda", "table_pick_panda"}) {
     for (int problem = 1; problem <= 100; problem += quick ? 20 : 1) {
-      char number[5];
-      std::snprintf(number, sizeof number, "%04d", problem);
-      const fs::path folder = data_dir() / "planning_mbm/panda" / family;
-      const fs::path request = folder / ("request" + std::string(number) + ".yaml");
-      RobotQuestion question;
-      question.robot = {panda / "urdf/panda.urdf", {data_dir() / "robots"}};
-      question.srdf = panda / "srdf/panda.srdf";
-      question.request = request;
-      question.environment = {folder / ("scene" + std::string(number) + ".yaml")};
+      const RobotQuestion question = problem_of_panda(family, problem);
       const LoadedScene loaded = load_scene(read_robot_question(question), cache);
       Cell cell(*loaded.robots, sources_of(loaded.scene));
-      const PlanningRequest asked = read_planning_request(request, cell.model());
-      const Configuration start = configuration_of(cell.model(), asked.start);
+      const Configuration start = start_of(question, cell.model());
       for (const double length : {0.5, 2.0}) {
         tallies[length].take(cell, random_motion(cell.model(), start, length, random));
       }
@@ -521,12 +530,106 @@ json growth(bool quick) {
   return out;
 }
 
+/// Robots that touch in very many pairs of triangles at nearly the same time: a round tool that
+/// comes down on a round post, flat on flat, and turns about its axis meanwhile.
+json ties(bool quick) {
+  const double length = 0.2;  // [m]
+  json out = json::array();
+  for (const double radius : {0.02, 0.05}) {
+    for (const double turn : {0.0, 0.3, 3.0, 30.0}) {
+      RobotDescription lift{.name = "lift", .links = {{"base"}, {"slide"}, {"tool"}}, .joints = {}};
+      lift.links[2].collision.push_back({.name = "",
+                                         .X_LG = {},
+                                         .source = SphereGeometry{},
+                                         .shape = make_cylinder(radius, length)});
+      lift.joints = {{.name = "z",
+                      .type = JointType::prismatic,
+                      .parent = "base",
+                      .child = "slide",
+                      .axis = Eigen::Vector3d::UnitZ()},
+                     {.name = "turn",
+                      .type = JointType::continuous,
+                      .parent = "slide",
+                      .child = "tool",
+                      .axis = Eigen::Vector3d::UnitZ()}};
+      const RobotModel model(lift);
+      RobotScene scene;
+      scene.add_body("post", make_cylinder(0.05, length), Motion::fixed({}));
+      scene.add_robot("lift", at_rest(model));
+      RobotChecker checker(std::move(scene));
+      for (const double end : {0.1, 0.07}) {
+        const StraightMotion down{{0.5, 0.0}, {end, turn}};
+        RobotCheckResult found;
+        const double time = best_of([&] {
+          checker.set_motion(0, down.of(model));
+          found = checker.check({.contacts = ContactState::first, .threads = 1});
+        });
+        out.push_back({{"name", "round tool on a round post"},
+                       {"radius", radius},
+                       {"turn_rad", turn},
+                       {"end", end},
+                       {"time_us", time},
+                       {"steps", found.steps},
+                       {"contact", found.verdict == Verdict::contact}});
+      }
+    }
+    if (quick) {
+      break;
+    }
+  }
+  return out;
+}
+
+/// The least distance of a robot's motion beside its check.
+json closest(bool quick) {
+  ShapeCache cache;
+  test::Random random(20261125);
+  std::vector<double> checks;
+  std::vector<double> leasts;
+  std::vector<double> ratios;
+  std::vector<double> free_ratios;
+  for (const char* family :
+       {"bookshelf_small_panda", "box_panda", "cage_panda", "table_pick_panda"}) {
+    for (int problem = 1; problem <= 100; problem += quick ? 50 : 5) {
+      const RobotQuestion question = problem_of_panda(family, problem);
+      const LoadedScene loaded = load_scene(read_robot_question(question), cache);
+      const RobotModel& model = loaded.robots->robot_motion(0).model();
+      const Configuration start = start_of(question, model);
+      RobotChecker checker(*loaded.robots);
+      checker.set_motion(0, random_motion(model, start, 1.0, random).of(model));
+      bool is_free = false;
+      const double check = best_of([&] {
+        is_free =
+            checker.check({.contacts = ContactState::first, .threads = 1}).verdict == Verdict::free;
+      });
+      const double least = best_of([&] {
+        (void)checker.check(
+            {.contacts = ContactState::first, .threads = 1, .least_clearance = true});
+      });
+      checks.push_back(check);
+      leasts.push_back(least);
+      ratios.push_back(least / check);
+      if (is_free) {
+        free_ratios.push_back(least / check);
+      }
+    }
+  }
+  return json::array({{{"name", "Panda in MotionBenchMaker's scenes, 1 rad"},
+                       {"check", sequence_summary(checks)},
+                       {"least_clearance", sequence_summary(leasts)},
+                       {"median_ratio", quantile(ratios, 0.5)},
+                       {"p90_ratio", quantile(ratios, 0.9)},
+                       {"median_ratio_free", quantile(free_ratios, 0.5)}}});
+}
+
 using Family = json (*)(bool quick);
 constexpr std::pair<const char*, Family> kFamilies[] = {{"panda", panda_in_scenes},
                                                         {"puma", puma_against_beetle},
                                                         {"self_collision", self_collision},
                                                         {"avatar", avatar},
-                                                        {"growth", growth}};
+                                                        {"growth", growth},
+                                                        {"ties", ties},
+                                                        {"closest", closest}};
 
 }  // namespace
 }  // namespace firstcontact::benchmarks

@@ -9,6 +9,7 @@ import pathlib
 import pty
 import random
 import signal
+import subprocess
 import sys
 import time
 import unittest
@@ -47,6 +48,63 @@ class BatchTest(tool_test.ToolTest):
     def undisturbed(self) -> bytes:
         self.batch(results="whole.jsonl")
         return self.results("whole.jsonl")
+
+
+@unittest.skipIf(SANITIZED, "sanitizers take address space of their own")
+class Memory(BatchTest):
+    """Of a line that needs more than there is."""
+
+    def batch_within(self, kilobytes: int, *arguments: str):
+        command = " ".join(["batch", "jobs.jsonl", "-o", "out.jsonl", *arguments])
+        return self.run_in_shell_within(kilobytes, command)
+
+    def run_in_shell_within(self, kilobytes: int, command: str):
+        return subprocess.run(["sh", "-c", f'ulimit -v {kilobytes}; exec "$0" {command}', tool_test.TOOL],
+                              cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+
+    def setUp(self):
+        super().setUp()
+        self.large = scenes.plates(40, contacts="all").replace("\n", "")
+        self.file("jobs.jsonl", "".join(line + "\n" for line in (
+            scenes.FREE, scenes.CONTACT, self.large, scenes.FREE, self.large, scenes.CONTACT)))
+
+    def assert_lines(self, text: str):
+        lines = [json.loads(line) for line in text.splitlines()]
+        self.assertEqual([line.get("verdict") for line in lines],
+                         ["free", "contact", None, "free", None, "contact"])
+        for number in (3, 5):
+            self.assertEqual(lines[number - 1], {
+                "id": "", "file": "jobs.jsonl", "line": number, "reason": "memory",
+                "error": f"jobs.jsonl:{number}: not enough memory to answer this scene"})
+
+    def test_is_an_error_and_the_rest_goes_on(self):
+        for threads in ("1", "2"):
+            result = self.batch_within(1000000, "--threads", threads)
+            self.assertEqual(result.returncode, 2, result)
+            self.assertIn("jobs.jsonl:3: not enough memory to answer this scene", result.stderr)
+            self.assert_lines(self.results().decode())
+            for name in ("out.jsonl", "out.jsonl.batch"):
+                (self.folder / name).unlink()
+
+    def test_does_not_keep_a_batch_from_going_on_later(self):
+        self.batch_within(1000000, "--threads", "1")
+        whole = self.results()
+        cut = b"".join(whole.splitlines(keepends=True)[:3])
+        (self.folder / "out.jsonl").write_bytes(cut)
+        result = self.batch_within(1000000, "--threads", "1", "--resume")
+        self.assertEqual(result.returncode, 2, result)
+        self.assertIn("3 of them by an earlier run", result.stdout)
+        self.assertEqual(self.results(), whole)
+
+    def test_is_an_error_of_its_line_in_a_check_too(self):
+        result = self.run_in_shell_within(1000000, "check jobs.jsonl --threads 1")
+        self.assertEqual(result.returncode, 2)
+        self.assert_lines(result.stdout)
+
+    def test_is_the_error_of_one_scene(self):
+        self.file("large.json", self.large)
+        result = self.run_in_shell_within(1000000, "check large.json --threads 1")
+        self.assertEqual((result.returncode, result.stderr), (2, "firstcontact: not enough memory\n"))
 
 
 class Answers(BatchTest):

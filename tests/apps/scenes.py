@@ -19,6 +19,13 @@ def scene(*bodies: dict, **more) -> str:
     return json.dumps({"firstcontact": 1, "bodies": list(bodies), **more})
 
 
+def plates(cells: int, **options) -> str:
+    """Two square plates of so many cells of 1 mm along each side, 10 mm apart; the margin is 30 mm."""
+    flat = {"heightmap": {"cell": [1e-3, 1e-3], "heights": [[0] * (cells + 1)] * (cells + 1)}}
+    return json.dumps({"firstcontact": 1, "id": "plates", "options": {"margin": 0.03, **options}, "bodies": [
+        {"name": "lower", "shape": flat}, {"name": "upper", "shape": flat, "pose": {"position": [0, 0, 0.01]}}]})
+
+
 CONTACT = scene(body("floor"), falling(1), id="contact")
 AT_START = scene(body("floor"), falling(0), id="at start")
 FREE = scene(body("floor"), falling(5), id="free")

@@ -82,7 +82,11 @@ class CommandLine(ToolTest):
                 (["check", scene, "--tolerance", "-1"], '--tolerance: expected a number > 0, got "-1"'),
                 (["check", scene, "--tolerance", "nan"], '--tolerance: expected a number > 0, got "nan"'),
                 (["check", scene, "--margin", "0,5"], '--margin: expected a number >= 0, got "0,5"'),
-                (["check", scene, "--deadline", "inf"], '--deadline: expected a number > 0, got "inf"')]:
+                (["check", scene, "--deadline", "inf"], '--deadline: expected a number > 0, got "inf"'),
+                (["check", scene, "--contacts", "0"],
+                 '--contacts: expected none, first, all or a whole number > 0, got "0"'),
+                (["check", scene, "--contacts", "most"],
+                 '--contacts: expected none, first, all or a whole number > 0, got "most"')]:
             command = "check " if "check" in arguments else ""
             self.assert_refused(self.run_tool(*arguments), f"{message} (see firstcontact {command}--help)")
 
@@ -103,6 +107,67 @@ class CommandLine(ToolTest):
         for words in ("contact: contact at t = 0.2", "floor and stone", "triangle 0", "normal", "closing at",
                       "closest", "sampling misses this contact"):
             self.assertIn(words, result.stdout)
+
+
+class Contacts(ToolTest):
+    """Of two plates with a margin, within which are very many pairs of features."""
+
+    def check(self, *arguments: str, cells: int = 6) -> subprocess.CompletedProcess:
+        return self.run_tool("check", *arguments, self.file("plates.json", scenes.plates(cells)))
+
+    def answer(self, *arguments: str, cells: int = 6) -> dict:
+        return json.loads(self.check("--json", *arguments, cells=cells).stdout)
+
+    def test_are_a_thousand_at_most_and_counted(self):
+        found = self.answer(cells=10)
+        self.assertEqual(len(found["contacts"]), 1000)
+        self.assertGreater(found["contact_count"], 1000)
+        self.assertNotIn("contact_count_is_least", found)
+        self.assertEqual(found["scene"]["options"]["contacts"], 1000)
+
+    def test_are_those_that_the_option_asks_for(self):
+        everything = self.answer("--contacts", "all")
+        self.assertEqual(len(everything["contacts"]), everything["contact_count"])
+        self.assertEqual(everything["scene"]["options"]["contacts"], "all")
+        some = self.answer("--contacts", "20", "--all-pairs")
+        self.assertEqual(len(some["contacts"]), 20)
+        self.assertEqual(some["contact_count"], everything["contact_count"])
+        self.assertEqual(some["pairs"][0]["contact_count"], everything["contact_count"])
+        self.assertTrue(all(contact in everything["contacts"] for contact in some["contacts"]))
+        nearest = min(contact["distance"] for contact in everything["contacts"])
+        self.assertEqual(min(contact["distance"] for contact in some["contacts"]), nearest)
+        first = self.answer("--contacts", "first")
+        self.assertEqual((len(first["contacts"]), first["contact_count"]), (1, 1))
+        self.assertTrue(first["contact_count_is_least"])
+        self.assertEqual(self.answer("--contacts", "none")["contacts"], [])
+
+    def test_are_those_that_the_scene_asks_for(self):
+        scene = json.loads(scenes.plates(6))
+        scene["options"]["contacts"] = 7
+        name = self.file("seven.json", json.dumps(scene))
+        self.assertEqual(len(json.loads(self.run_tool("check", "--json", name).stdout)["contacts"]), 7)
+        again = json.loads(self.run_tool("check", "--json", "--contacts", "8", name).stdout)
+        self.assertEqual(len(again["contacts"]), 8)
+        for wrong in (0, 1.5, "most"):
+            scene["options"]["contacts"] = wrong
+            result = self.run_tool("check", self.file("wrong.json", json.dumps(scene)))
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("options.contacts", result.stderr)
+
+    def test_are_counted_in_words(self):
+        count = self.answer("--contacts", "all")["contact_count"]
+        self.assertIn(f"contacts   {count} feature pairs\n", self.check("--contacts", "all").stdout)
+        self.assertIn(f"contacts   9 of {count} feature pairs\n", self.check("--contacts", "9").stdout)
+        self.assertIn("contacts   1000 of more than 262144 feature pairs\n", self.check(cells=30).stdout)
+
+    def test_take_no_memory_that_nobody_needs(self):
+        # All of them, as they were found and as a tree of JSON, would be some GB.
+        self.file("plates.json", scenes.plates(40))
+        for arguments in ("", "--json", "--all-pairs --json", "--contacts 5"):
+            result = subprocess.run(
+                ["sh", "-c", f'ulimit -v 700000; "$0" check plates.json --threads 1 {arguments} > out', TOOL],
+                cwd=self.folder, capture_output=True, text=True, timeout=120, check=False)
+            self.assertEqual(result.returncode, 1, (arguments, result))
 
 
 class Simulate(ToolTest):

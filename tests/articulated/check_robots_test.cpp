@@ -14,11 +14,14 @@
 #include <stdexcept>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/articulated/robot_gap.h>
+#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/distance.h>
@@ -622,24 +625,99 @@ TEST(CheckRobots, FindsTheLeastClearanceInClosedForm) {
 TEST(CheckRobots, LeastClearancesHoldForSamples) {
   RobotCheckOptions options;
   options.least_clearance = true;
-  for (std::uint64_t seed = 0; seed < 25; ++seed) {
-    const PlanarCase c(seed);
-    const RobotCheckResult result = check_robots(c.scene(), options);
-    double sampled = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= 2000; ++i) {
-      sampled = std::min(sampled, c.gap(i / 2000.0) + *c.rules.margin({0, 1}));
+  for (const bool of_each : {false, true}) {
+    options.all_pairs = of_each;
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+      const PlanarCase c(seed);
+      const RobotCheckResult result = check_robots(c.scene(), options);
+      double sampled = std::numeric_limits<double>::infinity();
+      for (int i = 0; i <= 2000; ++i) {
+        sampled = std::min(sampled, c.gap(i / 2000.0) + *c.rules.margin({0, 1}));
+      }
+      double lower = std::numeric_limits<double>::infinity();
+      double upper = std::numeric_limits<double>::infinity();
+      for (const RobotPairAnswer& pair : result.pairs) {
+        ASSERT_TRUE(pair.least_clearance || !of_each) << seed;
+        if (pair.least_clearance) {
+          ASSERT_EQ(pair.least_clearance->reason, UndecidedReason::none) << seed;
+          lower = std::min(lower, pair.least_clearance->lower_bound);
+          upper = std::min(upper, pair.least_clearance->distance);
+        }
+      }
+      ASSERT_LE(lower, std::max(sampled, 0.0) + 1e-12) << seed;
+      ASSERT_LE(upper - lower, options.tolerance) << seed;
+      ASSERT_GE(upper, std::max(sampled, 0.0) - 0.01) << seed;
     }
-    double lower = std::numeric_limits<double>::infinity();
-    double upper = std::numeric_limits<double>::infinity();
-    for (const RobotPairAnswer& pair : result.pairs) {
-      ASSERT_EQ(pair.least_clearance->reason, UndecidedReason::none) << seed;
-      lower = std::min(lower, pair.least_clearance->lower_bound);
-      upper = std::min(upper, pair.least_clearance->distance);
-    }
-    ASSERT_LE(lower, std::max(sampled, 0.0) + 1e-12) << seed;
-    ASSERT_LE(upper - lower, options.tolerance) << seed;
-    ASSERT_GE(upper, std::max(sampled, 0.0) - 0.01) << seed;
   }
+}
+
+/// The closest features are where and as far apart as it says.
+void expect_closest_features(const RobotScene& scene, const RobotPairAnswer& pair) {
+  const LeastClearance& least = pair.least_clearance.value();
+  const Contact& closest = least.closest.value();
+  EXPECT_NEAR(std::max(closest.distance, 0.0), least.distance, 1e-12);
+  EXPECT_NEAR((closest.p_WA - closest.p_WB).norm(), std::abs(closest.distance), 1e-12);
+  const std::array<Vector3d, 2> points = {closest.p_WA, closest.p_WB};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Pose X_WM = scene.pose(pair.members[k], least.t);
+    double outside = std::numeric_limits<double>::infinity();
+    for (const MemberGeometry& geometry : scene.geometries(pair.members[k])) {
+      const Motion place = Motion::fixed({X_WM.position + X_WM.rotation * geometry.X_MG.position,
+                                          X_WM.rotation * geometry.X_MG.rotation});
+      const Motion point = Motion::fixed({points[k], Eigen::Quaterniond::Identity()});
+      Workspace workspace;
+      outside = std::min(
+          outside,
+          distance({geometry.shape, place}, {make_sphere(1e-9), point}, 0.0, workspace).distance);
+    }
+    EXPECT_LT(outside, 1e-8);
+  }
+}
+
+TEST(CheckRobots, TheLeastClearanceOfAllIsTheLeastOfThoseOfEachPair) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const PlanarCase c(seed);
+    const RobotScene scene = c.scene();
+    const RobotCheckResult of_all = check_robots(scene, {.least_clearance = true});
+    const RobotCheckResult of_each =
+        check_robots(scene, {.all_pairs = true, .least_clearance = true});
+    ASSERT_TRUE(of_all.closest && of_each.closest) << seed;
+    const RobotPairAnswer& found = of_all.pairs[*of_all.closest];
+    const LeastClearance& least = found.least_clearance.value();
+    const LeastClearance& expected = of_each.pairs[*of_each.closest].least_clearance.value();
+    ASSERT_EQ(least.reason, UndecidedReason::none) << seed;
+    ASSERT_NEAR(least.distance, expected.distance, 1e-6) << seed;
+    ASSERT_LE(least.distance - least.lower_bound, 1e-6) << seed;
+    ASSERT_GE(of_all.clearance, least.lower_bound) << seed;
+    expect_closest_features(scene, found);
+    // The verdict is that of a check without it; of the closest pair it is for the whole step.
+    ASSERT_EQ(of_all.verdict, of_each.verdict) << seed;
+    ASSERT_EQ(of_all.t, check_robots(scene).t) << seed;
+    for (const RobotPairAnswer& pair : of_each.pairs) {
+      if (pair.members == found.members) {
+        ASSERT_EQ(found.verdict, pair.verdict) << seed;
+        ASSERT_NEAR(found.t, pair.t, 1e-9) << seed;
+        ASSERT_EQ(found.contacts.size(), pair.contacts.size()) << seed;
+      }
+    }
+    const std::vector<double> times = {0.0, 0.25, 0.5, 0.75, 1.0, least.t};
+    for (const RobotGap& gap : robot_gaps(scene, times)) {
+      ASSERT_LE(least.lower_bound, gap.distance + 1e-12) << seed;
+    }
+    ASSERT_NEAR(robot_gaps(scene, times).back().distance, least.distance, 1e-12) << seed;
+  }
+}
+
+TEST(CheckRobots, ALeastClearanceThatWasNotLookedForClaimsNothing) {
+  const RobotScene scene = turning_past_a_ball(1.0);
+  RobotCheckOptions late{.least_clearance = true};
+  late.budget.deadline = std::chrono::steady_clock::now();
+  const RobotCheckResult result = check_robots(scene, late);
+  ASSERT_TRUE(result.closest);
+  const LeastClearance& least = result.pairs[*result.closest].least_clearance.value();
+  EXPECT_EQ(least.reason, UndecidedReason::deadline);
+  EXPECT_EQ(least.lower_bound, 0.0);
+  EXPECT_FALSE(least.closest);
 }
 
 TEST(CheckRobots, EachPairAnswersAsIfAlone) {
@@ -662,6 +740,133 @@ TEST(CheckRobots, EachPairAnswersAsIfAlone) {
       ASSERT_EQ(result.verdict, pair.verdict) << seed;
       ASSERT_NEAR(result.t, pair.t, 1e-9) << seed;
     }
+  }
+}
+
+// Ties.
+
+/// A round tool that comes down flat on a round post and turns about its axis: all triangles of the
+/// two caps touch at one time, of which some motions say that it is the end of a window.
+TEST(CheckRobots, OpensFewOfTheManyTrianglesThatTouchAtOnce) {
+  constexpr double kLength = 0.2;
+  RobotDescription lift{.name = "lift", .links = {{"base"}, {"slide"}, {"tool"}}, .joints = {}};
+  lift.links[2].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = make_cylinder(0.05, kLength)});
+  lift.joints = {
+      {.name = "z", .type = JointType::prismatic, .parent = "base", .child = "slide"},
+      {.name = "turn", .type = JointType::continuous, .parent = "slide", .child = "tool"}};
+  lift.joints[0].axis = lift.joints[1].axis = Vector3d::UnitZ();
+  const RobotModel model(lift);
+  for (const double turn : {0.0, 0.3, 3.0, 30.0}) {
+    for (const double end : {0.1, 0.07}) {
+      RobotScene scene;
+      scene.add_body("post", make_cylinder(0.05, kLength), Motion::fixed());
+      scene.add_robot("lift",
+                      RobotMotion(model, {{"z", ramp(0.5, end)}, {"turn", ramp(0.0, turn)}}));
+      const RobotCheckResult result = check_robots(scene, {.contacts = ContactState::first});
+      ASSERT_EQ(result.verdict, Verdict::contact);
+      const double truth = (0.5 - kLength) / (0.5 - end);
+      EXPECT_LE(result.t, truth);
+      EXPECT_GE(result.t, truth - 1e-5);
+      EXPECT_LT(result.steps, 12'000u) << turn << ' ' << end;  // Of 100,000 pairs of triangles.
+    }
+  }
+}
+
+// Lists of contacts.
+
+/// A flat plate of cells of 1 cm, across z.
+Shape plate(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      mesh.vertices.emplace_back(0.01 * i, 0.01 * j, 0.0);
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t k = i * (n + 1) + j;
+      mesh.triangles.push_back({k, k + n + 1, k + 1});
+      mesh.triangles.push_back({k + 1, k + n + 1, k + n + 2});
+    }
+  }
+  return Shape(std::move(mesh));
+}
+
+/// A slide of two plates that begins near a plate at rest, whichever of the two is added first.
+RobotScene slide_of_plates(bool robot_first) {
+  RobotDescription slide{.name = "slide", .links = {{"rail"}, {"shoe"}}, .joints = {}};
+  for (const double y : {0.0, 0.12}) {
+    slide.links[1].collision.push_back({.name = "",
+                                        .X_LG = {{0.0, y, 0.02}, Eigen::Quaterniond::Identity()},
+                                        .source = SphereGeometry{},
+                                        .shape = plate(9)});
+  }
+  slide.joints.push_back(
+      {.name = "x", .type = JointType::prismatic, .parent = "rail", .child = "shoe"});
+  RobotScene scene(PairRules(0.05));
+  const auto add_robot = [&] { scene.add_robot("slide", at_rest(RobotModel(slide))); };
+  if (robot_first) {
+    add_robot();
+  }
+  scene.add_body("plate", plate(20), at(Vector3d::Zero()));
+  if (!robot_first) {
+    add_robot();
+  }
+  return scene;
+}
+
+TEST(CheckRobots, ListsNoMoreContactsOfAPairThanAreAskedFor) {
+  const RobotScene scene = slide_of_plates(false);
+  const RobotPairAnswer all = check_robots(scene, {.contacts = ContactState::all}).pairs.at(0);
+  ASSERT_EQ(all.verdict, Verdict::contact_at_start);
+  EXPECT_TRUE(all.contact_count.is_exact);
+  EXPECT_EQ(all.contact_count.at_least, all.contacts.size());
+  ASSERT_GT(all.contacts.size(), 2000u);
+  double least = std::numeric_limits<double>::infinity();
+  for (const RobotContact& found : all.contacts) {
+    least = std::min(least, found.contact.distance);
+  }
+  for (const std::size_t most : {1u, 2u, 30u, 1000u}) {
+    const RobotPairAnswer some =
+        check_robots(scene, {.contacts = ContactState::nearest(most)}).pairs.at(0);
+    ASSERT_EQ(some.contacts.size(), most);
+    EXPECT_EQ(some.contact_count.at_least, all.contacts.size());
+    EXPECT_TRUE(some.contact_count.is_exact);
+    double least_of_some = std::numeric_limits<double>::infinity();
+    std::array<std::size_t, 2> of_geometry = {};
+    for (const RobotContact& found : some.contacts) {
+      least_of_some = std::min(least_of_some, found.contact.distance);
+      ++of_geometry.at(found.geometries[1]);
+    }
+    EXPECT_EQ(least_of_some, least);
+    if (most >= 30) {  // Both plates of the slide are near.
+      EXPECT_GT(std::min(of_geometry[0], of_geometry[1]), 0u) << most;
+    }
+  }
+}
+
+TEST(CheckRobots, ListsTheSameContactsWhicheverMemberIsFirst) {
+  for (const std::size_t most : {3u, 50u}) {
+    const RobotCheckOptions options{.contacts = ContactState::nearest(most)};
+    const RobotPairAnswer one = check_robots(slide_of_plates(false), options).pairs.at(0);
+    const RobotPairAnswer other = check_robots(slide_of_plates(true), options).pairs.at(0);
+    const auto keys = [](const RobotPairAnswer& pair, bool swapped) {
+      std::vector<std::array<double, 4>> all;
+      for (RobotContact found : pair.contacts) {
+        if (swapped) {
+          std::swap(found.geometries[0], found.geometries[1]);
+          swap_bodies(found.contact);
+        }
+        all.push_back({static_cast<double>(found.geometries[1]),
+                       static_cast<double>(found.contact.feature_A.index),
+                       static_cast<double>(found.contact.feature_B.index), found.contact.distance});
+      }
+      std::sort(all.begin(), all.end());
+      return all;
+    };
+    EXPECT_EQ(one.contact_count.at_least, other.contact_count.at_least);
+    EXPECT_EQ(keys(one, false), keys(other, true)) << most;
   }
 }
 

@@ -93,6 +93,10 @@ std::vector<std::uint64_t> bits(const RobotCheckResult& result) {
       add(pair.least_clearance->distance);
       add(pair.least_clearance->lower_bound);
       add(pair.least_clearance->t);
+      if (pair.least_clearance->closest) {
+        add_vector(pair.least_clearance->closest->p_WA);
+        add_vector(pair.least_clearance->closest->p_WB);
+      }
     }
   }
   return all;
@@ -105,11 +109,11 @@ TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
     if (seed % 2 == 1) {
       scene.set_tracking_error(0, "j1", {.angle = 0.01});
     }
-    for (const int kind : {0, 1, 2}) {
+    for (const int kind : {0, 1, 2, 3}) {
       RobotCheckOptions options;
       options.all_pairs = kind == 1;
       options.all_contact_intervals = kind == 2;
-      options.least_clearance = kind == 2 && seed == 0;
+      options.least_clearance = (kind == 2 && seed == 0) || kind == 3;
       options.time_resolution = 0.01;
       options.threads = 1;
       const std::vector<std::uint64_t> alone = bits(check_robots(scene, options));

@@ -3,6 +3,7 @@
 import json
 import multiprocessing
 import subprocess
+import sys
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import firstcontact as fc
@@ -54,6 +55,32 @@ def test_executors(make):
     with make() as executor:
         answers = fc.check_many(jobs(), executor)
     assert [told(answer) for answer in answers] == one_by_one()
+
+
+# Of its own process, whose memory is limited.
+LIMITED = """
+import resource, sys
+import firstcontact as fc
+flat = {"heightmap": {"cell": [1e-3, 1e-3], "heights": [[0] * 41] * 41}}
+def plates(contacts):
+    return {"firstcontact": 1, "options": {"margin": 0.03, "contacts": contacts}, "bodies": [
+        {"name": "lower", "shape": flat},
+        {"name": "upper", "shape": flat, "pose": {"position": [0, 0, 0.01]}}]}
+with open("/proc/self/statm") as file:
+    used = int(file.read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 700_000_000,) * 2)
+answers = fc.check_many([plates(5), plates("all"), plates(5)], threads=int(sys.argv[1]),
+                        errors="return")
+print([type(answer).__name__ for answer in answers], answers[1])
+"""
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_lack_of_memory_is_the_error_of_its_job(threads):
+    run = subprocess.run([sys.executable, "-c", LIMITED, str(threads)], capture_output=True,
+                         text=True, timeout=120, check=False)
+    expected = "['Result', 'MemoryError', 'Result'] not enough memory to answer this\n"
+    assert run.stdout == expected, run.stderr
 
 
 def test_batch_is_the_tools(tmp_path, tool):

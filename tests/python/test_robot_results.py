@@ -45,7 +45,8 @@ def test_attributes_are_those_of_the_json(swing):
         assert contact.normal_velocity == expected["normal_velocity"]
     closest, expected = result.closest, told["closest"]
     assert (closest.distance, closest.time) == (expected["distance"], expected["time"])
-    assert list(closest.pair) == expected["pair"] and closest.points is None
+    assert list(closest.pair) == expected["pair"]
+    assert closest.points.tolist() == expected["points"]
     for pair, expected in zip(result.pairs, told["pairs"], strict=True):
         for name in ("verdict", "margin", "t", "t_upper", "time", "clearance"):
             assert getattr(pair, name) == expected[name]
@@ -53,6 +54,16 @@ def test_attributes_are_those_of_the_json(swing):
             assert (interval.enter_time, interval.leave_time) == (told_interval["enter_time"],
                                                                   told_interval["leave_time"])
             assert interval.reason == "none" and told_interval["reason"] is None
+
+
+def test_closest_of_all_pairs_is_that_of_one_of_them(swing):
+    of_all, of_each = fc.check(swing, closest=True), fc.check(swing, closest=True, all_pairs=True)
+    assert of_all.closest.distance == pytest.approx(of_each.closest.distance, abs=1e-6)
+    apart = np.diff(of_all.closest.points, axis=0)
+    assert np.linalg.norm(apart) == pytest.approx(of_all.closest.distance, abs=1e-12)
+    assert of_all.verdict == of_each.verdict and of_all.t == of_each.t
+    assert len(of_all.pairs) < len(of_each.pairs)
+    assert pickle.loads(pickle.dumps(of_all)).closest.points.tolist() == of_all.closest.points.tolist()
 
 
 def test_intervals_are_where_the_post_is_passed(swing):

@@ -60,6 +60,33 @@ def test_attributes_are_those_of_the_json():
     assert pair.closest.time == expected["closest"]["time"]
 
 
+def plates(**options):
+    flat = {"heightmap": {"cell": [1e-3, 1e-3], "heights": np.zeros((11, 11))}}
+    return {"firstcontact": 1, "options": {"margin": 0.03, **options}, "bodies": [
+        {"name": "lower", "shape": flat},
+        {"name": "upper", "shape": flat, "pose": {"position": [0, 0, 0.01]}}]}
+
+
+def test_contacts_are_those_that_are_asked_for():
+    usual = fc.check(plates())
+    assert len(usual.contacts) == 1000 < usual.contact_count
+    assert usual.contact_count_is_exact
+    everything = fc.check(plates(), contacts="all")
+    assert len(everything.contacts) == everything.contact_count == usual.contact_count
+    few = fc.check(plates(contacts=5))
+    assert len(few.contacts) == len(few.pairs[0].contacts) == 5
+    assert few.contact_count == few.pairs[0].contact_count == usual.contact_count
+    assert len(fc.check(plates(contacts=5), contacts=7).contacts) == 7
+    first = fc.check(plates(), contacts=fc.ContactState.first)
+    assert (len(first.contacts), first.contact_count, first.contact_count_is_exact) == (1, 1, False)
+    assert pickle.loads(pickle.dumps(few)).contact_count == few.contact_count
+    many = fc.check_many([plates(), plates(contacts="none")], contacts=3)
+    assert [len(result.contacts) for result in many] == [3, 3]
+    for wrong in (0, -1):
+        with pytest.raises(ValueError, match="contacts must be >= 1"):
+            fc.check(plates(), contacts=wrong)
+
+
 def test_dict_may_hold_arrays_and_paths():
     scene = falling_scene()
     expected = without_work(fc.check(scene).to_dict())

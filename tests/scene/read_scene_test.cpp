@@ -50,7 +50,7 @@ TEST(ReadScene, LeavesOutIsTheDefault) {
   EXPECT_EQ(read.duration, 1.0);
   EXPECT_EQ(read.options.tolerance, 1e-6);
   EXPECT_EQ(read.options.margin, 0.0);
-  EXPECT_EQ(read.options.contacts, ContactState::all);
+  EXPECT_EQ(read.options.contacts, ContactState::nearest());
   EXPECT_FALSE(read.options.deadline);
 }
 
@@ -74,6 +74,20 @@ TEST(ReadScene, TakesEveryOption) {
   EXPECT_EQ(read.options.contact_band, 1e-3);
   EXPECT_EQ(read.options.deadline, 10.0);
   EXPECT_EQ(read.duration, 0.004);
+}
+
+TEST(ReadScene, TakesWordsAndNumbersForContacts) {
+  const auto contacts = [](const std::string& value) {
+    return parse_scene(scene(body("a"), R"("options": {"contacts": )" + value + "}"), "s")
+        .options.contacts;
+  };
+  EXPECT_EQ(contacts(R"("none")"), ContactState::none);
+  EXPECT_EQ(contacts(R"("all")"), ContactState::all);
+  EXPECT_EQ(contacts("1"), ContactState::nearest(1));
+  EXPECT_EQ(contacts("123456"), ContactState::nearest(123456));
+  for (const char* wrong : {"0", "-1", "2.5", "1e300", R"("some")", "[]"}) {
+    EXPECT_THROW((void)contacts(wrong), ParseError) << wrong;
+  }
 }
 
 // Roll, then pitch, then yaw, each about a fixed axis: x goes to y by yaw, z to x by pitch.

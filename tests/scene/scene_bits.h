@@ -256,7 +256,8 @@ class SceneBits {
   void add(const SceneOptions& options) {
     add(options.tolerance);
     add(options.margin);
-    add(static_cast<double>(options.contacts));
+    add(static_cast<double>(options.contacts.kind));
+    add(static_cast<double>(options.contacts.most));
     add(static_cast<double>(options.start_contacts));
     add(options.contact_band);
     add(options.deadline.value_or(-1.0));

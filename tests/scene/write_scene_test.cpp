@@ -1,5 +1,6 @@
 #include <firstcontact/scene/write_scene.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -55,6 +56,13 @@ FreeBody random_free_body(std::mt19937_64& rng) {
                  {.to = std::numeric_limits<double>::infinity(), .torque = random_vector(rng)}}};
 }
 
+ContactState random_contacts(std::mt19937_64& rng) {
+  const std::array<ContactState, 4> states = {ContactState::none, ContactState::first,
+                                              ContactState::all,
+                                              ContactState::nearest(1 + rng() % 100000)};
+  return states.at(rng() % states.size());
+}
+
 /// Every kind of motion, with numbers of all sizes where no range forbids them.
 Scene random_scene(std::mt19937_64& rng) {
   Scene scene;
@@ -106,7 +114,7 @@ Scene random_scene(std::mt19937_64& rng) {
   scene.pair_margins = {{.bodies = {2, 4}, .margin = std::abs(random_number(rng))}};
   scene.options = {.tolerance = std::abs(random_number(rng)) + 1e-300,
                    .margin = std::abs(random_number(rng)),
-                   .contacts = ContactState::first,
+                   .contacts = random_contacts(rng),
                    .start_contacts = StartContacts::keep_half,
                    .contact_band = 1e-3,
                    .deadline = 0.1};

@@ -13,6 +13,7 @@ from . import _core
 from ._core import (FirstContactResult, ManyBodiesWorkspace, Motion, Result, Scene, SceneSource,
                     Shape, ShapeCache, StopSource)
 from ._tuples import MovingShape
+from ._words import ContactState
 
 SceneLike: TypeAlias = Scene | str | os.PathLike[str] | Mapping[str, Any]
 """A scene: loaded; the path of its file; or as a dict, whose relative paths begin in the working
@@ -70,15 +71,16 @@ def load_simulation_scene(scene: SceneLike, *, lenient: bool = False) -> Scene:
 def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
           all_pairs: bool = False, closest: bool = False, all_contacts_in_time: bool = False,
           margin: float | None = None, tolerance: float | None = None,
-          deadline: float | None = None, sample_rate: float | None = None, strict: bool = False,
-          lenient: bool = False, threads: int = 0,
+          deadline: float | None = None, contacts: ContactState | str | int | None = None,
+          sample_rate: float | None = None, strict: bool = False, lenient: bool = False, threads: int = 0,
           progress: Callable[[float], object] | None = None,
           stop: StopSource | None = None) -> Result:
     """Finds the first contact in a scene: when, where, or proven never.
 
     The same answer as the tool's ``firstcontact check``. all_pairs: also the answer of every pair.
     closest: also the closest approach. all_contacts_in_time: also from when to when each pair is in
-    contact, in scenes with robots. margin, tolerance [m], deadline [s]: in place of the scene's.
+    contact, in scenes with robots. margin, tolerance [m], deadline [s], contacts (which are
+    listed of each two bodies: a word of ContactState, or so many at most): in place of the scene's.
     sample_rate: [1/s] also what sampling at this rate would have seen. strict: ValueError where a
     robot leaves its joint limits. lenient: as of load_scene. threads: at most; 0 for one on each core; the answer does not
     depend on it. progress: called now and then with the part that is done, in [0, 1]. Other threads
@@ -86,8 +88,8 @@ def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
     """
     return _core.check(load_scene(scene, lenient=lenient), workspace, all_pairs=all_pairs, closest=closest,
                        all_contacts_in_time=all_contacts_in_time, margin=margin,
-                       tolerance=tolerance, deadline=deadline, sample_rate=sample_rate,
-                       strict=strict, threads=threads, progress=progress, stop=stop)
+                       tolerance=tolerance, deadline=deadline, contacts=contacts,
+                       sample_rate=sample_rate, strict=strict, threads=threads, progress=progress, stop=stop)
 
 
 def _prepared(job: SceneLike | Pair, lenient: bool) -> Scene | SceneSource | Pair:
@@ -138,7 +140,7 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
                threads: int = 0, all_pairs: bool = False, closest: bool = False,
                all_contacts_in_time: bool = False, margin: float | None = None,
                tolerance: float | None = None, deadline: float | None = None,
-               strict: bool = False, lenient: bool = False,
+               contacts: ContactState | str | int | None = None, strict: bool = False, lenient: bool = False,
                errors: Literal["raise", "return"] = "raise",
                progress: Callable[[float], object] | None = None) -> list[Any]:
     """Answers many jobs, in order: scenes with a Result, pairs with a FirstContactResult.
@@ -157,7 +159,7 @@ def check_many(jobs: Iterable[SceneLike | Pair], executor: Executor | None = Non
     prepared = [_prepared(job, lenient) for job in jobs]
     question: dict[str, Any] = {"all_pairs": all_pairs, "closest": closest,
                 "all_contacts_in_time": all_contacts_in_time, "margin": margin,
-                "tolerance": tolerance, "deadline": deadline, "strict": strict}
+                "tolerance": tolerance, "deadline": deadline, "contacts": contacts, "strict": strict}
     if executor is None:
         answers = _core.answer_jobs(prepared, threads=threads, progress=progress, **question)
     else:

@@ -241,6 +241,10 @@ class FirstContactResult:
     @property
     def contacts(self) -> tuple[Contact, ...]: ...
     @property
+    def contact_count(self) -> int: ...
+    @property
+    def contact_count_is_exact(self) -> bool: ...
+    @property
     def work(self) -> WorkCount: ...
     def __getstate__(self) -> tuple[Any, ...]: ...
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
@@ -350,20 +354,20 @@ class BodySet:
 @overload
 def first_contact(A: _Moving, B: _Moving, workspace: Workspace | None = ..., *,
                   margin: float = ..., tolerance: float = ...,
-                  start_contacts: StartContacts | str = ..., contacts: ContactState | str = ...,
+                  start_contacts: StartContacts | str = ..., contacts: ContactState | str | int = ...,
                   contact_band: float = ..., steps: int = ..., memory: int = ...,
                   deadline: float | None = ...,
                   stop: StopSource | None = ...) -> FirstContactResult: ...
 @overload
 def first_contact(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
                   tolerance: float = ..., start_contacts: StartContacts | str = ...,
-                  contacts: ContactState | str = ..., contact_band: float = ..., steps: int = ...,
+                  contacts: ContactState | str | int = ..., contact_band: float = ..., steps: int = ...,
                   memory: int = ..., deadline: float | None = ..., threads: int = ...,
                   progress: Callable[[float], object] | None = ...,
                   stop: StopSource | None = ...) -> ManyBodiesResult: ...
 def answer_each_pair(bodies: BodySet, workspace: ManyBodiesWorkspace | None = ..., *,
                      tolerance: float = ..., start_contacts: StartContacts | str = ...,
-                     contacts: ContactState | str = ..., contact_band: float = ...,
+                     contacts: ContactState | str | int = ..., contact_band: float = ...,
                      steps: int = ..., memory: int = ..., deadline: float | None = ...,
                      threads: int = ..., progress: Callable[[float], object] | None = ...,
                      stop: StopSource | None = ..., closest: bool = ...) -> list[PairAnswer]: ...
@@ -443,6 +447,10 @@ class ScenePair:
     @property
     def contacts(self) -> tuple[SceneContact, ...]: ...
     @property
+    def contact_count(self) -> int: ...
+    @property
+    def contact_count_is_exact(self) -> bool: ...
+    @property
     def clearance(self) -> float: ...
     @property
     def tolerance_used(self) -> float: ...
@@ -470,6 +478,10 @@ class Result:
     def pair(self) -> tuple[str, str] | None: ...
     @property
     def contacts(self) -> tuple[SceneContact, ...]: ...
+    @property
+    def contact_count(self) -> int: ...
+    @property
+    def contact_count_is_exact(self) -> bool: ...
     @property
     def clearance(self) -> float: ...
     @property
@@ -513,7 +525,8 @@ def sample_gap(scene: Scene, times: _Numbers, *, stop: StopSource | None = ...) 
 def check(scene: Scene, workspace: ManyBodiesWorkspace | None = ..., *, all_pairs: bool = ...,
           closest: bool = ..., all_contacts_in_time: bool = ..., margin: float | None = ...,
           tolerance: float | None = ..., deadline: float | None = ...,
-          sample_rate: float | None = ..., strict: bool = ..., threads: int = ...,
+          contacts: ContactState | str | int | None = ..., sample_rate: float | None = ...,
+          strict: bool = ..., threads: int = ...,
           progress: Callable[[float], object] | None = ...,
           stop: StopSource | None = ...) -> Result: ...
 
@@ -525,7 +538,8 @@ class SceneSource:
 def answer_jobs(jobs: Iterable[Scene | SceneSource | tuple[_Moving, _Moving]], *,
                 threads: int = ..., all_pairs: bool = ..., closest: bool = ...,
                 all_contacts_in_time: bool = ..., margin: float | None = ...,
-                tolerance: float | None = ..., deadline: float | None = ..., strict: bool = ...,
+                tolerance: float | None = ..., deadline: float | None = ...,
+                contacts: ContactState | str | int | None = ..., strict: bool = ...,
                 shapes: ShapeCache | None = ...,
                 progress: Callable[[float], object] | None = ...,
                 stop: StopSource | None = ...) -> list[Any]: ...
@@ -608,7 +622,8 @@ class RobotScene:
               workspace: ManyBodiesWorkspace | None = ..., *, all_pairs: bool = ...,
               closest: bool = ..., all_contacts_in_time: bool = ..., margin: float | None = ...,
               tolerance: float | None = ..., deadline: float | None = ...,
-              sample_rate: float | None = ..., strict: bool = ..., threads: int = ...,
+              contacts: ContactState | str | int | None = ..., sample_rate: float | None = ...,
+              strict: bool = ..., threads: int = ...,
               progress: Callable[[float], object] | None = ...,
               stop: StopSource | None = ...) -> Result: ...
     def __getstate__(self) -> tuple[Any, ...]: ...

@@ -37,7 +37,9 @@ class StartContacts(enum.StrEnum):
 
 
 class ContactState(enum.StrEnum):
-    """Which contacts a result lists."""
+    """Which contacts a result lists; or a number: so many at most of each two bodies, the nearest
+    and some of every region (1000 where nothing is said).
+    """
 
     none = "none"
     """Only the time."""

@@ -5,7 +5,10 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <new>
 #include <optional>
+#include <shared_mutex>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
@@ -100,17 +103,39 @@ struct JobOptions {
 /// Answers jobs of any kind with the scratch memory of one thread.
 class JobAnswerer {
  public:
-  explicit JobAnswerer(const JobOptions& options) : options_(options) {}
+  /// @param memory  of all threads: held alone by who needs all of it
+  JobAnswerer(const JobOptions& options, std::shared_mutex& memory)
+      : options_(options), memory_(memory) {}
 
+  /// A job that runs out of memory may do so because of what others need: it is tried once more,
+  /// alone.
   Answer operator()(const Job& job) {
+    {
+      const std::shared_lock lock(memory_);
+      try {
+        return answer_any(job);
+      } catch (const std::bad_alloc&) {
+        many_bodies_ = {};
+        two_bodies_ = {};
+      } catch (...) {
+        return std::current_exception();
+      }
+    }
+    const std::unique_lock lock(memory_);
     try {
-      return std::visit([this](const auto& kind) { return answer(kind); }, job);
+      return answer_any(job);
     } catch (...) {
+      many_bodies_ = {};
+      two_bodies_ = {};
       return std::current_exception();
     }
   }
 
  private:
+  Answer answer_any(const Job& job) {
+    return std::visit([this](const auto& kind) { return answer(kind); }, job);
+  }
+
   Answer answer(const SharedScene& scene) {
     const OtherOptions& other = options_.question.other;
     return answer_scene(other.any() ? scene->with(other) : scene, many_bodies_, options_.check,
@@ -132,12 +157,14 @@ class JobAnswerer {
     const OtherOptions& other = options_.question.other;
     options.margin = other.margin.value_or(options.margin);
     options.tolerance = other.tolerance.value_or(options.tolerance);
+    options.contacts = other.contacts.value_or(options.contacts);
     options.budget.deadline = deadline_in(other.deadline);
     options.budget.stop = options_.check.stop;
     return first_contact(two.A, two.B, two_bodies_, options);
   }
 
   const JobOptions& options_;
+  std::shared_mutex& memory_;
   ManyBodiesWorkspace many_bodies_;
   Workspace two_bodies_;
 };
@@ -148,8 +175,9 @@ std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& o
   std::vector<Answer> answers(jobs.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
+  std::shared_mutex memory;
   const auto work_and_report = [&](const std::function<void(double)>& report) {
-    JobAnswerer answer(options);
+    JobAnswerer answer(options, memory);
     for (std::size_t k = next++; k < jobs.size(); k = next++) {
       answers[k] = answer(jobs[k]);
       const std::size_t count = ++done;
@@ -220,23 +248,25 @@ void def_check(const Define& define, SharedScene (*scene_of)(Given...), const Ex
       [scene_of](Given... given, OrNone<HeldWorkspace<ManyBodiesWorkspace>> workspace,
                  bool all_pairs, bool closest, bool all_contacts_in_time,
                  std::optional<double> margin, std::optional<double> tolerance,
-                 std::optional<double> deadline, std::optional<double> sample_rate, bool strict,
-                 int threads, const py::object& progress, OrNone<std::stop_source> stop) {
-        return check(
-            scene_of(given...), workspace,
-            {.all_pairs = all_pairs,
-             .closest = closest,
-             .all_contacts_in_time = all_contacts_in_time,
-             .threads = threads},
-            {.other = {margin, tolerance, deadline}, .sample_rate = sample_rate, .strict = strict},
-            progress, stop);
+                 std::optional<double> deadline, std::optional<ContactState> contacts,
+                 std::optional<double> sample_rate, bool strict, int threads,
+                 const py::object& progress, OrNone<std::stop_source> stop) {
+        return check(scene_of(given...), workspace,
+                     {.all_pairs = all_pairs,
+                      .closest = closest,
+                      .all_contacts_in_time = all_contacts_in_time,
+                      .threads = threads},
+                     {.other = {margin, tolerance, deadline, contacts},
+                      .sample_rate = sample_rate,
+                      .strict = strict},
+                     progress, stop);
       },
       extra..., py::arg("workspace") = py::none(), py::kw_only(), py::arg("all_pairs") = false,
       py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
       py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
-      py::arg("deadline") = py::none(), py::arg("sample_rate") = py::none(),
-      py::arg("strict") = false, py::arg("threads") = 0, py::arg("progress") = py::none(),
-      py::arg("stop") = py::none());
+      py::arg("deadline") = py::none(), py::arg("contacts") = py::none(),
+      py::arg("sample_rate") = py::none(), py::arg("strict") = false, py::arg("threads") = 0,
+      py::arg("progress") = py::none(), py::arg("stop") = py::none());
 }
 
 SharedScene itself(const SharedScene& scene) { return scene; }
@@ -262,22 +292,24 @@ void bind_check_jobs(py::module_& m) {
       "answer_jobs",
       [](const py::iterable& jobs, std::size_t threads, bool all_pairs, bool closest,
          bool all_contacts_in_time, std::optional<double> margin, std::optional<double> tolerance,
-         std::optional<double> deadline, bool strict, const SharedCache& shapes,
-         const py::object& progress, OrNone<std::stop_source> stop) {
-        return answer_jobs(jobs, threads,
-                           {.check = {.all_pairs = all_pairs,
-                                      .closest = closest,
-                                      .all_contacts_in_time = all_contacts_in_time,
-                                      .threads = 1},
-                            .question = {.other = {margin, tolerance, deadline}, .strict = strict},
-                            .shapes = shapes ? shapes : std::make_shared<ShapeCache>()},
-                           progress, stop);
+         std::optional<double> deadline, std::optional<ContactState> contacts, bool strict,
+         const SharedCache& shapes, const py::object& progress, OrNone<std::stop_source> stop) {
+        return answer_jobs(
+            jobs, threads,
+            {.check = {.all_pairs = all_pairs,
+                       .closest = closest,
+                       .all_contacts_in_time = all_contacts_in_time,
+                       .threads = 1},
+             .question = {.other = {margin, tolerance, deadline, contacts}, .strict = strict},
+             .shapes = shapes ? shapes : std::make_shared<ShapeCache>()},
+            stop);
       },
       py::arg("jobs"), py::kw_only(), py::arg("threads") = 0, py::arg("all_pairs") = false,
       py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
       py::arg("margin") = py::none(), py::arg("tolerance") = py::none(),
-      py::arg("deadline") = py::none(), py::arg("strict") = false, py::arg("shapes") = py::none(),
-      py::arg("progress") = py::none(), py::arg("stop") = py::none(),
+      py::arg("deadline") = py::none(), py::arg("contacts") = py::none(), py::arg("strict") = false,
+      py::arg("shapes") = py::none(), py::arg("progress") = py::none(),
+      py::arg("stop") = py::none(),
       "Of each job its answer, or the exception that it raised, in order.");
 }
 

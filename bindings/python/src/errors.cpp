@@ -56,7 +56,7 @@ py::object exception_from(const std::exception_ptr& pointer) {
   } catch (const std::invalid_argument& error) {
     return py::handle(PyExc_ValueError)(error.what());
   } catch (const std::bad_alloc&) {
-    return py::handle(PyExc_MemoryError)();
+    return py::handle(PyExc_MemoryError)("not enough memory to answer this");
   } catch (const std::exception& error) {
     return py::handle(PyExc_RuntimeError)(error.what());
   }

@@ -24,6 +24,7 @@ PairView view(const HeldResult& result, const PairAnswer& pair) {
                 .reason = found.reason,
                 .t = found.t,
                 .t_upper = found.t_upper,
+                .contact_count = found.contact_count,
                 .clearance = found.clearance,
                 .tolerance_used = found.tolerance_used};
   if (pair.closest_approach) {
@@ -41,12 +42,14 @@ PairView view(const HeldResult& result, const RobotPairAnswer& pair) {
                 .reason = pair.reason,
                 .t = pair.t,
                 .t_upper = pair.t_upper,
+                .contact_count = pair.contact_count,
                 .clearance = proven_clearance(pair),
                 .tolerance_used = pair.tolerance_used,
                 .intervals = pair.intervals};
   if (pair.least_clearance) {
     const LeastClearance& least = *pair.least_clearance;
-    view.closest = ClosestView{least.distance, least.lower_bound, least.t, least.reason};
+    view.closest =
+        ClosestView{least.distance, least.lower_bound, least.t, least.reason, least.closest};
   }
   return view;
 }

@@ -31,7 +31,7 @@ struct ClosestView {
   double lower_bound = 0.0;
   double t = 0.0;
   UndecidedReason reason = UndecidedReason::none;
-  std::optional<Contact> closest = {};  ///< None for robots.
+  std::optional<Contact> closest = {};
 };
 
 /// The numbers are those of PairAnswer and RobotPairAnswer.
@@ -42,6 +42,7 @@ struct PairView {
   UndecidedReason reason = UndecidedReason::none;
   double t = 0.0;
   std::optional<double> t_upper = {};
+  ContactCount contact_count = {};
   double clearance = 0.0;
   double tolerance_used = 0.0;
   std::optional<ClosestView> closest = {};

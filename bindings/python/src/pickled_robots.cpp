@@ -36,8 +36,9 @@ ContactInterval interval_from(const py::tuple& state) {
 }
 
 py::object state_of(const std::optional<LeastClearance>& least) {
-  return least ? py::object(
-                     py::make_tuple(least->lower_bound, least->distance, least->t, least->reason))
+  return least ? py::object(py::make_tuple(
+                     least->lower_bound, least->distance, least->t, least->reason,
+                     least->closest ? py::object(python::state_of(*least->closest)) : py::none()))
                : py::none();
 }
 
@@ -46,10 +47,12 @@ std::optional<LeastClearance> least_clearance_from(const py::object& value) {
     return std::nullopt;
   }
   const py::tuple state = value;
-  return LeastClearance{.lower_bound = state[0].cast<double>(),
-                        .distance = state[1].cast<double>(),
-                        .t = state[2].cast<double>(),
-                        .reason = state[3].cast<UndecidedReason>()};
+  return LeastClearance{
+      .lower_bound = state[0].cast<double>(),
+      .distance = state[1].cast<double>(),
+      .t = state[2].cast<double>(),
+      .reason = state[3].cast<UndecidedReason>(),
+      .closest = state[4].is_none() ? std::optional<Contact>() : contact_from(state[4])};
 }
 
 template <typename T>
@@ -74,7 +77,8 @@ py::tuple state_of(const RobotPairAnswer& pair) {
   return py::make_tuple(pair.members, pair.threshold, pair.verdict, pair.reason, pair.t,
                         pair.t_upper, pair.tolerance_used, pair.enclosure_error,
                         states_of(pair.contacts, &state_of), states_of(pair.intervals, &state_of),
-                        state_of(pair.least_clearance), pair.steps);
+                        state_of(pair.least_clearance), pair.steps,
+                        python::state_of(pair.contact_count));
 }
 
 RobotPairAnswer robot_pair_from(const py::tuple& state) {
@@ -87,6 +91,7 @@ RobotPairAnswer robot_pair_from(const py::tuple& state) {
           .tolerance_used = state[6].cast<double>(),
           .enclosure_error = state[7].cast<double>(),
           .contacts = all_from(state[8], &robot_contact_from),
+          .contact_count = contact_count_from(state[12]),
           .intervals = all_from(state[9], &interval_from),
           .least_clearance = least_clearance_from(state[10]),
           .steps = state[11].cast<std::uint64_t>()};

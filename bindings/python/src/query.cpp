@@ -203,7 +203,15 @@ void bind_pair_results(py::module_& m) {
                     "[m] Of both shapes: adds to the tolerance of a contact.")
       .def_property_readonly(
           "contacts", [](const Result& result) { return contact_tuple(result.contacts); },
-          "At t, sorted by features.")
+          "At t, sorted by features; those that were asked for.")
+      .def_property_readonly(
+          "contact_count", [](const Result& result) { return result.contact_count.at_least; },
+          "How many there are, those included that are not listed.")
+      .def_property_readonly(
+          "contact_count_is_exact",
+          [](const Result& result) { return result.contact_count.is_exact; },
+          "Not where only the first was asked for, or counting ended early: then there may be "
+          "more.")
       .def_readonly("work", &Result::work)
       .def("__repr__", [](const Result& result) {
         return "<FirstContactResult: " + verdict_text(result.verdict, result.reason, result.t) +
@@ -324,14 +332,16 @@ void bind_pair_questions(py::module_& m) {
       },
       py::arg("A"), py::arg("B"), py::arg("workspace") = py::none(), py::kw_only(),
       py::arg("margin") = 0.0, py::arg("tolerance") = 1e-6,
-      py::arg("start_contacts") = StartContacts::report, py::arg("contacts") = ContactState::all,
-      py::arg("contact_band") = 0.0, py::arg("steps") = kAllSteps, py::arg("memory") = kMemory,
-      py::arg("deadline") = py::none(), py::arg("stop") = py::none(),
+      py::arg("start_contacts") = StartContacts::report,
+      py::arg("contacts") = ContactState::nearest(), py::arg("contact_band") = 0.0,
+      py::arg("steps") = kAllSteps, py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
+      py::arg("stop") = py::none(),
       R"(Finds the first contact of A and B during the step.
 
 A, B: pairs (Shape, Motion). margin: [m] closer than this counts as contact. tolerance: [m] a
 reported contact is no farther than margin + tolerance. contact_band: [m] reports pairs within
-margin + tolerance + band. steps, memory [byte], deadline [s], stop: a budget; spending it gives
+margin + tolerance + band. contacts: which feature pairs are listed; a number: so many at most, the
+nearest and some of every region. steps, memory [byte], deadline [s], stop: a budget; spending it gives
 `undecided`, never a guess.
 
 Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
@@ -399,7 +409,7 @@ template <typename Question, typename... Extra>
 void bind_set_question(py::module_& m, const char* name, Question question, const Extra&... extra) {
   m.def(name, question, py::arg("bodies"), py::arg("workspace") = py::none(), py::kw_only(),
         py::arg("tolerance") = 1e-6, py::arg("start_contacts") = StartContacts::report,
-        py::arg("contacts") = ContactState::all, py::arg("contact_band") = 0.0,
+        py::arg("contacts") = ContactState::nearest(), py::arg("contact_band") = 0.0,
         py::arg("steps") = kAllSteps, py::arg("memory") = kMemory, py::arg("deadline") = py::none(),
         py::arg("threads") = 0, py::arg("progress") = py::none(), py::arg("stop") = py::none(),
         extra...);
@@ -683,12 +693,21 @@ Contact contact_from(const py::tuple& state) {
   return contact;
 }
 
+py::tuple state_of(const ContactCount& count) {
+  return py::make_tuple(count.at_least, count.is_exact);
+}
+
+ContactCount contact_count_from(const py::tuple& state) {
+  return {state[0].cast<std::uint64_t>(), state[1].cast<bool>()};
+}
+
 py::tuple state_of(const FirstContactResult& result) {
   py::tuple contacts(result.contacts.size());
   for (std::size_t k = 0; k < result.contacts.size(); ++k) {
     contacts[k] = state_of(result.contacts[k]);
   }
-  return py::make_tuple(outcome_of(result), contacts, state_of(result.work));
+  return py::make_tuple(outcome_of(result), contacts, state_of(result.contact_count),
+                        state_of(result.work));
 }
 
 FirstContactResult first_contact_result_from(const py::tuple& state) {
@@ -696,7 +715,8 @@ FirstContactResult first_contact_result_from(const py::tuple& state) {
   for (const py::handle contact : state[1]) {
     result.contacts.push_back(contact_from(contact.cast<py::tuple>()));
   }
-  result.work = work_from(state[2]);
+  result.contact_count = contact_count_from(state[2]);
+  result.work = work_from(state[3]);
   return result;
 }
 

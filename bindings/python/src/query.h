@@ -132,6 +132,8 @@ std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<d
 /// States for pickling.
 pybind11::tuple state_of(const Contact& contact);
 Contact contact_from(const pybind11::tuple& state);
+pybind11::tuple state_of(const ContactCount& count);
+ContactCount contact_count_from(const pybind11::tuple& state);
 pybind11::tuple state_of(const FirstContactResult& result);
 FirstContactResult first_contact_result_from(const pybind11::tuple& state);
 pybind11::tuple state_of(const PairAnswer& answer);

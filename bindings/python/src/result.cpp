@@ -62,6 +62,19 @@ py::tuple contacts_of(const HeldResult& result) {
   return py::tuple(list);
 }
 
+/// Of the same pairs.
+ContactCount contact_count_of(const HeldResult& result) {
+  ContactCount count{0, true};
+  const bool is_contact = first_pair(result.answer).has_value();
+  for (std::size_t k = 0; is_contact && k < pair_count(result); ++k) {
+    const PairView pair = view_pair(result, k);
+    if (pair.t == result.answer.t) {
+      count += pair.contact_count;
+    }
+  }
+  return count;
+}
+
 py::object names_of_first(const HeldResult& result) {
   const auto first = first_pair(result.answer);
   return first ? py::cast(view_pair(result, *first).names).cast<py::tuple>()
@@ -326,8 +339,7 @@ void bind_closest(py::module_& m) {
             const ClosestView found = c.found();
             return found.closest ? py::cast(*found.closest).attr("points") : py::object(py::none());
           },
-          "[m] 2×3, world frame: the closest points at t; None where no pair was reached, and in "
-          "scenes with robots.")
+          "[m] 2×3, world frame: the closest points at t; None where no pair was reached.")
       .def("__repr__",
            [](const SceneClosest& c) {
              return "<SceneClosest: " + std::string(py::repr(py::float_(c.found().distance))) +
@@ -358,7 +370,15 @@ void bind_pair(py::module_& m) {
           [](const ScenePair& p) {
             return py::tuple(py::cast(contacts_of_pair(*p.result, p.index)));
           },
-          "At t.")
+          "At t; those that were asked for.")
+      .def_property_readonly(
+          "contact_count", [](const ScenePair& p) { return p.view().contact_count.at_least; },
+          "How many there are, those included that are not listed.")
+      .def_property_readonly(
+          "contact_count_is_exact",
+          [](const ScenePair& p) { return p.view().contact_count.is_exact; },
+          "Not where only the first was asked for, or counting ended early: then there may be "
+          "more.")
       .def_property_readonly("clearance", of_pair(&PairView::clearance),
                              "[m] Proven lower bound of the distance before t.")
       .def_property_readonly("tolerance_used", of_pair(&PairView::tolerance_used), "[m]")
@@ -431,7 +451,16 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "[s] t times the duration.")
       .def_property_readonly("pair", &names_of_first,
                              "The names of the bodies that decide t; None when free.")
-      .def_property_readonly("contacts", &contacts_of, "At t, of every pair that touches there.")
+      .def_property_readonly("contacts", &contacts_of,
+                             "At t, of every pair that touches there; those that were asked for.")
+      .def_property_readonly(
+          "contact_count", [](const HeldResult& r) { return contact_count_of(r).at_least; },
+          "How many there are, those included that are not listed.")
+      .def_property_readonly(
+          "contact_count_is_exact",
+          [](const HeldResult& r) { return contact_count_of(r).is_exact; },
+          "Not where only the first was asked for, or counting ended early: then there may be "
+          "more.")
       .def_property_readonly(
           "clearance", [](const HeldResult& r) { return r.answer.clearance; },
           "[m] Proven lower bound of every pair's distance up to t; infinite "

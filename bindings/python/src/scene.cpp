@@ -50,6 +50,7 @@ std::shared_ptr<HeldScene> HeldScene::with(const OtherOptions& options) const {
   scene.options.margin = options.margin.value_or(scene.options.margin);
   scene.options.tolerance = options.tolerance.value_or(scene.options.tolerance);
   scene.options.deadline = options.deadline ? options.deadline : scene.options.deadline;
+  scene.options.contacts = options.contacts.value_or(scene.options.contacts);
   return sharing(std::move(scene));
 }
 

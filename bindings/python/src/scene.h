@@ -22,8 +22,9 @@ struct OtherOptions {
   std::optional<double> margin;     ///< [m]
   std::optional<double> tolerance;  ///< [m]
   std::optional<double> deadline;   ///< [s]
+  std::optional<ContactState> contacts;
 
-  [[nodiscard]] bool any() const { return margin || tolerance || deadline; }
+  [[nodiscard]] bool any() const { return margin || tolerance || deadline || contacts; }
 };
 
 /// A scene that loads its meshes when they are needed, so that a scene from another process is

@@ -53,10 +53,12 @@ struct Words<StartContacts> {
   static constexpr std::array kWords{"report", "keep_half"};
 };
 
+/// Of those that are no number.
 template <>
 struct Words<ContactState> {
   static constexpr const char* kName = "ContactState";
   static constexpr std::array kWords{"none", "first", "all"};
+  static constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
 };
 
 template <>
@@ -150,6 +152,51 @@ class WordCaster {
   }
 };
 
+/// Which contacts are listed: a word, or the greatest number of them.
+class ContactStateCaster {
+  using TheWords = Words<ContactState>;
+
+ public:
+  PYBIND11_TYPE_CASTER(ContactState, pybind11::detail::const_name("str | int"));
+
+  bool load(pybind11::handle source, bool /*convert*/) {
+    if (PyLong_Check(source.ptr()) && !PyBool_Check(source.ptr())) {
+      const std::size_t most = PyLong_AsSize_t(source.ptr());
+      if (PyErr_Occurred() != nullptr || most == 0) {
+        PyErr_Clear();
+        throw pybind11::value_error("contacts must be >= 1, got " +
+                                    std::string(pybind11::repr(source)));
+      }
+      value = ContactState::nearest(most);
+      return true;
+    }
+    if (!PyUnicode_Check(source.ptr())) {
+      return false;
+    }
+    for (std::size_t k = 0; k < TheWords::kWords.size(); ++k) {
+      if (PyUnicode_CompareWithASCIIString(source.ptr(), TheWords::kWords[k]) == 0) {
+        value = TheWords::kStates[k];
+        return true;
+      }
+    }
+    refuse_word(TheWords::kName, TheWords::kWords.data(), TheWords::kWords.size(),
+                source.cast<std::string>());
+  }
+
+  static pybind11::handle cast(const ContactState& state, pybind11::return_value_policy /*policy*/,
+                               pybind11::handle /*parent*/) {
+    if (state.kind == ContactState::Kind::nearest) {
+      return pybind11::int_(state.most).release();
+    }
+    for (std::size_t k = 0; k < TheWords::kStates.size(); ++k) {
+      if (state == TheWords::kStates[k]) {
+        return member(TheWords::kName, TheWords::kWords[k]);
+      }
+    }
+    return pybind11::none().release();
+  }
+};
+
 }  // namespace firstcontact::python
 
 namespace pybind11::detail {
@@ -167,8 +214,7 @@ template <>
 class type_caster<firstcontact::StartContacts>
     : public firstcontact::python::WordCaster<firstcontact::StartContacts> {};
 template <>
-class type_caster<firstcontact::ContactState>
-    : public firstcontact::python::WordCaster<firstcontact::ContactState> {};
+class type_caster<firstcontact::ContactState> : public firstcontact::python::ContactStateCaster {};
 template <>
 class type_caster<firstcontact::FeatureType>
     : public firstcontact::python::WordCaster<firstcontact::FeatureType> {};

@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <firstcontact/articulated/detail/candidates.h>
 #include <firstcontact/articulated/detail/contact_intervals.h>
 #include <firstcontact/articulated/detail/least_clearance.h>
+#include <firstcontact/articulated/detail/least_of_all.h>
+#include <firstcontact/articulated/detail/pair_contacts.h>
 #include <firstcontact/articulated/detail/part_search.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
 #include <firstcontact/math/float_environment.h>
@@ -47,6 +47,8 @@ void validate(const RobotCheckOptions& options) {
           "tolerance must be finite and > 0");
   require(options.time_resolution > 0.0 && options.time_resolution <= 1.0,
           "time_resolution must be in (0, 1]");
+  require(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
+          "contacts must be nearest(1) or more");
 }
 
 /// All that checks of a scene share.
@@ -55,7 +57,7 @@ struct Prepared {
 
   detail::RobotTimeline timeline;
   detail::CandidateSearch candidates;
-  tbb::enumerable_thread_specific<detail::LinkWorkspace> workspaces;
+  detail::LinkWorkspaces workspaces;
 };
 
 class RobotCheck {
@@ -72,6 +74,23 @@ class RobotCheck {
   }
 
   RobotCheckResult run() {
+    walk();
+    if (options_.least_clearance && asks_each_pair()) {
+      find_least_clearances();
+    } else if (options_.least_clearance) {
+      find_least_of_all();
+    }
+    report(1.0);
+    return result();
+  }
+
+ private:
+  [[nodiscard]] bool asks_each_pair() const {
+    return options_.all_pairs || options_.all_contact_intervals;
+  }
+
+  /// Takes the pieces one after the other, as far as they matter.
+  void walk() {
     std::size_t k = 0;
     while (k < timeline_.piece_count() && timeline_.piece(k).begin <= horizon()) {
       const double begin = timeline_.piece(k).begin;
@@ -84,16 +103,17 @@ class RobotCheck {
       search(find_candidates(k, end));
       k = end;
     }
-    if (options_.least_clearance) {
-      find_least_clearances();
-    }
-    report(1.0);
-    return result();
   }
 
- private:
-  [[nodiscard]] bool asks_each_pair() const {
-    return options_.all_pairs || options_.all_contact_intervals || options_.least_clearance;
+  [[nodiscard]] RobotPairAnswer free_answer(std::size_t pair) const {
+    const detail::TestedPair& tested = timeline_.pairs()[pair];
+    RobotPairAnswer answer;
+    answer.members = tested.members;
+    answer.threshold = tested.margin;
+    answer.verdict = Verdict::free;
+    answer.t = 1.0;
+    answer.tolerance_used = options_.tolerance;
+    return answer;
   }
 
   /// That of a tested pair, by index: free until something else is found. Most pairs never need
@@ -102,27 +122,28 @@ class RobotCheck {
     std::size_t& place = place_of_[pair];
     if (place == kNone) {
       place = pairs_.size();
-      const detail::TestedPair& tested = timeline_.pairs()[pair];
-      RobotPairAnswer answer;
-      answer.members = tested.members;
-      answer.threshold = tested.margin;
-      answer.verdict = Verdict::free;
-      answer.t = 1.0;
-      answer.tolerance_used = options_.tolerance;
-      pairs_.push_back(std::move(answer));
+      pairs_.push_back(free_answer(pair));
+      contacts_.emplace_back(most_contacts());
     }
     return pairs_[place];
   }
 
+  /// Of a pair of members; of several of their parts each has one that decides.
+  [[nodiscard]] std::size_t most_contacts() const {
+    return options_.contacts.kind == ContactState::Kind::nearest ? options_.contacts.most
+                                                                 : ContactState::all.most;
+  }
+
   void answer_all() {
     pairs_.reserve(timeline_.pairs().size());
+    contacts_.reserve(timeline_.pairs().size());
     for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
       (void)answer_of(pair);
     }
   }
 
   /// Nothing after it matters.
-  [[nodiscard]] double horizon() const { return asks_each_pair() ? 1.0 : first_; }
+  [[nodiscard]] double horizon() const { return asks_each_pair() || only_ ? 1.0 : first_; }
 
   void report(double done) const {
     if (options_.progress) {
@@ -136,7 +157,9 @@ class RobotCheck {
 
   std::vector<PartCandidate> find_candidates(std::size_t first, std::size_t last) {
     std::function<bool(std::size_t)> wanted;
-    if (asks_each_pair() && !options_.all_contact_intervals) {
+    if (only_) {
+      wanted = [&](std::size_t pair) { return pair == *only_; };
+    } else if (asks_each_pair() && !options_.all_contact_intervals) {
       wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
     }
     std::vector<std::vector<PartCandidate>> found(last - first);
@@ -206,25 +229,39 @@ class RobotCheck {
       pair.reason = found.reason;
       pair.t = found.t;
       pair.threshold = candidate.threshold;
-      pair.contacts = std::move(answer.contacts);
+      pair.contact_count = found.contact_count;
+      contacts_[place_of_[candidate.pair]].clear();
+      contacts_[place_of_[candidate.pair]].add(answer.contacts);
     } else if (says_more) {
-      pair.contacts.insert(pair.contacts.end(), answer.contacts.begin(), answer.contacts.end());
+      pair.contact_count += found.contact_count;
+      contacts_[place_of_[candidate.pair]].add(answer.contacts);
+    }
+    if (!earliest_ || pair.t < first_) {
+      earliest_ = {candidate, found.t};
     }
     first_ = std::min(first_, pair.t);
   }
 
   /// All that is free so far is known to be so before t only.
   void give_up(double t, UndecidedReason reason) {
+    if (only_) {
+      give_up(answer_of(*only_), t, reason);
+      return;
+    }
     answer_all();
     for (RobotPairAnswer& pair : pairs_) {
-      pair.intervals.push_back({t, 1.0, reason});
-      if (pair.verdict == Verdict::free) {
-        pair.verdict = Verdict::undecided;
-        pair.reason = reason;
-        pair.t = t;
-      }
+      give_up(pair, t, reason);
     }
     first_ = std::min(first_, t);
+  }
+
+  static void give_up(RobotPairAnswer& pair, double t, UndecidedReason reason) {
+    pair.intervals.push_back({t, 1.0, reason});
+    if (pair.verdict == Verdict::free) {
+      pair.verdict = Verdict::undecided;
+      pair.reason = reason;
+      pair.t = t;
+    }
   }
 
   void find_least_clearances() {
@@ -243,6 +280,33 @@ class RobotCheck {
     });
   }
 
+  void find_least_of_all() {
+    const auto found =
+        detail::least_of_all(timeline_, candidates_, earliest_, options_, workspaces_);
+    if (!found) {
+      return;
+    }
+    const RobotPairAnswer& pair = answer_of(found->pair);
+    const bool decides = pair.verdict != Verdict::free && pair.t == first_;
+    if (first_ < 1.0 && !decides && detail::spent(options_.budget) == UndecidedReason::none) {
+      answer_whole_step(found->pair);
+    }
+    answer_of(found->pair).least_clearance = found->least;
+    least_of_all_ = found->least.lower_bound;
+  }
+
+  /// Of a pair that was searched no longer than until another one's contact.
+  void answer_whole_step(std::size_t pair) {
+    RobotPairAnswer& answer = answer_of(pair);
+    const std::uint64_t steps = answer.steps;
+    answer = free_answer(pair);
+    answer.steps = steps;
+    contacts_[place_of_[pair]].clear();
+    only_ = pair;
+    walk();
+    only_.reset();
+  }
+
   RobotCheckResult result() {
     RobotCheckResult result;
     result.verdict = Verdict::free;
@@ -252,6 +316,9 @@ class RobotCheck {
       result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
     }
     result.tolerance_used = options_.tolerance;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      pairs_[k].contacts = contacts_[k].take();
+    }
     std::sort(pairs_.begin(), pairs_.end(), [](const RobotPairAnswer& x, const RobotPairAnswer& y) {
       return x.members < y.members;
     });
@@ -261,11 +328,12 @@ class RobotCheck {
                            : std::vector<ContactInterval>();
       gather(pair, result);
       const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
-      if (asks_each_pair() || decides) {
+      if (asks_each_pair() || decides || pair.least_clearance) {
         result.pairs.push_back(std::move(pair));
       }
     }
     take_verdict(result);
+    result.clearance = std::max(result.clearance, least_of_all_);
     return result;
   }
 
@@ -301,11 +369,15 @@ class RobotCheck {
 
   const detail::RobotTimeline& timeline_;
   const detail::CandidateSearch& candidates_;
-  tbb::enumerable_thread_specific<detail::LinkWorkspace>& workspaces_;
+  detail::LinkWorkspaces& workspaces_;
   const RobotCheckOptions& options_;
   std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
   std::vector<RobotPairAnswer> pairs_;
-  double first_ = 1.0;  // Before it all pairs are proven free.
+  std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
+  double first_ = 1.0;                          // Before it all pairs are proven free.
+  std::optional<detail::KnownNear> earliest_;   // The search that found it.
+  double least_of_all_ = 0.0;                   // [m]  Of all pairs, where that was asked.
+  std::optional<std::size_t> only_;             // The only pair that is asked about now.
 };
 
 RobotCheckResult check(Prepared& scene, const RobotCheckOptions& options) {

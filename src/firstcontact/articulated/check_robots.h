@@ -22,14 +22,16 @@ namespace firstcontact {
 
 struct RobotCheckOptions {
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than threshold + tolerance.
-  ContactState contacts = ContactState::all;  ///< What is said about a contact.
+  ContactState contacts = ContactState::nearest();  ///< Which are listed of a pair of members.
   WorkBudget budget = {};  ///< Steps and memory are those of one pair in one piece of time.
   int threads = 0;         ///< At most; 0 for one on each core. Answers do not depend on it.
 
   bool all_pairs = false;              ///< The answer of every tested pair over the whole step.
   bool all_contact_intervals = false;  ///< So too, with every interval of contact of each.
-  bool least_clearance = false;        ///< So too, with the least distance of each.
-  double time_resolution = 1e-3;       ///< [-]  Of contact intervals: see there; in (0, 1].
+  /// The least distance of all pairs, with the answer of the pair that comes closest. With one of
+  /// the two above: that of each pair, which costs much more.
+  bool least_clearance = false;
+  double time_resolution = 1e-3;  ///< [-]  Of contact intervals: see there; in (0, 1].
 
   /// Called now and then from the calling thread with the part that is done, in [0, 1]; without
   /// all_pairs the time proven free so far. May be empty.
@@ -57,12 +59,13 @@ struct ContactInterval {
 };
 
 /// The least distance of a pair over all times at which it is tested, without padding, margin and
-/// tracking errors.
+/// tracking errors. Where a pair touches: at the time of a contact that need not be its first.
 struct LeastClearance {
   double lower_bound = 0.0;  ///< [m]  Proven for all times; distance - lower_bound <= tolerance.
   double distance = std::numeric_limits<double>::infinity();  ///< [m]  Attained at t.
   double t = 0.0;                                             ///< [-]
   UndecidedReason reason = UndecidedReason::none;  ///< Not none: the budget ended the search.
+  std::optional<Contact> closest = {};             ///< The closest feature pair at t, in the world.
 };
 
 /// What one pair of members answered.
@@ -78,6 +81,7 @@ struct RobotPairAnswer {
   double tolerance_used = 0.0;                  ///< [m]  Larger than asked only if f64 needs it.
   double enclosure_error = 0.0;                 ///< [m]  Of both shapes: adds to the tolerance.
   std::vector<RobotContact> contacts = {};      ///< At t; at least one at a contact.
+  ContactCount contact_count = {};              ///< Of them, those included that are not listed.
   std::vector<ContactInterval> intervals = {};  ///< In order, where asked.
   std::optional<LeastClearance> least_clearance = {};  ///< Where asked.
   std::uint64_t steps = 0;                             ///< Node pairs and steps of triangle pairs.
@@ -98,7 +102,8 @@ struct RobotCheckResult {
   std::optional<std::size_t> first;
   /// Index into `pairs` of the one that comes closest, where that was asked.
   std::optional<std::size_t> closest;
-  /// Every tested pair where that was asked, else those that decide `t`; by the order of members.
+  /// Every tested pair where that was asked, else those that decide `t` and the closest one where
+  /// that was asked; by the order of members.
   std::vector<RobotPairAnswer> pairs;
   std::uint64_t steps = 0;  ///< Of all pairs that were searched.
 };

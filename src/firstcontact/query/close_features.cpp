@@ -36,7 +36,8 @@ void collect(const Shape& A, const Shape& B, const PairMotion& motion, double t,
              Workspace& workspace, std::vector<Contact>& contacts) {
   const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
   const detail::ContactFrame frame{A, B, pair, t, motion.origin(t), asked.beside};
-  detail::collect_contacts(frame, A.radius() + B.radius() + asked.band, workspace.data(), contacts);
+  detail::collect_contacts(frame, A.radius() + B.radius() + asked.band, ContactState::all.most,
+                           workspace.data(), contacts);
 }
 
 /// Calls collect(first, second) in the order of the bodies' content.

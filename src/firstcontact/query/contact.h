@@ -38,6 +38,18 @@ struct Contact {
   double normal_velocity = 0.0;
 };
 
+/// How many feature pairs are within the contact band, those included that are not listed.
+struct ContactCount {
+  std::uint64_t at_least = 0;
+  bool is_exact = false;  ///< Not where only the first was asked for, or counting ended early.
+
+  ContactCount& operator+=(const ContactCount& other) {
+    at_least += other.at_least;
+    is_exact = is_exact && other.is_exact;
+    return *this;
+  }
+};
+
 /// The same contact with the roles of A and B exchanged.
 inline void swap_bodies(Contact& contact) {
   std::swap(contact.feature_A, contact.feature_B);

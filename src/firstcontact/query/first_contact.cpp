@@ -141,19 +141,23 @@ void report_contacts(const Query& query, const MovingPair& pair, const detail::P
   const auto& [A, B, motion] = query.shapes;
   const FirstContactOptions& options = query.options;
   const detail::ContactFrame frame{A, B, pair, result.t, motion.origin(result.t)};
+  if (options.contacts == ContactState::none) {
+    return;
+  }
   if (options.contacts == ContactState::first) {
     const RelativeState state = motion.state(result.t);
     const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
     result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
                                                    triangle_distance(triangles.A, triangles.B)));
-  } else if (options.contacts == ContactState::all) {
-    const double band = options.margin + tolerance + options.contact_band + A.radius() + B.radius();
-    if (found.all_remembered && options.contact_band == 0.0) {
-      detail::collect_contacts_of(frame, band, query.workspace, result.contacts);
-    } else {
-      detail::collect_contacts(frame, band, query.workspace, result.contacts);
-    }
+    result.contact_count = {1, false};
+    return;
   }
+  const double band = options.margin + tolerance + options.contact_band + A.radius() + B.radius();
+  const auto collect = found.all_remembered && options.contact_band == 0.0
+                           ? detail::collect_contacts_of
+                           : detail::collect_contacts;
+  result.contact_count =
+      collect(frame, band, options.contacts.most, query.workspace, result.contacts);
 }
 
 /// [m]  The tolerance that an answer holds to.
@@ -247,6 +251,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
     const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
     result.contacts.push_back(
         detail::make_contact({A, B, pair, 0.0, motion.origin(0.0)}, state, found));
+    result.contact_count = {1, true};
   }
 }
 
@@ -265,6 +270,7 @@ void solve_solids(const Query& query, const RelativeState& start, FirstContactRe
     result.reason = UndecidedReason::precision;
     result.t = 0.0;
     result.contacts.clear();
+    result.contact_count = {};
   }
 }
 
@@ -280,6 +286,7 @@ void answer(const ShapePair& pair, const TimeWindow& window, const detail::Corne
   result.tolerance_used = options.tolerance;
   result.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
   result.contacts.clear();
+  result.contact_count = {};
   result.work = {};
   const bool has_inside = window.begin == 0.0 && (pair.A.is_solid() || pair.B.is_solid());
   const bool keeps = options.start_contacts == StartContacts::keep_half;
@@ -311,6 +318,8 @@ void detail::validate(const FirstContactOptions& options) {
                 "finite and > 0", options.tolerance);
   require_range(options.contact_band >= 0.0 && std::isfinite(options.contact_band), "contact_band",
                 "finite and >= 0", options.contact_band);
+  require_range(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
+                "contacts", "nearest(1) or more", static_cast<double>(options.contacts.most));
 }
 
 void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -44,17 +45,40 @@ enum class StartContacts {
   keep_half,
 };
 
-enum class ContactState {
-  none,   ///< Only the time.
-  first,  ///< The feature pair that decided.
-  all,    ///< Every feature pair within the band at t.
+/// Which feature pairs within the band at t are listed of two bodies.
+struct ContactState {
+  enum class Kind { none, first, nearest, all };
+
+  static constexpr std::size_t kUsual = 1000;
+
+  Kind kind = Kind::nearest;
+  std::size_t most = kUsual;  ///< No more are listed.
+
+  static const ContactState none;   ///< Only the time is asked.
+  static const ContactState first;  ///< The feature pair that decided.
+  static const ContactState all;    ///< Every one, however many there are.
+
+  /// All as long as there are no more than `most`. Else the nearest, and some of every region: half
+  /// of them, at most, are the nearest of each cube of a grid around the bodies, whose cubes are as
+  /// small as this number allows; the others are the nearest of all (ContactSelection). Where there
+  /// are very many, more than 262,144 and `most`, those far from being the nearest are neither
+  /// counted nor chosen any more beyond that number.
+  ///
+  /// @param most  >= 1
+  static constexpr ContactState nearest(std::size_t most = kUsual) { return {Kind::nearest, most}; }
+
+  friend bool operator==(const ContactState&, const ContactState&) = default;
 };
+
+inline constexpr ContactState ContactState::none{Kind::none, 0};
+inline constexpr ContactState ContactState::first{Kind::first, 1};
+inline constexpr ContactState ContactState::all{Kind::all, std::numeric_limits<std::size_t>::max()};
 
 struct FirstContactOptions {
   double margin = 0.0;      ///< [m]  Closer than this counts as contact; >= 0.
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance; > 0.
   StartContacts start_contacts = StartContacts::report;
-  ContactState contacts = ContactState::all;
+  ContactState contacts = ContactState::nearest();
   double contact_band = 0.0;  ///< [m]  Reports pairs within margin + tolerance + band; >= 0.
   WorkBudget budget = {};     ///< Spending it gives `undecided`, never a guess.
 };
@@ -89,7 +113,8 @@ struct FirstContactResult {
   double tolerance_used =
       0.0;  ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
   double enclosure_error = 0.0;   ///< [m]  Of both shapes: adds to the tolerance of a contact.
-  std::vector<Contact> contacts;  ///< At t, sorted by features.
+  std::vector<Contact> contacts;  ///< At t, sorted by features; those that were asked for.
+  ContactCount contact_count;     ///< Of them, those included that are not listed.
   WorkCount work;
 };
 

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <shared_mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -28,8 +30,54 @@ class LineChecker {
   LineChecker(const std::filesystem::path& file, const CheckLinesOptions& options)
       : file_(file), options_(options) {}
 
-  /// The answer of a line; none where the stop token may have cut it short.
+  /// The answer of a line; none where the stop token may have cut it short. One that runs out of
+  /// memory may do so because of what others need: it is tried once more, alone.
   std::optional<LineAnswer> answer(const SceneLine& line) {
+    std::optional<LineAnswer> answer = answer_beside_others(line);
+    if (!answer) {
+      answer = answer_alone(line);
+    }
+    if (options_.stop.stop_requested()) {
+      return std::nullopt;
+    }
+    return answer;
+  }
+
+ private:
+  /// None where memory ran out.
+  std::optional<LineAnswer> answer_beside_others(const SceneLine& line) {
+    const std::shared_lock lock(memory_);
+    try {
+      return find_answer(line);
+    } catch (const std::bad_alloc&) {
+      return std::nullopt;
+    }
+  }
+
+  LineAnswer answer_alone(const SceneLine& line) {
+    const std::unique_lock lock(memory_);
+    forget();
+    try {
+      return find_answer(line);
+    } catch (const std::bad_alloc&) {
+      forget();
+    }
+    const std::string error =
+        ParseError(file_.string(), line.number, "not enough memory to answer this scene").what();
+    return {.line = line.number,
+            .text = write_error("", file_.string(), line.number, error, UndecidedReason::memory),
+            .verdict = {},
+            .error = error};
+  }
+
+  /// What was kept for other lines. While no other thread answers one.
+  void forget() {
+    workspaces_.clear();
+    cache_.emplace();
+  }
+
+  /// @throws std::bad_alloc
+  LineAnswer find_answer(const SceneLine& line) {
     LineAnswer answer{.line = line.number, .text = {}, .verdict = {}, .error = {}};
     std::string id;
     try {
@@ -44,18 +92,14 @@ class LineChecker {
     if (!answer.error.empty()) {
       answer.text = write_error(id, file_.string(), line.number, answer.error);
     }
-    if (options_.stop.stop_requested()) {
-      return std::nullopt;
-    }
     return answer;
   }
 
- private:
   void check(Scene scene, LineAnswer& answer) {
     if (options_.adjust) {
       options_.adjust(scene.options);
     }
-    const LoadedScene loaded = load_scene(std::move(scene), cache_);
+    const LoadedScene loaded = load_scene(std::move(scene), *cache_);
     // One thread for each scene: the others have scenes of their own.
     const SceneResult result = check_scene(loaded, workspaces_.local(),
                                            {.all_pairs = options_.all_pairs,
@@ -70,7 +114,8 @@ class LineChecker {
 
   const std::filesystem::path& file_;
   const CheckLinesOptions& options_;
-  ShapeCache cache_;
+  std::shared_mutex memory_;  // Held alone by who needs all of it.
+  std::optional<ShapeCache> cache_ = std::make_optional<ShapeCache>();
   tbb::enumerable_thread_specific<ManyBodiesWorkspace> workspaces_;
 };
 

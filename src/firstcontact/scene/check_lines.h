@@ -37,7 +37,8 @@ struct LineAnswer {
 };
 
 /// Answers scenes by many threads, which share the meshes, and hands the answers over in order. A
-/// bad scene gets an error, the rest is still done. Answers are the same for every number of
+/// bad scene gets an error, and so does one that needs more memory than there is; the rest is still
+/// done. Answers are the same for every number of
 /// threads, unless a deadline or the stop token ends them; those that a stop may have cut short are
 /// not handed over, nor are any after them.
 ///

@@ -150,13 +150,12 @@ void require_for_robots(const SceneOptions& asked) {
 SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& options) {
   const SceneOptions& asked = loaded.scene.options;
   require_for_robots(asked);
-  const bool all_pairs = options.all_pairs || options.closest || options.all_contacts_in_time;
   RobotCheckResult found =
       check_robots(*loaded.robots, {.tolerance = asked.tolerance,
                                     .contacts = asked.contacts,
                                     .budget = budget_of(loaded.scene, options),
                                     .threads = options.threads,
-                                    .all_pairs = all_pairs,
+                                    .all_pairs = options.all_pairs,
                                     .all_contact_intervals = options.all_contacts_in_time,
                                     .least_clearance = options.closest,
                                     .progress = options.progress});

@@ -18,7 +18,9 @@ namespace firstcontact {
 
 struct CheckOptions {
   bool all_pairs = false;  ///< The answer of every pair over the whole step.
-  bool closest = false;    ///< So too, with the closest approach of each.
+  /// The closest approach. Of bodies so too, with that of each pair. Of scenes with robots that of
+  /// all pairs, and of each only with all_pairs or all_contacts_in_time.
+  bool closest = false;
   /// So too, with every interval of contact of each; of scenes with robots.
   bool all_contacts_in_time = false;
   int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.

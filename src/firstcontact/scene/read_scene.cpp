@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -141,6 +143,19 @@ std::vector<Body> read_bodies(const JsonValue& value, const SceneFolders& folder
   return bodies;
 }
 
+/// Which feature pairs are listed: a word, or the greatest number of them.
+ContactState read_contacts(const JsonValue& value, const JsonReader& read) {
+  constexpr double kMost = 0x1p53;  // Whole numbers beyond are not told apart.
+  if (const auto* number = std::get_if<double>(&value.value)) {
+    if (!(*number >= 1.0 && *number <= kMost && *number == std::trunc(*number))) {
+      read.fail_expected(R"("none", "first", "all" or a whole number >= 1)", value);
+    }
+    return ContactState::nearest(static_cast<std::size_t>(*number));
+  }
+  constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
+  return kStates.at(read.word(value, {{"none", "first", "all"}}));
+}
+
 SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
   SceneOptions options;
   if (const JsonValue* tolerance = find(object, "tolerance")) {
@@ -150,8 +165,7 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
     options.margin = read.not_negative(*margin);
   }
   if (const JsonValue* contacts = find(object, "contacts")) {
-    constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
-    options.contacts = kStates.at(read.word(*contacts, {{"none", "first", "all"}}));
+    options.contacts = read_contacts(*contacts, read);
   }
   if (const JsonValue* start_contacts = find(object, "start_contacts")) {
     constexpr std::array kStarts{StartContacts::report, StartContacts::keep_half};

@@ -55,7 +55,7 @@ struct GroupMargin {
 struct SceneOptions {
   double tolerance = 1e-6;  ///< [m]  > 0
   double margin = 0.0;      ///< [m]  >= 0
-  ContactState contacts = ContactState::all;
+  ContactState contacts = ContactState::nearest();
   StartContacts start_contacts = StartContacts::report;
   double contact_band = 0.0;       ///< [m]  >= 0
   std::optional<double> deadline;  ///< [s]  Wall clock for the whole scene; > 0.

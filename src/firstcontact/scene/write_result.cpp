@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/detail/contact_json.h>
 #include <firstcontact/scene/detail/reports_json.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/detail/robot_result.h>
@@ -18,6 +19,7 @@
 namespace firstcontact {
 namespace {
 
+using detail::ContactArray;
 using detail::JsonArray;
 using detail::JsonNull;
 using detail::JsonObject;
@@ -44,16 +46,17 @@ class ResultWriter {
   }
 
   [[nodiscard]] JsonObject head(const SceneResult& result) const {
-    return {{"id", to_json(scene_.id)},
-            {"verdict", to_json(word(result.verdict))},
-            {"reason", to_json(result.reason)},
-            {"t", to_json(result.t)},
-            {"t_upper", to_json(result.t_upper)},
-            {"time", to_json(result.t * scene_.duration)},
-            {"pair", result.first ? names(result.pairs[*result.first].bodies)
-                                  : JsonValue{.value = JsonNull{}}},
-            {"contacts", {.value = contacts_at(result)}},
-            {"clearance", to_json(result.clearance)}};
+    JsonObject object{{"id", to_json(scene_.id)},
+                      {"verdict", to_json(word(result.verdict))},
+                      {"reason", to_json(result.reason)},
+                      {"t", to_json(result.t)},
+                      {"t_upper", to_json(result.t_upper)},
+                      {"time", to_json(result.t * scene_.duration)},
+                      {"pair", result.first ? names(result.pairs[*result.first].bodies)
+                                            : JsonValue{.value = JsonNull{}}}};
+    append_contacts_at(result, object);
+    object.push_back({"clearance", to_json(result.clearance)});
+    return object;
   }
 
   [[nodiscard]] JsonValue closest(const PairAnswer& pair) const {
@@ -72,7 +75,7 @@ class ResultWriter {
 
   [[nodiscard]] JsonValue pair(const PairAnswer& pair) const {
     const FirstContactResult& found = pair.first_contact;
-    JsonArray contacts;
+    ContactArray contacts(scene_.duration);
     append_contacts(pair, contacts);
     JsonObject object{{"pair", names(pair.bodies)},
                       {"margin", to_json(pair.margin)},
@@ -81,8 +84,9 @@ class ResultWriter {
                       {"t", to_json(found.t)},
                       {"t_upper", to_json(found.t_upper)},
                       {"time", to_json(found.t * scene_.duration)},
-                      {"contacts", {.value = std::move(contacts)}},
-                      {"clearance", to_json(found.clearance)}};
+                      {"contacts", contacts.take()}};
+    detail::append_contact_count(found.contact_count, object);
+    object.push_back({"clearance", to_json(found.clearance)});
     append_tolerance(found.tolerance_used, object);
     append_enclosure_error(loaded_.bodies.shape(pair.bodies[0]).enclosure_error() +
                                loaded_.bodies.shape(pair.bodies[1]).enclosure_error(),
@@ -129,21 +133,25 @@ class ResultWriter {
     return two(to_json(scene_.bodies[bodies[0]].name), to_json(scene_.bodies[bodies[1]].name));
   }
 
-  void append_contacts(const PairAnswer& pair, JsonArray& array) const {
+  void append_contacts(const PairAnswer& pair, ContactArray& array) const {
+    array.set_names(names(pair.bodies));
     for (const Contact& found : pair.first_contact.contacts) {
-      array.push_back({.value = to_json(found, names(pair.bodies), scene_.duration)});
+      array.add(found);
     }
   }
 
   /// The contacts of every pair that touches at the scene's t.
-  [[nodiscard]] JsonArray contacts_at(const SceneResult& result) const {
-    JsonArray array;
+  void append_contacts_at(const SceneResult& result, JsonObject& object) const {
+    ContactArray array(scene_.duration);
+    ContactCount count{0, true};
     for (const PairAnswer& pair : result.pairs) {
       if (result.first && pair.first_contact.t == result.t) {
         append_contacts(pair, array);
+        count += pair.first_contact.contact_count;
       }
     }
-    return array;
+    object.push_back({"contacts", array.take()});
+    detail::append_contact_count(count, object);
   }
 
   /// [m]  Of any two bodies.
@@ -207,12 +215,15 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
 }
 
 std::string write_error(std::string_view id, std::string_view file, std::optional<std::size_t> line,
-                        std::string_view message) {
+                        std::string_view message, UndecidedReason reason) {
   JsonObject object{{"id", to_json(id)}, {"file", to_json(file)}};
   if (line) {
     object.push_back({"line", to_json(*line)});
   }
   object.push_back({"error", to_json(message)});
+  if (reason != UndecidedReason::none) {
+    object.push_back({"reason", to_json(reason)});
+  }
   return detail::write_json({.value = std::move(object)});
 }
 

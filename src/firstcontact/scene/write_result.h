@@ -47,9 +47,10 @@ struct WriteResultOptions {
 /// @param file     that was read
 /// @param line     of that file, for JSON Lines
 /// @param message  what was wrong
-[[nodiscard]] FIRSTCONTACT_API std::string write_error(std::string_view id, std::string_view file,
-                                                       std::optional<std::size_t> line,
-                                                       std::string_view message);
+/// @param reason   what ended the work, where that was not the input; or none
+[[nodiscard]] FIRSTCONTACT_API std::string write_error(
+    std::string_view id, std::string_view file, std::optional<std::size_t> line,
+    std::string_view message, UndecidedReason reason = UndecidedReason::none);
 
 /// The words of the result file.
 [[nodiscard]] FIRSTCONTACT_API const char* word(Verdict verdict);

@@ -340,16 +340,18 @@ JsonValue pairs_to_json(const Scene& scene) {
   return {.value = std::move(pairs)};
 }
 
-const char* word(ContactState contacts) {
-  switch (contacts) {
-    case ContactState::none:
-      return "none";
-    case ContactState::first:
-      return "first";
-    case ContactState::all:
+JsonValue contacts_to_json(const ContactState& contacts) {
+  switch (contacts.kind) {
+    case ContactState::Kind::none:
+      return to_json("none");
+    case ContactState::Kind::first:
+      return to_json("first");
+    case ContactState::Kind::nearest:
+      return to_json(static_cast<double>(contacts.most));
+    case ContactState::Kind::all:
       break;
   }
-  return "all";
+  return to_json("all");
 }
 
 JsonValue options_to_json(const Scene& scene) {
@@ -357,7 +359,7 @@ JsonValue options_to_json(const Scene& scene) {
   const bool keep_half = options.start_contacts == StartContacts::keep_half;
   JsonObject object{{"tolerance", to_json(options.tolerance)},
                     {"margin", to_json(options.margin)},
-                    {"contacts", to_json(word(options.contacts))},
+                    {"contacts", contacts_to_json(options.contacts)},
                     {"start_contacts", to_json(keep_half ? "keep_half" : "report")},
                     {"contact_band", to_json(options.contact_band)}};
   if (options.deadline) {

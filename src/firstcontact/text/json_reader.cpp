@@ -21,6 +21,7 @@ struct Description {
     return "an array of " + std::to_string(value.size());
   }
   std::string operator()(const JsonObject&) const { return "an object"; }
+  std::string operator()(const JsonText&) const { return "JSON"; }
 };
 
 /// How far a word is from a known one; half a word that was meant whole is near.

@@ -19,7 +19,14 @@ struct JsonNull {};
 using JsonArray = std::vector<JsonValue>;
 using JsonObject = std::vector<JsonMember>;  // In the order of the text.
 
-using JsonVariant = std::variant<JsonNull, bool, double, std::string, JsonArray, JsonObject>;
+/// JSON that is written already: what is very long takes ten times the memory as a tree. No reader
+/// makes one.
+struct JsonText {
+  std::string text;
+};
+
+using JsonVariant =
+    std::variant<JsonNull, bool, double, std::string, JsonArray, JsonObject, JsonText>;
 
 struct JsonValue {
   JsonVariant value;

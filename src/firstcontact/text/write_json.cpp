@@ -37,6 +37,8 @@ struct Appender {
   void operator()(double value) const { out += write_json(value); }
   void operator()(const std::string& value) const { out += write_json(std::string_view(value)); }
 
+  void operator()(const JsonText& written) const { out += written.text; }
+
   void operator()(const JsonArray& array) const {
     const char* separator = "[";
     for (const JsonValue& element : array) {

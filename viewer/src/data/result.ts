@@ -88,6 +88,8 @@ export interface Answer {
   readonly time: number;
   readonly pair: Names | null;
   readonly contacts: readonly Contact[];
+  /// How many there are, those included that are not listed.
+  readonly contact_count?: number;
   readonly clearance: number | null;
   readonly closest?: Closest;
 }

@@ -34,13 +34,16 @@ struct Question {
 
 class Search {
  public:
+  /// @param distance  [m]  in place of all thresholds, where it is given
   Search(const RobotTimeline& timeline, std::size_t piece, const std::vector<RobotTree>& trees,
-         const std::vector<std::optional<SweptPart>>& resting)
+         const std::vector<std::optional<SweptPart>>& resting,
+         const std::optional<double>& distance = std::nullopt)
       : timeline_(timeline),
         piece_(piece),
         grid_{timeline.piece(piece)},
         middle_(grid_.at(TimeGrid::kMiddle)),
-        has_tracking_errors_(timeline.has_tracking_errors()),
+        distance_(distance),
+        has_tracking_errors_(!distance && timeline.has_tracking_errors()),
         trees_(trees),
         resting_(resting),
         robots_(trees.size()),
@@ -56,7 +59,7 @@ class Search {
       if (has_tracking_errors_) {
         add_thresholds(candidate, 0);
       } else {
-        candidate.threshold = timeline_.pairs()[candidate.pair].margin;
+        candidate.threshold = margin_of(candidate.pair);
         found_.push_back(candidate);
       }
     }
@@ -70,6 +73,11 @@ class Search {
     Eigen::Vector3d low;
     Eigen::Vector3d high;
   };
+
+  /// [m]  Of a tested pair, without tracking errors.
+  [[nodiscard]] double margin_of(std::size_t pair) const {
+    return distance_.value_or(timeline_.pairs()[pair].margin);
+  }
 
   /// Those of the tested parts whose boxes are not farther apart than their margins.
   std::vector<Question> near_by_boxes(const std::function<bool(std::size_t)>& wanted) {
@@ -85,7 +93,7 @@ class Search {
         for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
              ++b) {
           const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
-          if (!(gap.maxCoeff() > pair.margin * kUp)) {
+          if (!(gap.maxCoeff() > margin_of(k) * kUp)) {
             near.push_back({.pair = k, .parts = {a, b}});
           }
         }
@@ -121,7 +129,7 @@ class Search {
         open.push_back(question);
       } else {
         found_.push_back({grid_.at(window), piece_, question.pair, question.parts, 0.0,
-                          question.middle - timeline_.pairs()[question.pair].margin});
+                          question.middle - margin_of(question.pair)});
       }
     }
     if (!open.empty()) {
@@ -175,7 +183,7 @@ class Search {
   }
 
   double threshold_of(const Question& question, const GridWindow& window) {
-    double threshold = timeline_.pairs()[question.pair].margin;
+    double threshold = margin_of(question.pair);
     if (has_tracking_errors_) {
       for (std::size_t k = 0; k < 2; ++k) {
         threshold += question.placed ? placed_[(*question.placed)[k]].tracking_bound(window)
@@ -291,13 +299,14 @@ class Search {
       add_thresholds({{middle, window.end}, piece, pair, parts, 0.0, gap}, depth + 1);
       return;
     }
-    found_.push_back({window, piece, pair, parts, timeline_.pairs()[pair].margin + error, gap});
+    found_.push_back({window, piece, pair, parts, margin_of(pair) + error, gap});
   }
 
   const RobotTimeline& timeline_;
   std::size_t piece_;
   TimeGrid grid_;
   double middle_;  // Time.
+  std::optional<double> distance_;
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
   const std::vector<std::optional<SweptPart>>& resting_;
@@ -347,6 +356,10 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
 std::vector<PartCandidate> CandidateSearch::find(
     std::size_t piece, const std::function<bool(std::size_t)>& wanted) const {
   return Search(timeline_, piece, trees_, resting_).run(wanted);
+}
+
+std::vector<PartCandidate> CandidateSearch::find_within(std::size_t piece, double distance) const {
+  return Search(timeline_, piece, trees_, resting_, distance).run({});
 }
 
 }  // namespace firstcontact::detail

@@ -60,6 +60,9 @@ class CandidateSearch {
   [[nodiscard]] std::vector<PartCandidate> find(
       std::size_t piece, const std::function<bool(std::size_t)>& wanted) const;
 
+  /// The same of all pairs that are tested, with one distance [m] in place of their thresholds.
+  [[nodiscard]] std::vector<PartCandidate> find_within(std::size_t piece, double distance) const;
+
  private:
   const RobotTimeline& timeline_;
   std::vector<RobotTree> trees_;                   // Of each robot.

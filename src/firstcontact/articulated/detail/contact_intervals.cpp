@@ -15,7 +15,8 @@ FirstContactResult inside_at(PartSearch& search, double t) {
   result.verdict = t == 0.0 ? Verdict::contact_at_start : Verdict::contact;
   result.t = t;
   result.t_upper = t;
-  result.contacts = {search.closest(t)};
+  result.contacts = {search.nearest(t).closest.value()};
+  result.contact_count = {1, true};
   return result;
 }
 
@@ -59,7 +60,7 @@ PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate, 
   const auto [begin, end] = candidate.window;
   answer.first = may_start_inside && search.is_inside(begin)
                      ? inside_at(search, begin)
-                     : search.first_contact(begin, std::min(end, horizon));
+                     : search.first_contact({begin, std::min(end, horizon)});
   answer.steps = steps_of(answer.first);
   finish(search, answer);
   return answer;
@@ -70,7 +71,7 @@ PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candida
   PartAnswer answer;
   const auto [begin, end] = candidate.window;
   FirstContactResult found =
-      search.is_inside(begin) ? inside_at(search, begin) : search.first_contact(begin, end);
+      search.is_inside(begin) ? inside_at(search, begin) : search.first_contact({begin, end});
   answer.first = found;
   while (true) {
     answer.steps += steps_of(found);
@@ -86,7 +87,7 @@ PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candida
     if (leave == end) {
       break;
     }
-    found = search.first_contact(leave, end);
+    found = search.first_contact({leave, end});
   }
   finish(search, answer);
   return answer;

@@ -9,6 +9,7 @@
 #include <firstcontact/articulated/detail/candidates.h>
 #include <firstcontact/articulated/detail/link_query.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
+#include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
@@ -26,16 +27,26 @@ class PartSearch {
   PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
              const RobotCheckOptions& options, LinkWorkspace& workspace);
 
-  /// First contact in [t_begin, t_end], before which the two are proven free and not inside of each
-  /// other; when free, `t` is its end.
-  [[nodiscard]] FirstContactResult first_contact(double t_begin, double t_end, double margin,
+  /// First contact in a window, before which the two are proven free and not inside of each other;
+  /// when free, `t` is its end. With the candidate's threshold and the tolerance of the options.
+  [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
+
+  /// The same with others, and without contacts.
+  [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
                                                  double tolerance);
 
-  /// The same with the candidate's threshold and the tolerance of the options.
-  [[nodiscard]] FirstContactResult first_contact(double t_begin, double t_end);
+  /// At a time of the piece, with the closest features in the candidate's frame.
+  [[nodiscard]] DistanceResult nearest(double t);
 
-  /// [m]  At a time of the piece, rounded; 0 for one inside of a solid.
-  [[nodiscard]] double distance(double t);
+  /// [m]  The same: rounded; 0 for one inside of a solid.
+  [[nodiscard]] double distance(double t) { return nearest(t).distance; }
+
+  /// [m]  At a time of the piece, of the triangles that a contact of the two names: no less than
+  /// that of the parts.
+  [[nodiscard]] double distance_of_triangles(const Contact& contact, double t) const;
+
+  /// Whether the two are proven farther apart at t, which costs less to know than the distance.
+  [[nodiscard]] bool is_farther(double t, double distance);
 
   /// Whether one is inside of the other, a solid.
   [[nodiscard]] bool is_inside(double t);
@@ -43,14 +54,18 @@ class PartSearch {
   /// Whether they are within threshold + tolerance.
   [[nodiscard]] bool touch(double t, double tolerance_used);
 
-  /// The closest features at t, as a contact there.
-  [[nodiscard]] Contact closest(double t);
-
-  /// Contacts of the candidate's frame at t as the world sees them.
+  /// A contact in the candidate's frame at t as the world sees it.
+  [[nodiscard]] RobotContact in_world(const Contact& contact, double t) const;
+  /// So, too, contacts of one t.
   [[nodiscard]] std::vector<RobotContact> in_world(const std::vector<Contact>& contacts,
                                                    double t) const;
 
  private:
+  [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
+  /// Of the candidate's frame at t.
+  [[nodiscard]] LinkPose frame_at(double t) const;
+  [[nodiscard]] RobotContact placed(const Contact& contact, const LinkPose& X_WF) const;
+
   const RobotTimeline& timeline_;
   const PartCandidate& candidate_;
   const RobotCheckOptions& options_;

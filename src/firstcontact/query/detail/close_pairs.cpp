@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/query/detail/close_list.h>
 #include <firstcontact/query/detail/glide_cover.h>
 #include <firstcontact/query/detail/nearest_pairs.h>
 
@@ -64,42 +65,55 @@ struct AskedFeatures {
   unsigned of_B = 0x3f;
 };
 
-/// @param reach  [m]  the band, and more than positions err
-void append_pairs(const ContactFrame& frame, const TrianglePair& triangles,
-                  std::uint32_t triangle_A, std::uint32_t triangle_B, const AskedFeatures& asked,
-                  double band, double reach, std::vector<ClosePair>& pairs) {
-  if (clearly_apart(triangles, reach)) {
+/// How close features have to be.
+struct CloseBand {
+  double band = 0.0;   ///< [m]
+  double error = 0.0;  ///< [m]  No less than positions err.
+
+  [[nodiscard]] double reach() const { return band + error; }
+
+  /// The same where what is farther is not needed.
+  [[nodiscard]] CloseBand within(double needed) const { return {std::min(band, needed), error}; }
+};
+
+/// Calls use(pair) for each pair of features of two triangles.
+template <class Use>
+void for_each_close(const ContactFrame& frame, const TrianglePair& triangles, const IndexPair& at,
+                    const AskedFeatures& asked, const CloseBand& band, const Use& use) {
+  if (clearly_apart(triangles, band.reach())) {
     return;
   }
   const FeaturePairs close =
-      feature_pairs_within(triangles.A, triangles.B, band, asked.of_A, asked.of_B);
+      feature_pairs_within(triangles.A, triangles.B, band.band, asked.of_A, asked.of_B);
   for (std::size_t k = 0; k < close.count; ++k) {
-    pairs.push_back(close_pair(frame, triangle_A, triangle_B, close.pairs[k]));
+    use(close_pair(frame, at.a, at.b, close.pairs[k]));
   }
 }
 
 /// Of surfaces that glide on each other, most pairs of boxes are near each other, as boxes of
-/// curved patches are thicker than the gap. False where they do not glide.
-bool find_close_by_glide(const ContactFrame& frame, const RelativeState& state, double band,
-                         double reach, WorkspaceData& workspace) {
+/// curved patches are thicker than the gap. Begins the list anew. False where they do not glide.
+bool find_close_by_glide(const ContactFrame& frame, const RelativeState& state,
+                         const CloseBand& band, WorkspaceData& workspace, CloseList& list) {
   const MovingPair& pair = frame.pair;
   const std::optional<GlideCover> cover = GlideCover::of(pair, frame.A, frame.B, frame.t);
-  if (!cover || !cover->find(frame.t, reach, kMostClose, workspace)) {
+  if (!cover || !cover->find(frame.t, band.reach(), kMostClose, workspace)) {
     return false;
   }
   std::vector<IndexPair>& left = workspace.left_by_glide;
   const bool are_chosen = frame.beside > 0.0 && left.size() > kVeryMany;
   if (are_chosen) {
-    keep_nearest(frame, state, reach, frame.beside, left);
+    keep_nearest(frame, state, band.reach(), frame.beside, left);
   }
   const auto own_A = frame.A.own_features();
   const auto own_B = frame.B.own_features();
-  workspace.close_pairs.clear();
-  for (const auto& [a, b] : left) {
+  list.clear();
+  for (const IndexPair& at : left) {
     // A feature counts once where all pairs of triangles are looked at.
-    const AskedFeatures asked = are_chosen ? AskedFeatures{} : AskedFeatures{own_A[a], own_B[b]};
+    const AskedFeatures asked =
+        are_chosen ? AskedFeatures{} : AskedFeatures{own_A[at.a], own_B[at.b]};
     if (asked.of_A != 0 || asked.of_B != 0) {
-      append_pairs(frame, pair.place(state, a, b), a, b, asked, band, reach, workspace.close_pairs);
+      for_each_close(frame, pair.place(state, at.a, at.b), at, asked, band.within(list.reach()),
+                     [&](const ClosePair& close) { list.add(close); });
     }
   }
   return true;
@@ -116,21 +130,21 @@ ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A, std::u
 void find_close_among_opened(const ContactFrame& frame, const RelativeState& state, double band,
                              WorkspaceData& workspace) {
   workspace.close_pairs.clear();
-  const double reach = band + 2.0 * frame.pair.gap_error(state);
+  const CloseBand close{band, 2.0 * frame.pair.gap_error(state)};
   for (const OpenedPair& pair : workspace.opened_pairs) {
     const double travel = frame.pair.speed_bound() * std::abs(frame.t - pair.t);
-    if (pair.distance - travel <= reach) {
-      append_pairs(frame, frame.pair.place(state, pair.a, pair.b), pair.a, pair.b, {}, band, reach,
-                   workspace.close_pairs);
+    if (pair.distance - travel <= close.reach()) {
+      for_each_close(frame, frame.pair.place(state, pair.a, pair.b), {pair.a, pair.b}, {}, close,
+                     [&](const ClosePair& found) { workspace.close_pairs.push_back(found); });
     }
   }
 }
 
-void find_close(const ContactFrame& frame, const RelativeState& state, double band,
-                WorkspaceData& workspace) {
-  workspace.close_pairs.clear();
+std::optional<ContactCount> find_close(const ContactFrame& frame, const RelativeState& state,
+                                       double band, std::size_t most, WorkspaceData& workspace) {
   const MovingPair& pair = frame.pair;
-  const double reach = band + pair.gap_error(state);
+  const CloseBand all{band, pair.gap_error(state)};
+  CloseList list(workspace.close_pairs, most);
   const BoxesAtInstant boxes(pair, state);
   const auto own_A = frame.A.own_features();
   const auto own_B = frame.B.own_features();
@@ -138,25 +152,28 @@ void find_close(const ContactFrame& frame, const RelativeState& state, double ba
   stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
   std::size_t opened = 0;
   while (!stack.empty()) {
-    if (++opened == kManyOpened && find_close_by_glide(frame, state, band, reach, workspace)) {
-      return;
+    if (++opened == kManyOpened && find_close_by_glide(frame, state, all, workspace, list)) {
+      break;
     }
+    const CloseBand close = all.within(list.reach());
     const BoxPair top = stack.back();
     stack.pop_back();
     if (top.is_triangle_pair) {
       const AskedFeatures own{own_A[top.triangle_A], own_B[top.triangle_B]};
       if (own.of_A != 0 || own.of_B != 0) {
-        append_pairs(frame, pair.place(state, top.triangle_A, top.triangle_B), top.triangle_A,
-                     top.triangle_B, own, band, reach, workspace.close_pairs);
+        for_each_close(frame, pair.place(state, top.triangle_A, top.triangle_B),
+                       {top.triangle_A, top.triangle_B}, own, close,
+                       [&](const ClosePair& found) { list.add(found); });
       }
       continue;
     }
     boxes.open(top.A, top.B, [&](const BoxesAtInstant::Lane& lane) {
-      if (!(lane.gap() > reach)) {
+      if (!(lane.gap() > close.reach())) {
         stack.push_back(lane.inside());
       }
     });
   }
+  return list.finish();
 }
 
 }  // namespace firstcontact::detail

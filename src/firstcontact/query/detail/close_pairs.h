@@ -3,10 +3,13 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <firstcontact/query/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
+#include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
 
@@ -14,14 +17,16 @@ namespace firstcontact::detail {
 [[nodiscard]] ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B, const ClosestFeatures& closest);
 
-/// Lists every pair of features within `band` [m] (radii included) in workspace.close_pairs, some
-/// of them more than once.
+/// Lists the pairs of features within `band` [m] (radii included) in workspace.close_pairs, some of
+/// them more than once. Where there are very many, only some, which ContactSelection chooses; then
+/// returns how many there are.
 ///
 /// @param state  at the instant
-void find_close(const ContactFrame& frame, const RelativeState& state, double band,
-                WorkspaceData& workspace);
+/// @param most   >= 1, that are asked for
+std::optional<ContactCount> find_close(const ContactFrame& frame, const RelativeState& state,
+                                       double band, std::size_t most, WorkspaceData& workspace);
 
-/// The same of the pairs of triangles that the last search opened.
+/// Lists all of the pairs of triangles that the last search opened.
 void find_close_among_opened(const ContactFrame& frame, const RelativeState& state, double band,
                              WorkspaceData& workspace);
 

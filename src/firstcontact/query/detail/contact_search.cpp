@@ -34,6 +34,10 @@ constexpr std::size_t kMostRemembered = 256;
 /// after the bodies were placed: it loses little by that, and saves more.
 constexpr double kWindowsOfSecond = 8.0;
 
+/// Groups that are bounded by one placement of the boxes before it is asked for a newer one. Where
+/// very many pairs come near at once, what an older one loses would open all of them.
+constexpr std::uint64_t kManyAtOnce = 16;
+
 /// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
 /// expected to be so, too.
 constexpr std::uint64_t kManyFreed = 256;
@@ -405,7 +409,8 @@ class Search {
 
   /// Whether boxes as they are placed may be bounded for a group that is proven until t.
   [[nodiscard]] bool serves(double t) const {
-    return state_t_ <= t && t < state_t_ + boxes_window_;
+    return state_t_ <= t &&
+           (t < state_t_ + tie_window_ || (served_ < kManyAtOnce && t < state_t_ + boxes_window_));
   }
 
   /// Places boxes at t, or a little before.
@@ -415,6 +420,7 @@ class Search {
     }
     if (frame_t_ != state_t_) {
       frame_t_ = state_t_;
+      served_ = 0;
       pair_.place(state_, box_threshold_ + error_, frame_);
     }
     frame_.horizon = round_up(horizon() - state_t_);
@@ -423,6 +429,7 @@ class Search {
   /// Keeps the lanes of a group that are not free for good, and queues them.
   void take(const Bounding& bounding, BoxBounds& bounds) {
     ++work_.node_groups;
+    ++served_;
     BoxGroup& group = groups_[bounding.index];
     unsigned live = group.live & bounds.live;
     const unsigned doubt =
@@ -694,7 +701,8 @@ class Search {
   RelativeState state_;
   double error_ = 0.0;
   double frame_t_ = std::numeric_limits<double>::quiet_NaN();
-  BoxFrame frame_;  // For boxes; pairs of triangles do without.
+  BoxFrame frame_;            // For boxes; pairs of triangles do without.
+  std::uint64_t served_ = 0;  // Groups that were bounded in it.
   /// All pairs of triangles within the band at the contact are to be among those opened: boxes are
   /// then tested against threshold + tolerance, so that no pair of them that is left holds any.
   bool all_remembered_;

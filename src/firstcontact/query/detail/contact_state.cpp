@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <tuple>
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/query/contact_selection.h>
+#include <firstcontact/query/detail/close_list.h>
 #include <firstcontact/query/detail/close_pairs.h>
 #include <firstcontact/query/detail/close_pairs_of_few.h>
 
@@ -75,11 +79,6 @@ Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
          rate_at(at.A, rates.A, closest.feature_A, closest.p_A);
 }
 
-/// A feature as a number, in the order of types and indices.
-std::uint64_t number_of(const Feature& feature) {
-  return static_cast<std::uint64_t>(feature.type) << 32 | feature.index;
-}
-
 bool comes_before(const CloseKey& x, const CloseKey& y) {
   if (x.feature_A != y.feature_A || x.feature_B != y.feature_B) {
     return x.feature_A != y.feature_A ? x.feature_A < y.feature_A : x.feature_B < y.feature_B;
@@ -131,11 +130,33 @@ void sort_once(WorkspaceData& workspace) {
   keys.erase(std::unique(keys.begin(), keys.end(), same_features), keys.end());
 }
 
-void append_contacts(const ContactFrame& frame, const RelativeState& state,
-                     const std::vector<CloseKey>& keys, std::vector<Contact>& contacts) {
+/// Leaves the order as it is.
+void keep_most(std::size_t most, std::vector<CloseKey>& keys) {
+  if (keys.size() <= most) {
+    return;
+  }
+  ContactSelection<std::size_t> selection(most);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    selection.add(rank_of(*keys[k].pair), k);
+  }
+  std::vector<std::size_t> kept = selection.take();
+  std::sort(kept.begin(), kept.end());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    keys[k] = keys[kept[k]];  // Not before its own place.
+  }
+  keys.resize(kept.size());
+}
+
+/// Of the pairs that are listed by their keys, each once.
+ContactCount append_contacts(const ContactFrame& frame, const RelativeState& state,
+                             std::size_t most, std::vector<CloseKey>& keys,
+                             std::vector<Contact>& contacts) {
+  const ContactCount count{keys.size(), true};
+  keep_most(most, keys);
   for (const CloseKey& key : keys) {
     contacts.push_back(make_contact(frame, state, *key.pair));
   }
+  return count;
 }
 
 }  // namespace
@@ -146,24 +167,26 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   return make_contact(frame, state, close_pair(frame, triangle_A, triangle_B, closest));
 }
 
-void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& workspace,
-                         std::vector<Contact>& contacts) {
+ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::size_t most,
+                                 WorkspaceData& workspace, std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
   find_close_among_opened(frame, state, band, workspace);
   sort_once(workspace);
-  append_contacts(frame, state, workspace.close_keys, contacts);
+  return append_contacts(frame, state, most, workspace.close_keys, contacts);
 }
 
-void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
-                      std::vector<Contact>& contacts) {
+ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_t most,
+                              WorkspaceData& workspace, std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
+  std::optional<ContactCount> of_more;  // Than are listed.
   if (are_few(frame.pair)) {
     find_close_of_few(frame, state, band, workspace);
   } else {
-    find_close(frame, state, band, workspace);
+    of_more = find_close(frame, state, band, most, workspace);
     sort_once(workspace);
   }
-  append_contacts(frame, state, workspace.close_keys, contacts);
+  const ContactCount listed = append_contacts(frame, state, most, workspace.close_keys, contacts);
+  return of_more.value_or(listed);
 }
 
 }  // namespace firstcontact::detail

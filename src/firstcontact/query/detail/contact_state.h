@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,13 +19,14 @@ namespace firstcontact::detail {
                                    std::uint32_t triangle_A, std::uint32_t triangle_B,
                                    const ClosestFeatures& closest);
 
-/// Appends every feature pair within `band` [m] (radii included) of the pairs of triangles that the
-/// last search opened, sorted, each once.
-void collect_contacts_of(const ContactFrame& frame, double band, WorkspaceData& workspace,
-                         std::vector<Contact>& contacts);
+/// Appends the feature pairs within `band` [m] (radii included) of the pairs of triangles that the
+/// last search opened, sorted, each once: all of them, or `most` that ContactSelection chooses.
+/// Returns how many there are.
+ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::size_t most,
+                                 WorkspaceData& workspace, std::vector<Contact>& contacts);
 
 /// The same of all triangles.
-void collect_contacts(const ContactFrame& frame, double band, WorkspaceData& workspace,
-                      std::vector<Contact>& contacts);
+ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_t most,
+                              WorkspaceData& workspace, std::vector<Contact>& contacts);
 
 }  // namespace firstcontact::detail

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/scene/detail/contact_json.h>
 #include <firstcontact/scene/detail/result_json.h>
 
 namespace firstcontact::detail {
@@ -26,36 +27,44 @@ class RobotResultWriter {
       : scene_(loaded.scene), members_(*loaded.robots) {}
 
   [[nodiscard]] JsonObject head(const RobotCheckResult& result) const {
-    JsonArray contacts;
+    ContactArray contacts(scene_.duration);
+    ContactCount count{0, true};
     for (const RobotPairAnswer& pair : result.pairs) {
       if (result.first && pair.t == result.t) {
         append_contacts(pair, contacts);
+        count += pair.contact_count;
       }
     }
-    return {{"id", to_json(scene_.id)},
-            {"verdict", to_json(firstcontact::word(result.verdict))},
-            {"reason", to_json(result.reason)},
-            {"t", to_json(result.t)},
-            {"t_upper", to_json(result.t_upper)},
-            {"time", seconds(result.t)},
-            {"pair", result.first ? names(result.pairs[*result.first].members)
-                                  : JsonValue{.value = JsonNull{}}},
-            {"contacts", {.value = std::move(contacts)}},
-            {"clearance", to_json(result.clearance)}};
+    JsonObject object{{"id", to_json(scene_.id)},
+                      {"verdict", to_json(firstcontact::word(result.verdict))},
+                      {"reason", to_json(result.reason)},
+                      {"t", to_json(result.t)},
+                      {"t_upper", to_json(result.t_upper)},
+                      {"time", seconds(result.t)},
+                      {"pair", result.first ? names(result.pairs[*result.first].members)
+                                            : JsonValue{.value = JsonNull{}}},
+                      {"contacts", contacts.take()}};
+    append_contact_count(count, object);
+    object.push_back({"clearance", to_json(result.clearance)});
+    return object;
   }
 
   [[nodiscard]] JsonValue closest(const RobotPairAnswer& pair) const {
     const LeastClearance& found = *pair.least_clearance;
-    return {.value = JsonObject{{"pair", names(pair.members)},
-                                {"distance", to_json(found.distance)},
-                                {"lower_bound", to_json(found.lower_bound)},
-                                {"t", to_json(found.t)},
-                                {"time", seconds(found.t)},
-                                {"reason", to_json(found.reason)}}};
+    JsonObject object{{"pair", names(pair.members)},
+                      {"distance", to_json(found.distance)},
+                      {"lower_bound", to_json(found.lower_bound)},
+                      {"t", to_json(found.t)},
+                      {"time", seconds(found.t)},
+                      {"reason", to_json(found.reason)}};
+    if (found.closest) {
+      object.push_back({"points", two(to_json(found.closest->p_WA), to_json(found.closest->p_WB))});
+    }
+    return {.value = std::move(object)};
   }
 
   [[nodiscard]] JsonValue pair(const RobotPairAnswer& pair) const {
-    JsonArray contacts;
+    ContactArray contacts(scene_.duration);
     append_contacts(pair, contacts);
     JsonObject object{{"pair", names(pair.members)},
                       {"margin", to_json(pair.threshold)},
@@ -64,8 +73,9 @@ class RobotResultWriter {
                       {"t", to_json(pair.t)},
                       {"t_upper", to_json(pair.t_upper)},
                       {"time", seconds(pair.t)},
-                      {"contacts", {.value = std::move(contacts)}},
-                      {"clearance", to_json(proven_clearance(pair))}};
+                      {"contacts", contacts.take()}};
+    append_contact_count(pair.contact_count, object);
+    object.push_back({"clearance", to_json(proven_clearance(pair))});
     append_tolerances(pair.tolerance_used, pair.enclosure_error, object);
     if (pair.least_clearance) {
       object.push_back({"closest", closest(pair)});
@@ -128,12 +138,10 @@ class RobotResultWriter {
     return {.value = std::move(array)};
   }
 
-  void append_contacts(const RobotPairAnswer& pair, JsonArray& array) const {
+  void append_contacts(const RobotPairAnswer& pair, ContactArray& array) const {
+    array.set_names(names(pair.members));
     for (const RobotContact& found : pair.contacts) {
-      JsonObject object = to_json(found.contact, names(found.members), scene_.duration);
-      object.push_back(
-          {"geometries", two(to_json(found.geometries[0]), to_json(found.geometries[1]))});
-      array.push_back({.value = std::move(object)});
+      array.add(found.contact, found.geometries);
     }
   }
 

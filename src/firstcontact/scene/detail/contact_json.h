@@ -1,0 +1,44 @@
+/// @file
+/// Contacts as JSON. There may be very many, so that they are written as text at once: values of a
+/// tree take ten times the memory.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include <firstcontact/query/contact.h>
+#include <firstcontact/text/json_tree.h>
+
+namespace firstcontact::detail {
+
+/// Writes contacts of several pairs into one array.
+class ContactArray {
+ public:
+  /// @param duration  [s]  of the step; velocities are written in m/s
+  explicit ContactArray(double duration) : duration_(duration) {}
+
+  /// Of the pair whose contacts are added next.
+  ///
+  /// @param names  a JSON array of two strings
+  void set_names(const JsonValue& names);
+
+  /// @param geometries  of each body, where it may have several
+  void add(const Contact& contact,
+           const std::optional<std::array<std::size_t, 2>>& geometries = std::nullopt);
+
+  /// All of it. Nothing may be added afterwards.
+  [[nodiscard]] JsonValue take();
+
+ private:
+  double duration_;
+  std::string names_;
+  std::string text_;
+};
+
+/// Adds how many contacts there are, those included that are not listed.
+void append_contact_count(const ContactCount& count, JsonObject& object);
+
+}  // namespace firstcontact::detail
