@@ -109,8 +109,10 @@ class SkinJoints {
 /// The weights of all vertices, taken one after the other.
 class InfluenceReader {
  public:
-  InfluenceReader(const DaeDocument& document, const XmlElement& skin, const SkinJoints& joints)
+  InfluenceReader(const DaeDocument& document, DaeBudget& budget, const XmlElement& skin,
+                  const SkinJoints& joints)
       : document_(document),
+        budget_(budget),
         element_(document.xml().required_child(skin, "vertex_weights")),
         counts_text_(text_of("vcount")),
         influences_text_(text_of("v")),
@@ -128,6 +130,7 @@ class InfluenceReader {
       last_ = std::max(last_, document.xml().whole_number(*input, "offset"));
     }
     weights_ = read_dae_numbers(document, *weight.source, 1);
+    budget_.spend(document, element_, weights_.size());
   }
 
   void expect_vertices(std::size_t count) const {
@@ -186,6 +189,7 @@ class InfluenceReader {
 
   [[nodiscard]] Influence read(std::size_t joints) {
     Influence influence;
+    budget_.spend(document_, element_, 1);
     for (std::uint64_t at = 0; at <= last_; ++at) {
       if (!influences_.find_line()) {
         document_.fail(element_, "expected a joint and a weight for each influence, got too few");
@@ -209,6 +213,7 @@ class InfluenceReader {
   }
 
   const DaeDocument& document_;
+  DaeBudget& budget_;
   const XmlElement& element_;
   XmlText counts_text_;
   XmlText influences_text_;
@@ -223,12 +228,15 @@ class InfluenceReader {
 }  // namespace
 
 std::vector<Vector3d> read_dae_skin(const DaeDocument& document, const DaeScene& scene,
-                                    const XmlElement& instance, const XmlElement& skin,
+                                    DaeBudget& budget, const DaeSkinInstance& instance,
                                     const std::vector<Vector3d>& points) {
+  const XmlElement& skin = instance.skin;
   document.check_attributes(skin, {"source"});
   document.check_children(skin, {"bind_shape_matrix", "source", "joints", "vertex_weights"});
-  SkinJoints joints(document, scene, instance, skin);
-  InfluenceReader influences(document, skin, joints);
+  budget.spend(document, skin, scene.size());
+  SkinJoints joints(document, scene, instance.element, skin);
+  budget.spend(document, skin, 16 * joints.size());
+  InfluenceReader influences(document, budget, skin, joints);
   influences.expect_vertices(points.size());
   std::vector<Vector3d> placed;
   placed.reserve(points.size());

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
 #include <firstcontact/mesh_files/detail/dae_geometry.h>
 #include <firstcontact/mesh_files/detail/dae_morph.h>
@@ -120,8 +121,8 @@ class DaeReader {
       const std::vector<DaePolygons>& polygons =
           take(*placement.instance, dae_morph_base(document_, *morph));
       if (!polygons.empty()) {
-        add_polygons(*placement.instance, polygons, read_dae_morph(document_, geometries_, *morph),
-                     placement.X_WN);
+        add_polygons(*placement.instance, polygons,
+                     read_dae_morph(document_, geometries_, budget_, *morph), placement.X_WN);
       }
     }
   }
@@ -152,10 +153,11 @@ class DaeReader {
     if (polygons.empty()) {
       return;
     }
-    const std::vector<Vector3d> points = morph == nullptr
-                                             ? geometries_.positions(geometry)
-                                             : read_dae_morph(document_, geometries_, *morph);
-    add_polygons(instance, polygons, read_dae_skin(document_, scene_, instance, skin, points),
+    const std::vector<Vector3d> points =
+        morph == nullptr ? geometries_.positions(geometry)
+                         : read_dae_morph(document_, geometries_, budget_, *morph);
+    add_polygons(instance, polygons,
+                 read_dae_skin(document_, scene_, budget_, {instance, skin}, points),
                  Affine3d::Identity());
   }
 
