@@ -42,9 +42,6 @@ class DaeScene {
   /// In the order of a walk that goes deep first.
   [[nodiscard]] const std::vector<DaePlacement>& placements() const { return placements_; }
 
-  /// How many nodes it holds, each counted once.
-  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
-
   /// The node of an element <node>, or null if the scene does not hold it.
   [[nodiscard]] const DaeNode* node(const XmlElement& element) const;
 

@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/mesh_files/detail/dae_joints.h>
 #include <firstcontact/mesh_files/detail/dae_source.h>
 #include <firstcontact/mesh_files/detail/dae_transform.h>
 #include <firstcontact/text/text_cursor.h>
@@ -50,9 +49,13 @@ Input required_input(const DaeDocument& document, const XmlElement& skin, const 
 /// The joints of a skin, and where they take what is bound to them.
 class SkinJoints {
  public:
-  SkinJoints(const DaeDocument& document, const DaeScene& scene, const XmlElement& instance,
+  SkinJoints(const DaeDocument& document, DaeJointFinder& finder, const XmlElement& instance,
              const XmlElement& skin)
-      : document_(document), finder_(document, scene, instance), X_bind_(bind_shape(skin)) {
+      : document_(document),
+        finder_(finder),
+        instance_(instance),
+        skeletons_(finder.skeletons(instance)),
+        X_bind_(bind_shape(skin)) {
     const XmlElement& joints = document.xml().required_child(skin, "joints");
     document.check_children(joints, {"input"});
     joints_ = required_input(document, skin, joints, "JOINT");
@@ -80,7 +83,7 @@ class SkinJoints {
     }
     const auto index = static_cast<std::size_t>(joint);
     if (!maps_[index]) {
-      const Affine3d X_WJ = finder_.pose(names_.names[index], names_.ids);
+      const Affine3d X_WJ = finder_.pose(names_.names[index], names_.ids, skeletons_, instance_);
       const Affine3d B = dae_matrix(document_, *matrix_source_, matrices_.data() + 16 * index);
       maps_[index] = X_WJ * B * X_bind_;
     }
@@ -96,7 +99,9 @@ class SkinJoints {
   }
 
   const DaeDocument& document_;
-  DaeJointFinder finder_;
+  DaeJointFinder& finder_;
+  const XmlElement& instance_;
+  std::vector<const XmlElement*> skeletons_;
   Affine3d X_bind_;
   Affine3d X_shape_;
   Input joints_;
@@ -227,14 +232,13 @@ class InfluenceReader {
 
 }  // namespace
 
-std::vector<Vector3d> read_dae_skin(const DaeDocument& document, const DaeScene& scene,
+std::vector<Vector3d> read_dae_skin(const DaeDocument& document, DaeJointFinder& finder,
                                     DaeBudget& budget, const DaeSkinInstance& instance,
                                     const std::vector<Vector3d>& points) {
   const XmlElement& skin = instance.skin;
   document.check_attributes(skin, {"source"});
   document.check_children(skin, {"bind_shape_matrix", "source", "joints", "vertex_weights"});
-  budget.spend(document, skin, scene.size());
-  SkinJoints joints(document, scene, instance.element, skin);
+  SkinJoints joints(document, finder, instance.element, skin);
   budget.spend(document, skin, 16 * joints.size());
   InfluenceReader influences(document, budget, skin, joints);
   influences.expect_vertices(points.size());

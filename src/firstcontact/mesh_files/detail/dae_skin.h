@@ -9,7 +9,7 @@
 
 #include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
-#include <firstcontact/mesh_files/detail/dae_scene.h>
+#include <firstcontact/mesh_files/detail/dae_joints.h>
 
 namespace firstcontact::detail {
 
@@ -32,7 +32,7 @@ struct DaeSkinInstance {
 /// @throws ParseError  joints that are not in the scene, or several times; numbers of weights that
 ///         do not fit; vertices without weights
 [[nodiscard]] std::vector<Eigen::Vector3d> read_dae_skin(
-    const DaeDocument& document, const DaeScene& scene, DaeBudget& budget,
+    const DaeDocument& document, DaeJointFinder& finder, DaeBudget& budget,
     const DaeSkinInstance& instance, const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace firstcontact::detail

@@ -57,7 +57,11 @@ void note_libraries(const DaeDocument& document) {
 class DaeReader {
  public:
   DaeReader(const DaeDocument& document, std::size_t bytes)
-      : document_(document), budget_(bytes), scene_(document, budget_), geometries_(document) {}
+      : document_(document),
+        budget_(bytes),
+        scene_(document, budget_),
+        joints_(document, scene_, budget_),
+        geometries_(document) {}
 
   [[nodiscard]] Mesh read() {
     for (const DaePlacement& placement : scene_.placements()) {
@@ -157,7 +161,7 @@ class DaeReader {
         morph == nullptr ? geometries_.positions(geometry)
                          : read_dae_morph(document_, geometries_, budget_, *morph);
     add_polygons(instance, polygons,
-                 read_dae_skin(document_, scene_, budget_, {instance, skin}, points),
+                 read_dae_skin(document_, joints_, budget_, {instance, skin}, points),
                  Affine3d::Identity());
   }
 
@@ -217,6 +221,7 @@ class DaeReader {
   const DaeDocument& document_;
   DaeBudget budget_;
   DaeScene scene_;
+  DaeJointFinder joints_;
   DaeGeometries geometries_;
   MeshBuilder mesh_;
   std::unordered_set<const XmlElement*> used_;  ///< Geometries and controllers in the scene.
