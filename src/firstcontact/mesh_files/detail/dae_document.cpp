@@ -22,7 +22,7 @@ std::string_view kind_of(std::string_view name) {
   if (name.ends_with("_array")) {
     return "array";
   }
-  return holds({"geometry", "controller", "node", "visual_scene", "source", "vertices"}, name)
+  return holds({"geometry", "controller", "node", "visual_scene", "source"}, name)
              ? name
              : std::string_view();
 }
@@ -165,6 +165,13 @@ const XmlElement& DaeDocument::find(const XmlElement& where, const char* attribu
                     detail::quoted(id) + ", got several");
   }
   return *found->element;
+}
+
+bool DaeDocument::names(const XmlElement& where, const char* attribute,
+                        const XmlElement& element) const {
+  const std::string_view id = reference(where, attribute);
+  const char* const its = element.Attribute("id");
+  return its != nullptr && (id == its || decode_percent(id) == its);
 }
 
 const XmlElement& DaeDocument::find_in(const XmlElement& scope, const XmlElement& where,

@@ -44,6 +44,10 @@ class DaeDocument {
   [[nodiscard]] const XmlElement& find_in(const XmlElement& scope, const XmlElement& where,
                                           const char* attribute, std::string_view kind) const;
 
+  /// Whether a reference "#id" names this element.
+  [[nodiscard]] bool names(const XmlElement& where, const char* attribute,
+                           const XmlElement& element) const;
+
   /// The element of this kind and id; null where there is none, or several.
   [[nodiscard]] const XmlElement* find_id(std::string_view id, std::string_view kind) const;
 

@@ -2,44 +2,52 @@
 
 #include <cstddef>
 #include <unordered_set>
-#include <utility>
 
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact::detail {
 
-DaeJointFinder::DaeJointFinder(const DaeDocument& document, const DaeScene& scene,
-                               const XmlElement& instance)
-    : document_(document), scene_(scene), instance_(instance) {
-  std::vector<const XmlElement*> skeletons;
-  for (const XmlElement* skeleton : document.xml().children(instance, "skeleton")) {
-    const XmlText text = document.xml().content(*skeleton);
-    TextCursor cursor(text.view(), document.xml().source(), {}, text.line());
-    const std::string word(cursor.find_line() ? cursor.word() : std::string_view());
-    const XmlElement* root =
-        word.starts_with('#') ? document.find_id(word.substr(1), "node") : nullptr;
+std::vector<const XmlElement*> DaeJointFinder::skeletons(const XmlElement& instance) const {
+  std::vector<const XmlElement*> roots;
+  for (const XmlElement* skeleton : document_.xml().children(instance, "skeleton")) {
+    const XmlText text = document_.xml().content(*skeleton);
+    TextCursor cursor(text.view(), document_.xml().source(), {}, text.line());
+    const std::string_view word = cursor.find_line() ? cursor.word() : std::string_view();
+    const XmlElement* const root =
+        word.starts_with('#') ? document_.find_id(word.substr(1), "node") : nullptr;
     if (root == nullptr) {
-      document.fail(*skeleton, "expected '#' and the id of a node of the skin's skeleton, got " +
-                                   detail::quoted(word));
+      document_.fail(*skeleton, "expected '#' and the id of a node of the skin's skeleton, got " +
+                                    detail::quoted(word));
     }
-    skeletons.push_back(root);
+    roots.push_back(root);
   }
-  add(std::move(skeletons));
-  add(document.xml().children(scene.element(), "node"));
+  roots.push_back(&scene_.element());
+  return roots;
 }
 
-/// Nodes nearer to the roots come first.
-void DaeJointFinder::add(std::vector<const XmlElement*> queue) {
+const DaeJointFinder::Subtree& DaeJointFinder::subtree(const XmlElement& root) {
+  // What a node costs in memory here, in what a corner costs in a mesh.
+  constexpr std::size_t kWork = 64;
+  const auto [known, is_new] = subtrees_.try_emplace(&root);
+  Subtree& found = known->second;
+  if (!is_new) {
+    return found;
+  }
+  std::vector<const XmlElement*> queue = {&root};
+  if (&root == &scene_.element()) {
+    queue = document_.xml().children(root, "node");
+  }
   std::unordered_set<const XmlElement*> seen(queue.begin(), queue.end());
   for (std::size_t i = 0; i < queue.size(); ++i) {
     const XmlElement& element = *queue[i];
+    budget_.spend(document_, element, kWork);
     if (const char* sid = element.Attribute("sid")) {
-      by_sid_.try_emplace(sid, &element);
+      found.by_sid.try_emplace(sid, &element);
     }
     if (const char* name = element.Attribute("name")) {
-      by_name_.try_emplace(name, &element);
+      found.by_name.try_emplace(name, &element);
     }
-    const DaeNode* node = scene_.node(element);
+    const DaeNode* const node = scene_.node(element);
     if (node == nullptr) {
       continue;
     }
@@ -49,29 +57,41 @@ void DaeJointFinder::add(std::vector<const XmlElement*> queue) {
       }
     }
   }
+  return found;
 }
 
-const XmlElement* DaeJointFinder::find(const std::string& name, bool by_id) const {
-  if (const auto known = by_sid_.find(name); !by_id && known != by_sid_.end()) {
-    return known->second;
+const XmlElement* DaeJointFinder::find(const std::string& name, bool by_id,
+                                       const std::vector<const XmlElement*>& skeletons) {
+  for (const XmlElement* root : by_id ? std::vector<const XmlElement*>() : skeletons) {
+    const Subtree& nodes = subtree(*root);
+    if (const auto known = nodes.by_sid.find(name); known != nodes.by_sid.end()) {
+      return known->second;
+    }
   }
-  if (const XmlElement* element = document_.find_id(name, "node")) {
+  if (const XmlElement* const element = document_.find_id(name, "node")) {
     return element;
   }
-  const auto known = by_name_.find(name);
-  return known == by_name_.end() ? nullptr : known->second;
+  for (const XmlElement* root : skeletons) {
+    const Subtree& nodes = subtree(*root);
+    if (const auto known = nodes.by_name.find(name); known != nodes.by_name.end()) {
+      return known->second;
+    }
+  }
+  return nullptr;
 }
 
-Eigen::Affine3d DaeJointFinder::pose(const std::string& name, bool by_id) const {
-  const XmlElement* element = find(name, by_id);
-  const DaeNode* node = element == nullptr ? nullptr : scene_.node(*element);
+Eigen::Affine3d DaeJointFinder::pose(const std::string& name, bool by_id,
+                                     const std::vector<const XmlElement*>& skeletons,
+                                     const XmlElement& instance) {
+  const XmlElement* const element = find(name, by_id, skeletons);
+  const DaeNode* const node = element == nullptr ? nullptr : scene_.node(*element);
   if (node == nullptr) {
-    document_.fail(instance_, "expected the joint " + detail::quoted(name) +
-                                  " of a skin among the nodes of the scene, got none");
+    document_.fail(instance, "expected the joint " + detail::quoted(name) +
+                                 " of a skin among the nodes of the scene, got none");
   }
   if (node->times != 1) {
-    document_.fail(instance_, "expected the joint " + detail::quoted(name) +
-                                  " of a skin once in the scene, got it several times");
+    document_.fail(instance, "expected the joint " + detail::quoted(name) +
+                                 " of a skin once in the scene, got it several times");
   }
   return node->X_WN;
 }

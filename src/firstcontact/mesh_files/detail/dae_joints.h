@@ -1,43 +1,59 @@
 /// @file
-/// Finds the joints of a COLLADA skin in the scene.
+/// Finds the joints of COLLADA skins in the scene.
 
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
 #include <firstcontact/mesh_files/detail/dae_scene.h>
 
 namespace firstcontact::detail {
 
 /// Looks joints up by the sid that a skin has for them: below the <skeleton>s of its instance, then
-/// in the whole scene; where there is no such sid, by id and by name, as some writers do.
+/// in the whole scene; where there is no such sid, by id and by name, as some writers do. Nodes
+/// nearer to the roots are found first.
 class DaeJointFinder {
  public:
-  DaeJointFinder(const DaeDocument& document, const DaeScene& scene, const XmlElement& instance);
+  DaeJointFinder(const DaeDocument& document, const DaeScene& scene, DaeBudget& budget)
+      : document_(document), scene_(scene), budget_(budget) {}
 
-  /// The map from the joint's frame to the world's.
+  /// The roots below which the joints of an <instance_controller> are sought, in order.
   ///
-  /// @param by_id  the name is an id
+  /// @throws ParseError  a <skeleton> that names no node
+  [[nodiscard]] std::vector<const XmlElement*> skeletons(const XmlElement& instance) const;
+
+  /// The map from a joint's frame to the world's.
+  ///
+  /// @param by_id     the name is an id
+  /// @param instance  for errors
   /// @throws ParseError  not in the scene, or several times
-  [[nodiscard]] Eigen::Affine3d pose(const std::string& name, bool by_id) const;
+  [[nodiscard]] Eigen::Affine3d pose(const std::string& name, bool by_id,
+                                     const std::vector<const XmlElement*>& skeletons,
+                                     const XmlElement& instance);
 
  private:
-  /// The nodes below some, by one of their attributes. The first of a name counts.
-  using Nodes = std::unordered_map<std::string, const XmlElement*>;
+  /// The nodes below a root, by their attributes.
+  struct Subtree {
+    std::unordered_map<std::string_view, const XmlElement*> by_sid;
+    std::unordered_map<std::string_view, const XmlElement*> by_name;
+  };
 
-  void add(std::vector<const XmlElement*> roots);
-  [[nodiscard]] const XmlElement* find(const std::string& name, bool by_id) const;
+  /// @param root  a <node>, or the <visual_scene>
+  const Subtree& subtree(const XmlElement& root);
+  [[nodiscard]] const XmlElement* find(const std::string& name, bool by_id,
+                                       const std::vector<const XmlElement*>& skeletons);
 
   const DaeDocument& document_;
   const DaeScene& scene_;
-  const XmlElement& instance_;
-  Nodes by_sid_;
-  Nodes by_name_;
+  DaeBudget& budget_;
+  std::unordered_map<const XmlElement*, Subtree> subtrees_;
 };
 
 }  // namespace firstcontact::detail

@@ -44,7 +44,7 @@ const XmlElement& dae_morph_base(const DaeDocument& document, const XmlElement& 
 }
 
 std::vector<Eigen::Vector3d> read_dae_morph(const DaeDocument& document, DaeGeometries& geometries,
-                                            const XmlElement& morph) {
+                                            DaeBudget& budget, const XmlElement& morph) {
   std::vector<Eigen::Vector3d> points = geometries.positions(dae_morph_base(document, morph));
   const DaeNames targets = read_dae_names(document, target_source(document, morph, "MORPH_TARGET"));
   const std::vector<double> weights =
@@ -53,6 +53,7 @@ std::vector<Eigen::Vector3d> read_dae_morph(const DaeDocument& document, DaeGeom
     document.fail(morph, "expected a weight for each of " + std::to_string(targets.names.size()) +
                              " targets, got " + std::to_string(weights.size()));
   }
+  budget.spend(document, morph, weights.size());
   double sum = 0.0;
   for (const double weight : weights) {
     sum += weight;
@@ -80,6 +81,7 @@ std::vector<Eigen::Vector3d> read_dae_morph(const DaeDocument& document, DaeGeom
                                " vertices as the base has, got one of " +
                                std::to_string(moved.size()));
     }
+    budget.spend(document, morph, points.size());
     for (std::size_t v = 0; v < points.size(); ++v) {
       points[v] += weights[i] * moved[v];
     }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
 #include <firstcontact/mesh_files/detail/dae_geometry.h>
 
@@ -26,6 +27,7 @@ namespace firstcontact::detail {
 ///         vertices or weights
 [[nodiscard]] std::vector<Eigen::Vector3d> read_dae_morph(const DaeDocument& document,
                                                           DaeGeometries& geometries,
+                                                          DaeBudget& budget,
                                                           const XmlElement& morph);
 
 }  // namespace firstcontact::detail

@@ -23,7 +23,7 @@ struct IndexLayout {
 };
 
 /// The one input that places corners.
-const XmlElement& vertex_input(const DaeDocument& document, const XmlElement& mesh,
+const XmlElement& vertex_input(const DaeDocument& document, const XmlElement* vertices,
                                const XmlElement& primitive,
                                const std::vector<const XmlElement*>& inputs) {
   const XmlElement* found = nullptr;
@@ -41,16 +41,16 @@ const XmlElement& vertex_input(const DaeDocument& document, const XmlElement& me
   if (found == nullptr) {
     document.fail(primitive, "expected an <input semantic=\"VERTEX\"> inside");
   }
-  if (document.find_in(mesh, *found, "source", "vertices").Parent() != &mesh) {
-    document.fail(*found, "expected the <vertices> of its own mesh");
+  if (vertices == nullptr || !document.names(*found, "source", *vertices)) {
+    document.fail(*found, "expected a reference to the <vertices> of its own mesh");
   }
   return *found;
 }
 
-IndexLayout read_layout(const DaeDocument& document, const XmlElement& mesh,
+IndexLayout read_layout(const DaeDocument& document, const XmlElement* vertices,
                         const XmlElement& primitive) {
   const auto inputs = document.xml().children(primitive, "input");
-  const XmlElement& vertex = vertex_input(document, mesh, primitive, inputs);
+  const XmlElement& vertex = vertex_input(document, vertices, primitive, inputs);
   const auto missing = inputs.size() == 1 ? std::optional<std::uint64_t>(0) : std::nullopt;
   IndexLayout layout;
   for (const XmlElement* input : inputs) {
@@ -97,8 +97,9 @@ bool holds_words(const DaeDocument& document, const XmlElement& element) {
 /// Reads one primitive element.
 class PrimitiveReader {
  public:
-  PrimitiveReader(const DaeDocument& document, const XmlElement& mesh, const XmlElement& primitive)
-      : document_(document), mesh_(mesh), primitive_(primitive) {}
+  PrimitiveReader(const DaeDocument& document, const XmlElement* vertices,
+                  const XmlElement& primitive)
+      : document_(document), vertices_(vertices), primitive_(primitive) {}
 
   /// Nothing for one that is empty.
   [[nodiscard]] std::optional<DaePolygons> read() {
@@ -113,7 +114,7 @@ class PrimitiveReader {
       expect_none();
       return std::nullopt;
     }
-    layout_ = read_layout(document_, mesh_, primitive_);
+    layout_ = read_layout(document_, vertices_, primitive_);
     read_lists(lists);
     return result_.corners.empty() ? std::nullopt : std::optional(std::move(result_));
   }
@@ -263,7 +264,7 @@ class PrimitiveReader {
   }
 
   const DaeDocument& document_;
-  const XmlElement& mesh_;
+  const XmlElement* vertices_;  ///< Of the mesh; null if it has none.
   const XmlElement& primitive_;
   IndexLayout layout_;
   DaePolygons result_;
@@ -275,13 +276,14 @@ std::vector<DaePolygons> read_dae_polygons(const DaeDocument& document, const Xm
   document.check_children(
       mesh, {"source", "vertices", "triangles", "polylist", "polygons", "tristrips", "trifans"},
       {{"lines", kDrawing}, {"linestrips", kDrawing}});
+  const XmlElement* const vertices = mesh.FirstChildElement("vertices");
   std::vector<DaePolygons> all;
   for (const XmlElement* child = mesh.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string_view name = child->Name();
     if (name == "triangles" || name == "polylist" || name == "polygons" || name == "tristrips" ||
         name == "trifans") {
-      if (auto polygons = PrimitiveReader(document, mesh, *child).read()) {
+      if (auto polygons = PrimitiveReader(document, vertices, *child).read()) {
         all.push_back(std::move(*polygons));
       }
     }

@@ -1,6 +1,5 @@
 #include <firstcontact/mesh_files/detail/dae_scene.h>
 
-#include <algorithm>
 #include <string_view>
 
 #include <firstcontact/mesh_files/detail/dae_transform.h>
@@ -27,19 +26,6 @@ const XmlElement& visual_scene(const DaeDocument& document) {
 }
 
 }  // namespace
-
-DaeBudget::DaeBudget(std::size_t bytes)
-    : left_(std::max<std::uint64_t>(
-          bytes, std::min<std::uint64_t>(100'000'000, 1'000'000 + std::uint64_t{1000} * bytes))) {}
-
-void DaeBudget::spend(const DaeDocument& document, const XmlElement& where, std::uint64_t work) {
-  if (work > left_) {
-    document.fail(where,
-                  "the instances of the scene unfold to more than is read from a file of its size "
-                  "(a million and a thousand for each byte, a hundred million at most)");
-  }
-  left_ -= work;
-}
 
 DaeScene::DaeScene(const DaeDocument& document, DaeBudget& budget)
     : document_(document),

@@ -3,32 +3,16 @@
 
 #pragma once
 
-#include <cstdint>
-#include <string>
+#include <cstddef>
 #include <unordered_map>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
 
 namespace firstcontact::detail {
-
-/// Bounds what a small file can unfold to: nodes that instance nodes double with every level.
-class DaeBudget {
- public:
-  /// @param bytes  the size of the file: what it states itself is never refused
-  explicit DaeBudget(std::size_t bytes);
-
-  /// Takes `work` nodes, corners or vertices.
-  ///
-  /// @param where  for the error
-  /// @throws ParseError  more than the file may unfold to
-  void spend(const DaeDocument& document, const XmlElement& where, std::uint64_t work);
-
- private:
-  std::uint64_t left_;
-};
 
 /// An <instance_geometry> or <instance_controller>, and its node's map to the world.
 struct DaePlacement {

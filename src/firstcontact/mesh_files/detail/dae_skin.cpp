@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/mesh_files/detail/dae_joints.h>
 #include <firstcontact/mesh_files/detail/dae_source.h>
 #include <firstcontact/mesh_files/detail/dae_transform.h>
 #include <firstcontact/text/text_cursor.h>
@@ -50,9 +49,13 @@ Input required_input(const DaeDocument& document, const XmlElement& skin, const 
 /// The joints of a skin, and where they take what is bound to them.
 class SkinJoints {
  public:
-  SkinJoints(const DaeDocument& document, const DaeScene& scene, const XmlElement& instance,
+  SkinJoints(const DaeDocument& document, DaeJointFinder& finder, const XmlElement& instance,
              const XmlElement& skin)
-      : document_(document), finder_(document, scene, instance), X_bind_(bind_shape(skin)) {
+      : document_(document),
+        finder_(finder),
+        instance_(instance),
+        skeletons_(finder.skeletons(instance)),
+        X_bind_(bind_shape(skin)) {
     const XmlElement& joints = document.xml().required_child(skin, "joints");
     document.check_children(joints, {"input"});
     joints_ = required_input(document, skin, joints, "JOINT");
@@ -80,7 +83,7 @@ class SkinJoints {
     }
     const auto index = static_cast<std::size_t>(joint);
     if (!maps_[index]) {
-      const Affine3d X_WJ = finder_.pose(names_.names[index], names_.ids);
+      const Affine3d X_WJ = finder_.pose(names_.names[index], names_.ids, skeletons_, instance_);
       const Affine3d B = dae_matrix(document_, *matrix_source_, matrices_.data() + 16 * index);
       maps_[index] = X_WJ * B * X_bind_;
     }
@@ -96,7 +99,9 @@ class SkinJoints {
   }
 
   const DaeDocument& document_;
-  DaeJointFinder finder_;
+  DaeJointFinder& finder_;
+  const XmlElement& instance_;
+  std::vector<const XmlElement*> skeletons_;
   Affine3d X_bind_;
   Affine3d X_shape_;
   Input joints_;
@@ -109,8 +114,10 @@ class SkinJoints {
 /// The weights of all vertices, taken one after the other.
 class InfluenceReader {
  public:
-  InfluenceReader(const DaeDocument& document, const XmlElement& skin, const SkinJoints& joints)
+  InfluenceReader(const DaeDocument& document, DaeBudget& budget, const XmlElement& skin,
+                  const SkinJoints& joints)
       : document_(document),
+        budget_(budget),
         element_(document.xml().required_child(skin, "vertex_weights")),
         counts_text_(text_of("vcount")),
         influences_text_(text_of("v")),
@@ -128,6 +135,7 @@ class InfluenceReader {
       last_ = std::max(last_, document.xml().whole_number(*input, "offset"));
     }
     weights_ = read_dae_numbers(document, *weight.source, 1);
+    budget_.spend(document, element_, weights_.size());
   }
 
   void expect_vertices(std::size_t count) const {
@@ -186,6 +194,7 @@ class InfluenceReader {
 
   [[nodiscard]] Influence read(std::size_t joints) {
     Influence influence;
+    budget_.spend(document_, element_, 1);
     for (std::uint64_t at = 0; at <= last_; ++at) {
       if (!influences_.find_line()) {
         document_.fail(element_, "expected a joint and a weight for each influence, got too few");
@@ -209,6 +218,7 @@ class InfluenceReader {
   }
 
   const DaeDocument& document_;
+  DaeBudget& budget_;
   const XmlElement& element_;
   XmlText counts_text_;
   XmlText influences_text_;
@@ -222,13 +232,15 @@ class InfluenceReader {
 
 }  // namespace
 
-std::vector<Vector3d> read_dae_skin(const DaeDocument& document, const DaeScene& scene,
-                                    const XmlElement& instance, const XmlElement& skin,
+std::vector<Vector3d> read_dae_skin(const DaeDocument& document, DaeJointFinder& finder,
+                                    DaeBudget& budget, const DaeSkinInstance& instance,
                                     const std::vector<Vector3d>& points) {
+  const XmlElement& skin = instance.skin;
   document.check_attributes(skin, {"source"});
   document.check_children(skin, {"bind_shape_matrix", "source", "joints", "vertex_weights"});
-  SkinJoints joints(document, scene, instance, skin);
-  InfluenceReader influences(document, skin, joints);
+  SkinJoints joints(document, finder, instance.element, skin);
+  budget.spend(document, skin, 16 * joints.size());
+  InfluenceReader influences(document, budget, skin, joints);
   influences.expect_vertices(points.size());
   std::vector<Vector3d> placed;
   placed.reserve(points.size());

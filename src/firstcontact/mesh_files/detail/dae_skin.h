@@ -7,10 +7,17 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
-#include <firstcontact/mesh_files/detail/dae_scene.h>
+#include <firstcontact/mesh_files/detail/dae_joints.h>
 
 namespace firstcontact::detail {
+
+/// A skin that the scene places.
+struct DaeSkinInstance {
+  const XmlElement& element;  ///< <instance_controller>; its <skeleton>s say where joints are.
+  const XmlElement& skin;     ///< <skin>
+};
 
 /// Moves the positions of a skin's geometry into the world, in metres.
 ///
@@ -21,12 +28,11 @@ namespace firstcontact::detail {
 ///
 /// Source: "COLLADA – Digital Asset Schema Release 1.4.1", chapter 4, "Skin Deformation".
 ///
-/// @param instance  the <instance_controller>, whose <skeleton>s say where joints are sought
 /// @param points    of the geometry that is skinned, of which v are rows
 /// @throws ParseError  joints that are not in the scene, or several times; numbers of weights that
 ///         do not fit; vertices without weights
 [[nodiscard]] std::vector<Eigen::Vector3d> read_dae_skin(
-    const DaeDocument& document, const DaeScene& scene, const XmlElement& instance,
-    const XmlElement& skin, const std::vector<Eigen::Vector3d>& points);
+    const DaeDocument& document, DaeJointFinder& finder, DaeBudget& budget,
+    const DaeSkinInstance& instance, const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace firstcontact::detail

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/mesh_files/detail/dae_budget.h>
 #include <firstcontact/mesh_files/detail/dae_document.h>
 #include <firstcontact/mesh_files/detail/dae_geometry.h>
 #include <firstcontact/mesh_files/detail/dae_morph.h>
@@ -56,7 +57,11 @@ void note_libraries(const DaeDocument& document) {
 class DaeReader {
  public:
   DaeReader(const DaeDocument& document, std::size_t bytes)
-      : document_(document), budget_(bytes), scene_(document, budget_), geometries_(document) {}
+      : document_(document),
+        budget_(bytes),
+        scene_(document, budget_),
+        joints_(document, scene_, budget_),
+        geometries_(document) {}
 
   [[nodiscard]] Mesh read() {
     for (const DaePlacement& placement : scene_.placements()) {
@@ -120,8 +125,8 @@ class DaeReader {
       const std::vector<DaePolygons>& polygons =
           take(*placement.instance, dae_morph_base(document_, *morph));
       if (!polygons.empty()) {
-        add_polygons(*placement.instance, polygons, read_dae_morph(document_, geometries_, *morph),
-                     placement.X_WN);
+        add_polygons(*placement.instance, polygons,
+                     read_dae_morph(document_, geometries_, budget_, *morph), placement.X_WN);
       }
     }
   }
@@ -152,10 +157,11 @@ class DaeReader {
     if (polygons.empty()) {
       return;
     }
-    const std::vector<Vector3d> points = morph == nullptr
-                                             ? geometries_.positions(geometry)
-                                             : read_dae_morph(document_, geometries_, *morph);
-    add_polygons(instance, polygons, read_dae_skin(document_, scene_, instance, skin, points),
+    const std::vector<Vector3d> points =
+        morph == nullptr ? geometries_.positions(geometry)
+                         : read_dae_morph(document_, geometries_, budget_, *morph);
+    add_polygons(instance, polygons,
+                 read_dae_skin(document_, joints_, budget_, {instance, skin}, points),
                  Affine3d::Identity());
   }
 
@@ -215,6 +221,7 @@ class DaeReader {
   const DaeDocument& document_;
   DaeBudget budget_;
   DaeScene scene_;
+  DaeJointFinder joints_;
   DaeGeometries geometries_;
   MeshBuilder mesh_;
   std::unordered_set<const XmlElement*> used_;  ///< Geometries and controllers in the scene.
