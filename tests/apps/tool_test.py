@@ -466,12 +466,39 @@ class Robot(ToolTest):
         self.assertEqual((result.returncode, result.stdout),
                          (0, "arm: free for the whole step of 500 ms\n"), result)
 
+    def test_says_which_way_continuous_joints_went(self):
+        self.robot = self.file("endless.urdf", self.URDF.replace('"revolute"', '"continuous"'))
+        ask = ["--start", "elbow=3", "--goal", "elbow=-3", "--environment", self.ball]
+        result = self.check(*ask)
+        self.assertEqual((result.returncode, result.stdout), (
+            0, "arm: free for the whole step of 283.2 ms\n"
+               "  turn       arm/elbow by 0.283185 rad, the short way, from 3 to -3 rad\n"), result)
+        result = self.check(*ask, "--turning", "long")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("arm/elbow by -6 rad, the long way, as the numbers say, from 3 to -3 rad", result.stdout)
+        turn = json.loads(self.check(*ask, "--json").stdout)["turns"][0]
+        self.assertAlmostEqual(turn.pop("turned"), 2 * math.pi - 6, places=14)
+        self.assertEqual(turn, {"robot": "arm", "joint": "elbow", "from": 3, "to": -3, "turning": "short"})
+        self.assertEqual(self.check(*ask, "--turning", "shortest").returncode, 2)
+
+    def test_unwraps_recordings(self):
+        self.robot = self.file("endless.urdf", self.URDF.replace('"revolute"', '"continuous"'))
+        move = self.file("recorded.csv", "time;elbow\n0;2,9\n1;3,1\n2;-3,0\n3;-2,8\n")
+        ask = ["--trajectory", move, "--environment", self.ball]
+        result = self.check(*ask)
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn('joint "elbow" jumps by a whole turn, from 3.1 rad to -3 rad at 2 s', result.stdout)
+        result = self.check(*ask, "--unwrap")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertNotIn("warning", result.stdout)
+
     def test_says_what_is_wrong(self):
         bad = self.file("bad.csv", "time,elbow\n0,0\n0,1\n")
         misspelt = self.file("misspelt.csv", "time,elbov\n0,0\n")
         for arguments, message in [
-                (["--trajectory", bad], f'{bad}:3: column "time": expected a time later than the one before, '
-                                        "0 s, got 0 s"),
+                (["--trajectory", bad], f'{bad}:3: column "time": expected one point at 0 s, got a second one '
+                                        'with position 1 of "elbow" in place of 0'),
+                (["--unwrap"], f"{self.robot}: expected a trajectory, whose whole turns unwrap takes out, got none"),
                 (["--trajectory", misspelt], f'{misspelt}:1: column "elbov": expected a joint of robot "arm", '
                                              'got "elbov"; did you mean "elbow"?'),
                 (["--trajectory", self.move, "--strict"],
@@ -508,7 +535,8 @@ class Robot(ToolTest):
                 ("--goal", "elbow=1", "robots[].trajectory"), ("--state", "elbow=1", "robots[].state"),
                 ("--environment", "m.obj", "bodies"), ("--package-root", ".", "package_roots"),
                 ("--padding", "0", "robots[].padding"), ("--tracking-error", "1", "robots[].tracking_error"),
-                ("--visual", "", "robots[].surface")]:
+                ("--visual", "", "robots[].surface"), ("--turning", "long", "robots[].turning"),
+                ("--unwrap", "", "robots[].unwrap")]:
             self.assert_refused(self.run_tool("check", scene, option, *filter(None, [value])),
                                 f"{option} belongs to --robot; in a scene, say it in {place}")
 

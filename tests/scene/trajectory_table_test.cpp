@@ -204,6 +204,15 @@ TEST(MalformedTable, SaysTheMend) {
   }
 }
 
+TEST(MalformedTable, ShowsWholeCharactersOfALongLine) {
+  std::string line = "x";
+  while (line.size() < 100) {
+    line += "\xc3\xa4";
+  }
+  const std::string message = table_error(line + "\n");
+  EXPECT_EQ(message.substr(message.find("got ")), "got \"" + line.substr(0, 59) + "\"");
+}
+
 // A name that is no joint stays an error, whatever separates the columns.
 TEST(MalformedTable, NamesColumnsThatTheRobotDoesNotHave) {
   for (const std::string separator : {",", ";", "\t", " "}) {

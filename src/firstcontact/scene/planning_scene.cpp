@@ -130,20 +130,9 @@ void refuse_octomap(const JsonValue& world, const JsonReader& read) {
 /// Names that the robot may not have: it is not known here.
 JointPositions read_state(const JsonValue& value, const JsonReader& read) {
   JointPositions state;
-  const JsonValue* names = find_filled(value, "name");
-  if (names == nullptr) {
-    return state;
-  }
-  const JsonArray& joints = read.array(*names, "an array of joint names");
-  const JsonValue& list = read.member(value, "position");
-  const JsonArray& positions = read.array(list, "an array of numbers");
-  if (joints.size() != positions.size()) {
-    read.fail(list, "expected a number for each of the " + std::to_string(joints.size()) +
-                        " names, got " + std::to_string(positions.size()));
-  }
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    state[detail::name_of(joints[k], "the name of a joint", read)] =
-        detail::joint_position(positions[k], read);
+  for (const detail::NamedPosition& joint : detail::named_positions(value, read)) {
+    state[detail::name_of(joint.name, "the name of a joint", read)] =
+        detail::joint_position(joint.position, read);
   }
   return state;
 }

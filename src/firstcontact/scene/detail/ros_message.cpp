@@ -148,23 +148,31 @@ void add_position(const JsonValue& joint, const JsonValue& position, const Robot
   }
 }
 
+std::vector<NamedPosition> named_positions(const JsonValue& value, const JsonReader& read) {
+  std::vector<NamedPosition> result;
+  const JsonValue* names = find_filled(value, "name");
+  if (names == nullptr) {
+    return result;
+  }
+  const JsonArray& joints = read.array(*names, "an array of joint names");
+  const JsonValue& list = read.member(value, "position");
+  const JsonArray& positions = read.array(list, "an array of numbers");
+  if (joints.size() != positions.size()) {
+    read.fail(list, "expected a number for each of the " + std::to_string(joints.size()) +
+                        " names, got " + std::to_string(positions.size()));
+  }
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    result.push_back({joints[k], positions[k]});
+  }
+  return result;
+}
+
 MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
                               const JsonReader& read) {
   MessageState state;
   (void)read.object(value, {{"header", "name", "position", "velocity", "effort"}});
-  const JsonValue* names = find_filled(value, "name");
-  if (names == nullptr) {
-    return state;
-  }
-  const JsonArray& joints = read.array(*names, "an array of joint names");
-  const JsonArray& positions = read.array(read.member(value, "position"), "an array of numbers");
-  if (joints.size() != positions.size()) {
-    read.fail(read.member(value, "position"), "expected a number for each of the " +
-                                                  std::to_string(joints.size()) + " names, got " +
-                                                  std::to_string(positions.size()));
-  }
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    add_position(joints[k], positions[k], robot, read, state);
+  for (const NamedPosition& joint : named_positions(value, read)) {
+    add_position(joint.name, joint.position, robot, read, state);
   }
   return state;
 }

@@ -54,13 +54,23 @@ struct MessageState {
   std::vector<std::string> fixed;
 };
 
+/// A joint of a message, and where it is.
+struct NamedPosition {
+  const JsonValue& name;
+  const JsonValue& position;
+};
+
+/// sensor_msgs/JointState: its `name` and `position`, which are as many; none where it names none.
+[[nodiscard]] std::vector<NamedPosition> named_positions(const JsonValue& value,
+                                                         const JsonReader& read);
+
 /// Puts the position of a joint to the others.
 ///
 /// @throws ParseError if the robot does not have the joint, or its position is there already
 void add_position(const JsonValue& joint, const JsonValue& position, const RobotModel& robot,
                   const JsonReader& read, MessageState& state);
 
-/// sensor_msgs/JointState: `name` and `position`.
+/// sensor_msgs/JointState of the robot, without other keys than it has.
 [[nodiscard]] MessageState read_joint_state(const JsonValue& value, const RobotModel& robot,
                                             const JsonReader& read);
 

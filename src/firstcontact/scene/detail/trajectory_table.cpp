@@ -21,6 +21,16 @@ namespace {
 
 using Kind = TableColumn::Kind;
 
+/// As much of a line as an error shows, cut between characters.
+std::string_view beginning(std::string_view line) {
+  std::size_t size = std::min<std::size_t>(line.size(), 60);
+  while (size > 0 && size < line.size() &&
+         (static_cast<unsigned char>(line[size]) & 0xc0U) == 0x80U) {
+    --size;
+  }
+  return line.substr(0, size);
+}
+
 class TableReader {
  public:
   TableReader(std::string_view text, const std::string& source, const RobotModel& robot)
