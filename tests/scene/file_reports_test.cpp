@@ -32,7 +32,7 @@ TEST(FileReports, AreThereForEveryFileOfAScene) {
   const test::ArmFolder folder;
   ShapeCache cache;
   const LoadedScene loaded = load_scene(parse_scene(kArm, folder.path() / "s.json"), cache);
-  const std::vector<std::string> expected = {"SRDF", "trajectory", "URDF"};
+  const std::vector<std::string> expected = {"trajectory", "URDF", "SRDF"};
   EXPECT_EQ(formats_of(loaded), expected);
   ManyBodiesWorkspace workspace;
   const std::string json = write_result(loaded, check_scene(loaded, workspace));
@@ -50,7 +50,7 @@ TEST(FileReports, AreThereForTheFilesOfAQuestion) {
                                       .srdf = folder.path() / "arm.srdf",
                                       .trajectory = folder.path() / "move.csv"}),
                  cache);
-  const std::vector<std::string> expected = {"SRDF", "trajectory", "URDF"};
+  const std::vector<std::string> expected = {"trajectory", "URDF", "SRDF"};
   EXPECT_EQ(formats_of(loaded), expected);
 }
 

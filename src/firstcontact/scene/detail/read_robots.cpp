@@ -46,7 +46,6 @@ class RobotReader {
       const std::string text = read_file(robot.srdf, "an SRDF file");
       robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
       robot.srdf_digest = sha256(text);
-      scene_.file_reports.push_back(srdf_report(robot));
     }
     robot.base = base(object);
     take_motion(object, robot);
