@@ -11,6 +11,7 @@
 #include <firstcontact/text/reading_log.h>
 
 #include "fuzz/fuzz_reader.h"
+#include "fuzz/small_stack.h"
 #include "fuzz/xml_mutation.h"
 
 namespace {
