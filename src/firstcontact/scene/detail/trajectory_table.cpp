@@ -91,7 +91,7 @@ class TableReader {
       fail(
           "expected a column \"time\" [s] in the header, and columns separated by commas, "
           "semicolons, tabs or blanks; got " +
-          in_quotes(lines_.front().text.substr(0, 60)));
+          in_quotes(beginning(lines_.front().text)));
     }
     line_ = lines_[header->line].number;
     if (lines_[header->line].text.starts_with("%time,field.")) {
