@@ -26,10 +26,15 @@ struct MeshReading {
 /// as metres; of the assimp formats the node transforms (and the unit of a dae) are applied, but
 /// the up axis of a dae is not turned.
 ///
-/// A polygon becomes a fan of triangles about its first corner. An element of one or two corners
-/// is a point or an edge: a triangle with repeated corners; in dae, glb and gltf files these are
-/// left out, as they are drawings there. Materials, normals, colours and texture coordinates are
-/// passed over. The locale changes nothing.
+/// A polygon becomes triangles inside of it: a fan about its first corner where that is right, as
+/// it is for convex ones, else a triangulation of the polygon as it appears along the coordinate
+/// axis nearest to its normal. A polygon that crosses itself stays a fan, with a warning. The
+/// report counts polygons that are concave, and warns of those that are not planar within 1e-5 of
+/// the diagonal of the mesh: their surface depends on the triangulation, by at most the deviation
+/// that it names. An element of one or two corners is a point or an edge: a triangle with repeated
+/// corners; in dae, glb and gltf files these are left out, as they are drawings there. Materials,
+/// normals, colours and texture coordinates are left out; the report names them. The locale changes
+/// nothing.
 ///
 /// The file must not shrink while it is read.
 ///
@@ -53,18 +58,22 @@ struct MeshReading {
 /// Parses binary or ASCII STL, whichever it is: a soup of three vertices a triangle, not welded.
 ///
 /// A file is binary if its size fits its count, or if it is not text that begins with `solid`.
+/// Text may hold several solids.
 ///
-/// @throws ParseError  as read_mesh; also where a binary file's size contradicts its count
+/// @throws ParseError  as read_mesh; also where a binary file's size contradicts its count, but for
+///         blanks or zeros at its end; where the last `endsolid` is missing
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_stl(std::string_view data, const std::string& source);
 
 /// Parses PLY: ASCII, binary of either byte order, any order and type of properties. Needs the
-/// elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index); passes over others.
+/// elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index); leaves out others, and
+/// faces without corners.
 ///
-/// @throws ParseError  as read_mesh; also on triangle strips, and where bytes are left over
+/// @throws ParseError  as read_mesh; also on triangle strips and range images, and where bytes are
+///         left over
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_ply(std::string_view data, const std::string& source);
 
 /// Parses ASCII OFF, one vertex or face a line; of the variants (ST, C, N) the extra columns are
-/// passed over.
+/// left out, as are faces without corners.
 ///
 /// @throws ParseError  as read_mesh; also on 4OFF, nOFF and binary OFF
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_off(std::string_view text, const std::string& source);

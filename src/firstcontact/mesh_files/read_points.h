@@ -46,9 +46,12 @@ struct PointReading {
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> parse_pcd(std::string_view data,
                                                                       const std::string& source);
 
-/// Parses XYZ: a point a line, `x y z` and anything after it; `#` begins a comment.
+/// Parses XYZ: a point a line, `x y z` and anything after it, between blanks, commas or semicolons.
+/// `#` begins a comment, as does `//` at the start of a line. Before the points there may be one
+/// line of the columns' names, of which x, y and z are the first, and one of the number of points.
 ///
-/// @throws ParseError  as read_points
+/// @throws ParseError  as read_points; also on decimal commas, on files of atoms, and where the
+///         number of points is another
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> parse_xyz(std::string_view text,
                                                                       const std::string& source);
 
