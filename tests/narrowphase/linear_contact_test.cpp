@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include "support/closest_points.h"
+#include "support/rational.h"
 
 namespace firstcontact {
 namespace {
@@ -122,19 +123,24 @@ LinearContact ask(const Question& q) {
                  : linear_vertex_face_contact(c[3], {c[0], c[1], c[2]}, q.options);
 }
 
-/// [m]  At one time, in quadruple precision; its square root is rounded.
+double nearest(Quad x) { return static_cast<double>(x); }
+double nearest(const oracle::Rational& x) { return x.nearest(); }
+
+/// [m]  At one time; its square is in quadruple precision, or exact. Nearly parallel edges cost
+/// Quad half of its digits.
+template <class Number>
 double distance(const Question& q, double t) {
   const auto at = [&](std::size_t k) {
     const auto mix = [&](int axis) {
-      const auto from = static_cast<Quad>(q.corners[k].from[axis]);
-      const auto to = static_cast<Quad>(q.corners[k].to[axis]);
-      return from + static_cast<Quad>(t) * (to - from);
+      const auto from = Number(q.corners[k].from[axis]);
+      const auto to = Number(q.corners[k].to[axis]);
+      return from + Number(t) * (to - from);
     };
-    return oracle::Vector3<Quad>{mix(0), mix(1), mix(2)};
+    return oracle::Vector3<Number>{mix(0), mix(1), mix(2)};
   };
-  const oracle::Triangle<Quad> A = {at(0), at(1), q.edges ? at(1) : at(2)};
-  const oracle::Triangle<Quad> B = {at(q.edges ? 2 : 3), at(3), at(3)};
-  return std::sqrt(static_cast<double>(oracle::closest_points(A, B).distance2));
+  const oracle::Triangle<Number> A = {at(0), at(1), q.edges ? at(1) : at(2)};
+  const oracle::Triangle<Number> B = {at(q.edges ? 2 : 3), at(3), at(3)};
+  return std::sqrt(nearest(oracle::closest_points(A, B).distance2));
 }
 
 /// What is wrong with an answer; empty where nothing is.
@@ -151,13 +157,13 @@ std::string complaint(const Question& q, const LinearContact& answer) {
   constexpr int kSamples = 24;
   for (int k = 0; k < kSamples && answer.t > 0.0; ++k) {
     const double t = answer.t * k / kSamples;
-    if (distance(q, t) < q.options.margin * (1.0 - 1e-12)) {
+    if (distance<Quad>(q, t) < q.options.margin * (1.0 - 1e-12)) {
       return "late: closer than the margin at " + std::to_string(t);
     }
   }
-  // Nearly parallel edges cost half of the digits of what is compared with.
-  const double most = (q.options.margin + answer.tolerance_used) * (1.0 + 1e-6);
-  if (answer.verdict == LinearVerdict::contact && distance(q, answer.t) > most) {
+  const double most = (q.options.margin + answer.tolerance_used) * (1.0 + 1e-12);
+  if (answer.verdict == LinearVerdict::contact && distance<Quad>(q, answer.t) > most &&
+      distance<oracle::Rational>(q, answer.t) > most) {
     return "false";
   }
   return "";
