@@ -12,10 +12,15 @@ Eigen::Matrix3d moments(const XmlElement& element, const XmlReader& xml) {
   const auto moment = [&](const char* name) {
     return xml.optional_number(element, name).value_or(0.0);
   };
+  // Before Eigen's list begins, which must not be left by an exception.
+  const double xx = moment("ixx");
+  const double xy = moment("ixy");
+  const double xz = moment("ixz");
+  const double yy = moment("iyy");
+  const double yz = moment("iyz");
+  const double zz = moment("izz");
   Eigen::Matrix3d about_C;
-  about_C << moment("ixx"), moment("ixy"), moment("ixz"),  //
-      moment("ixy"), moment("iyy"), moment("iyz"),         //
-      moment("ixz"), moment("iyz"), moment("izz");
+  about_C << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   return about_C;
 }
 

@@ -136,12 +136,19 @@ const XmlElement* LinkReader::source_element(const XmlElement& holder) const {
 }
 
 GeometrySource LinkReader::source(const XmlElement& element, bool is_wanted) const {
+  return std::string_view(element.Name()) == "mesh" ? GeometrySource(mesh(element, is_wanted))
+                                                    : primitive(element);
+}
+
+GeometrySource LinkReader::primitive(const XmlElement& element) const {
   const std::string_view kind = element.Name();
-  if (kind == "mesh") {
-    return mesh(element, is_wanted);
-  }
   if (kind == "box") {
-    return box(element);
+    context_.names.check(element, urdf_names().box);
+    const Eigen::Vector3d size = context_.xml.vector3(element, "size");
+    if (!(size.minCoeff() >= 0.0)) {
+      context_.xml.fail(element, "expected three numbers >= 0 in 'size'");
+    }
+    return BoxGeometry{size};
   }
   if (kind == "sphere") {
     context_.names.check(element, urdf_names().sphere);
@@ -154,34 +161,30 @@ GeometrySource LinkReader::source(const XmlElement& element, bool is_wanted) con
                           : GeometrySource(CylinderGeometry{radius, length});
 }
 
-GeometrySource LinkReader::box(const XmlElement& element) const {
-  context_.names.check(element, urdf_names().box);
-  const Eigen::Vector3d size = context_.xml.vector3(element, "size");
-  if (!(size.minCoeff() >= 0.0)) {
-    context_.xml.fail(element, "expected three numbers >= 0 in 'size'");
-  }
-  if (size.minCoeff() == 0.0) {
-    warn_of_size_zero(element);
-  }
-  return BoxGeometry{size};
-}
-
 /// A radius or length.
 double LinkReader::size(const XmlElement& element, const char* attribute) const {
   const double size = context_.xml.number(element, attribute);
   if (!(size >= 0.0)) {
     context_.xml.fail(element, "expected '" + std::string(attribute) + "' to be >= 0");
   }
-  if (size == 0.0) {
-    warn_of_size_zero(element);
-  }
   return size;
 }
 
-void LinkReader::warn_of_size_zero(const XmlElement& element) const {
-  context_.log.warn(
-      context_.xml.error(element, "a size of 0: flat, a segment or a point, and it can touch"),
-      "size of 0");
+/// What is flat, a segment or a point can touch, but may be meant for nothing.
+void LinkReader::warn_of_size_zero(const XmlElement& element, const GeometrySource& source) const {
+  const auto* box = std::get_if<BoxGeometry>(&source);
+  const auto* sphere = std::get_if<SphereGeometry>(&source);
+  const auto* cylinder = std::get_if<CylinderGeometry>(&source);
+  const auto* capsule = std::get_if<CapsuleGeometry>(&source);
+  const bool is_thin = (box != nullptr && box->size.minCoeff() == 0.0) ||
+                       (sphere != nullptr && sphere->radius == 0.0) ||
+                       (cylinder != nullptr && cylinder->radius * cylinder->length == 0.0) ||
+                       (capsule != nullptr && capsule->radius == 0.0);
+  if (is_thin) {
+    context_.log.warn(
+        context_.xml.error(element, "a size of 0: flat, a segment or a point, and it can touch"),
+        "size of 0");
+  }
 }
 
 MeshGeometry LinkReader::mesh(const XmlElement& element, bool is_wanted) const {
@@ -216,6 +219,7 @@ void LinkReader::make_shapes(std::vector<Link>& links) {
   for (const Wanted& wanted : wanted_) {
     Link& link = links[wanted.link];
     LinkGeometry& geometry = (wanted.is_visual ? link.visual : link.collision)[wanted.geometry];
+    warn_of_size_zero(*wanted.element, geometry.source);
     context_.attempt([&] { geometry.shape = shape(*wanted.element, geometry.source); });
   }
   for (Link& link : links) {

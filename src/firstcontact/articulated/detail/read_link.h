@@ -52,11 +52,10 @@ class LinkReader {
                                                      bool is_wanted) const;
   [[nodiscard]] const XmlElement* source_element(const XmlElement& holder) const;
   [[nodiscard]] GeometrySource source(const XmlElement& element, bool is_wanted) const;
-  [[nodiscard]] GeometrySource box(const XmlElement& element) const;
-  [[nodiscard]] GeometrySource round(const XmlElement& element, bool is_capsule) const;
+  [[nodiscard]] GeometrySource primitive(const XmlElement& element) const;
   [[nodiscard]] MeshGeometry mesh(const XmlElement& element, bool is_wanted) const;
   [[nodiscard]] double size(const XmlElement& element, const char* attribute) const;
-  void warn_of_size_zero(const XmlElement& element) const;
+  void warn_of_size_zero(const XmlElement& element, const GeometrySource& source) const;
   [[nodiscard]] Shape shape(const XmlElement& element, const GeometrySource& source);
   [[nodiscard]] Shape read_mesh_shape(const GeometrySource& source);
 
