@@ -74,7 +74,7 @@ class SceneBuilder {
       robot.srdf = question_.srdf;
       robot.semantics =
           parse_srdf(text_of(robot.srdf, "an SRDF file"), robot.srdf.string(), robot.model);
-      scene_.file_reports.push_back(detail::srdf_report(robot));
+      scene_.file_reports.push_back(robot.semantics.report);
     }
     return robot;
   }

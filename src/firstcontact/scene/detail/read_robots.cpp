@@ -46,7 +46,7 @@ class RobotReader {
       const std::string text = read_file(robot.srdf, "an SRDF file");
       robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
       robot.srdf_digest = sha256(text);
-      scene_.file_reports.push_back(srdf_report(robot));
+      scene_.file_reports.push_back(robot.semantics.report);
     }
     robot.base = base(object);
     take_motion(object, robot);

@@ -25,14 +25,6 @@ FileReport surroundings_report(const std::filesystem::path& file, const char* fo
   return report;
 }
 
-FileReport srdf_report(const SceneRobot& robot) {
-  const RobotSemantics& semantics = robot.semantics;
-  return report_of(robot.srdf, "SRDF",
-                   {{"disabled pairs", semantics.disabled.size()},
-                    {"groups", semantics.groups.size()},
-                    {"states", semantics.states.size()}});
-}
-
 FileReport trajectory_report(const std::filesystem::path& file, const Trajectory& trajectory) {
   return report_of(
       file, "trajectory",

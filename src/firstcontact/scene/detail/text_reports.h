@@ -18,9 +18,6 @@ namespace firstcontact::detail {
 [[nodiscard]] FileReport surroundings_report(const std::filesystem::path& file, const char* format,
                                              std::size_t bodies);
 
-/// @param robot  with the semantics of its SRDF
-[[nodiscard]] FileReport srdf_report(const SceneRobot& robot);
-
 [[nodiscard]] FileReport trajectory_report(const std::filesystem::path& file,
                                            const Trajectory& trajectory);
 
