@@ -54,6 +54,25 @@ TEST(FileReports, AreThereForTheFilesOfAQuestion) {
   EXPECT_EQ(formats_of(loaded), expected);
 }
 
+TEST(FileReports, BringTheirWarnings) {
+  const test::ArmFolder folder;
+  folder.write("arm.srdf", R"(<robot name="arm"><group name="all"><joint name="elbow"/></group>
+    <group_state name="half" group="all"><joint name="elbow" value="0.5"/><joint name="weld" value="1"/>
+    </group_state></robot>)");
+  ShapeCache cache;
+  const LoadedScene loaded =
+      load_scene(read_robot_question({.robot = {.urdf = folder.path() / "arm.urdf"},
+                                      .srdf = folder.path() / "arm.srdf",
+                                      .start = {"half"},
+                                      .goal = {"elbow=1"}}),
+                 cache);
+  int told = 0;
+  for (const std::string& warning : loaded.warnings) {
+    told += warning.find("weld") == std::string::npos ? 0 : 1;
+  }
+  EXPECT_EQ(told, 1) << "the joint is fixed";
+}
+
 TEST(FileReports, AreWrittenWithWhatThereIs) {
   FileReport report;
   report.path = "a.glb";

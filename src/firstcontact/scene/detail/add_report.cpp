@@ -1,6 +1,7 @@
 #include <firstcontact/scene/detail/add_report.h>
 
 #include <algorithm>
+#include <string>
 
 namespace firstcontact::detail {
 
@@ -10,11 +11,17 @@ void add_report(const FileReport& report, LoadedScene& scene) {
     return;
   }
   scene.files.push_back(report);
-  scene.warnings.insert(scene.warnings.end(), report.warnings.begin(), report.warnings.end());
+  for (const std::string& warning : report.warnings) {
+    if (std::find(scene.warnings.begin(), scene.warnings.end(), warning) == scene.warnings.end()) {
+      scene.warnings.push_back(warning);
+    }
+  }
 }
 
 void add_reports(const std::vector<FileReport>& reports, LoadedScene& scene) {
-  scene.files.insert(scene.files.end(), reports.begin(), reports.end());
+  for (const FileReport& report : reports) {
+    add_report(report, scene);
+  }
 }
 
 }  // namespace firstcontact::detail

@@ -9,11 +9,11 @@
 
 namespace firstcontact::detail {
 
-/// Adds a report to the files of a scene, and what it warns of to the warnings; a file that the
-/// scene has already counts once.
+/// Adds a report to the files of a scene, and what it warns of to the warnings; a file or a warning
+/// that the scene has already counts once.
 void add_report(const FileReport& report, LoadedScene& scene);
 
-/// Adds those of the scene's text, of whose warnings the scene knows already.
+/// Adds those of the scene's text.
 void add_reports(const std::vector<FileReport>& reports, LoadedScene& scene);
 
 }  // namespace firstcontact::detail
