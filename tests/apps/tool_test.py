@@ -464,7 +464,8 @@ class Robot(ToolTest):
     def test_goes_straight_from_a_start_to_a_goal(self):
         result = self.check("--start", "elbow=0", "--goal", "elbow=0.5", "--environment", self.ball)
         self.assertEqual((result.returncode, result.stdout),
-                         (0, "arm: free for the whole step of 500 ms\n"), result)
+                         (0, "arm: free for the whole step of 500 ms\n  tested     2 pairs\n"
+                          "  ignored    1 of links that joints connect: arm/bar and arm/tip\n"), result)
 
     def test_says_which_way_continuous_joints_went(self):
         self.robot = self.file("endless.urdf", self.URDF.replace('"revolute"', '"continuous"'))
@@ -472,7 +473,8 @@ class Robot(ToolTest):
         result = self.check(*ask)
         self.assertEqual((result.returncode, result.stdout), (
             0, "arm: free for the whole step of 283.2 ms\n"
-               "  turn       arm/elbow by 0.283185 rad, the short way, from 3 to -3 rad\n"), result)
+               "  turn       arm/elbow by 0.283185 rad, the short way, from 3 to -3 rad\n"
+               "  tested     2 pairs\n  ignored    1 of links that joints connect: arm/bar and arm/tip\n"), result)
         result = self.check(*ask, "--turning", "long")
         self.assertEqual(result.returncode, 1, result)
         self.assertIn("arm/elbow by -6 rad, the long way, as the numbers say, from 3 to -3 rad", result.stdout)

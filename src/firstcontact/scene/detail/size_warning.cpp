@@ -84,7 +84,7 @@ std::string times(double ratio) {
 }
 
 std::string offer() {
-  return "; if its file is in millimetres, \"scale\": 0.001 reads it so (--environment-scale 0.001 "
+  return " If its file is in millimetres, \"scale\": 0.001 reads it so (--environment-scale 0.001 "
          "on the command line, scale=0.001 in Python)";
 }
 
