@@ -19,7 +19,7 @@ using test::body;
 using test::falling;
 using test::scene;
 
-LoadedScene load(const std::string& text, const std::filesystem::path& source = "s") {
+LoadedScene loaded_of(const std::string& text, const std::filesystem::path& source = "s") {
   ShapeCache cache;
   return load_scene(parse_scene(text, source), cache);
 }
@@ -87,7 +87,7 @@ TEST(PairCounts, AgreeWithTheRulesOfEveryPair) {
   std::mt19937 rng(5);
   for (int round = 0; round < 300; ++round) {
     const std::string text = random_scene(rng);
-    const LoadedScene loaded = load(text);
+    const LoadedScene loaded = loaded_of(text);
     const std::vector<Body>& bodies = loaded.scene.bodies;
     std::size_t tested = 0;
     std::size_t simulated = 0;
@@ -111,8 +111,8 @@ TEST(PairCounts, AgreeWithTheRulesOfEveryPair) {
 }
 
 TEST(PairCounts, NameTheFirstPairsAndTheirReason) {
-  const LoadedScene loaded = load(scene(body("a") + "," + body("b") + "," + body("c"),
-                                        R"("pairs": {"ignore": [["c", "a"], ["a", "b"]]})"));
+  const LoadedScene loaded = loaded_of(scene(body("a") + "," + body("b") + "," + body("c"),
+                                             R"("pairs": {"ignore": [["c", "a"], ["a", "b"]]})"));
   EXPECT_EQ(loaded.pair_counts.tested, 1u);
   ASSERT_EQ(loaded.pair_counts.untested.size(), 1u);
   EXPECT_EQ(describe(loaded.pair_counts.untested[0]), "2 by the scene's rules: a and c, a and b");
@@ -120,10 +120,10 @@ TEST(PairCounts, NameTheFirstPairsAndTheirReason) {
 }
 
 TEST(PairCounts, WarnWhereNoPairIsTested) {
-  EXPECT_EQ(no_pair_warning(load(scene(body("a"))).pair_counts),
+  EXPECT_EQ(no_pair_warning(loaded_of(scene(body("a"))).pair_counts),
             "no pair is tested: this answer says nothing about contact; there is only one body");
   const LoadedScene ignored =
-      load(scene(body("a") + "," + body("b"), R"("pairs": {"ignore": [["a", "b"]]})"));
+      loaded_of(scene(body("a") + "," + body("b"), R"("pairs": {"ignore": [["a", "b"]]})"));
   EXPECT_EQ(no_pair_warning(ignored.pair_counts),
             "no pair is tested: this answer says nothing about contact; 1 by the scene's rules: a "
             "and b");
@@ -132,8 +132,8 @@ TEST(PairCounts, WarnWhereNoPairIsTested) {
 // A scripted ball that passes through a resting plate beside a free one.
 TEST(PairCounts, OfASimulationLeaveOutWhatIsNotFree) {
   const PairCounts counts = count_simulated_pairs(
-      load(scene(body("scripted", falling("1", "-2")) + "," + body("plate") + "," + body("wall") +
-                 "," + body("free", R"("dynamics": {"mass": 1})"))));
+      loaded_of(scene(body("scripted", falling("1", "-2")) + "," + body("plate") + "," +
+                      body("wall") + "," + body("free", R"("dynamics": {"mass": 1})"))));
   EXPECT_EQ(counts.tested, 3u);
   EXPECT_EQ(count_of(counts, WhyUntested::both_scripted), 2u);
   EXPECT_EQ(count_of(counts, WhyUntested::both_rest), 1u);
@@ -150,12 +150,12 @@ TEST(PairCounts, OfRobotsAgreeWithTheSceneOfMembers) {
   const test::ArmFolder folder;
   folder.write("arm2.srdf",
                R"(<robot name="arm"><disable_collisions link1="base" link2="tip"/></robot>)");
-  const LoadedScene loaded = load(R"({"firstcontact": 1, "bodies": [)" + body("a") + "," +
-                                      body("b") + "," + body("c", falling("9", "-1")) + R"(],
+  const LoadedScene loaded = loaded_of(R"({"firstcontact": 1, "bodies": [)" + body("a") + "," +
+                                           body("b") + "," + body("c", falling("9", "-1")) + R"(],
       "robots": [{"name": "one", "urdf": "arm.urdf", "srdf": "arm2.srdf"},
                  {"name": "two", "urdf": "arm.urdf", "base": {"position": [5, 5, 5]}}],
       "pairs": {"ignore": [["one", "a"]]}})",
-                                  folder.path() / "s.json");
+                                       folder.path() / "s.json");
   const RobotScene& members = *loaded.robots;
   std::size_t tested = 0;
   for (std::size_t a = 0; a < members.size(); ++a) {
