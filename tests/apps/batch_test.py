@@ -272,7 +272,7 @@ class Resume(BatchTest):
         self.batch()
         self.file("out.jsonl", "{}\n")
         self.assert_refused(self.batch("--resume"), 'out.jsonl:1: expected a result with a "verdict" or an "error"')
-        self.file("out.jsonl", 4 * '{"error": ""}\n')
+        self.file("out.jsonl", "".join(f'{{"line": {k}, "error": ""}}\n' for k in range(1, 5)))
         self.assert_refused(self.batch("--resume"), "out.jsonl:4: expected no more results than jobs")
 
 

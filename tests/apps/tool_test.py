@@ -806,6 +806,7 @@ class JsonLines(ToolTest):
         second = json.loads(process.stdout.readline())
         self.assertEqual(process.wait(timeout=60), 1)
         process.communicate()
+        self.assertEqual((first.pop("line"), second.pop("line")), (1, 2))
         self.assertEqual(first, second)
 
 

@@ -169,13 +169,16 @@ CoordinateCase random_coordinate(Random& random, double size, bool may_wrap) {
     all.resize(static_cast<std::size_t>(kind % 3) + 1);
     return all;
   };
+  int turns_before = 0;
   for (std::size_t k = 0; k < 2; ++k) {
     ExactCoordinate piece;
     piece.t_begin = times[k];
     piece.t_end = times[k + 1];
     piece.begin = values(k);
     piece.end = values(k + 1);
+    piece.turns_before = turns_before;
     piece.turns = may_wrap ? turns_between(q[k], q[k + 1]) : 0;
+    turns_before += piece.turns;
     exact.push_back(piece);
   }
   return {kind % 3 == 0   ? CoordinatePath::linear(times, q, turning)

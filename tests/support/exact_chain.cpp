@@ -21,9 +21,10 @@ Wide hermite(const ExactCoordinate& q, const Wide& t) {
   // table[i][k]: divided difference over nodes i ... i + k; the first `orders` nodes are b.
   std::vector<std::vector<Wide>> table(n, std::vector<Wide>(n));
   const auto node = [&](std::size_t i) { return i < orders ? b : e; };
-  const Wide less = Wide(static_cast<double>(q.turns)) * turn();
+  const Wide before = Wide(static_cast<double>(q.turns_before)) * turn();
+  const Wide after = before + Wide(static_cast<double>(q.turns)) * turn();
   for (std::size_t i = 0; i < n; ++i) {
-    table[i][0] = i < orders ? Wide(q.begin[0]) : Wide(q.end[0]) - less;
+    table[i][0] = i < orders ? Wide(q.begin[0]) - before : Wide(q.end[0]) - after;
   }
   for (std::size_t k = 1; k < n; ++k) {
     for (std::size_t i = 0; i + k < n; ++i) {

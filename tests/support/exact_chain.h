@@ -18,7 +18,8 @@ struct ExactCoordinate {
   std::vector<double> begin;         ///< Position, velocity, acceleration: as many as there are.
   std::vector<double> end;           ///< The same at t_end; empty for a given polynomial.
   std::vector<double> coefficients;  ///< Of (t - t_begin)^j, for a given polynomial.
-  int turns = 0;                     ///< Whole turns less than the positions say.
+  int turns_before = 0;              ///< Whole turns less than the position at the begin says.
+  int turns = 0;                     ///< Further ones less than the position at the end says.
   double multiplier = 1.0;           ///< What a mimicking joint makes of it.
   double offset = 0.0;
 

@@ -71,6 +71,15 @@ Wide turns_between(double from, double to) {
   return Wide(std::round((to - from) / (2.0 * std::numbers::pi))) * Wide(4.0) * asin(Wide(1.0));
 }
 
+/// Those of all ways until position k.
+Wide turns_until(const CoordinateInput& q, std::size_t k) {
+  Wide sum(0.0);
+  for (std::size_t i = 0; i < k; ++i) {
+    sum = sum + turns_between(q.positions[i], q.positions[i + 1]);
+  }
+  return sum;
+}
+
 std::vector<Wide> values(const CoordinateInput& q, std::size_t k) {
   std::vector<Wide> all = {q.positions[k]};
   if (q.kind != CoordinateKind::linear) {
@@ -95,11 +104,13 @@ ExactPolynomial piece_of(const CoordinateInput& q, double t_begin) {
   while (q.times[k + 1] <= t_begin) {
     ++k;
   }
+  std::vector<Wide> begin = values(q, k);
   std::vector<Wide> end = values(q, k + 1);
   if (q.shortest) {
-    end[0] = end[0] - turns_between(q.positions[k], q.positions[k + 1]);
+    begin[0] = begin[0] - turns_until(q, k);
+    end[0] = end[0] - turns_until(q, k + 1);
   }
-  return {q.times[k], hermite(values(q, k), end, Wide(q.times[k + 1]) - Wide(q.times[k]))};
+  return {q.times[k], hermite(begin, end, Wide(q.times[k + 1]) - Wide(q.times[k]))};
 }
 
 ExactPolynomial scaled(const Wide& factor, ExactPolynomial q) {

@@ -36,7 +36,7 @@ constexpr double kWindowsOfSecond = 8.0;
 
 /// Groups that are bounded by one placement of the boxes before it is asked for a newer one. Where
 /// very many pairs come near at once, what an older one loses would open all of them.
-constexpr std::uint64_t kManyAtOnce = 16;
+constexpr std::uint64_t kManyAtOnce = 32;
 
 /// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
 /// expected to be so, too.
