@@ -302,7 +302,7 @@ void bind_check_jobs(py::module_& m) {
                        .threads = 1},
              .question = {.other = {margin, tolerance, deadline, contacts}, .strict = strict},
              .shapes = shapes ? shapes : std::make_shared<ShapeCache>()},
-            stop);
+            progress, stop);
       },
       py::arg("jobs"), py::kw_only(), py::arg("threads") = 0, py::arg("all_pairs") = false,
       py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
