@@ -46,7 +46,7 @@ def test_scripted_bodies_of_a_simulation_are_named(tmp_path):
     scene = {"firstcontact": 1, "bodies": [BALL, PLATE, free], "simulation": {"duration": 0.05}}
     simulator = fc.Simulator(scene)
     assert simulator.pair_counts.tested == 2
-    assert simulator.pair_counts.untested[0][:2] == ("both_scripted", 1)
+    assert simulator.pair_counts.untested[0].why == "both_scripted" and simulator.pair_counts.untested[0].count == 1
     fc.simulate(scene, record=tmp_path / "run.jsonl")
     found = fc.verify_run(tmp_path / "run.jsonl")
     assert found.verdict == "proven" and found.pair_counts == simulator.pair_counts

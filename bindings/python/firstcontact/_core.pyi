@@ -1,11 +1,12 @@
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol, overload
+from typing import Any, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from ._reports import FileReport, MeshReading, PairCounts, PointReading
+from ._trajectory import Columns
 from ._tuples import (ContactInterval, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
                       LimitViolation, Mesh, MovingShape, PlanningRequest, RobotSemantics, RunContacts, RunImpacts,
                       RunVerification)
@@ -546,15 +547,7 @@ def answer_jobs(jobs: Iterable[Scene | SceneSource | tuple[_Moving, _Moving]], *
 
 # Robots
 
-class _Columns(Protocol):
-    """A data frame."""
-    @property
-    def columns(self) -> Any: ...
-    @property
-    def index(self) -> Any: ...
-    def __getitem__(self, name: Any) -> Any: ...
-
-_TrajectoryLike = Trajectory | _Path | Mapping[str, Any] | _Columns | None
+_TrajectoryLike = Trajectory | _Path | Mapping[str, Any] | Columns | None
 
 _Positions = str | Mapping[str, float] | Sequence[str | Mapping[str, float]]
 

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +13,8 @@ from ._tuples import Mesh
 _SUSPICIOUS = 100.0  # [m]
 
 
-class LeftOut(NamedTuple):
+@dataclass(frozen=True)
+class LeftOut:
     """Something that a reader passed over, and why it can make no contact."""
 
     name: str
@@ -36,7 +38,8 @@ class FileReport(NamedTuple):
     """Paths of files that belong to it."""
 
 
-class UntestedPairs(NamedTuple):
+@dataclass(frozen=True)
+class UntestedPairs:
     """Pairs that are not looked at for one reason."""
 
     why: str

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -10,6 +10,18 @@ from ._core import Trajectory
 
 _EXPECTED = ("trajectory: expected a Trajectory, the path of one, a dict or a data frame with a column for "
              "the time and one for each joint, or None")
+
+
+class Columns(Protocol):
+    """A data frame, such as those of pandas."""
+
+    @property
+    def columns(self) -> Any: ...
+
+    @property
+    def index(self) -> Any: ...
+
+    def __getitem__(self, name: Any) -> Any: ...
 
 
 def _plain(value: object) -> object:

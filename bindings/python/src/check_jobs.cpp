@@ -169,16 +169,18 @@ class JobAnswerer {
   Workspace two_bodies_;
 };
 
-/// @param progress  called by this thread, with the part that is done; may be empty
+/// @param abandoned  whether nobody waits for the answers any more: the rest has none
+/// @param progress   called by this thread, with the part that is done; may be empty
 std::vector<Answer> answer_all(const std::vector<Job>& jobs, const JobOptions& options,
-                               std::size_t threads, const std::function<void(double)>& progress) {
+                               std::size_t threads, const std::function<bool()>& abandoned,
+                               const std::function<void(double)>& progress) {
   std::vector<Answer> answers(jobs.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
   std::shared_mutex memory;
   const auto work_and_report = [&](const std::function<void(double)>& report) {
     JobAnswerer answer(options, memory);
-    for (std::size_t k = next++; k < jobs.size(); k = next++) {
+    for (std::size_t k = next++; k < jobs.size() && !abandoned(); k = next++) {
       answers[k] = answer(jobs[k]);
       const std::size_t count = ++done;
       if (report) {
@@ -230,8 +232,12 @@ py::list answer_jobs(const py::iterable& given, std::size_t threads, JobOptions 
   }
   std::vector<Answer> answers = run_query(stop, [&](QueryStop& query) {
     options.check.stop = query.token();
+    // What a user stops is answered as far as it goes; after Ctrl-C there is only an exception.
+    const auto abandoned = [&] {
+      return query.token().stop_requested() && (stop == nullptr || !stop->stop_requested());
+    };
     return answer_all(jobs, options, threads > 0 ? threads : std::thread::hardware_concurrency(),
-                      progress_of(progress, query));
+                      abandoned, progress_of(progress, query));
   });
   py::list list(answers.size());
   for (std::size_t k = 0; k < answers.size(); ++k) {

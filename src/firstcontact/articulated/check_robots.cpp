@@ -266,7 +266,11 @@ class RobotCheck {
 
   void find_least_clearances() {
     detail::BallsOfPieces balls(timeline_.piece_count());
+    const auto spent = [&] { return detail::spent(options_.budget); };
     for_each(balls.size(), [&](std::size_t piece) {
+      if (spent() != UndecidedReason::none) {
+        return;  // And so it stays: no pair asks for the balls any more.
+      }
       const TimeWindow window = timeline_.piece(piece);
       for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
         balls[piece].push_back(detail::swept_ball(
@@ -275,8 +279,11 @@ class RobotCheck {
       }
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
+      const UndecidedReason reason = spent();
       answer_of(k).least_clearance =
-          least_clearance_of(timeline_, balls, k, options_, workspaces_.local());
+          reason == UndecidedReason::none
+              ? least_clearance_of(timeline_, balls, k, options_, workspaces_.local())
+              : LeastClearance{.reason = reason};
     });
   }
 
