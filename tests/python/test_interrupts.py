@@ -183,3 +183,20 @@ def test_forked_child_is_interrupted_too():
             os._exit(1)
         print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
     """).split() == ["7"]
+
+
+def test_interrupt_leaves_jobs_that_have_not_begun(arm_folder):
+    """Each of the many jobs makes its robot's motion before it looks at a stop: minutes, if they were begun."""
+    assert run(f"""
+        import numpy as np
+        scene = fc.RobotScene({str(arm_folder / "arm.urdf")!r})
+        scene.add_body("post", fc.make_sphere(0.1), fc.Motion.fixed(fc.Pose((0, 2, 0))))
+        times = np.linspace(0, 100, 3000)
+        job = scene.along(fc.Trajectory(["elbow"], times, np.sin(times)[:, None]))
+        interrupt_soon()
+        try:
+            fc.check_many([job] * 20000, closest=True, all_pairs=True, margin=0.001)
+            print("answered")
+        except KeyboardInterrupt:
+            print("interrupted")
+    """).split() == ["interrupted"]
