@@ -32,8 +32,8 @@ def spoiled(result: dict) -> list:
     """Results that the schema must refuse: each lacks a key, or has a wrong one."""
     wrong = [{**result, "extra": 1}]
     for key in result:
-        if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line", "limits", "turns", "contact_count_is_least",
-                       "warnings"):
+        if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line", "limits",
+                       "turns", "warnings", "contact_count_is_least"):
             less = copy.deepcopy(result)
             del less[key]
             wrong.append(less)

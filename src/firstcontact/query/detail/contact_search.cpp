@@ -34,9 +34,11 @@ constexpr std::size_t kMostRemembered = 256;
 /// after the bodies were placed: it loses little by that, and saves more.
 constexpr double kWindowsOfSecond = 8.0;
 
-/// Groups that are bounded by one placement of the boxes before it is asked for a newer one. Where
-/// very many pairs come near at once, what an older one loses would open all of them.
-constexpr std::uint64_t kManyAtOnce = 32;
+/// Groups that are bounded by one placement of the boxes before it is asked for a newer one, of
+/// motions that place them for longer than others. Where very many pairs come near at once, what an
+/// older one loses would open all of them.
+constexpr std::uint64_t kManyAtOnce = 16;
+constexpr double kOftenPlaced = 0x1p-9;
 
 /// Pairs of triangles that came due and were then proven free for good. Beyond, the next ones are
 /// expected to be so, too.
@@ -409,8 +411,9 @@ class Search {
 
   /// Whether boxes as they are placed may be bounded for a group that is proven until t.
   [[nodiscard]] bool serves(double t) const {
-    return state_t_ <= t &&
-           (t < state_t_ + tie_window_ || (served_ < kManyAtOnce && t < state_t_ + boxes_window_));
+    const bool is_old = served_ >= kManyAtOnce && pair_.motion().boxes_window() > kOftenPlaced;
+    const double window = is_old ? std::min(tie_window_, boxes_window_) : boxes_window_;
+    return state_t_ <= t && t < state_t_ + window;
   }
 
   /// Places boxes at t, or a little before.
