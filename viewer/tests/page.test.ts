@@ -496,7 +496,9 @@ describe.skipIf(!canLook)("the page", () => {
     );
     expect(Number(await joints.locator(".bad").getAttribute("x"))).toBeCloseTo(750, 5);
     expect(await joints.locator("path.contact").getAttribute("d")).toMatch(/^M690\./);
-    const picture = (await joints.locator("svg").boundingBox())!;
+    const drawing = joints.locator("svg");
+    await drawing.scrollIntoViewIfNeeded();
+    const picture = (await drawing.boundingBox())!;
     await page.mouse.click(picture.x + 0.5 * picture.width, picture.y + 9);
     expect(await timeOf(page)).toBeCloseTo(0.5, 2);
     expect(await joints.textContent()).toContain("57.3°");
