@@ -497,7 +497,7 @@ describe.skipIf(!canLook)("the page", () => {
     expect(Number(await joints.locator(".bad").getAttribute("x"))).toBeCloseTo(750, 5);
     expect(await joints.locator("path.contact").getAttribute("d")).toMatch(/^M690\./);
     const drawing = joints.locator("svg");
-    await drawing.scrollIntoViewIfNeeded();
+    await drawing.evaluate((shown) => shown.scrollIntoView({ block: "center" }));
     const picture = (await drawing.boundingBox())!;
     await page.mouse.click(picture.x + 0.5 * picture.width, picture.y + 9);
     expect(await timeOf(page)).toBeCloseTo(0.5, 2);
