@@ -115,11 +115,11 @@ void XmlNameCheck::check_attributes(const XmlElement& element, const XmlNames& k
     } else if (is_prefixed(name)) {
       log_.leave_out(shown_name, "another program's");
     } else if (const std::string_view near = misspelt_name(name, known); !near.empty()) {
-      log_.refuse(xml_.error(element, "unknown attribute " + detail::quoted(name) + "; did you mean '" +
-                                          std::string(near) + "'?"));
+      log_.refuse(xml_.error(element, "unknown attribute " + detail::quoted(name) +
+                                          "; did you mean '" + std::string(near) + "'?"));
     } else if (known.is_strict) {
-      log_.refuse(xml_.error(
-          element, "unknown attribute " + detail::quoted(name) + "; known are: " + listed(known.read)));
+      log_.refuse(xml_.error(element, "unknown attribute " + detail::quoted(name) +
+                                          "; known are: " + listed(known.read)));
     } else {
       log_.warn(xml_.error(element, "unknown attribute " + detail::quoted(name) + " is left out"),
                 "attribute " + shown_name);
@@ -176,8 +176,8 @@ void XmlNameCheck::check_text(const XmlElement& element) const {
       continue;
     }
     if (has_entity(text)) {
-      log_.refuse(xml_.error(
-          element, "expected no entities, got " + detail::quoted(text) + "; put in what they stand for"));
+      log_.refuse(xml_.error(element, "expected no entities, got " + detail::quoted(text) +
+                                          "; put in what they stand for"));
     } else {
       log_.warn(xml_.error(element, "the text " + detail::quoted(text) + " is left out"), "text");
     }

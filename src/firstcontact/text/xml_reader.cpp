@@ -69,7 +69,8 @@ void XmlText::append(std::string_view text) {
 std::string shown(const XmlElement& element) {
   for (const char* const attribute : {"name", "id"}) {
     if (const char* value = element.Attribute(attribute)) {
-      return "<" + std::string(element.Name()) + " " + attribute + "=" + detail::quoted(value) + ">";
+      return "<" + std::string(element.Name()) + " " + attribute + "=" + detail::quoted(value) +
+             ">";
     }
   }
   return "<" + std::string(element.Name()) + ">";
@@ -240,8 +241,8 @@ std::uint64_t XmlReader::whole_number(const XmlElement& element, const char* att
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size()) {
-    fail(element,
-         "expected a whole number >= 0 in '" + std::string(attribute) + "', got " + detail::quoted(word));
+    fail(element, "expected a whole number >= 0 in '" + std::string(attribute) + "', got " +
+                      detail::quoted(word));
   }
   return value;
 }
