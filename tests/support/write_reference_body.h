@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -211,6 +212,14 @@ std::string to_ply(const ReferenceBody& body, PlyFormat format, const std::strin
   return out;
 }
 
+/// Whether every coordinate is one of the least type.
+inline bool has_small_whole_numbers(const ReferenceBody& body) {
+  return std::all_of(body.vertices.begin(), body.vertices.end(), [](const auto& p) {
+    return std::all_of(p.begin(), p.end(),
+                       [](double x) { return x == std::floor(x) && std::abs(x) <= 127.0; });
+  });
+}
+
 inline std::vector<WrittenBody> written_as_ply(const ReferenceBody& body) {
   std::vector<WrittenBody> all;
   const char* names[] = {"ASCII", "little endian", "big endian"};
@@ -224,12 +233,14 @@ inline std::vector<WrittenBody> written_as_ply(const ReferenceBody& body) {
       all.push_back({name + " float" + with, ".ply",
                      to_ply<float, std::uint8_t>(body, format, "float", "uchar", further),
                      Keeps::floats});
-      all.push_back({name + " int" + with, ".ply",
-                     to_ply<std::int32_t, std::uint16_t>(body, format, "int", "ushort", further),
-                     Keeps::whole_numbers});
-      all.push_back({name + " char" + with, ".ply",
-                     to_ply<std::int8_t, std::uint32_t>(body, format, "char", "uint", further),
-                     Keeps::whole_numbers});
+      if (has_small_whole_numbers(body)) {
+        all.push_back({name + " int" + with, ".ply",
+                       to_ply<std::int32_t, std::uint16_t>(body, format, "int", "ushort", further),
+                       Keeps::whole_numbers});
+        all.push_back({name + " char" + with, ".ply",
+                       to_ply<std::int8_t, std::uint32_t>(body, format, "char", "uint", further),
+                       Keeps::whole_numbers});
+      }
     }
   }
   return all;
