@@ -696,7 +696,8 @@ TEST(CheckRobots, TheLeastClearanceOfAllIsTheLeastOfThoseOfEachPair) {
     for (const RobotPairAnswer& pair : of_each.pairs) {
       if (pair.members == found.members) {
         ASSERT_EQ(found.verdict, pair.verdict) << seed;
-        ASSERT_NEAR(found.t, pair.t, 1e-9) << seed;
+        // Each time is proven; two ways to it differ by the tolerance over the speed.
+        ASSERT_NEAR(found.t, pair.t, 1e-6) << seed;
         ASSERT_EQ(found.contacts.size(), pair.contacts.size()) << seed;
       }
     }
