@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/read_file.h>
 #include <firstcontact/text/word_reader.h>
 
 namespace firstcontact {
@@ -420,7 +420,7 @@ AsfSkeleton parse_asf(std::string_view text, const std::string& source, const As
 }
 
 AsfSkeleton read_asf(const std::filesystem::path& path, const AsfOptions& options) {
-  return parse_asf(detail::read_text_file(path), path.string(), options);
+  return parse_asf(detail::read_file(path, "an ASF file"), path.string(), options);
 }
 
 MotionCapture parse_amc(std::string_view text, const std::string& source,
@@ -430,7 +430,7 @@ MotionCapture parse_amc(std::string_view text, const std::string& source,
 
 MotionCapture read_amc(const std::filesystem::path& path, const AsfSkeleton& skeleton,
                        double frame_time) {
-  return parse_amc(detail::read_text_file(path), path.string(), skeleton, frame_time);
+  return parse_amc(detail::read_file(path, "an AMC file"), path.string(), skeleton, frame_time);
 }
 
 }  // namespace firstcontact

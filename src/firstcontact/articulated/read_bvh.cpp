@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/read_file.h>
 #include <firstcontact/text/word_reader.h>
 
 namespace firstcontact {
@@ -189,7 +189,7 @@ MotionCapture parse_bvh(std::string_view text, const std::string& source,
 }
 
 MotionCapture read_bvh(const std::filesystem::path& path, const BvhOptions& options) {
-  return parse_bvh(detail::read_text_file(path), path.string(), options);
+  return parse_bvh(detail::read_file(path, "a BVH file"), path.string(), options);
 }
 
 }  // namespace firstcontact

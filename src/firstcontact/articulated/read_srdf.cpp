@@ -10,7 +10,7 @@
 #include <firstcontact/articulated/detail/srdf_names.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
-#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/read_file.h>
 #include <firstcontact/text/reading_log.h>
 #include <firstcontact/text/xml_names.h>
 #include <firstcontact/text/xml_reader.h>
@@ -360,7 +360,7 @@ bool RobotSemantics::is_disabled(std::size_t link, std::size_t other) const {
 
 RobotSemantics read_srdf(const std::filesystem::path& path, const RobotModel& robot,
                          const ReadingOptions& options) {
-  return parse_srdf(detail::read_text_file(path), path.string(), robot, options);
+  return parse_srdf(detail::read_file(path, "an SRDF file"), path.string(), robot, options);
 }
 
 RobotSemantics parse_srdf(std::string_view text, const std::string& source, const RobotModel& robot,

@@ -12,7 +12,7 @@
 #include <firstcontact/articulated/detail/read_link.h>
 #include <firstcontact/articulated/detail/urdf_context.h>
 #include <firstcontact/text/parse_error.h>
-#include <firstcontact/text/read_text_file.h>
+#include <firstcontact/text/read_file.h>
 
 namespace firstcontact {
 namespace {
@@ -117,7 +117,7 @@ class UrdfReader {
 }  // namespace
 
 RobotReading read_robot(const std::filesystem::path& path, const UrdfOptions& options) {
-  return parse_robot(detail::read_text_file(path), path, options);
+  return parse_robot(detail::read_file(path, "a URDF file"), path, options);
 }
 
 RobotReading parse_robot(std::string_view text, const std::filesystem::path& source,
