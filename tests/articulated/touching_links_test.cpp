@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/articulated/link_shape.h>
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/articulated/touching_links.h>

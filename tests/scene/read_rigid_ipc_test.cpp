@@ -1,4 +1,5 @@
 #include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/scene/read_simulation_scene.h>
 
 #include <algorithm>
 #include <cmath>

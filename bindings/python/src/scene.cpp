@@ -11,8 +11,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/scene/parallel_sampling.h>
-#include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene/read_simulation_scene.h>
 #include <firstcontact/scene/write_scene.h>
 
 #include "arrays.h"

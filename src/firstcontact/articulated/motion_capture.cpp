@@ -1,3 +1,4 @@
+#include <firstcontact/articulated/link_shape.h>
 #include <firstcontact/articulated/motion_capture.h>
 
 #include <algorithm>

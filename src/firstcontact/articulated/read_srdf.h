@@ -16,13 +16,6 @@
 
 namespace firstcontact {
 
-/// Two links whose collision is not asked for.
-struct DisabledPair {
-  std::size_t link = 0;  ///< The smaller index.
-  std::size_t other = 0;
-  std::string reason;  ///< May be empty.
-};
-
 /// A named part of the robot. Indices rise, each is there once.
 struct RobotGroup {
   std::string name;

@@ -34,6 +34,13 @@ struct Link {
   std::optional<LinkInertia> inertia = {};
 };
 
+/// Two links of a robot whose collision is not checked.
+struct DisabledPair {
+  std::size_t link = 0;  ///< The smaller index.
+  std::size_t other = 0;
+  std::string reason;  ///< May be empty.
+};
+
 /// How a child link may move against its parent. J is the joint frame, fixed in the parent; at
 /// zero coordinates the child's frame is J.
 enum class JointType {

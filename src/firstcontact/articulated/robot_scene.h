@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/geometry/shape.h>

@@ -17,7 +17,6 @@
 #include <firstcontact/scene/detail/rigid_ipc_groups.h>
 #include <firstcontact/scene/detail/rigid_ipc_keys.h>
 #include <firstcontact/scene/detail/rigid_ipc_meshes.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
@@ -39,32 +38,31 @@ using detail::weigh;
 using detail::WeighedShape;
 using Eigen::Vector3d;
 
-constexpr const char* kProblem = "rigid_body_problem";
-
 class FixtureReader {
  public:
   FixtureReader(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read)
       : root_(root), read_(read), keys_(read), meshes_(source) {}
 
   Scene scene(const std::filesystem::path& source) {
-    const JsonObject& fixture =
-        keys_.object(root_, {"scene_type", "solver", "timestep", "max_time", "max_iterations",
-                             kProblem, "distance_barrier_constraint", "friction_constraints",
-                             "ipc_solver", "newton_solver", "homotopy_solver", "ncp_solver",
-                             "volume_constraint", "viewport_bbox"});
+    const JsonObject& fixture = keys_.object(
+        root_,
+        {"scene_type", "solver", "timestep", "max_time", "max_iterations", detail::kRigidIpcProblem,
+         "distance_barrier_constraint", "friction_constraints", "ipc_solver", "newton_solver",
+         "homotopy_solver", "ncp_solver", "volume_constraint", "viewport_bbox"});
     scene_.id = source.stem().string();
     scene_.simulation.emplace();
     simulation().step = keys_.positive_or(fixture, "timestep", 0.01);
     scene_.duration = simulation().duration = duration(fixture);
     simulation().contact_distance = contact_distance(fixture);
     const JsonObject& problem =
-        keys_.object(read_.member(root_, kProblem),
+        keys_.object(read_.member(root_, detail::kRigidIpcProblem),
                      {"rigid_bodies", "coefficient_restitution", "coefficient_friction", "gravity",
                       "collision_eps", "time_stepper", "do_intersection_check"});
     simulation().gravity = keys_.vector_or_zero(problem, "gravity");
     simulation().friction = friction(fixture, problem);
     simulation().restitution = restitution(problem);
-    const JsonValue& bodies = read_.member(read_.member(root_, kProblem), "rigid_bodies");
+    const JsonValue& bodies =
+        read_.member(read_.member(root_, detail::kRigidIpcProblem), "rigid_bodies");
     for (const JsonValue& body : read_.array(bodies, "an array of bodies")) {
       add_entry(body);
     }
@@ -244,11 +242,6 @@ class FixtureReader {
   std::map<std::tuple<std::filesystem::path, double, double, double>, WeighedShape> weighed_;
 };
 
-bool is_fixture(const JsonValue& root) {
-  const auto* object = std::get_if<JsonObject>(&root.value);
-  return object != nullptr && find(*object, kProblem) != nullptr;
-}
-
 }  // namespace
 
 Scene parse_rigid_ipc(std::string_view text, const std::filesystem::path& source) {
@@ -256,7 +249,7 @@ Scene parse_rigid_ipc(std::string_view text, const std::filesystem::path& source
   const std::string name = source.string();
   const JsonValue root = detail::parse_json(text, name);
   const JsonReader read(root, name);
-  if (!is_fixture(root)) {
+  if (!detail::is_rigid_ipc(root)) {
     read.fail(root, "expected a scene of Rigid IPC, an object with \"rigid_body_problem\"");
   }
   FixtureReader reader(root, source, read);
@@ -267,20 +260,6 @@ Scene parse_rigid_ipc(std::string_view text, const std::filesystem::path& source
 
 Scene read_rigid_ipc(const std::filesystem::path& path) {
   return parse_rigid_ipc(detail::read_file(path, "a scene of Rigid IPC"), path);
-}
-
-Scene read_simulation_scene(const std::filesystem::path& path, const ReadingOptions& options) {
-  return parse_simulation_scene(detail::read_file(path, "a scene file"), path, options);
-}
-
-Scene parse_simulation_scene(std::string_view text, const std::filesystem::path& source,
-                             const ReadingOptions& options) {
-  if (!is_fixture(detail::parse_json(text, source.string()))) {
-    return parse_scene(text, source, 1, options);
-  }
-  Scene scene = parse_rigid_ipc(text, source);
-  scene.options.lenient = options.lenient;
-  return scene;
 }
 
 }  // namespace firstcontact

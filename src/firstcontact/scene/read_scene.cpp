@@ -16,7 +16,6 @@
 #include <firstcontact/scene/detail/read_dynamics.h>
 #include <firstcontact/scene/detail/read_motion.h>
 #include <firstcontact/scene/detail/read_pairs.h>
-#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/detail/read_pose.h>
 #include <firstcontact/scene/detail/read_robots.h>
 #include <firstcontact/scene/detail/read_shape.h>
@@ -25,6 +24,7 @@
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
+#include <firstcontact/text/read_path.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include <firstcontact/articulated/detail/mesh_uri.h>
+#include <firstcontact/articulated/link_shape.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/detail/ros_message.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_path.h>
 
 namespace firstcontact::detail {
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <firstcontact/scene/body_shape.h>
-#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_path.h>
 
 namespace firstcontact::detail {
 

@@ -3,9 +3,9 @@
 
 #pragma once
 
-#include <firstcontact/scene/detail/read_path.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_path.h>
 
 namespace firstcontact::detail {
 

@@ -10,6 +10,11 @@ namespace firstcontact::detail {
 
 using Eigen::Vector3d;
 
+bool is_rigid_ipc(const JsonValue& root) {
+  const auto* object = std::get_if<JsonObject>(&root.value);
+  return object != nullptr && find(*object, kRigidIpcProblem) != nullptr;
+}
+
 const JsonObject& RigidIpcKeys::object(const JsonValue& value,
                                        const std::vector<std::string_view>& known) {
   const auto* members = std::get_if<JsonObject>(&value.value);

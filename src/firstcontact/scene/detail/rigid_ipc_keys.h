@@ -13,6 +13,12 @@
 
 namespace firstcontact::detail {
 
+/// The key by which a fixture is known.
+inline constexpr std::string_view kRigidIpcProblem = "rigid_body_problem";
+
+/// Whether a JSON document is a fixture of Rigid IPC.
+[[nodiscard]] bool is_rigid_ipc(const JsonValue& root);
+
 /// Reads what keys hold. Unknown keys are warnings, those that begin with '#' comments.
 class RigidIpcKeys {
  public:

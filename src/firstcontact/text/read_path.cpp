@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_path.h>
+#include <firstcontact/text/read_path.h>
 
 #include <string_view>
 #include <system_error>

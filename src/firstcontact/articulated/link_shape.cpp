@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/link_geometry.h>
+#include <firstcontact/articulated/link_shape.h>
 
 #include <algorithm>
 #include <array>
