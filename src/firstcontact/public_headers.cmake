@@ -64,7 +64,7 @@ set(public_headers
   firstcontact/query/first_contact.h
   firstcontact/query/many_bodies.h
   firstcontact/query/pair_rules.h
-  firstcontact/query/parallel_for.h
+  firstcontact/parallel/parallel_for.h
   firstcontact/query/placed_shape.h
   firstcontact/query/shape_pair.h
   firstcontact/query/workspace.h

@@ -17,7 +17,7 @@
 #include <firstcontact/articulated/detail/part_search.h>
 #include <firstcontact/articulated/detail/robot_timeline.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/parallel_for.h>
+#include <firstcontact/parallel/parallel_for.h>
 
 namespace firstcontact {
 namespace {

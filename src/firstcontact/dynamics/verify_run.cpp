@@ -19,7 +19,7 @@
 #include <firstcontact/dynamics/detail/run_follower.h>
 #include <firstcontact/dynamics/load_scene_of.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/parallel_for.h>
+#include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 

@@ -7,9 +7,9 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <firstcontact/parallel/detail/workers.h>
 #include <firstcontact/query/detail/broad_phase.h>
 #include <firstcontact/query/detail/pair_query.h>
-#include <firstcontact/query/detail/workers.h>
 
 namespace firstcontact {
 

@@ -9,7 +9,7 @@
 #include <firstcontact/articulated/detail/least_descent.h>
 #include <firstcontact/articulated/detail/part_search.h>
 #include <firstcontact/articulated/detail/swept_ball.h>
-#include <firstcontact/query/parallel_for.h>
+#include <firstcontact/parallel/parallel_for.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/parallel/detail/workers.h>
 #include <firstcontact/query/body_set.h>
 #include <firstcontact/query/detail/ball_path.h>
 #include <firstcontact/query/detail/box_join.h>
 #include <firstcontact/query/detail/pair_query.h>
-#include <firstcontact/query/detail/workers.h>
 
 namespace firstcontact::detail {
 

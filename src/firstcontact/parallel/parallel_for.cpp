@@ -1,7 +1,7 @@
-#include <firstcontact/query/parallel_for.h>
+#include <firstcontact/parallel/parallel_for.h>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/detail/workers.h>
+#include <firstcontact/parallel/detail/workers.h>
 
 namespace firstcontact {
 
