@@ -55,15 +55,15 @@ set(public_headers
   firstcontact/narrowphase/triangle_distance.h
   firstcontact/narrowphase/vertex_face_contact.h
   firstcontact/query/begins_inside.h
-  firstcontact/query/body_set.h
+  firstcontact/many_bodies/body_set.h
   firstcontact/query/contact.h
   firstcontact/query/contact_selection.h
   firstcontact/query/distance.h
   firstcontact/query/close_features.h
   firstcontact/query/closest_approach.h
   firstcontact/query/first_contact.h
-  firstcontact/query/many_bodies.h
-  firstcontact/query/pair_rules.h
+  firstcontact/many_bodies/many_bodies.h
+  firstcontact/many_bodies/pair_rules.h
   firstcontact/parallel/parallel_for.h
   firstcontact/query/placed_shape.h
   firstcontact/query/shape_pair.h

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include <firstcontact/articulated/robot_scene.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/pair_rules.h>
 
 namespace firstcontact {
 

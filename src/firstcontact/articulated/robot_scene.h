@@ -17,10 +17,10 @@
 #include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/query/pair_rules.h>
 
 namespace firstcontact {
 

@@ -9,10 +9,10 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/query/contact.h>
-#include <firstcontact/query/pair_rules.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact {

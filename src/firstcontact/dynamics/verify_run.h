@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <firstcontact/dynamics/run.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/pair_rules.h>
 #include <firstcontact/scene/pair_counts.h>
 
 namespace firstcontact {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/many_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {

@@ -14,7 +14,7 @@
 
 #include <firstcontact/articulated/link_path.h>
 #include <firstcontact/articulated/robot_scene.h>
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/shape_pair.h>
 
 namespace firstcontact::detail {

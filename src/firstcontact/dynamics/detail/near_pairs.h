@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/dynamics/detail/run_follower.h>
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 
 namespace firstcontact::detail {
 

@@ -13,7 +13,7 @@
 
 #include <firstcontact/dynamics/kinetics.h>
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/simulation.h>

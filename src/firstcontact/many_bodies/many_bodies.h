@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/body_set.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/first_contact.h>
 

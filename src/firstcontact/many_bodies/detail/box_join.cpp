@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/box_join.h>
+#include <firstcontact/many_bodies/detail/box_join.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/query/body_set.h>
+#include <firstcontact/many_bodies/body_set.h>
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/query/many_bodies.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,8 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <firstcontact/many_bodies/detail/broad_phase.h>
 #include <firstcontact/parallel/detail/workers.h>
-#include <firstcontact/query/detail/broad_phase.h>
 #include <firstcontact/query/detail/pair_query.h>
 
 namespace firstcontact {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/pair_rules.h>
 
 namespace firstcontact {
 

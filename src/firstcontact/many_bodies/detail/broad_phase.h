@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/many_bodies/detail/box_join.h>
 #include <firstcontact/parallel/detail/workers.h>
-#include <firstcontact/query/body_set.h>
 #include <firstcontact/query/detail/ball_path.h>
-#include <firstcontact/query/detail/box_join.h>
 #include <firstcontact/query/detail/pair_query.h>
 
 namespace firstcontact::detail {

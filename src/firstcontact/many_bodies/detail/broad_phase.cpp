@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/broad_phase.h>
+#include <firstcontact/many_bodies/detail/broad_phase.h>
 
 #include <algorithm>
 #include <limits>

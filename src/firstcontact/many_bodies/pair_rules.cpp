@@ -1,4 +1,4 @@
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 
 #include <algorithm>
 #include <cmath>
