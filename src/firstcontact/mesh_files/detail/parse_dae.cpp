@@ -18,7 +18,7 @@
 #include <firstcontact/mesh_files/detail/dae_polygons.h>
 #include <firstcontact/mesh_files/detail/dae_scene.h>
 #include <firstcontact/mesh_files/detail/dae_skin.h>
-#include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/polygons/detail/mesh_builder.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/polygons/detail/mesh_builder.h>
 
 #include <cassert>
 #include <cstdio>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/mesh_files/detail/cut_polygon.h>
+#include <firstcontact/polygons/detail/cut_polygon.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/exact_orientation.h>
+#include <firstcontact/polygons/detail/exact_orientation.h>
 
 #include <cmath>
 #include <cstddef>

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include <firstcontact/mesh_files/detail/exact_orientation.h>
+#include <firstcontact/polygons/detail/exact_orientation.h>
 
 namespace firstcontact::detail {
 

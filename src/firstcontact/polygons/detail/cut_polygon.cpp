@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/cut_polygon.h>
+#include <firstcontact/polygons/detail/cut_polygon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/mesh_files/detail/exact_orientation.h>
-#include <firstcontact/mesh_files/detail/plane_sweep.h>
+#include <firstcontact/polygons/detail/exact_orientation.h>
+#include <firstcontact/polygons/detail/plane_sweep.h>
 
 namespace firstcontact::detail {
 namespace {

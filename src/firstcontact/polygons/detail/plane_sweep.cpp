@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/plane_sweep.h>
+#include <firstcontact/polygons/detail/plane_sweep.h>
 
 #include <algorithm>
 #include <cassert>
