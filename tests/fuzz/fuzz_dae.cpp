@@ -5,7 +5,7 @@
 
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/weld.h>
-#include <firstcontact/mesh_files/detail/parse_dae.h>
+#include <firstcontact/model_files/detail/parse_dae.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/reading_log.h>
 
