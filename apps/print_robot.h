@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact::app {
 

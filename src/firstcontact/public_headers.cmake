@@ -69,27 +69,27 @@ set(public_headers
   firstcontact/query/shape_pair.h
   firstcontact/query/workspace.h
   firstcontact/articulated/check_robots.h
-  firstcontact/articulated/coordinate_path.h
-  firstcontact/articulated/joint_path.h
-  firstcontact/articulated/limit_report.h
+  firstcontact/robot/coordinate_path.h
+  firstcontact/robot/joint_path.h
+  firstcontact/robot/limit_report.h
   firstcontact/articulated/link_contact.h
-  firstcontact/articulated/link_geometry.h
+  firstcontact/robot/link_geometry.h
   firstcontact/articulated/link_shape.h
   firstcontact/articulated/link_pair_motion.h
-  firstcontact/articulated/link_path.h
+  firstcontact/robot/link_path.h
   firstcontact/articulated/motion_capture.h
-  firstcontact/articulated/precise_transform.h
+  firstcontact/robot/precise_transform.h
   firstcontact/articulated/read_asf_amc.h
   firstcontact/articulated/read_bvh.h
   firstcontact/articulated/read_srdf.h
   firstcontact/articulated/read_urdf.h
-  firstcontact/articulated/robot_description.h
+  firstcontact/robot/robot_description.h
   firstcontact/articulated/robot_gap.h
-  firstcontact/articulated/robot_model.h
-  firstcontact/articulated/robot_motion.h
+  firstcontact/robot/robot_model.h
+  firstcontact/robot/robot_motion.h
   firstcontact/articulated/robot_scene.h
   firstcontact/articulated/touching_links.h
-  firstcontact/articulated/tracking_error.h
+  firstcontact/robot/tracking_error.h
   firstcontact/scene/body_motion.h
   firstcontact/scene/body_shape.h
   firstcontact/scene/check_lines.h
@@ -125,7 +125,7 @@ set(public_headers
   firstcontact/dynamics/contact_problem.h
   firstcontact/dynamics/kinetics.h
   firstcontact/dynamics/load_scene_of.h
-  firstcontact/dynamics/mechanism.h
+  firstcontact/robot/mechanism.h
   firstcontact/dynamics/read_run.h
   firstcontact/dynamics/run.h
   firstcontact/dynamics/simulator.h

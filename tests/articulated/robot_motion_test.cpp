@@ -13,7 +13,7 @@
 #include <variant>
 
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 namespace {

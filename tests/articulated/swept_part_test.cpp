@@ -12,8 +12,8 @@
 
 #include <firstcontact/articulated/detail/swept_part.h>
 #include <firstcontact/articulated/detail/tree_course.h>
-#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/robot/precise_transform.h>
 
 #include "articulated/chain_case.h"
 #include "support/convex_distance.h"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/trajectory.h>
 

@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

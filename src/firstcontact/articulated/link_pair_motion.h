@@ -7,10 +7,10 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/link_path.h>
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pair_motion.h>
+#include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

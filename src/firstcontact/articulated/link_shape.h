@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include <firstcontact/articulated/link_geometry.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/link_geometry.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {

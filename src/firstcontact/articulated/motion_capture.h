@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

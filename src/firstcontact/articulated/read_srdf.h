@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {

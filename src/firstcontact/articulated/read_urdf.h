@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot/precise_transform.h>
 
 namespace firstcontact {
 namespace {

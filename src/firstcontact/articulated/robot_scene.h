@@ -13,14 +13,14 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/articulated/robot_description.h>
-#include <firstcontact/articulated/robot_motion.h>
-#include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot/robot_motion.h>
+#include <firstcontact/robot/tracking_error.h>
 
 namespace firstcontact {
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

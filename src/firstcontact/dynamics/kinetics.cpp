@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/turn.h>
+#include <firstcontact/motion/detail/turn.h>
 
 namespace firstcontact {
 namespace {

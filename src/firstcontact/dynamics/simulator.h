@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <firstcontact/dynamics/kinetics.h>
-#include <firstcontact/dynamics/mechanism.h>
 #include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/mechanism.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {

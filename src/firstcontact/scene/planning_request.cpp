@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/articulated/coordinate_path.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
 #include <firstcontact/scene/detail/ros_message.h>

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact {

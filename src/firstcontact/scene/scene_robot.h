@@ -12,9 +12,9 @@
 
 #include <firstcontact/articulated/read_srdf.h>
 #include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene/trajectory.h>

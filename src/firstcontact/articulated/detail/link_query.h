@@ -4,7 +4,7 @@
 #pragma once
 
 #include <firstcontact/articulated/link_contact.h>
-#include <firstcontact/articulated/link_path.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include <firstcontact/articulated/detail/urdf_context.h>
-#include <firstcontact/articulated/robot_description.h>
+#include <firstcontact/robot/robot_description.h>
 
 namespace firstcontact::detail {
 

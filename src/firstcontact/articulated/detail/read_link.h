@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <firstcontact/articulated/detail/urdf_context.h>
-#include <firstcontact/articulated/robot_description.h>
+#include <firstcontact/robot/robot_description.h>
 
 namespace firstcontact::detail {
 

@@ -12,10 +12,10 @@
 #include <span>
 #include <vector>
 
-#include <firstcontact/articulated/link_path.h>
 #include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include <firstcontact/articulated/detail/robot_timeline.h>
-#include <firstcontact/articulated/link_path.h>
 #include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

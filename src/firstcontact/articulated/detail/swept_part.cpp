@@ -5,8 +5,8 @@
 #include <limits>
 #include <span>
 
-#include <firstcontact/articulated/detail/chain_walk.h>
 #include <firstcontact/narrowphase/convex_separation.h>
+#include <firstcontact/robot/detail/chain_walk.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <firstcontact/articulated/detail/robot_timeline.h>
 #include <firstcontact/articulated/detail/tree_course.h>
-#include <firstcontact/articulated/link_path.h>
 #include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

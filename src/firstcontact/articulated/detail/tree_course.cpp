@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/detail/chain_bounds.h>
-#include <firstcontact/articulated/detail/chain_walk.h>
+#include <firstcontact/robot/detail/chain_bounds.h>
+#include <firstcontact/robot/detail/chain_walk.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include <firstcontact/articulated/detail/time_grid.h>
-#include <firstcontact/articulated/joint_path.h>
-#include <firstcontact/articulated/link_path.h>
+#include <firstcontact/robot/joint_path.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/mechanism.h>
+#include <firstcontact/robot/mechanism.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/simulation.h>
 

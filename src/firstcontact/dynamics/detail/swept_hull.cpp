@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include <firstcontact/dynamics/detail/turn.h>
+#include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/narrowphase/convex_separation.h>
 
 namespace firstcontact::detail {

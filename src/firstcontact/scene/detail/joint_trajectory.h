@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/json_reader.h>
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include <firstcontact/articulated/link_geometry.h>
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/robot/link_geometry.h>
 #include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {

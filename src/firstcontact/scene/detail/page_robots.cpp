@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include <firstcontact/articulated/precise_transform.h>
+#include <firstcontact/robot/precise_transform.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/write_json.h>

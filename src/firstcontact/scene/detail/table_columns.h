@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact::detail {

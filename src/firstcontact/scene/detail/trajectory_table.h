@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact::detail {

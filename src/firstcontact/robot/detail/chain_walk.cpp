@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/chain_walk.h>
+#include <firstcontact/robot/detail/chain_walk.h>
 
 #include <algorithm>
 #include <cassert>

@@ -10,9 +10,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/link_geometry.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/link_geometry.h>
 
 namespace firstcontact {
 

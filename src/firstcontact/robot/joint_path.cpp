@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/joint_path.h>
+#include <firstcontact/robot/joint_path.h>
 
 #include <algorithm>
 #include <array>

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

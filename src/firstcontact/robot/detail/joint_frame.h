@@ -5,9 +5,9 @@
 
 #include <optional>
 
-#include <firstcontact/articulated/joint_path.h>
-#include <firstcontact/articulated/precise_transform.h>
-#include <firstcontact/articulated/robot_description.h>
+#include <firstcontact/robot/joint_path.h>
+#include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot/robot_description.h>
 
 namespace firstcontact::detail {
 

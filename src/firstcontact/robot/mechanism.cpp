@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/mechanism.h>
+#include <firstcontact/robot/mechanism.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/turn.h>
+#include <firstcontact/motion/detail/turn.h>
 
 namespace firstcontact {
 namespace {

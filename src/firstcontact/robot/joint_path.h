@@ -12,11 +12,11 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/coordinate_path.h>
-#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/math/double_double.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/constant_rate_path.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/precise_transform.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/link_path.h>
+#include <firstcontact/robot/link_path.h>
 
 #include <algorithm>
 #include <cassert>
@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/detail/chain_bounds.h>
-#include <firstcontact/articulated/detail/chain_walk.h>
+#include <firstcontact/robot/detail/chain_bounds.h>
+#include <firstcontact/robot/detail/chain_walk.h>
 
 namespace firstcontact {
 namespace {

@@ -15,9 +15,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/joint_path.h>
-#include <firstcontact/articulated/link_path.h>
 #include <firstcontact/math/double_double.h>
+#include <firstcontact/robot/joint_path.h>
+#include <firstcontact/robot/link_path.h>
 
 namespace firstcontact::detail {
 

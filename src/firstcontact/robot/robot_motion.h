@@ -13,12 +13,12 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/articulated/coordinate_path.h>
-#include <firstcontact/articulated/link_path.h>
-#include <firstcontact/articulated/precise_transform.h>
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/robot_description.h>
+#include <firstcontact/robot/robot_description.h>
 
 #include <array>
 #include <cmath>

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact {
 

@@ -11,11 +11,11 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/joint_path.h>
-#include <firstcontact/articulated/precise_transform.h>
-#include <firstcontact/articulated/tracking_error.h>
 #include <firstcontact/math/double_double.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/joint_path.h>
+#include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot/tracking_error.h>
 
 namespace firstcontact {
 

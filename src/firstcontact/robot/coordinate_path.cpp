@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/coordinate_path.h>
+#include <firstcontact/robot/coordinate_path.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/articulated/robot_description.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_description.h>
 
 namespace firstcontact {
 

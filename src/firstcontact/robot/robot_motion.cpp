@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 
 #include <algorithm>
 #include <cassert>
@@ -8,10 +8,10 @@
 #include <type_traits>
 #include <utility>
 
-#include <firstcontact/articulated/detail/joint_frame.h>
-#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/math/sine_cosine.h>
+#include <firstcontact/robot/detail/joint_frame.h>
+#include <firstcontact/robot/precise_transform.h>
 
 namespace firstcontact {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/joint_frame.h>
+#include <firstcontact/robot/detail/joint_frame.h>
 
 #include <array>
 

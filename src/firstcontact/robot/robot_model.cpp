@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 
 #include <algorithm>
 #include <cassert>
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/detail/joint_frame.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot/detail/joint_frame.h>
 
 namespace firstcontact {
 namespace {

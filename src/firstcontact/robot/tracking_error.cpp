@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/tracking_error.h>
+#include <firstcontact/robot/tracking_error.h>
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/limit_report.h>
+#include <firstcontact/robot/limit_report.h>
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <firstcontact/articulated/joint_path.h>
+#include <firstcontact/robot/joint_path.h>
 
 namespace firstcontact::detail {
 
