@@ -17,8 +17,8 @@
 #include <vector>
 
 #include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/read_asf_amc.h>
 #include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
 
 namespace {
 

@@ -74,15 +74,15 @@ set(public_headers
   firstcontact/robot/limit_report.h
   firstcontact/articulated/link_contact.h
   firstcontact/robot/link_geometry.h
-  firstcontact/articulated/link_shape.h
+  firstcontact/robot_files/link_shape.h
   firstcontact/articulated/link_pair_motion.h
   firstcontact/robot/link_path.h
-  firstcontact/articulated/motion_capture.h
+  firstcontact/robot_files/motion_capture.h
   firstcontact/robot/precise_transform.h
-  firstcontact/articulated/read_asf_amc.h
-  firstcontact/articulated/read_bvh.h
-  firstcontact/articulated/read_srdf.h
-  firstcontact/articulated/read_urdf.h
+  firstcontact/robot_files/read_asf_amc.h
+  firstcontact/robot_files/read_bvh.h
+  firstcontact/robot_files/read_srdf.h
+  firstcontact/robot_files/read_urdf.h
   firstcontact/robot/robot_description.h
   firstcontact/articulated/robot_gap.h
   firstcontact/robot/robot_model.h

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/scene/detail/given_positions.h>
 #include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/planning_scene.h>

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/link_shape.h>
+#include <firstcontact/robot_files/link_shape.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/page_numbers.h>
 #include <firstcontact/text/write_json.h>

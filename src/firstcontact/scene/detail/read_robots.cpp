@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
 #include <firstcontact/scene/detail/read_motion.h>

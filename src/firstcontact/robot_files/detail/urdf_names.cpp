@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/urdf_names.h>
+#include <firstcontact/robot_files/detail/urdf_names.h>
 
 namespace firstcontact::detail {
 namespace {

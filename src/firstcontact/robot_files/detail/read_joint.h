@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include <firstcontact/articulated/detail/urdf_context.h>
 #include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/urdf_context.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/read_link.h>
+#include <firstcontact/robot_files/detail/read_link.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,8 +6,8 @@
 #include <string_view>
 #include <system_error>
 
-#include <firstcontact/articulated/detail/mesh_uri.h>
-#include <firstcontact/articulated/link_shape.h>
+#include <firstcontact/robot_files/detail/mesh_uri.h>
+#include <firstcontact/robot_files/link_shape.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
 

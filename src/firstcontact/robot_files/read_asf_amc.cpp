@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/read_asf_amc.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
 
 #include <algorithm>
 #include <cctype>

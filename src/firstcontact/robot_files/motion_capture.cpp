@@ -1,5 +1,5 @@
-#include <firstcontact/articulated/link_shape.h>
-#include <firstcontact/articulated/motion_capture.h>
+#include <firstcontact/robot_files/link_shape.h>
+#include <firstcontact/robot_files/motion_capture.h>
 
 #include <algorithm>
 #include <map>

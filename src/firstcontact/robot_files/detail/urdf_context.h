@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <functional>
 
-#include <firstcontact/articulated/detail/urdf_names.h>
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot_files/detail/urdf_names.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/reading_log.h>
 #include <firstcontact/text/xml_names.h>
 #include <firstcontact/text/xml_reader.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/detail/read_joint.h>
-#include <firstcontact/articulated/detail/read_link.h>
-#include <firstcontact/articulated/detail/urdf_context.h>
+#include <firstcontact/robot_files/detail/read_joint.h>
+#include <firstcontact/robot_files/detail/read_link.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/srdf_names.h>
+#include <firstcontact/robot_files/detail/srdf_names.h>
 
 namespace firstcontact::detail {
 namespace {

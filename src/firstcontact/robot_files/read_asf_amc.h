@@ -12,8 +12,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/motion_capture.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot_files/motion_capture.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 #include <set>
 #include <tuple>
 
-#include <firstcontact/articulated/detail/srdf_names.h>
+#include <firstcontact/robot_files/detail/srdf_names.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>

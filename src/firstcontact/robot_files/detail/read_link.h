@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/detail/urdf_context.h>
 #include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
 
 namespace firstcontact::detail {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/articulated/motion_capture.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot_files/motion_capture.h>
 
 namespace firstcontact {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/detail/read_link.h>
+#include <firstcontact/robot_files/detail/read_link.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/read_bvh.h>
+#include <firstcontact/robot_files/read_bvh.h>
 
 #include <array>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/mesh_uri.h>
+#include <firstcontact/robot_files/detail/mesh_uri.h>
 
 #include <stdexcept>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/link_shape.h>
+#include <firstcontact/robot_files/link_shape.h>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <firstcontact/articulated/detail/read_joint.h>
+#include <firstcontact/robot_files/detail/read_joint.h>
 
 #include <algorithm>
 #include <array>
