@@ -20,10 +20,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/touching_links.h>
 #include <firstcontact/robot_files/motion_capture.h>
 #include <firstcontact/robot_files/read_asf_amc.h>
 #include <firstcontact/robot_files/read_srdf.h>

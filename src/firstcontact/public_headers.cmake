@@ -68,14 +68,14 @@ set(public_headers
   firstcontact/query/placed_shape.h
   firstcontact/query/shape_pair.h
   firstcontact/query/workspace.h
-  firstcontact/articulated/check_robots.h
+  firstcontact/robot_check/check_robots.h
   firstcontact/robot/coordinate_path.h
   firstcontact/robot/joint_path.h
   firstcontact/robot/limit_report.h
-  firstcontact/articulated/link_contact.h
+  firstcontact/robot_check/link_contact.h
   firstcontact/robot/link_geometry.h
   firstcontact/robot_files/link_shape.h
-  firstcontact/articulated/link_pair_motion.h
+  firstcontact/robot_check/link_pair_motion.h
   firstcontact/robot/link_path.h
   firstcontact/robot_files/motion_capture.h
   firstcontact/robot/precise_transform.h
@@ -84,11 +84,11 @@ set(public_headers
   firstcontact/robot_files/read_srdf.h
   firstcontact/robot_files/read_urdf.h
   firstcontact/robot/robot_description.h
-  firstcontact/articulated/robot_gap.h
+  firstcontact/robot_check/robot_gap.h
   firstcontact/robot/robot_model.h
   firstcontact/robot/robot_motion.h
-  firstcontact/articulated/robot_scene.h
-  firstcontact/articulated/touching_links.h
+  firstcontact/robot_check/robot_scene.h
+  firstcontact/robot_check/touching_links.h
   firstcontact/robot/tracking_error.h
   firstcontact/scene/body_motion.h
   firstcontact/scene/body_shape.h

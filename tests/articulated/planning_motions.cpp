@@ -27,7 +27,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/robot_question.h>

@@ -18,9 +18,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/link_contact.h>
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/link_contact.h>
+#include <firstcontact/robot_check/touching_links.h>
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/touching_links.h>
 #include <firstcontact/robot_files/link_shape.h>
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>

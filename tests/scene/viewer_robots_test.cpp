@@ -16,8 +16,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_page.h>

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/body_motion.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_scene.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/page_meshes.h>
 #include <firstcontact/text/json_tree.h>
 

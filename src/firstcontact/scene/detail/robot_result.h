@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/text/json_tree.h>
 
