@@ -122,8 +122,8 @@ set(public_headers
   firstcontact/scene/write_reports.h
   firstcontact/scene/write_result.h
   firstcontact/scene/write_scene.h
-  firstcontact/dynamics/contact_problem.h
-  firstcontact/dynamics/kinetics.h
+  firstcontact/contact_solver/contact_problem.h
+  firstcontact/contact_solver/kinetics.h
   firstcontact/dynamics/load_scene_of.h
   firstcontact/robot/mechanism.h
   firstcontact/dynamics/read_run.h

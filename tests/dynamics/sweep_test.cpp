@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>

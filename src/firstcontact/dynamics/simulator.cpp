@@ -10,7 +10,7 @@
 #include <utility>
 
 #include <firstcontact/dynamics/detail/islands.h>
-#include <firstcontact/dynamics/detail/overlap_tree.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene/version.h>

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <vector>
 
-#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/robot/mechanism.h>

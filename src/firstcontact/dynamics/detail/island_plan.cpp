@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <firstcontact/dynamics/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/project_again.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <firstcontact/dynamics/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/project_again.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/dynamics/detail/island_state.h>
 
 namespace firstcontact::detail {

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/dynamics/detail/world.h>
 
 namespace firstcontact::detail {

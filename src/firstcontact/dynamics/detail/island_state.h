@@ -14,11 +14,11 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/dynamics/detail/island_robots.h>
-#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/response.h>
 #include <firstcontact/dynamics/detail/surroundings.h>
 #include <firstcontact/dynamics/detail/touch.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
 
 namespace firstcontact::detail {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <limits>
 
-#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/rest.h>
 #include <firstcontact/dynamics/detail/swept_hull.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
 

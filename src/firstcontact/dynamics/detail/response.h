@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/dynamics/detail/touch.h>
 #include <firstcontact/dynamics/detail/world.h>
 

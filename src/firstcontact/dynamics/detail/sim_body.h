@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/scene/links_as_bodies.h>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/robot/mechanism.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/simulation.h>

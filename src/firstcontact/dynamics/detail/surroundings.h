@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/overlap_tree.h>
 #include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 
 namespace firstcontact::detail {
 

@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/place_grid.h>
+#include <firstcontact/geometry/detail/place_grid.h>
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
 

@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/detail/block_cholesky.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
-#include <firstcontact/dynamics/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/block_cholesky.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
 namespace firstcontact::detail {
 namespace {

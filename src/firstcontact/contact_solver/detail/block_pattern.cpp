@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/block_pattern.h>
+#include <firstcontact/contact_solver/detail/block_pattern.h>
 
 #include <algorithm>
 #include <iterator>

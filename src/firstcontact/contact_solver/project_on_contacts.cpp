@@ -4,10 +4,10 @@
 #include <string>
 #include <utility>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
-#include <firstcontact/dynamics/detail/deciding_contacts.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/deciding_contacts.h>
 
 namespace firstcontact {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/block_cholesky.h>
+#include <firstcontact/contact_solver/detail/block_cholesky.h>
 
 #include <algorithm>
 

@@ -12,9 +12,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/pair_lanes.h>
 
 namespace firstcontact::detail {
 

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/block_rows.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/block_rows.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 

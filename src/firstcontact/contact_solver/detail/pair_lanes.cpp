@@ -1,11 +1,11 @@
-#include <firstcontact/dynamics/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/detail/pair_lanes.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <utility>
 
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/detail/block_pattern.h>
+#include <firstcontact/contact_solver/detail/block_pattern.h>
 
 namespace firstcontact::detail {
 

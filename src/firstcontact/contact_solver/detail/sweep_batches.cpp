@@ -1,7 +1,7 @@
-#include <firstcontact/dynamics/detail/contact_batches.h>
+#include <firstcontact/contact_solver/detail/contact_batches.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "firstcontact/dynamics/detail/sweep_batches.cpp"
+#define HWY_TARGET_INCLUDE "firstcontact/contact_solver/detail/sweep_batches.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/overlap_tree.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 
 #include <algorithm>
 #include <numeric>

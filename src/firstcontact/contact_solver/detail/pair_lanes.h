@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 
 namespace firstcontact::detail {
 

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 

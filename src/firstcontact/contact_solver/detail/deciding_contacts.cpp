@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/deciding_contacts.h>
+#include <firstcontact/contact_solver/detail/deciding_contacts.h>
 
 #include <algorithm>
 #include <array>

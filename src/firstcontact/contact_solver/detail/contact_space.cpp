@@ -4,9 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include <firstcontact/dynamics/detail/conjugate_direction.h>
-#include <firstcontact/dynamics/detail/contact_batches.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/conjugate_direction.h>
+#include <firstcontact/contact_solver/detail/contact_batches.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/detail/block_cholesky.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/block_cholesky.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
 namespace firstcontact::detail {
 namespace {

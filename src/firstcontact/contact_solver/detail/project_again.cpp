@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/project_again.h>
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 namespace {

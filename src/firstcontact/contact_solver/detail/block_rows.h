@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/detail/block_cholesky.h>
+#include <firstcontact/contact_solver/detail/block_cholesky.h>
 
 namespace firstcontact::detail {
 

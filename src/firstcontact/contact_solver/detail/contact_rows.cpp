@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 #include <algorithm>
 #include <cmath>

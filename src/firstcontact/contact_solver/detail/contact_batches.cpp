@@ -1,10 +1,10 @@
-#include <firstcontact/dynamics/detail/contact_batches.h>
+#include <firstcontact/contact_solver/detail/contact_batches.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include <firstcontact/dynamics/detail/coulomb_cone.h>
-#include <firstcontact/dynamics/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {

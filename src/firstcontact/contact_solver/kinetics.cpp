@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/contact_solver/kinetics.h>
 
 #include <algorithm>
 #include <cmath>

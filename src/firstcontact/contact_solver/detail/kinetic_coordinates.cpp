@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
 #include <array>
 #include <utility>

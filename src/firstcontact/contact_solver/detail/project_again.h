@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 
 namespace firstcontact::detail {
 
