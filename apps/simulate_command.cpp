@@ -14,9 +14,9 @@
 #include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/dynamics/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_simulation_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

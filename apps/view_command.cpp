@@ -21,8 +21,8 @@
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run_page.h>
 #include <firstcontact/scene/gap_curve.h>
-#include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/write_page.h>
+#include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

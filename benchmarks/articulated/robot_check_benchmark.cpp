@@ -30,7 +30,7 @@
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include "benchmarks/articulated/straight_motion.h"
 #include "benchmarks/support/fcl_robot.h"

@@ -92,7 +92,7 @@ set(public_headers
   firstcontact/robot/tracking_error.h
   firstcontact/scene/body_motion.h
   firstcontact/scene/body_shape.h
-  firstcontact/scene/check_lines.h
+  firstcontact/scene_files/check_lines.h
   firstcontact/scene/check_scene.h
   firstcontact/scene/gap_bound.h
   firstcontact/scene/gap_curve.h
@@ -102,15 +102,15 @@ set(public_headers
   firstcontact/scene/pair_counts.h
   firstcontact/scene/parallel_sampling.h
   firstcontact/scene/planning_scene.h
-  firstcontact/scene/read_result.h
+  firstcontact/scene_files/read_result.h
   firstcontact/scene/read_rigid_ipc.h
-  firstcontact/scene/read_scene.h
-  firstcontact/scene/read_simulation_scene.h
+  firstcontact/scene_files/read_scene.h
+  firstcontact/scene_files/read_simulation_scene.h
   firstcontact/scene/read_trajectory.h
-  firstcontact/scene/robot_question.h
+  firstcontact/scene_files/robot_question.h
   firstcontact/scene/sample_gap.h
   firstcontact/scene/scene.h
-  firstcontact/scene/scene_lines.h
+  firstcontact/scene_files/scene_lines.h
   firstcontact/scene/scene_robot.h
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h
@@ -119,9 +119,9 @@ set(public_headers
   firstcontact/scene/version.h
   firstcontact/scene/whole_turn_jumps.h
   firstcontact/scene/write_page.h
-  firstcontact/scene/write_reports.h
-  firstcontact/scene/write_result.h
-  firstcontact/scene/write_scene.h
+  firstcontact/scene_files/write_reports.h
+  firstcontact/scene_files/write_result.h
+  firstcontact/scene_files/write_scene.h
   firstcontact/contact_solver/contact_problem.h
   firstcontact/contact_solver/kinetics.h
   firstcontact/dynamics/load_scene_of.h

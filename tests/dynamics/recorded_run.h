@@ -14,7 +14,7 @@
 #include <firstcontact/dynamics/run.h>
 #include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 namespace firstcontact::test {
 

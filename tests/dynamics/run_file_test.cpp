@@ -13,7 +13,7 @@
 
 #include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"

@@ -11,8 +11,8 @@
 
 #include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/dynamics/verify_run.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 namespace firstcontact::test {
 

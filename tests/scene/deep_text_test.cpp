@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/parse_yaml.h>

@@ -18,10 +18,10 @@
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/robot_check/robot_scene.h>
-#include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/write_page.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/detail/result_json.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/base64.h>
 
 namespace firstcontact {

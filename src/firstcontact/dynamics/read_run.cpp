@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {

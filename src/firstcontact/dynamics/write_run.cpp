@@ -14,8 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/scene/write_result.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 
 namespace firstcontact {
 namespace {

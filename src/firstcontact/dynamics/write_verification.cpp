@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/write_reports.h>
+#include <firstcontact/scene_files/write_reports.h>
 
 namespace firstcontact {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <firstcontact/scene/detail/page_meshes.h>
 #include <firstcontact/scene/detail/page_robots.h>
-#include <firstcontact/scene/detail/reports_json.h>
-#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene_files/detail/reports_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/write_json.h>
 

@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/robot_files/link_shape.h>
-#include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/page_numbers.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include <firstcontact/robot/precise_transform.h>
-#include <firstcontact/scene/detail/result_json.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +13,13 @@
 #include <vector>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/read_dynamics.h>
-#include <firstcontact/scene/detail/read_motion.h>
-#include <firstcontact/scene/detail/read_pairs.h>
-#include <firstcontact/scene/detail/read_pose.h>
-#include <firstcontact/scene/detail/read_robots.h>
-#include <firstcontact/scene/detail/read_shape.h>
-#include <firstcontact/scene/detail/read_simulation.h>
+#include <firstcontact/scene_files/detail/read_dynamics.h>
+#include <firstcontact/scene_files/detail/read_motion.h>
+#include <firstcontact/scene_files/detail/read_pairs.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
+#include <firstcontact/scene_files/detail/read_robots.h>
+#include <firstcontact/scene_files/detail/read_shape.h>
+#include <firstcontact/scene_files/detail/read_simulation.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>

@@ -1,9 +1,9 @@
-#include <firstcontact/scene/write_reports.h>
+#include <firstcontact/scene_files/write_reports.h>
 
 #include <utility>
 
-#include <firstcontact/scene/detail/reports_json.h>
-#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene_files/detail/reports_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_motion.h>
+#include <firstcontact/scene_files/detail/read_motion.h>
 
 #include <string>
 #include <string_view>
@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/read_pose.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_robots.h>
+#include <firstcontact/scene_files/detail/read_robots.h>
 
 #include <algorithm>
 #include <array>
@@ -13,12 +13,12 @@
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/read_motion.h>
-#include <firstcontact/scene/detail/read_pose.h>
-#include <firstcontact/scene/detail/read_robot_dynamics.h>
-#include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/scene_files/detail/read_motion.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
+#include <firstcontact/scene_files/detail/read_robot_dynamics.h>
+#include <firstcontact/scene_files/detail/text_reports.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_simulation.h>
+#include <firstcontact/scene_files/detail/read_simulation.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/scene/detail/read_dynamics.h>
 #include <firstcontact/scene/detail/scene_names.h>
+#include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/write_simulation.h>
+#include <firstcontact/scene_files/detail/write_simulation.h>
 
 #include <array>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 
 namespace firstcontact::detail {
 namespace {

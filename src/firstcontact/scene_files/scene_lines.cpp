@@ -1,4 +1,4 @@
-#include <firstcontact/scene/scene_lines.h>
+#include <firstcontact/scene_files/scene_lines.h>
 
 #include <utility>
 

@@ -1,8 +1,8 @@
-#include <firstcontact/scene/read_simulation_scene.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
 
 #include <firstcontact/scene/detail/rigid_ipc_keys.h>
 #include <firstcontact/scene/read_rigid_ipc.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
 

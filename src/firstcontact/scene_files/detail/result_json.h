@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {

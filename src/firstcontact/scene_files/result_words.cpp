@@ -1,4 +1,4 @@
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 namespace firstcontact {
 

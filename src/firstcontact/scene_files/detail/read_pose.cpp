@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_pose.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
 
 #include <cstddef>
 #include <stdexcept>

@@ -1,10 +1,10 @@
-#include <firstcontact/scene/detail/robot_result.h>
+#include <firstcontact/scene_files/detail/robot_result.h>
 
 #include <string>
 #include <utility>
 
-#include <firstcontact/scene/detail/contact_json.h>
-#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene_files/detail/contact_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 
 namespace firstcontact::detail {
 namespace {

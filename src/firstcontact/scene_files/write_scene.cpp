@@ -1,4 +1,4 @@
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/write_simulation.h>
+#include <firstcontact/scene_files/detail/write_simulation.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/write_json.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include <algorithm>
 #include <map>
@@ -10,11 +10,11 @@
 
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/scene/detail/given_positions.h>
-#include <firstcontact/scene/detail/text_reports.h>
 #include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/scene_files/detail/text_reports.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>

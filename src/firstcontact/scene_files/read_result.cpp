@@ -1,10 +1,10 @@
-#include <firstcontact/scene/read_result.h>
+#include <firstcontact/scene_files/read_result.h>
 
 #include <string>
 #include <variant>
 
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

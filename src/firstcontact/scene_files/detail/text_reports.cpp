@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/text_reports.h>
+#include <firstcontact/scene_files/detail/text_reports.h>
 
 #include <string>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_pairs.h>
+#include <firstcontact/scene_files/detail/read_pairs.h>
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_dynamics.h>
+#include <firstcontact/scene_files/detail/read_dynamics.h>
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_robot_dynamics.h>
+#include <firstcontact/scene_files/detail/read_robot_dynamics.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/read_dynamics.h>
+#include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_shape.h>
+#include <firstcontact/scene_files/detail/read_shape.h>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/check_lines.h>
+#include <firstcontact/scene_files/check_lines.h>
 
 #include <atomic>
 #include <exception>
@@ -15,8 +15,8 @@
 #include <tbb/task_arena.h>
 
 #include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {

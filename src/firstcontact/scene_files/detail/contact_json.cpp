@@ -1,10 +1,10 @@
-#include <firstcontact/scene/detail/contact_json.h>
+#include <firstcontact/scene_files/detail/contact_json.h>
 
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-#include <firstcontact/scene/detail/result_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/contact_json.h>
-#include <firstcontact/scene/detail/reports_json.h>
-#include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/detail/robot_result.h>
 #include <firstcontact/scene/version.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/detail/contact_json.h>
+#include <firstcontact/scene_files/detail/reports_json.h>
+#include <firstcontact/scene_files/detail/result_json.h>
+#include <firstcontact/scene_files/detail/robot_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

@@ -13,7 +13,7 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/scene/scene.h>
-#include <firstcontact/scene/scene_lines.h>
+#include <firstcontact/scene_files/scene_lines.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
