@@ -20,6 +20,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/robot_check/check_robots.h>
@@ -29,7 +30,6 @@
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene_files/robot_question.h>
 
 #include "benchmarks/articulated/straight_motion.h"

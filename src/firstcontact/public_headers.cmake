@@ -101,9 +101,9 @@ set(public_headers
   firstcontact/scene/page_numbers.h
   firstcontact/scene/pair_counts.h
   firstcontact/scene/parallel_sampling.h
-  firstcontact/scene/planning_scene.h
+  firstcontact/foreign_scenes/planning_scene.h
   firstcontact/scene_files/read_result.h
-  firstcontact/scene/read_rigid_ipc.h
+  firstcontact/foreign_scenes/read_rigid_ipc.h
   firstcontact/scene_files/read_scene.h
   firstcontact/scene_files/read_simulation_scene.h
   firstcontact/scene/read_trajectory.h

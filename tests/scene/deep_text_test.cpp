@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/foreign_scenes/read_rigid_ipc.h>
 #include <firstcontact/scene_files/read_simulation_scene.h>
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/robot_question.h>

@@ -1,7 +1,7 @@
 #include <firstcontact/scene_files/read_simulation_scene.h>
 
-#include <firstcontact/scene/detail/rigid_ipc_keys.h>
-#include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_keys.h>
+#include <firstcontact/foreign_scenes/read_rigid_ipc.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>

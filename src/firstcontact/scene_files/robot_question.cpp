@@ -8,9 +8,9 @@
 #include <utility>
 #include <variant>
 
+#include <firstcontact/foreign_scenes/detail/given_positions.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/robot_files/read_srdf.h>
-#include <firstcontact/scene/detail/given_positions.h>
-#include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/scene_files/detail/text_reports.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/read_rigid_ipc_body.h>
+#include <firstcontact/foreign_scenes/detail/read_rigid_ipc_body.h>
 
 #include <algorithm>
 #include <array>

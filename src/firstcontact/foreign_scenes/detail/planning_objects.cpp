@@ -1,12 +1,12 @@
-#include <firstcontact/scene/detail/planning_objects.h>
+#include <firstcontact/foreign_scenes/detail/planning_objects.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <variant>
 
+#include <firstcontact/foreign_scenes/detail/planning_shapes.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/planning_shapes.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

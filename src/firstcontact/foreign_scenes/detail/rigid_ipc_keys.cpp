@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/rigid_ipc_keys.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_keys.h>
 
 #include <algorithm>
 #include <numbers>

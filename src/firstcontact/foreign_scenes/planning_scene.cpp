@@ -1,12 +1,12 @@
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <variant>
 
+#include <firstcontact/foreign_scenes/detail/planning_objects.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/planning_objects.h>
 #include <firstcontact/scene/detail/ros_message.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_file.h>

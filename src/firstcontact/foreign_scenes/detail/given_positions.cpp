@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/given_positions.h>
+#include <firstcontact/foreign_scenes/detail/given_positions.h>
 
 #include <algorithm>
 #include <charconv>

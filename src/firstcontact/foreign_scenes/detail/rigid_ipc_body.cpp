@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/rigid_ipc_body.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_body.h>
 
 #include <algorithm>
 #include <cmath>

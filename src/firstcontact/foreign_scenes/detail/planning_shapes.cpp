@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/planning_shapes.h>
+#include <firstcontact/foreign_scenes/detail/planning_shapes.h>
 
 #include <algorithm>
 #include <array>

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/scene/detail/ros_message.h>
-#include <firstcontact/scene/planning_scene.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_path.h>
 

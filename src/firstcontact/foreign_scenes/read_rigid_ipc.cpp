@@ -1,4 +1,4 @@
-#include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/foreign_scenes/read_rigid_ipc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/foreign_scenes/detail/read_rigid_ipc_body.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_body.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_groups.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_keys.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_meshes.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/read_rigid_ipc_body.h>
-#include <firstcontact/scene/detail/rigid_ipc_body.h>
-#include <firstcontact/scene/detail/rigid_ipc_groups.h>
-#include <firstcontact/scene/detail/rigid_ipc_keys.h>
-#include <firstcontact/scene/detail/rigid_ipc_meshes.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>

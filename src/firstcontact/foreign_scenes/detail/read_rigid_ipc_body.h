@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/scene/detail/rigid_ipc_body.h>
-#include <firstcontact/scene/detail/rigid_ipc_keys.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_body.h>
+#include <firstcontact/foreign_scenes/detail/rigid_ipc_keys.h>
 
 namespace firstcontact::detail {
 
