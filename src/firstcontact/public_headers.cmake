@@ -106,7 +106,7 @@ set(public_headers
   firstcontact/foreign_scenes/read_rigid_ipc.h
   firstcontact/scene_files/read_scene.h
   firstcontact/scene_files/read_simulation_scene.h
-  firstcontact/scene/read_trajectory.h
+  firstcontact/trajectory_files/read_trajectory.h
   firstcontact/scene_files/robot_question.h
   firstcontact/scene/sample_gap.h
   firstcontact/scene/scene.h

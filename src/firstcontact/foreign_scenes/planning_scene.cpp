@@ -6,12 +6,12 @@
 
 #include <firstcontact/foreign_scenes/detail/planning_objects.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/ros_message.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/text_tree.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
 
 namespace firstcontact {
 namespace {

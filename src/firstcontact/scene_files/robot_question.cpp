@@ -11,7 +11,6 @@
 #include <firstcontact/foreign_scenes/detail/given_positions.h>
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/robot_files/read_srdf.h>
-#include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/scene_files/detail/text_reports.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -21,6 +20,7 @@
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/text_tree.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 namespace firstcontact {
 namespace {

@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/fixed_joints.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 
 #include <firstcontact/foreign_scenes/detail/planning_shapes.h>
-#include <firstcontact/scene/detail/joint_trajectory.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
 
 namespace firstcontact::detail {
 namespace {

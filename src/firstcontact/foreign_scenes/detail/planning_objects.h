@@ -13,9 +13,9 @@
 
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/scene/detail/ros_message.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_path.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
 
 namespace firstcontact::detail {
 

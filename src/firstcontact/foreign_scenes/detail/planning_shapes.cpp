@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/scene/detail/ros_message.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
 
 namespace firstcontact::detail {
 namespace {

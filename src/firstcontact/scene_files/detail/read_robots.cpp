@@ -11,9 +11,6 @@
 #include <vector>
 
 #include <firstcontact/robot_files/read_srdf.h>
-#include <firstcontact/scene/detail/fixed_joints.h>
-#include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
@@ -22,6 +19,9 @@
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/fixed_joints.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 namespace firstcontact::detail {
 namespace {

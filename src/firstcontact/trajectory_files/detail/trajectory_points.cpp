@@ -1,13 +1,13 @@
-#include <firstcontact/scene/detail/trajectory_points.h>
+#include <firstcontact/trajectory_files/detail/trajectory_points.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/scene/detail/fixed_joints.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/fixed_joints.h>
 
 namespace firstcontact::detail {
 

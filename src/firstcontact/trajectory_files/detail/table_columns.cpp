@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/table_columns.h>
+#include <firstcontact/trajectory_files/detail/table_columns.h>
 
 #include <algorithm>
 #include <array>

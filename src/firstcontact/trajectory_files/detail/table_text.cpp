@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/table_text.h>
+#include <firstcontact/trajectory_files/detail/table_text.h>
 
 #include <algorithm>
 #include <array>

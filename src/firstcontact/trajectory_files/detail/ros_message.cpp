@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/ros_message.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
 
 #include <array>
 #include <cmath>
@@ -10,9 +10,9 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/scene/detail/joint_trajectory.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,14 +1,14 @@
-#include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/scene/detail/joint_trajectory.h>
-#include <firstcontact/scene/detail/trajectory_table.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/text_tree.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
+#include <firstcontact/trajectory_files/detail/trajectory_table.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/trajectory_table.h>
+#include <firstcontact/trajectory_files/detail/trajectory_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/table_columns.h>
-#include <firstcontact/scene/detail/table_text.h>
-#include <firstcontact/scene/detail/trajectory_points.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/utf8.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/table_columns.h>
+#include <firstcontact/trajectory_files/detail/table_text.h>
+#include <firstcontact/trajectory_files/detail/trajectory_points.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/fixed_joints.h>
+#include <firstcontact/trajectory_files/detail/fixed_joints.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/joint_trajectory.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
 
 #include <array>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include <firstcontact/scene/detail/trajectory_points.h>
 #include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/trajectory_points.h>
 
 namespace firstcontact::detail {
 namespace {
