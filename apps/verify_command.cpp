@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/dynamics/write_verification.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/text/parse_error.h>
 

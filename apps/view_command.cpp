@@ -17,9 +17,9 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/load_scene_of.h>
-#include <firstcontact/dynamics/read_run.h>
 #include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/record/load_scene_of.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/write_page.h>
 #include <firstcontact/scene_files/read_result.h>

@@ -124,12 +124,12 @@ set(public_headers
   firstcontact/scene_files/write_scene.h
   firstcontact/contact_solver/contact_problem.h
   firstcontact/contact_solver/kinetics.h
-  firstcontact/dynamics/load_scene_of.h
+  firstcontact/record/load_scene_of.h
   firstcontact/robot/mechanism.h
-  firstcontact/dynamics/read_run.h
-  firstcontact/dynamics/run.h
+  firstcontact/record/read_run.h
+  firstcontact/record/run.h
   firstcontact/dynamics/simulator.h
   firstcontact/dynamics/verify_run.h
-  firstcontact/dynamics/write_run.h
+  firstcontact/record/write_run.h
   firstcontact/dynamics/write_run_page.h
   firstcontact/dynamics/write_verification.h)

@@ -11,9 +11,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/motion/motion.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene_files/read_scene.h>
 
 namespace firstcontact::test {

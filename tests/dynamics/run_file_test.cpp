@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/read_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 

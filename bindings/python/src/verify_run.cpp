@@ -9,7 +9,7 @@
 
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/record/read_run.h>
 
 #include "bindings.h"
 #include "errors.h"

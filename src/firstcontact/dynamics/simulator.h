@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/robot/mechanism.h>
 #include <firstcontact/scene/loaded_scene.h>
 

@@ -17,9 +17,9 @@
 #include <firstcontact/dynamics/detail/pair_cover.h>
 #include <firstcontact/dynamics/detail/piece_motion.h>
 #include <firstcontact/dynamics/detail/run_follower.h>
-#include <firstcontact/dynamics/load_scene_of.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 

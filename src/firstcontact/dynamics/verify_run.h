@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/pair_counts.h>
 
 namespace firstcontact {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/write_page.h>
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/page_numbers.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <firstcontact/dynamics/detail/island_state.h>
-#include <firstcontact/dynamics/run.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact::detail {
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/interval_vector.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact::detail {
 

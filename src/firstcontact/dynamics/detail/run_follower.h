@@ -11,9 +11,9 @@
 
 #include <firstcontact/dynamics/detail/box_tree.h>
 #include <firstcontact/dynamics/detail/piece_motion.h>
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact::detail {
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact {
 

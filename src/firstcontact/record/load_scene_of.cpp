@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/load_scene_of.h>
+#include <firstcontact/record/load_scene_of.h>
 
 #include <stdexcept>
 

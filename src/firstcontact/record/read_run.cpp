@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/record/read_run.h>
 
 #include <algorithm>
 #include <array>

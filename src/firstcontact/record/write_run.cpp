@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/write_run.h>
 
 #include <array>
 #include <charconv>

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact {
 

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/dynamics/run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 
