@@ -12,7 +12,7 @@
 #include <fmt/core.h>
 
 #include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>

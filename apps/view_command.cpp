@@ -17,11 +17,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/page/write_run_page.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/gap_curve.h>
-#include <firstcontact/scene/write_page.h>
 #include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>
 

@@ -98,7 +98,7 @@ set(public_headers
   firstcontact/scene/gap_curve.h
   firstcontact/scene/links_as_bodies.h
   firstcontact/scene/loaded_scene.h
-  firstcontact/scene/page_numbers.h
+  firstcontact/page/page_numbers.h
   firstcontact/scene/pair_counts.h
   firstcontact/scene/parallel_sampling.h
   firstcontact/foreign_scenes/planning_scene.h
@@ -118,7 +118,7 @@ set(public_headers
   firstcontact/scene/trajectory.h
   firstcontact/scene/version.h
   firstcontact/scene/whole_turn_jumps.h
-  firstcontact/scene/write_page.h
+  firstcontact/page/write_page.h
   firstcontact/scene_files/write_reports.h
   firstcontact/scene_files/write_result.h
   firstcontact/scene_files/write_scene.h
@@ -131,5 +131,5 @@ set(public_headers
   firstcontact/dynamics/simulator.h
   firstcontact/dynamics/verify_run.h
   firstcontact/record/write_run.h
-  firstcontact/dynamics/write_run_page.h
+  firstcontact/page/write_run_page.h
   firstcontact/dynamics/write_verification.h)

@@ -1,6 +1,6 @@
 // The page holds all that the viewer needs, word for word.
 
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/page/write_page.h>
 
 #include <cstdint>
 #include <stdexcept>

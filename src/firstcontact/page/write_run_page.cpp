@@ -1,13 +1,13 @@
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_run_page.h>
 
 #include <array>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/page/write_page.h>
 #include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/write_page.h>
 
 namespace firstcontact {
 namespace {

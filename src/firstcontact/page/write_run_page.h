@@ -11,9 +11,9 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/page/page_numbers.h>
 #include <firstcontact/record/run.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/page_numbers.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/page_meshes.h>
+#include <firstcontact/page/detail/page_meshes.h>
 
 #include <array>
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/page/page_numbers.h>
 #include <firstcontact/robot_files/link_shape.h>
-#include <firstcontact/scene/page_numbers.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/write_json.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/page_numbers.h>
+#include <firstcontact/page/page_numbers.h>
 
 #include <bit>
 

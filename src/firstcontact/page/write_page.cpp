@@ -1,4 +1,4 @@
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/page/write_page.h>
 
 #include <cmath>
 #include <cstddef>
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/scene/detail/page_meshes.h>
-#include <firstcontact/scene/detail/page_robots.h>
+#include <firstcontact/page/detail/page_meshes.h>
+#include <firstcontact/page/detail/page_robots.h>
 #include <firstcontact/scene_files/detail/reports_json.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/json_tree.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/detail/page_robots.h>
+#include <firstcontact/page/detail/page_robots.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/page/detail/page_meshes.h>
 #include <firstcontact/robot_check/robot_scene.h>
-#include <firstcontact/scene/detail/page_meshes.h>
 #include <firstcontact/text/json_tree.h>
 
 namespace firstcontact::detail {
