@@ -129,7 +129,7 @@ set(public_headers
   firstcontact/record/read_run.h
   firstcontact/record/run.h
   firstcontact/dynamics/simulator.h
-  firstcontact/dynamics/verify_run.h
+  firstcontact/verification/verify_run.h
   firstcontact/record/write_run.h
   firstcontact/page/write_run_page.h
-  firstcontact/dynamics/write_verification.h)
+  firstcontact/verification/write_verification.h)

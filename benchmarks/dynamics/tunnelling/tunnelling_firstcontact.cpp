@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include "benchmarks/dynamics/tunnelling/shots.h"
 

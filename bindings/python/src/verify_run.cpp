@@ -1,5 +1,5 @@
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include <cstddef>
 #include <filesystem>

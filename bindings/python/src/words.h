@@ -10,7 +10,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
@@ -20,6 +19,7 @@
 #include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/robot/limit_report.h>
 #include <firstcontact/robot/robot_description.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact::python {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/inside_solid.h>
+#include <firstcontact/verification/detail/inside_solid.h>
 
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/run_follower.h>
+#include <firstcontact/verification/detail/run_follower.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/write_verification.h>
+#include <firstcontact/verification/write_verification.h>
 
 #include <cmath>
 

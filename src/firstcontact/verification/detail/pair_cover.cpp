@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/pair_cover.h>
+#include <firstcontact/verification/detail/pair_cover.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/closest_on_triangles.h>
+#include <firstcontact/verification/detail/closest_on_triangles.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/piece_motion.h>
+#include <firstcontact/verification/detail/piece_motion.h>
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/box_tree.h>
+#include <firstcontact/verification/detail/box_tree.h>
 
 #include <algorithm>
 #include <utility>

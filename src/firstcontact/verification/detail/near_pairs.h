@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/run_follower.h>
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/verification/detail/run_follower.h>
 
 namespace firstcontact::detail {
 

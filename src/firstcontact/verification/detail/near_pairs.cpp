@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/near_pairs.h>
+#include <firstcontact/verification/detail/near_pairs.h>
 
 #include <algorithm>
 #include <cstddef>

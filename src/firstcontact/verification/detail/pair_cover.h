@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include <firstcontact/dynamics/detail/box_tree.h>
-#include <firstcontact/dynamics/detail/piece_motion.h>
+#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/verification/detail/piece_motion.h>
 
 namespace firstcontact::detail {
 

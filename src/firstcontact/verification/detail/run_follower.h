@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/dynamics/detail/box_tree.h>
-#include <firstcontact/dynamics/detail/piece_motion.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/record/run.h>
+#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/verification/detail/piece_motion.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/verify_run.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include <algorithm>
 #include <array>
@@ -11,17 +11,17 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/box_tree.h>
-#include <firstcontact/dynamics/detail/inside_solid.h>
-#include <firstcontact/dynamics/detail/near_pairs.h>
-#include <firstcontact/dynamics/detail/pair_cover.h>
-#include <firstcontact/dynamics/detail/piece_motion.h>
-#include <firstcontact/dynamics/detail/run_follower.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/verification/detail/inside_solid.h>
+#include <firstcontact/verification/detail/near_pairs.h>
+#include <firstcontact/verification/detail/pair_cover.h>
+#include <firstcontact/verification/detail/piece_motion.h>
+#include <firstcontact/verification/detail/run_follower.h>
 
 namespace firstcontact {
 namespace {
