@@ -128,7 +128,7 @@ set(public_headers
   firstcontact/robot/mechanism.h
   firstcontact/record/read_run.h
   firstcontact/record/run.h
-  firstcontact/dynamics/simulator.h
+  firstcontact/simulation/simulator.h
   firstcontact/verification/verify_run.h
   firstcontact/record/write_run.h
   firstcontact/page/write_run_page.h

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/simulator.h>
 #include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact::test {

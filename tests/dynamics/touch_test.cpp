@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/touch.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-#include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/simulation/simulator.h>
 
 #include <algorithm>
 #include <cmath>
