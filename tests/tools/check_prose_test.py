@@ -47,6 +47,7 @@ class Sentences(unittest.TestCase):
         self.assertEqual(len(of_page("Of two the first.")), 1)
         self.assertEqual(len(of_page("It is so. What moves is listed.")), 1)
         self.assertEqual(len(of_page("**Who looks** sees it.")), 1)
+        self.assertEqual(of_page("It is so. **[What is proven](a.md)** is a title."), [])
         self.assertEqual(of_page("What moves? Offers of two. Whatever moves is listed."), [])
 
 
