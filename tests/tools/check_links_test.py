@@ -38,5 +38,24 @@ class Links(unittest.TestCase):
         self.assertEqual(self.of("[a](other.md) [b](scene-reference.md) [c](cpp/index.html)", "docs/site/index.md"), [])
 
 
+class Navigation(unittest.TestCase):
+    def of(self, entries, pages):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "docs" / "site").mkdir(parents=True)
+            for page in pages:
+                (root / "docs" / page).write_text("# Page\n", encoding="utf-8")
+            text = "nav:\n" + "".join(f"      - Title: {entry}\n" for entry in entries)
+            (root / "docs" / "site" / "mkdocs.yml").write_text(text, encoding="utf-8")
+            return [line for line, _ in links.about_navigation(root)]
+
+    def test_lists_every_page(self):
+        self.assertEqual(self.of(["a.md", "site.md", "scene-reference.md", "CHANGELOG.md"], ["a.md", "site/site.md"]), [])
+        self.assertEqual(self.of(["a.md"], ["a.md", "b.md"]), [2])
+
+    def test_lists_no_others(self):
+        self.assertEqual(self.of(["a.md", "none.md"], ["a.md"]), [3])
+
+
 if __name__ == "__main__":
     unittest.main()

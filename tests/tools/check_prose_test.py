@@ -37,6 +37,10 @@ class Sentences(unittest.TestCase):
         for mark in ("e.g.", "T. J.", "et al."):
             self.assertEqual(len(of_page(f"{'so ' * 13}{mark} {'so ' * 13}.")), 1, mark)
 
+    def test_end_at_letters_of_formulas(self):
+        self.assertEqual(of_page(f"{'so ' * 13} is in Q. {'So ' * 13}."), [])
+        self.assertEqual(len(of_page(f"{'so ' * 13} by Q. {'So ' * 13}.")), 1)
+
     def test_count_code_formulas_and_targets_of_links_little(self):
         self.assertEqual(of_page("so " * 24 + "`a b c d`."), [])
         self.assertEqual(of_page("so " * 24 + "a = b + c − d."), [])
