@@ -11,10 +11,10 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/check_lines.h>
-#include <firstcontact/scene/read_result.h>
-#include <firstcontact/scene/scene_lines.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/scene_files/check_lines.h>
+#include <firstcontact/scene_files/read_result.h>
+#include <firstcontact/scene_files/scene_lines.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "batch_tally.h"

@@ -10,7 +10,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/page/write_page.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

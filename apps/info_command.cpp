@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/weld.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "file_text.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include "command_line_file.h"
 #include "command_line_number.h"

@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/verify_run.h>
-#include <firstcontact/dynamics/write_verification.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/verify_run.h>
+#include <firstcontact/verification/write_verification.h>
 
 #include "interrupt.h"
 #include "pair_text.h"

@@ -17,12 +17,12 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/load_scene_of.h>
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/record/load_scene_of.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/gap_curve.h>
-#include <firstcontact/scene/read_result.h>
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

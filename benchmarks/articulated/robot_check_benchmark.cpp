@@ -20,17 +20,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/motion_capture.h>
-#include <firstcontact/articulated/read_asf_amc.h>
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/touching_links.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/touching_links.h>
+#include <firstcontact/robot_files/motion_capture.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include "benchmarks/articulated/straight_motion.h"
 #include "benchmarks/support/fcl_robot.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 
 #include "support/exact_chain.h"
 #include "support/random.h"

@@ -17,14 +17,14 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_gap.h>
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/robot_gap.h>
+#include <firstcontact/robot_check/touching_links.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 #include "articulated/chain_case.h"
 #include "articulated/planar_arm.h"

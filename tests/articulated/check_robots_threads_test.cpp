@@ -14,8 +14,8 @@
 
 #include <tbb/global_control.h>
 
-#include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/check_robots.h>
 
 #include "articulated/planar_arm.h"
 #include "support/random.h"

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <firstcontact/articulated/coordinate_path.h>
+#include <firstcontact/robot/coordinate_path.h>
 
 #include "articulated/chain_case.h"
 #include "support/random.h"

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <firstcontact/articulated/limit_report.h>
+#include <firstcontact/robot/limit_report.h>
 
 #include "articulated/chain_case.h"
 #include "support/random.h"

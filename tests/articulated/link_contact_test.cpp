@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/link_contact.h>
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/robot_check/link_contact.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 #include "articulated/chain_case.h"
 #include "support/random.h"

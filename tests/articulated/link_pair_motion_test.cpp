@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/link_pair_motion.h>
+#include <firstcontact/robot_check/link_pair_motion.h>
 
 #include "articulated/chain_case.h"
 #include "articulated/planar_arm.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 
 #include "articulated/chain_case.h"
 #include "support/random.h"

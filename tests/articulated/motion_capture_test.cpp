@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_asf_amc.h>
-#include <firstcontact/articulated/read_bvh.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_bvh.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "support/data_dir.h"

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 
 #include "support/random.h"
 

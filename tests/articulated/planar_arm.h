@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact::test {
 

@@ -27,10 +27,10 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include "articulated/fcl_shape.h"
 #include "articulated/plain_robot_motion.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "support/data_dir.h"

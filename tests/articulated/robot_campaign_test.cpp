@@ -18,11 +18,11 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/link_contact.h>
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/link_contact.h>
+#include <firstcontact/robot_check/touching_links.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 #include "articulated/fcl_shape.h"
 #include "articulated/plain_robot_motion.h"

@@ -10,9 +10,9 @@
 #include <stop_token>
 #include <vector>
 
-#include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/robot_gap.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/robot_gap.h>
 
 #include "articulated/planar_arm.h"
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <firstcontact/articulated/link_contact.h>
+#include <firstcontact/robot_check/link_contact.h>
 
 #include "support/first_contact_oracle.h"
 #include "support/robot_input.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <variant>
 
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 namespace firstcontact {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/robot_scene.h>
 
 #include "articulated/planar_arm.h"
 

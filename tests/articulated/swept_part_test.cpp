@@ -10,10 +10,10 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/articulated/detail/swept_part.h>
-#include <firstcontact/articulated/detail/tree_course.h>
-#include <firstcontact/articulated/precise_transform.h>
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot_check/detail/swept_part.h>
+#include <firstcontact/robot_check/detail/tree_course.h>
 
 #include "articulated/chain_case.h"
 #include "support/convex_distance.h"

@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/touching_links.h>
+#include <firstcontact/robot_files/link_shape.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 #include "support/data_dir.h"
 

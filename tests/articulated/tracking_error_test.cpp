@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/check_robots.h>
 
 #include "articulated/planar_arm.h"
 #include "support/random.h"

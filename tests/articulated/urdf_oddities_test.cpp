@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {

@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <firstcontact/dynamics/detail/block_cholesky.h>
+#include <firstcontact/contact_solver/detail/block_cholesky.h>
 
 namespace firstcontact::detail {
 namespace {

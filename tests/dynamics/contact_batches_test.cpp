@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_batches.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_batches.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 #include <dynamics/wall_problem.h>
 #include "support/instruction_sets.h"

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/contact_problem.h>
+#include <firstcontact/contact_solver/contact_problem.h>
 
 #include <dynamics/wall_problem.h>
 

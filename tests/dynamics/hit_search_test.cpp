@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/hit_search.h>
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/detail/hit_search.h>
 
 #include <dynamics/random_body.h>
 

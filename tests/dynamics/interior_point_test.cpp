@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 #include <dynamics/wall_problem.h>
 

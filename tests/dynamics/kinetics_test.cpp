@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/kinetics.h>
+#include <firstcontact/contact_solver/kinetics.h>
 
 namespace firstcontact {
 namespace {

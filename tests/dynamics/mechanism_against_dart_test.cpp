@@ -8,7 +8,7 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
-#include <firstcontact/dynamics/mechanism.h>
+#include <firstcontact/robot/mechanism.h>
 
 namespace firstcontact {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/mechanism.h>
+#include <firstcontact/robot/mechanism.h>
 
 namespace firstcontact {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/contact_rows.h>
-#include <firstcontact/dynamics/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/pair_lanes.h>
 
 #include <dynamics/wall_problem.h>
 

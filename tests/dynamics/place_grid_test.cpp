@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/place_grid.h>
+#include <firstcontact/geometry/detail/place_grid.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/project_again.h>
 
 #include <algorithm>
 #include <cstddef>

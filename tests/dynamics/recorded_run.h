@@ -11,10 +11,10 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/run.h>
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/record/run.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact::test {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/write_run.h>
 
 #include <dynamics/simulated_run.h>
 

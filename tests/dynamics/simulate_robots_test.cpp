@@ -11,8 +11,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/read_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "dynamics/simulated_run.h"

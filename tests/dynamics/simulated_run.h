@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/dynamics/verify_run.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/simulator.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact::test {
 

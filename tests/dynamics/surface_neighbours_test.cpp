@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/dynamics/detail/surface_neighbours.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/simulation/detail/surface_neighbours.h>
 
 namespace firstcontact::detail {
 namespace {

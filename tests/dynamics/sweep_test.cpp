@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/overlap_tree.h>
-#include <firstcontact/dynamics/detail/surroundings.h>
-#include <firstcontact/dynamics/detail/world.h>
+#include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/detail/surroundings.h>
+#include <firstcontact/simulation/detail/world.h>
 
 #include <dynamics/random_body.h>
 

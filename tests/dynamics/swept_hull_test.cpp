@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/detail/swept_hull.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/simulation/detail/swept_hull.h>
 
 #include <dynamics/random_body.h>
 

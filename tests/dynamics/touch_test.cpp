@@ -1,4 +1,4 @@
-#include <firstcontact/dynamics/detail/touch.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@
 
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include <dynamics/random_body.h>
 

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include "dynamics/recorded_run.h"
 #include "support/random.h"

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/dynamics/contact_problem.h>
-#include <firstcontact/dynamics/detail/contact_rows.h>
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::test {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/cut_polygon.h>
+#include <firstcontact/polygons/detail/cut_polygon.h>
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include <firstcontact/mesh_files/detail/parse_dae.h>
+#include <firstcontact/model_files/detail/parse_dae.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/reading_log.h>
 

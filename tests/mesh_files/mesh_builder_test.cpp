@@ -1,4 +1,4 @@
-#include <firstcontact/mesh_files/detail/mesh_builder.h>
+#include <firstcontact/polygons/detail/mesh_builder.h>
 
 #include <array>
 #include <cstdint>

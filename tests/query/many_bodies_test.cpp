@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <firstcontact/many_bodies/detail/box_join.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/query/detail/ball_path.h>
-#include <firstcontact/query/detail/box_join.h>
 #include <firstcontact/query/distance.h>
-#include <firstcontact/query/many_bodies.h>
 
 #include "support/rounds.h"
 

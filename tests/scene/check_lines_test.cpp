@@ -1,4 +1,4 @@
-#include <firstcontact/scene/check_lines.h>
+#include <firstcontact/scene_files/check_lines.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <firstcontact/scene/read_result.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_result.h>
 
 #include "scene/scene_text.h"
 

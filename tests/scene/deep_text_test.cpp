@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/parse_yaml.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "scene/crane.h"
 

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/robot_question.h>
-#include <firstcontact/scene/write_reports.h>
-#include <firstcontact/scene/write_result.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/robot_question.h>
+#include <firstcontact/scene_files/write_reports.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 
 #include "scene/robot_text.h"
 #include "scene/scene_text.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_text.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/crane.h"

@@ -1,12 +1,12 @@
-#include <firstcontact/scene/read_result.h>
+#include <firstcontact/scene_files/read_result.h>
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_result.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_text.h"

@@ -1,4 +1,5 @@
-#include <firstcontact/scene/read_rigid_ipc.h>
+#include <firstcontact/foreign_scenes/read_rigid_ipc.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +19,8 @@
 #include <firstcontact/geometry/mass_properties.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include <clocale>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_bits.h"

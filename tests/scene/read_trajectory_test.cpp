@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "scene/crane.h"
 

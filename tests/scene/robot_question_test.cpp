@@ -12,10 +12,10 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/robot_question.h>
-#include <firstcontact/scene/write_result.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/robot_question.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 

@@ -10,10 +10,10 @@
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/robot_question.h>
-#include <firstcontact/scene/write_result.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/robot_question.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/robot_text.h"

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "scene/scene_text.h"

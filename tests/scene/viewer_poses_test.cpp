@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

@@ -16,12 +16,12 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/detail/result_json.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_page.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene_files/detail/result_json.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

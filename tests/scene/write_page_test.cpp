@@ -1,6 +1,6 @@
 // The page holds all that the viewer needs, word for word.
 
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/page/write_page.h>
 
 #include <cstdint>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/base64.h>
 
 namespace firstcontact {

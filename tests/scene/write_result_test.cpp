@@ -1,12 +1,12 @@
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>

@@ -1,4 +1,4 @@
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 
 #include <array>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include "scene/scene_bits.h"
 

@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/simulator.h>
 
 #include "benchmarks/dynamics/piles/piles.h"
 

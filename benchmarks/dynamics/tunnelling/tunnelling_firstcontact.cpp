@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/dynamics/verify_run.h>
-#include <firstcontact/scene/read_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/simulator.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include "benchmarks/dynamics/tunnelling/shots.h"
 
