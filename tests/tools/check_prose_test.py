@@ -137,6 +137,12 @@ class Numbers(unittest.TestCase):
         self.assertEqual(len(prose.judge({"a.md": [self.complaint]}, {"a.md": 2})), 1)
         self.assertEqual(len(prose.judge({}, {"a.md": 2})), 1)
 
+    def test_are_lowered_in_the_text_and_never_raised(self):
+        allowed = {"a.md": 3, "b.md": 2, "c.md": 1, "d.md": 4}
+        text = "".join(f'    "{group}": {limit},\n' for group, limit in allowed.items())
+        found = {"a.md": [self.complaint], "b.md": [self.complaint] * 3, "c.md": []}
+        self.assertEqual(prose.lowered(text, found, allowed), '    "a.md": 1,\n    "b.md": 2,\n')
+
 
 class Command(unittest.TestCase):
     def run_on(self, text):
