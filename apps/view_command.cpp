@@ -148,14 +148,15 @@ void add_view_command(CLI::App& app) {
   command
       ->add_option(
           "RESULT", arguments->result,
-          "What `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote; run "
-          "this in the same folder as that, its mesh files are read again")
+          "File that `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote. Run "
+          "this in the same folder: its mesh files are read again")
       ->required();
   add_file(*command, "-o,--output", arguments->output,
            "Where the page goes; beside the result where this is not given");
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
-  command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, as where the result says so");
+  command->add_flag(
+      "--lenient", arguments->lenient,
+      "Names in files that nobody knows are warnings, as in a result with this option");
   command->callback([arguments] { view(*arguments); });
 }
 

@@ -12,7 +12,7 @@
 namespace firstcontact {
 
 /// Reads a fixture of Rigid IPC (Z. Ferguson et al., "Intersection-free rigid body dynamics", ACM
-/// TOG 40(4), 2021): JSON with "rigid_body_problem". docs/simulation.md says what becomes of each
+/// TOG 40(4), 2021): JSON with "rigid_body_problem". docs/rigid_ipc.md says what becomes of each
 /// of its keys.
 ///
 /// Bodies are named by their mesh, "cube", or "cube-3" by their number in the file where a mesh

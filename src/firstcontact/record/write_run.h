@@ -1,5 +1,5 @@
 /// @file
-/// Writes a run as JSON Lines: a header, then one line for each step (see docs/simulation.md).
+/// Writes a run as JSON Lines: a header, then one line for each step (see docs/run_format.md).
 
 #pragma once
 

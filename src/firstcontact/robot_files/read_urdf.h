@@ -51,7 +51,7 @@ struct RobotReading {
 /// What says nothing of contacts is left out by name: looks, settings of simulators and
 /// controllers, sensors, elements and attributes with a prefix, an `<inertial>` that is wrong
 /// (LinkInertia::defect). A name that is not known is an error where it is near a known one, holds
-/// or places geometry, or is xacro's; elsewhere it is a warning. docs/robots.md has the table.
+/// or places geometry, or is xacro's; elsewhere it is a warning. docs/robot_files.md has the table.
 ///
 /// Numbers are read exactly, whatever the locale. An `rpy` becomes a quaternion of doubles, which
 /// from then on means the exact rotation.

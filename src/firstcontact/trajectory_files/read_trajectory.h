@@ -12,7 +12,7 @@
 
 namespace firstcontact {
 
-/// Reads a trajectory for a robot (docs/formats.md).
+/// Reads a trajectory for a robot (docs/trajectories.md).
 ///
 /// - .json, .yaml, .yml: `joint_names` and `points` with `time` [s], `positions`, and if wanted
 ///   `velocities` and `accelerations`; or trajectory_msgs/JointTrajectory as ROS prints it, alone
