@@ -50,11 +50,50 @@ class Navigation(unittest.TestCase):
             return [line for line, _ in links.about_navigation(root)]
 
     def test_lists_every_page(self):
-        self.assertEqual(self.of(["a.md", "site.md", "scene-reference.md", "CHANGELOG.md"], ["a.md", "site/site.md"]), [])
+        entries = ["a.md", "site.md", "scene-reference.md", "CHANGELOG.md"]
+        self.assertEqual(self.of(entries, ["a.md", "site/site.md"]), [])
         self.assertEqual(self.of(["a.md"], ["a.md", "b.md"]), [2])
 
     def test_lists_no_others(self):
         self.assertEqual(self.of(["a.md", "none.md"], ["a.md"]), [3])
+
+
+class Paths(unittest.TestCase):
+    def of(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name in ("src/firstcontact/math/interval.h", "tests/support/oracle.h"):
+                (root / name).parent.mkdir(parents=True)
+                (root / name).touch()
+            page = root / "README.md"
+            page.write_text(text, encoding="utf-8")
+            return [line for line, _ in links.about_paths(root, page)]
+
+    def test_of_sources_are_below_the_root_or_the_library(self):
+        for name in ("src/firstcontact/math/interval.h", "firstcontact/math/interval.h", "math/interval.h",
+                     "tests/support/oracle.h", "tests/support", "interval.h", "a/b.json", "GROUP/NAME"):
+            self.assertEqual(self.of(f"A file `{name}`"), [], name)
+
+    def test_that_are_gone_are_named(self):
+        self.assertEqual(self.of("x\n`text/interval.h`\n`tests/query`"), [2, 3])
+
+
+class Rooms(unittest.TestCase):
+    def of(self, rooms):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            (root / "src" / "firstcontact").mkdir(parents=True)
+            headers = "set(public_headers\n  firstcontact/math/interval.h\n  firstcontact/query/distance.h)\n"
+            (root / "src" / "firstcontact" / "public_headers.cmake").write_text(headers, encoding="utf-8")
+            (root / "docs" / "site").mkdir(parents=True)
+            text = "# C++\n" + "".join(f"- `firstcontact/{room}/`: it\n" for room in rooms)
+            (root / "docs" / "site" / "cpp.md").write_text(text, encoding="utf-8")
+            return [line for line, _ in links.about_rooms(root)]
+
+    def test_with_public_headers_are_those_of_the_page(self):
+        self.assertEqual(self.of(["math", "query"]), [])
+        self.assertEqual(self.of(["math"]), [2])
+        self.assertEqual(self.of(["math", "scene", "query"]), [3])
 
 
 if __name__ == "__main__":

@@ -118,7 +118,8 @@ class Docstrings(unittest.TestCase):
         self.assertEqual(self.of(f"/// {sentence(26)}\n"), [1])
 
     def test_say_what_a_thing_is(self):
-        self.assertEqual(self.of("/// None for the root.\n\n/// [byte]\n\n/// [m] The length.\n\n/// The link.\n"), [1, 3])
+        text = "/// None for the root.\n\n/// [byte]\n\n/// [m] The length.\n\n/// The link.\n"
+        self.assertEqual(self.of(text), [1, 3])
 
     def test_are_neither_comments_nor_of_members_behind_them(self):
         self.assertEqual(self.of("// Of two.\nint x;  ///< Of two.\n///< Of two.\n"), [])

@@ -33,7 +33,8 @@ class Reference(unittest.TestCase):
     def test_takes_the_description_of_a_definition_where_a_key_has_none(self):
         schema = {"$defs": {"end": {"type": "object", "description": "The last."}}, "properties": {
             "end": {"$ref": "#/$defs/end"}}, "title": "T"}
-        self.assertIn("The last.", "\n".join(line for line in reference.Page(schema).write().split("\n") if "`end`" in line))
+        row = next(line for line in reference.Page(schema).write().split("\n") if "`end`" in line)
+        self.assertIn("The last.", row)
 
 
 class Tables(unittest.TestCase):
