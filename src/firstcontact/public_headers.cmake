@@ -1,135 +1,91 @@
-# Headers that are installed, documented and kept stable: what users include.
+# What is installed. tools/check_includes holds the second list to what the first one includes.
+
+# Headers that users include: documented and kept stable.
 set(public_headers
-  firstcontact/math/cell_hash.h
-  firstcontact/math/disjoint_sets.h
-  firstcontact/math/double_double.h
-  firstcontact/math/export.h
-  firstcontact/math/fast_sine_cosine.h
-  firstcontact/math/float_environment.h
-  firstcontact/math/interval.h
-  firstcontact/math/interval_vector.h
-  firstcontact/math/root_isolation.h
-  firstcontact/math/sine_cosine.h
-  firstcontact/motion/constant_rate_pair.h
-  firstcontact/motion/constant_rate_path.h
-  firstcontact/motion/enclose_pose.h
   firstcontact/motion/motion.h
-  firstcontact/motion/motion_contract.h
-  firstcontact/motion/pair_motion.h
-  firstcontact/motion/pose.h
-  firstcontact/motion/relative_motion.h
-  firstcontact/motion/relative_state.h
-  firstcontact/motion/rotation_forms.h
-  firstcontact/motion/time_window.h
-  firstcontact/text/file_report.h
   firstcontact/text/parse_error.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/deforming_body.h
-  firstcontact/geometry/feature_table.h
-  firstcontact/geometry/glide.h
-  firstcontact/geometry/glide_bounds.h
-  firstcontact/geometry/glide_order.h
   firstcontact/geometry/height_map.h
-  firstcontact/geometry/hierarchy.h
   firstcontact/geometry/mass_properties.h
   firstcontact/geometry/mesh.h
-  firstcontact/geometry/mesh_defects.h
   firstcontact/geometry/point_cloud.h
   firstcontact/geometry/primitives.h
   firstcontact/geometry/shape.h
-  firstcontact/geometry/shape_bounds.h
-  firstcontact/geometry/weld.h
-  firstcontact/mesh_files/read_mesh.h
-  firstcontact/mesh_files/read_points.h
-  firstcontact/narrowphase/advance.h
-  firstcontact/narrowphase/advance_deforming.h
-  firstcontact/narrowphase/closest_features.h
-  firstcontact/narrowphase/convex_separation.h
+  firstcontact/contact_solver/contact_problem.h
   firstcontact/narrowphase/edge_edge_contact.h
-  firstcontact/narrowphase/elementary_contact.h
-  firstcontact/narrowphase/feature_batches.h
   firstcontact/narrowphase/linear_contact.h
-  firstcontact/narrowphase/oscillation.h
-  firstcontact/narrowphase/precise_linear_contact.h
-  firstcontact/narrowphase/separating_direction.h
-  firstcontact/narrowphase/triangle_distance.h
   firstcontact/narrowphase/vertex_face_contact.h
-  firstcontact/query/begins_inside.h
-  firstcontact/many_bodies/body_set.h
-  firstcontact/query/contact.h
-  firstcontact/query/contact_selection.h
-  firstcontact/query/distance.h
-  firstcontact/query/close_features.h
   firstcontact/query/closest_approach.h
+  firstcontact/query/distance.h
   firstcontact/query/first_contact.h
   firstcontact/many_bodies/many_bodies.h
-  firstcontact/many_bodies/pair_rules.h
-  firstcontact/parallel/parallel_for.h
-  firstcontact/query/placed_shape.h
-  firstcontact/query/shape_pair.h
-  firstcontact/query/workspace.h
-  firstcontact/robot_check/check_robots.h
-  firstcontact/robot/coordinate_path.h
-  firstcontact/robot/joint_path.h
+  firstcontact/mesh_files/read_mesh.h
+  firstcontact/mesh_files/read_points.h
   firstcontact/robot/limit_report.h
-  firstcontact/robot_check/link_contact.h
-  firstcontact/robot/link_geometry.h
-  firstcontact/robot_files/link_shape.h
-  firstcontact/robot_check/link_pair_motion.h
-  firstcontact/robot/link_path.h
-  firstcontact/robot_files/motion_capture.h
-  firstcontact/robot/precise_transform.h
+  firstcontact/robot/robot_model.h
+  firstcontact/robot/robot_motion.h
   firstcontact/robot_files/read_asf_amc.h
   firstcontact/robot_files/read_bvh.h
   firstcontact/robot_files/read_srdf.h
   firstcontact/robot_files/read_urdf.h
-  firstcontact/robot/robot_description.h
-  firstcontact/robot_check/robot_gap.h
-  firstcontact/robot/robot_model.h
-  firstcontact/robot/robot_motion.h
-  firstcontact/robot_check/robot_scene.h
+  firstcontact/robot_check/check_robots.h
   firstcontact/robot_check/touching_links.h
-  firstcontact/robot/tracking_error.h
-  firstcontact/scene/body_motion.h
-  firstcontact/scene/body_shape.h
-  firstcontact/scene_files/check_lines.h
   firstcontact/scene/check_scene.h
-  firstcontact/scene/gap_bound.h
-  firstcontact/scene/gap_curve.h
-  firstcontact/scene/links_as_bodies.h
   firstcontact/scene/loaded_scene.h
-  firstcontact/page/page_numbers.h
-  firstcontact/scene/pair_counts.h
-  firstcontact/scene/parallel_sampling.h
-  firstcontact/foreign_scenes/planning_scene.h
-  firstcontact/scene_files/read_result.h
-  firstcontact/foreign_scenes/read_rigid_ipc.h
-  firstcontact/scene_files/read_scene.h
-  firstcontact/scene_files/read_simulation_scene.h
-  firstcontact/trajectory_files/read_trajectory.h
-  firstcontact/scene_files/robot_question.h
   firstcontact/scene/sample_gap.h
   firstcontact/scene/scene.h
-  firstcontact/scene_files/scene_lines.h
+  firstcontact/scene/version.h
+  firstcontact/trajectory_files/read_trajectory.h
+  firstcontact/foreign_scenes/planning_scene.h
+  firstcontact/foreign_scenes/read_rigid_ipc.h
+  firstcontact/scene_files/read_scene.h
+  firstcontact/scene_files/robot_question.h
+  firstcontact/scene_files/write_result.h
+  firstcontact/scene_files/write_scene.h
+  firstcontact/record/read_run.h
+  firstcontact/record/write_run.h
+  firstcontact/page/write_page.h
+  firstcontact/simulation/simulator.h
+  firstcontact/verification/verify_run.h)
+
+# Headers that come with those, for their types. They may be parted and joined anew.
+set(supporting_headers
+  firstcontact/math/double_double.h
+  firstcontact/math/export.h
+  firstcontact/motion/constant_rate_path.h
+  firstcontact/motion/pose.h
+  firstcontact/motion/relative_motion.h
+  firstcontact/motion/relative_state.h
+  firstcontact/motion/time_window.h
+  firstcontact/text/file_report.h
+  firstcontact/geometry/feature_table.h
+  firstcontact/geometry/hierarchy.h
+  firstcontact/geometry/shape_bounds.h
+  firstcontact/contact_solver/kinetics.h
+  firstcontact/narrowphase/elementary_contact.h
+  firstcontact/narrowphase/oscillation.h
+  firstcontact/narrowphase/triangle_distance.h
+  firstcontact/query/contact.h
+  firstcontact/query/workspace.h
+  firstcontact/many_bodies/body_set.h
+  firstcontact/many_bodies/pair_rules.h
+  firstcontact/robot/coordinate_path.h
+  firstcontact/robot/joint_path.h
+  firstcontact/robot/link_geometry.h
+  firstcontact/robot/link_path.h
+  firstcontact/robot/mechanism.h
+  firstcontact/robot/precise_transform.h
+  firstcontact/robot/robot_description.h
+  firstcontact/robot/tracking_error.h
+  firstcontact/robot_files/motion_capture.h
+  firstcontact/robot_check/robot_scene.h
+  firstcontact/scene/body_motion.h
+  firstcontact/scene/body_shape.h
+  firstcontact/scene/gap_bound.h
+  firstcontact/scene/pair_counts.h
   firstcontact/scene/scene_robot.h
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h
-  firstcontact/scene/simulation_duration.h
   firstcontact/scene/trajectory.h
-  firstcontact/scene/version.h
-  firstcontact/scene/whole_turn_jumps.h
-  firstcontact/page/write_page.h
-  firstcontact/scene_files/write_reports.h
-  firstcontact/scene_files/write_result.h
-  firstcontact/scene_files/write_scene.h
-  firstcontact/contact_solver/contact_problem.h
-  firstcontact/contact_solver/kinetics.h
-  firstcontact/record/load_scene_of.h
-  firstcontact/robot/mechanism.h
-  firstcontact/record/read_run.h
-  firstcontact/record/run.h
-  firstcontact/simulation/simulator.h
-  firstcontact/verification/verify_run.h
-  firstcontact/record/write_run.h
-  firstcontact/page/write_run_page.h
-  firstcontact/verification/write_verification.h)
+  firstcontact/record/run.h)
