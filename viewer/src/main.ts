@@ -27,6 +27,7 @@ import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
 import { transport } from "./panels/transport";
 import { filesPanel } from "./panels/files";
+import { verdictBadge } from "./panels/verdict";
 import { warningsPanel } from "./panels/warnings";
 import { Player } from "./player";
 import { Theme } from "./theme";
@@ -127,6 +128,7 @@ function start(model: Model): void {
   const cards = [
     ...(model.result ? [summaryPanel(model, model.result)] : []),
     ...(model.run ? [runPanel(model, model.run)] : []),
+    warningsPanel(model),
     probePanel(view, display, player),
     ...(model.run
       ? [stepPanel(model.run, player), runChartsPanel(model.run, charts, player, shownChart)]
@@ -136,10 +138,9 @@ function start(model: Model): void {
     jointsPanel(model, player, joint),
     bodiesPanel(model, view, display),
     model.run && stepContactsPanel(model, model.run, view, player),
-    warningsPanel(model),
     filesPanel(model),
   ].filter((card) => card !== null);
-  stage.append(toolbar(model, commands, panelOpen), triad(view));
+  stage.append(toolbar(model, commands, panelOpen), triad(view), verdictBadge(model, panelOpen));
   app.append(element("aside.panel", { "aria-label": "Details" }, ...cards));
   app.append(transport(model, commands, chart.element), help);
   panelOpen.subscribe((open) => app.classList.toggle("panel-open", open));

@@ -1,6 +1,15 @@
 /// A result, or a run, made ready to be shown.
 
-import type { BodyData, Contact, Limit, PairAnswer, Result, Vector3 } from "./data/result";
+import type {
+  Answer,
+  BodyData,
+  Contact,
+  Limit,
+  PairAnswer,
+  Result,
+  Turn,
+  Vector3,
+} from "./data/result";
 import type { FileReport, PairCounts } from "./data/reports";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
 import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
@@ -50,6 +59,8 @@ export interface Coordinate {
   readonly breaks: readonly number[]; ///< Where its segments end.
   readonly at: (t: number) => number;
   readonly violations: readonly Limit[];
+  /// Which way it went, of a joint that turns without end.
+  readonly turn: Turn | null;
 }
 
 const kinds: Readonly<Record<string, string>> = {
@@ -161,7 +172,11 @@ function carried(body: Body, stretches: readonly StretchData[], bodies: readonly
 }
 
 /// Limits belong to the coordinate of a joint that has one.
-function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]): Coordinate[] {
+function coordinatesOf(
+  robot: RobotData,
+  index: number,
+  { limits = [], turns: ways = [] }: Partial<Result>,
+): Coordinate[] {
   return robot.joints.flatMap(({ name: joint, type, limits: own, mimics, coordinates = [] }) =>
     coordinates.map(({ name, segments }, k): Coordinate => {
       const single = coordinates.length === 1;
@@ -178,6 +193,8 @@ function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]
         breaks: segments.map(({ until }) => until),
         at: (t) => coordinateAt(segments, t),
         violations: limits.filter((found) => found.robot === robot.name && found.joint === joint),
+        // That of a planar joint has the name of the coordinate.
+        turn: ways.find((way) => way.robot === robot.name && way.joint === name) ?? null,
       };
     }),
   );
@@ -228,9 +245,7 @@ export class Model {
     });
     this.bodies = bodies;
     this.robots = robots.map(({ name }) => name);
-    this.coordinates = robots.flatMap((robot, index) =>
-      coordinatesOf(robot, index, result?.limits ?? []),
-    );
+    this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
     this.pairs = result?.pairs ?? [];
     this.pairCounts = page.pairCounts;
@@ -253,6 +268,24 @@ export class Model {
   get contactTime(): number | null {
     const touch = this.result?.verdict === "contact" || this.result?.verdict === "contact_at_start";
     return touch ? this.provenUntil : null;
+  }
+
+  /// [m] Lengths of a result are not known better; 0 where nothing is said of it.
+  get grain(): number {
+    const { tolerance_used, enclosure_error = 0, scene } = this.result ?? {};
+    return this.result ? (tolerance_used ?? scene?.options.tolerance ?? 0) + enclosure_error : 0;
+  }
+
+  /// [s] In which the bodies of an answer close its tolerance; 0 where their speed is not known.
+  timeGrain({ contacts }: Answer): number {
+    const speeds = contacts.map(({ normal_velocity }) => Math.abs(normal_velocity ?? 0));
+    const fastest = Math.max(...speeds, 0);
+    return fastest > 0 ? this.grain / fastest : 0;
+  }
+
+  /// t at which something touches for the first time, in a result or a run.
+  get firstTouch(): number | null {
+    return this.run ? this.run.firstTouch : this.contactTime;
   }
 
   get contacts(): readonly Contact[] {
