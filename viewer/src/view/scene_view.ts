@@ -58,6 +58,10 @@ export class SceneView {
   private readonly grid: Grid;
   private readonly sweep: Box3;
   private readonly home: Sphere;
+  /// Of the whole motion, where what is looked at first is less than that.
+  private readonly whole: Box3;
+  private readonly reach: number; // [m] From the middle of what is looked at first.
+  private showsWhole = false;
   private readonly edges = new Map<MeshData, BufferGeometry | null>();
   private shownContacts: readonly Contact[] = [];
   private cutDepth = 0;
@@ -82,8 +86,11 @@ export class SceneView {
     this.flight = new CameraFlight(this.camera, this.controls.target);
 
     this.bounds = new Bounds(model.bodies);
-    this.sweep = this.bounds.sweep();
+    this.sweep = this.bounds.opening(model.firstTouch);
     this.home = this.sweep.getBoundingSphere(new Sphere());
+    this.whole = this.bounds.sweep();
+    this.reach = this.home.center.distanceTo(this.whole.getCenter(new Vector3()));
+    this.reach += 0.5 * this.whole.getSize(new Vector3()).length();
     this.grid = new Grid(this.sweep, this.camera.up);
     this.bodies = this.makeBodies();
     this.ghosts = new Ghosts(this.bodies);
@@ -117,7 +124,7 @@ export class SceneView {
       this.frame(now);
     };
     this.resize();
-    this.fitAll(true);
+    this.fit(this.sweep, true);
     this.draw();
     requestAnimationFrame(frame);
   }
@@ -145,10 +152,16 @@ export class SceneView {
     this.showMoment(this.player.t.value);
   }
 
-  fitAll(atOnce = false): void {
+  /// The whole motion; and by turns what was looked at first, where that is less.
+  fitAll(): void {
+    this.showsWhole = !this.showsWhole && !this.whole.equals(this.sweep);
+    this.fit(this.showsWhole ? this.whole : this.sweep);
+  }
+
+  private fit(box: Box3, atOnce = false): void {
     this.display.cutaway.value = false;
-    const seen = corners(this.sweep.min, this.sweep.max);
-    const target = this.home.center.clone();
+    const seen = corners(box.min, box.max);
+    const target = box.getCenter(new Vector3());
     const direction = homeDirection(this.model);
     const range = this.rangeFor(seen, target, direction);
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
@@ -422,7 +435,7 @@ export class SceneView {
     if (this.display.cutaway.value) {
       this.camera.near = Math.max(this.camera.near, range - this.cutDepth);
     }
-    this.camera.far = Math.max(away + 8 * this.home.radius, 4 * range);
+    this.camera.far = Math.max(away + 8 * this.home.radius, away + this.reach, 4 * range);
     this.camera.updateProjectionMatrix();
   }
 }
