@@ -85,7 +85,7 @@ function start(model: Model): void {
       toContact: () => {
         player.toContact();
         if (firstContact) {
-          view.showContacts(model.contacts);
+          view.showContacts(model.contacts, model.contactTime);
           view.focusContact(firstContact);
         }
       },

@@ -45,6 +45,7 @@ export interface RecordedStep {
     readonly position: Vector3;
   }[];
   readonly contacts: readonly { readonly point: Vector3; readonly impulse: Vector3 }[];
+  readonly impacts?: readonly { readonly at: number }[];
   readonly kinetic_energy: number;
 }
 
@@ -132,6 +133,7 @@ declare global {
       view: {
         bodies: {
           group: { matrix: { elements: number[] } };
+          pieces: { group: { children: TouchingOfPage[] } }[];
           parts: PieceOfPage[];
           looks: PieceOfPage[];
         }[];
@@ -140,6 +142,7 @@ declare global {
           arrows: {
             visible: boolean;
             count: number;
+            geometry: { attributes: { shown: { array: Float32Array } } };
             instanceMatrix: { array: Float32Array };
           };
         } | null;
@@ -148,6 +151,11 @@ declare global {
     };
   }
 }
+/// The triangles of a contact are in the group of this name.
+interface TouchingOfPage {
+  name: string;
+  children: { material: { opacity: number; visible: boolean } }[];
+}
 interface PieceOfPage {
   part: { mesh: MeshOfPage };
   surface: SurfaceOfPage;
@@ -155,6 +163,10 @@ interface PieceOfPage {
 }
 interface SurfaceOfPage {
   position: { toArray(): number[] };
+  material: {
+    opacity: number;
+    clippingPlanes: { normal: { toArray(): number[] }; constant: number }[];
+  };
   /// As drawn: deformed.
   getVertexPosition(index: number, target: object): { toArray(): number[] };
 }

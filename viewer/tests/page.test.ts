@@ -543,6 +543,102 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await warnings.textContent()).toContain('joint "elbow" leaves its upper limit');
   });
 
+  test("cuts with a plane, along the view or an axis", async () => {
+    const page = await show(peg);
+    const planes = () =>
+      page.evaluate(() => {
+        const { material } = window.firstcontact.view.bodies[0]!.parts[0]!.surface;
+        return material.clippingPlanes.map(({ normal, constant }) => ({
+          normal: normal.toArray(),
+          constant,
+        }));
+      });
+    const bar = page.getByRole("group", { name: "Cut" });
+    expect(await bar.isVisible()).toBe(false);
+    expect(await planes()).toEqual([]);
+    await page.keyboard.press("k");
+    expect(await bar.isVisible()).toBe(true);
+    await page.waitForTimeout(200);
+    const [view] = await planes();
+    const camera = await cameraOf(page);
+    const size = Math.hypot(...view!.normal);
+    expect(size).toBeCloseTo(1, 12);
+    // Away from the camera, which stands before the plane.
+    const before = [camera.x, camera.y, camera.z].reduce((s, x, i) => s + x * view!.normal[i]!, 0);
+    expect(before + view!.constant).toBeLessThan(0);
+    await bar.getByRole("combobox").selectOption("z");
+    await bar.getByRole("slider").fill("0");
+    await page.waitForTimeout(200);
+    const [low] = await planes();
+    expect(low!.normal).toEqual([0, 0, 1]);
+    await bar.getByRole("slider").fill("1");
+    await page.waitForTimeout(200);
+    expect((await planes())[0]!.constant).toBeLessThan(low!.constant);
+    await bar.getByRole("button", { name: "Cut away the other side" }).click();
+    await page.waitForTimeout(200);
+    expect((await planes())[0]!.normal[2]).toBe(-1);
+    await bar.getByRole("button", { name: "Cut nothing" }).click();
+    await page.waitForTimeout(200);
+    expect(await planes()).toEqual([]);
+  });
+
+  test("gives each body an opacity", async () => {
+    const page = await show(arm);
+    const opacities = () =>
+      page.evaluate(() =>
+        window.firstcontact.view.bodies.map(({ parts }) => parts[0]?.surface.material.opacity),
+      );
+    await page.getByRole("slider", { name: "Opacity of ball" }).fill("0.5");
+    await page.getByRole("slider", { name: "Opacity of arm", exact: true }).fill("0.25");
+    expect(await opacities()).toEqual([0.5, 1, undefined, 0.25, 0.25]);
+    expect(await page.getByRole("slider", { name: "Opacity of tip" }).inputValue()).toBe("0.25");
+    await page.keyboard.press("x");
+    expect((await opacities())[0]).toBeCloseTo(0.14, 12);
+  });
+
+  test("shows contacts near their time", async () => {
+    const page = await show(peg);
+    const seen = async (t: number) => {
+      await page.evaluate((to) => window.firstcontact.player.seek(to), t);
+      return page.evaluate(() =>
+        window.firstcontact.view.bodies
+          .flatMap(({ pieces }) => pieces.flatMap(({ group }) => group.children))
+          .filter(({ name }) => name === "touching")
+          .flatMap(({ children }) => children.map(({ material }) => material))
+          .map(({ opacity, visible }) => (visible ? opacity : 0)),
+      );
+    };
+    const { t } = peg.result;
+    const at = await seen(t);
+    expect(Math.min(...at)).toBeGreaterThan(0.5);
+    const near = await seen(t - 0.02);
+    near.forEach((opacity, k) => expect(opacity).toBeCloseTo(0.5 * at[k]!, 6));
+    expect(Math.max(...(await seen(t - 0.05)))).toBe(0);
+  });
+
+  test("zooms on a part of the time", async () => {
+    const page = await show(peg, "#t=0.5");
+    const slider = page.getByRole("slider", { name: "Time" });
+    const range = async () => [await slider.getAttribute("min"), await slider.getAttribute("max")];
+    await page.getByRole("button", { name: "Less of the time" }).click();
+    await page.keyboard.press("+");
+    expect((await range()).map(Number)).toEqual([0.375, 0.625]);
+    const chart = (await page.locator(".chart .u-over").boundingBox())!;
+    await page.mouse.click(chart.x + 0.2 * chart.width, chart.y + 20);
+    expect(await timeOf(page)).toBeCloseTo(0.425, 3);
+    await page.mouse.wheel(0, -200);
+    const [from, to] = (await range()).map(Number) as [number, number];
+    expect(to - from).toBeCloseTo(0.25 * Math.exp(-0.4), 6);
+    expect((0.425 - from) / (to - from)).toBeCloseTo(0.2, 2); // What is under the pointer stays there.
+    await page.keyboard.press("Enter"); // The contact is elsewhere: the window goes there.
+    const [begin, end] = (await range()).map(Number) as [number, number];
+    expect(begin).toBeLessThan(peg.result.t);
+    expect(end).toBeGreaterThan(peg.result.t);
+    await page.getByRole("button", { name: "All of the time" }).click();
+    expect((await range()).map(Number)).toEqual([0, 1]);
+    expect(await page.getByRole("button", { name: "All of the time" }).count()).toBe(0);
+  });
+
   test("says which way a joint without ends turned", async () => {
     folder.write("wheel.urdf", wheelUrdf);
     for (const turning of ["long", "short"] as const) {

@@ -48,7 +48,7 @@ export function contactsPanel(model: Model, view: SceneView, player: Player): HT
     );
     button.addEventListener("click", () => {
       player.toContact();
-      view.showContacts(contacts);
+      view.showContacts(contacts, model.contactTime);
       view.focusContact(contact);
     });
     return element("li", {}, button);

@@ -78,7 +78,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     } else if (pair.closest) {
       player.seek(pair.closest.t);
     }
-    view.showContacts(pair.contacts);
+    view.showContacts(pair.contacts, pair.t);
     const contact = pair.contacts[0];
     if (contact) {
       view.focusContact(contact);

@@ -12,6 +12,7 @@ import {
   MeshBasicMaterial,
   MeshPhongMaterial,
   Object3D,
+  type Plane,
   Points,
   PointsMaterial,
   Quaternion,
@@ -31,7 +32,12 @@ export interface Style {
   readonly wireframe: boolean;
   readonly xray: boolean;
   readonly edges: boolean;
+  readonly opacity: number; ///< From 0 to 1.
+  readonly cut: Plane[]; ///< What is before one of them is not drawn.
 }
+
+const xrayOpacity = 0.28;
+const edgeOpacity = 0.75;
 
 export type Surface =
   Mesh<BufferGeometry, MeshPhongMaterial> | Points<BufferGeometry, PointsMaterial>;
@@ -95,7 +101,13 @@ export class PartView {
   readonly group = new Group();
   readonly surface: Surface;
   private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
-  private style: Style = { wireframe: false, xray: false, edges: true };
+  private style: Style = {
+    wireframe: false,
+    xray: false,
+    edges: true,
+    opacity: 1,
+    cut: [],
+  };
 
   /// @param body  index of the body, for whoever finds the surface
   constructor(
@@ -134,7 +146,7 @@ export class PartView {
     const color = new Color(this.color).multiplyScalar(0.32);
     this.edges = new LineSegments(
       geometry,
-      new LineBasicMaterial({ color, transparent: true, opacity: 0.75 }),
+      new LineBasicMaterial({ color, transparent: true, opacity: edgeOpacity }),
     );
     this.edges.position.copy(this.surface.position);
     this.group.add(this.edges);
@@ -147,23 +159,33 @@ export class PartView {
   }
 
   private restyle(): void {
-    const { wireframe, xray, edges } = this.style;
+    const { wireframe, xray, edges, opacity, cut } = this.style;
+    const seen = opacity * (xray ? xrayOpacity : 1);
     const { material } = this.surface;
     if (material instanceof MeshPhongMaterial) {
       material.wireframe = wireframe;
     }
-    material.transparent = xray;
-    material.opacity = xray ? 0.28 : 1;
-    material.depthWrite = !xray;
+    material.transparent = seen < 1;
+    material.opacity = seen;
+    material.depthWrite = seen === 1;
+    material.clippingPlanes = cut;
     material.needsUpdate = true;
     if (this.edges) {
+      this.edges.material.opacity = edgeOpacity * opacity;
+      this.edges.material.clippingPlanes = cut;
       this.edges.visible = this.surface.visible && edges && !wireframe;
     }
   }
 
   /// A faint copy of the piece. It cannot be clicked.
   ghost(t: number, opacity: number): Group {
-    const look = { color: this.color, transparent: true, opacity, depthWrite: false } as const;
+    const look = {
+      color: this.color,
+      transparent: true,
+      opacity,
+      depthWrite: false,
+      clippingPlanes: this.style.cut,
+    };
     const { geometry } = this.surface;
     const copies: Object3D[] =
       this.surface instanceof Points

@@ -26,7 +26,16 @@ import { BodyView } from "./body_view";
 import { Bounds, corners } from "./bounds";
 import { CameraFlight, type Viewpoint } from "./camera_flight";
 import { bodyColor } from "./colors";
-import { contactSize, ContactMarkers, middleOf, sideViews, touchingSurface } from "./contact_view";
+import {
+  contactSize,
+  ContactMarkers,
+  fadeSurface,
+  middleOf,
+  sideViews,
+  touchingSurface,
+} from "./contact_view";
+import { CutPlane } from "./cut_plane";
+import { nearness } from "./fading";
 import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { ForceMarkers } from "./force_view";
@@ -37,6 +46,8 @@ import { fieldOfView, type PartView, type Surface } from "./part_view";
 import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
+const nearContact = 0.04; // In t: contacts of a result are seen within it.
+const blink = 0.2; // [s] Of the person who looks: no less long are contacts seen.
 
 export class SceneView {
   readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
@@ -64,7 +75,8 @@ export class SceneView {
   private showsWhole = false;
   private readonly edges = new Map<MeshData, BufferGeometry | null>();
   private shownContacts: readonly Contact[] = [];
-  private cutDepth = 0;
+  private readonly cut = new CutPlane();
+  private contactsAt: number | null = null; // t
   private dirty = true;
   private lastFrame: number | null = null;
   private coarse = false;
@@ -76,6 +88,7 @@ export class SceneView {
     private readonly container: HTMLElement,
   ) {
     this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer.localClippingEnabled = true;
     this.renderer.domElement.setAttribute("role", "img");
     this.renderer.domElement.setAttribute("aria-label", "The bodies in motion");
     container.append(this.renderer.domElement);
@@ -105,7 +118,7 @@ export class SceneView {
       this.camera,
     );
     this.addLights();
-    this.showContacts(model.contacts);
+    this.showContacts(model.contacts, model.contactTime);
     this.listen();
   }
 
@@ -159,7 +172,7 @@ export class SceneView {
   }
 
   private fit(box: Box3, atOnce = false): void {
-    this.display.cutaway.value = false;
+    this.display.endOwnCut();
     const seen = corners(box.min, box.max);
     const target = box.getCenter(new Vector3());
     const direction = homeDirection(this.model);
@@ -168,13 +181,13 @@ export class SceneView {
   }
 
   focusBodies(bodies: readonly Body[]): void {
-    this.display.cutaway.value = false;
+    this.display.endOwnCut();
     this.flyTo(this.bounds.bodiesAt(bodies, this.player.t.value));
   }
 
   /// Near enough to see where two bodies touch.
   focusPoint(point: Triple, bodies: readonly Body[]): void {
-    this.display.cutaway.value = false;
+    this.display.endOwnCut();
     const sizes = bodies.map((body) => this.bounds.bodiesAt([body], this.player.t.value).radius);
     this.flyTo(new Sphere(new Vector3(...point), Math.min(...sizes)));
   }
@@ -182,7 +195,10 @@ export class SceneView {
   /// From where the normal is seen from the side, near enough to see the triangles. What hides the
   /// contact from every side is cut away.
   focusContact(contact: Contact): void {
-    this.showContacts([contact, ...this.shownContacts.filter((other) => other !== contact)]);
+    this.showContacts(
+      [contact, ...this.shownContacts.filter((other) => other !== contact)],
+      this.contactsAt,
+    );
     const scene = this.home.radius;
     const size = Math.min(
       Math.max(5 * contactSize(this.model, contact), 0.03 * scene),
@@ -191,14 +207,21 @@ export class SceneView {
     const middle = middleOf(contact);
     const toCamera = this.camera.position.clone().sub(this.controls.target).normalize();
     const open = sideViews(contact, toCamera).find((side) => this.sees(middle, side, 0.02 * size));
-    this.cutDepth = 0.25 * size;
-    this.display.cutaway.value = open === undefined;
-    this.flyTo(new Sphere(middle, size), open ?? sideViews(contact, toCamera)[0]);
+    const around = new Sphere(middle, size);
+    this.display.endOwnCut();
+    if (open === undefined && !this.display.cut.value) {
+      const share = 0.5 * (1 - (0.25 * size) / this.rangeTo(around));
+      this.display.cut.value = { along: "view", share, otherSide: false, byItself: true };
+    }
+    this.flyTo(around, open ?? sideViews(contact, toCamera)[0]);
   }
 
   /// The contacts of the scene, or those of a pair that touches later.
-  showContacts(contacts: readonly Contact[]): void {
+  ///
+  /// @param t  when they are
+  showContacts(contacts: readonly Contact[], t: number | null): void {
     this.shownContacts = contacts;
+    this.contactsAt = t;
     this.markers.show(contacts);
     this.bodies.forEach(({ body, parts }) =>
       parts.forEach(({ group, part }) => {
@@ -230,7 +253,7 @@ export class SceneView {
     ray.params.Points.threshold = 0.005 * this.home.radius;
     const hit = ray
       .intersectObjects(this.shownSurfaces(), false)
-      .find(({ distance }) => distance > this.camera.near);
+      .find(({ distance, point }) => distance > this.camera.near && this.cut.keeps(point));
     if (!hit) {
       this.probe.clear();
       return;
@@ -246,6 +269,7 @@ export class SceneView {
   /// Draws now, for a picture of it.
   draw(): void {
     this.adaptClipping();
+    this.cut.update(this.display.cut.value, this.camera, this.controls.target, this.sweep);
     this.markers.adapt(this.camera);
     this.renderer.render(this.scene, this.camera);
     this.onFrame?.();
@@ -304,7 +328,9 @@ export class SceneView {
       setTimeout(() => this.addEdges());
       this.requestFrame();
     });
-    display.cutaway.subscribe(() => this.requestFrame());
+    display.cut.subscribe(() => this.requestFrame());
+    display.opacities.subscribe(() => this.restyle());
+    player.speed.subscribe(() => this.showMoment(player.t.value));
     [display.ghosts, display.onion].forEach((signal) => signal.subscribe(() => this.showGhosts()));
     display.contacts.subscribe((shown) => {
       this.markers.group.visible = shown;
@@ -338,17 +364,35 @@ export class SceneView {
 
   private showMoment(t: number): void {
     this.bodies.forEach((view) => view.show(t));
-    const contact = this.player.contact;
-    this.markers.setPresent(contact !== null && Math.abs(t - contact) < 1e-9);
-    this.forces?.show(t);
+    const { duration, speed } = this.player;
+    const window = (blink * speed.value) / duration;
+    this.fadeContacts(
+      this.contactsAt === null ? 0 : nearness(t, this.contactsAt, Math.max(window, nearContact)),
+    );
+    this.forces?.show(t, window);
     this.probe.show(t);
     this.requestFrame();
+  }
+
+  /// Points, normal and triangles of the contacts that are shown.
+  private fadeContacts(nearness: number): void {
+    this.markers.fade(nearness);
+    this.bodies
+      .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
+      .filter(({ name }) => name === "touching")
+      .forEach((surface) => fadeSurface(surface, nearness));
   }
 
   private restyle(): void {
     const { wireframe, xray, edges } = this.display;
     this.bodies.forEach((view) =>
-      view.setStyle({ wireframe: wireframe.value, xray: xray.value, edges: edges.value }),
+      view.setStyle({
+        wireframe: wireframe.value,
+        xray: xray.value,
+        edges: edges.value,
+        opacity: this.display.opacityOf(view.body.index),
+        cut: this.cut.planes,
+      }),
     );
     this.requestFrame();
   }
@@ -375,12 +419,17 @@ export class SceneView {
     );
   }
 
+  /// From where a ball fills the picture.
+  private rangeTo({ radius }: Sphere): number {
+    const half = (0.5 * this.camera.fov * Math.PI) / 180;
+    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
+    return (1.08 * Math.max(radius, 1e-9)) / Math.sin(narrow);
+  }
+
   private flyTo(sphere: Sphere, direction?: Vector3): void {
     const toCamera =
       direction ?? this.camera.position.clone().sub(this.controls.target).normalize();
-    const half = (0.5 * this.camera.fov * Math.PI) / 180;
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    const range = (1.08 * Math.max(sphere.radius, 1e-9)) / Math.sin(narrow);
+    const range = this.rangeTo(sphere);
     const target = sphere.center.clone();
     this.fly({ position: target.clone().addScaledVector(toCamera, range), target });
   }
@@ -432,9 +481,6 @@ export class SceneView {
     const range = this.camera.position.distanceTo(this.controls.target);
     const away = this.camera.position.distanceTo(this.home.center);
     this.camera.near = Math.max(range / 200, (away - 6 * this.home.radius) / 50, 1e-12);
-    if (this.display.cutaway.value) {
-      this.camera.near = Math.max(this.camera.near, range - this.cutDepth);
-    }
     this.camera.far = Math.max(away + 8 * this.home.radius, away + this.reach, 4 * range);
     this.camera.updateProjectionMatrix();
   }
