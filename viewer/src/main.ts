@@ -29,6 +29,7 @@ import { transport } from "./panels/transport";
 import { filesPanel } from "./panels/files";
 import { verdictBadge } from "./panels/verdict";
 import { warningsPanel } from "./panels/warnings";
+import { sendPicture, wantsPicture } from "./picture";
 import { Player } from "./player";
 import { Theme } from "./theme";
 import { SceneView } from "./view/scene_view";
@@ -159,7 +160,12 @@ function start(model: Model): void {
 
 try {
   const text = document.getElementById("firstcontact-data")?.textContent ?? "";
-  start(new Model(readPageData(text)));
+  const model = new Model(readPageData(text));
+  if (wantsPicture(location.hash)) {
+    sendPicture(model);
+  } else {
+    start(model);
+  }
 } catch (error) {
   document.body.append(
     element("p.failure", { role: "alert" }, error instanceof Error ? error.message : String(error)),

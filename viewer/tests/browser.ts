@@ -68,6 +68,12 @@ export class Folder {
     writeFileSync(join(this.path, name), text);
   }
 
+  /// @returns  its address
+  writePage(name: string, body: string): string {
+    this.write(name, `<!DOCTYPE html><html><body>${body}</body></html>`);
+    return `file://${join(this.path, name)}`;
+  }
+
   /// A page of a scene of the repository, or of one given as an object.
   async make(name: string, scene: string | object, ...options: string[]): Promise<MadePage> {
     const file = join(this.path, `${name}.html`);

@@ -774,6 +774,31 @@ describe.skipIf(!canLook)("the page", () => {
     expect(Math.min(...times)).toBeLessThan(2000);
   });
 
+  test("draws itself for a page around it, on a transparent ground", async () => {
+    const context = await browser.newContext();
+    const around = await context.newPage();
+    const url = folder.writePage("around.html", '<iframe src="peg.html#picture" width="320" height="200"></iframe>'); // prettier-ignore
+    const sent = new Promise<string>((resolve) => {
+      void around.exposeFunction("received", resolve).then(async () => {
+        await around.addInitScript(() =>
+          addEventListener("message", ({ data }: MessageEvent<{ firstcontactPicture: string }>) =>
+            (window as unknown as { received: (text: string) => void }).received(
+              data.firstcontactPicture,
+            ),
+          ),
+        );
+        await around.goto(url);
+      });
+    });
+    const [kind, base64] = (await sent).split(",");
+    expect(kind).toBe("data:image/png;base64");
+    const { count, largest } = await colorsOf(around, Buffer.from(base64!, "base64"));
+    expect(count).toBeGreaterThan(200);
+    expect(largest).toBeGreaterThan(0.1); // What nothing is drawn on.
+    expect(largest).toBeLessThan(0.95);
+    await context.close();
+  });
+
   test("complained about nothing, and asked the network for nothing", () => {
     expect(complaints).toEqual([]);
   });

@@ -87,7 +87,11 @@ export class SceneView {
     private readonly display: Display,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({
+      alpha: true,
+      antialias: true,
+      powerPreference: "high-performance",
+    });
     this.renderer.localClippingEnabled = true;
     this.renderer.domElement.setAttribute("role", "img");
     this.renderer.domElement.setAttribute("aria-label", "The bodies in motion");
@@ -138,12 +142,14 @@ export class SceneView {
     };
     this.resize();
     this.fit(this.sweep, true);
+    this.controls.update();
     this.draw();
     requestAnimationFrame(frame);
   }
 
-  setColors(background: string, grid: string): void {
-    this.renderer.setClearColor(background);
+  /// @param background  none where what is behind the canvas is to be seen
+  setColors(background: string | null, grid: string): void {
+    this.renderer.setClearColor(background ?? "#000", background === null ? 0 : 1);
     this.grid.color = grid;
     this.requestFrame();
   }
