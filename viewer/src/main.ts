@@ -2,14 +2,16 @@
 
 import "./style.css";
 import type { Commands } from "./commands";
-import { element } from "./core/dom";
+import { element, iconButton } from "./core/dom";
+import { icons } from "./core/icons";
 import { Signal } from "./core/signal";
 import { readPageData } from "./data/page_data";
+import { readResultList, type ResultList } from "./data/result_list";
 import { Display } from "./display";
 import { download, fileName } from "./export/download";
 import { animationOf } from "./export/glb";
 import { listenToKeys } from "./keyboard";
-import { linkMoments, momentOf } from "./link";
+import { linkMoments, momentOf, resultLink, resultOf } from "./link";
 import { isDrawn, Model, type Coordinate } from "./model";
 import { bodiesPanel } from "./panels/bodies";
 import { contactsPanel } from "./panels/contacts";
@@ -19,6 +21,7 @@ import { jointContent } from "./panels/joint_chart";
 import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
 import { probePanel } from "./panels/probe";
+import { resultTable } from "./panels/result_table";
 import { runPanel } from "./panels/run";
 import { runCharts, runChartsPanel, type RunChart } from "./panels/run_charts";
 import { stepContactsPanel, stepPanel } from "./panels/step";
@@ -58,7 +61,38 @@ function notice(stage: HTMLElement, text: string): void {
   setTimeout(() => bubble.remove(), 4000);
 }
 
-function start(model: Model): void {
+/// Shows one of several results, with a way back to their list.
+function startOne(list: ResultList, index: number): void {
+  const page = list.pageOf(index)!;
+  document.body.replaceChildren();
+  start(new Model(page), index);
+  const back = iconButton(icons.list, "Back to the list", null, () => {
+    location.hash = "";
+  });
+  const group = element("div.tool-group", { role: "group", "aria-label": "Results" }, back);
+  document.querySelector(".toolbar")!.prepend(group);
+}
+
+function showList(list: ResultList): void {
+  document.title = `${list.summaries.length} results · firstcontact`;
+  new Theme();
+  const table = resultTable(list, (index) => {
+    location.hash = resultLink(index);
+  });
+  document.body.append(table);
+  const go = (): void => {
+    const index = resultOf(location.hash);
+    if (index !== null && list.canPlay(index)) {
+      removeEventListener("hashchange", go);
+      startOne(list, index);
+    }
+  };
+  addEventListener("hashchange", go);
+  go();
+}
+
+/// @param result  the index of the model's, of several
+function start(model: Model, result: number | null = null): void {
   document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
   const display = new Display();
@@ -153,18 +187,20 @@ function start(model: Model): void {
   setTimeout(() => view.addEdges());
   listenToKeys(model, commands);
   listenToClicks(view);
-  linkMoments(player);
+  linkMoments(player, result);
   // For whoever embeds the page or asks it from the console.
   Object.assign(window, { firstcontact: { model, player, display, view } });
 }
 
 try {
   const text = document.getElementById("firstcontact-data")?.textContent ?? "";
-  const model = new Model(readPageData(text));
-  if (wantsPicture(location.hash)) {
-    sendPicture(model);
+  const list = readResultList(text);
+  if (list) {
+    showList(list);
+  } else if (wantsPicture(location.hash)) {
+    sendPicture(new Model(readPageData(text)));
   } else {
-    start(model);
+    start(new Model(readPageData(text)));
   }
 } catch (error) {
   document.body.append(

@@ -30,7 +30,9 @@ export const launch = (): Promise<Browser> =>
 function run(options: readonly string[]): Promise<void> {
   return new Promise((resolve, reject) => {
     execFile(tool!, options, (error) =>
-      error && error.code !== 1 ? reject(new Error(error.message)) : resolve(),
+      error && error.code !== 1 && options[0] !== "batch"
+        ? reject(new Error(error.message))
+        : resolve(),
     );
   });
 }
@@ -102,6 +104,17 @@ export class Folder {
       file,
       steps: lines.map((line) => JSON.parse(line) as RecordedStep),
     };
+  }
+
+  /// The page of a batch: one job a line, as objects or as text that is none.
+  async batch(name: string, jobs: readonly (object | string)[]): Promise<string> {
+    const [page, results, input] = [".html", ".results.jsonl", ".jobs.jsonl"].map((end) =>
+      join(this.path, name + end),
+    ) as [string, string, string];
+    const lines = jobs.map((job) => (typeof job === "string" ? job : JSON.stringify(job)));
+    writeFileSync(input, `${lines.join("\n")}\n`);
+    await run(["batch", input, "-o", results, "--html", page]);
+    return `file://${page}`;
   }
 
   remove(): void {

@@ -799,6 +799,45 @@ describe.skipIf(!canLook)("the page", () => {
     await context.close();
   });
 
+  test("lists many results, and plays the one that is clicked", async () => {
+    const free = { ...stones, id: "apart", bodies: stones.bodies.slice(2, 4) };
+    const url = await folder.batch("many", [stones, free, "{}", { ...stones, id: "again" }]);
+    const made = { url, file: "", result: many.result };
+    const context = await browser.newContext({ reducedMotion: "reduce", ...desktop });
+    const page = await context.newPage();
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    open.push(page);
+    await page.goto(made.url);
+    const rows = page.locator("tbody tr");
+    expect(await page.locator("h1").textContent()).toBe("4 results");
+    expect(await rows.count()).toBe(4);
+    expect(await rows.nth(0).textContent()).toMatch(/^1stones.*contactfloor · soon249\.9\s+ms/);
+    expect(await rows.nth(2).getByRole("button").count()).toBe(0); // The error.
+    await page.getByRole("button", { name: "1 free" }).click();
+    expect(await rows.count()).toBe(1);
+    await page.getByRole("button", { name: "1 free" }).click();
+    await page.getByRole("button", { name: "Verdict" }).click();
+    await page.getByRole("button", { name: "Verdict" }).click();
+    expect(await rows.nth(0).textContent()).toContain("free");
+    await page.getByRole("searchbox").fill("again");
+    expect(await rows.count()).toBe(1);
+    await page.getByRole("button", { name: "again" }).click();
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await page.title()).toContain("again");
+    const answer = page.getByRole("region", { name: "Answer" });
+    expect(await answer.textContent()).toContain("then floor and soon touch");
+    await page.getByRole("button", { name: "First contact" }).click();
+    await page.waitForFunction(() => location.hash.startsWith("#result=4&t=0.2"));
+    await page.getByRole("button", { name: "Back to the list" }).click();
+    await rows.nth(3).waitFor();
+    expect(await rows.count()).toBe(4);
+    await page.goto(`${made.url}#result=2&t=0.5`);
+    await page.reload();
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await timeOf(page)).toBe(0.5);
+    expect(await page.title()).toContain("apart");
+  });
+
   test("complained about nothing, and asked the network for nothing", () => {
     expect(complaints).toEqual([]);
   });
