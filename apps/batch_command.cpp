@@ -13,10 +13,10 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/check_lines.h>
-#include <firstcontact/scene/read_result.h>
-#include <firstcontact/scene/scene_lines.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/scene_files/check_lines.h>
+#include <firstcontact/scene_files/read_result.h>
+#include <firstcontact/scene_files/scene_lines.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "batch_tally.h"
@@ -232,10 +232,11 @@ Shard parse_shard(const std::string& text) {
 constexpr const char* kFooter = R"(
 Results are written in the order of the jobs, one a line; a job that cannot be answered gets an
 error as its result. However this ends, --resume goes on with the next job: nothing is lost,
-nothing is done twice. RESULTS.batch, beside the results, says what they are of; other jobs or
-options are refused.
-Exit status, over all results: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided or
-interrupted; the worst of these in the order 2, 3, 1, 0.)";
+nothing is done twice. RESULTS.batch, beside the results, records their jobs and options; others
+are refused.
+
+Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided or interrupted. The
+worst of all results counts, in the order 2, 3, 1, 0.)";
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/page/write_page.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"
@@ -252,8 +252,8 @@ constexpr const char* kFooter = R"(
 Is a trajectory free?  firstcontact check --robot R.urdf --srdf R.srdf --trajectory T.csv \
                            --environment ROOM.stl
 
-Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided; of several
-scenes the worst of these in the order 2, 3, 1, 0.
+Exit status: 0 free, 1 contact (at the start too), 2 bad input, 3 undecided. The worst of
+several scenes counts, in the order 2, 3, 1, 0.
 Ctrl-C ends with what is proven so far; again, at once.)";
 
 }  // namespace
@@ -278,7 +278,7 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--html", arguments->page, "Makes a page that plays the answer (one scene)");
   add_question_options(*command, question);
   add_number(*command, "--sample-rate", question.sample_rate, Range::positive,
-             "[1/s] Also says what sampling at this rate would have seen");
+             "[1/s] Also the answer of sampling at this rate");
   command
       ->add_option("--threads", question.threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")

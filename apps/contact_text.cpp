@@ -4,7 +4,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 #include "quantity_text.h"
 

@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/weld.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "file_text.h"
@@ -206,15 +206,15 @@ void add_info_command(CLI::App& app) {
                    "Folder that holds packages which a robot names as package://; repeatable")
       ->allow_extra_args(false);
   command->add_flag("--visual-where-missing", arguments->visual_where_missing,
-                    "Of robots takes links without collision geometry as they look");
+                    "Takes links of robots without collision geometry as they look");
   command->add_flag("--json", arguments->json,
                     "Prints JSON in place of text for people, one line for each file");
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, not errors");
   command
       ->add_flag("--always-in-contact", arguments->in_contact,
-                 "Of robots only the pairs of links that touch where every coordinate is 0, or "
-                 "its limit next to it, as SRDF; look whether each may")
+                 "Prints as SRDF the pairs of links that touch where every coordinate is 0, or its "
+                 "limit next to it, and nothing else. Check whether each may touch")
       ->excludes("--json");
   command->callback([arguments] {
     for (const std::string& file : arguments->files) {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/geometry/weld.h>
-#include <firstcontact/scene/write_reports.h>
+#include <firstcontact/scene_files/write_reports.h>
 
 #include "print_robot.h"
 

@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 namespace firstcontact::app {
 

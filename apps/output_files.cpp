@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/link_geometry.h>
+#include <firstcontact/robot/link_geometry.h>
 #include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact::app {

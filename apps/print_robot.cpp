@@ -10,8 +10,8 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/articulated/touching_links.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/robot_check/touching_links.h>
 
 #include "file_text.h"
 #include "quantity_text.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_files/read_urdf.h>
 
 namespace firstcontact::app {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/scene/robot_question.h>
+#include <firstcontact/scene_files/robot_question.h>
 
 #include "command_line_file.h"
 #include "command_line_number.h"
@@ -34,7 +34,7 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
         ->group("Robot")
         ->allow_extra_args(false);
   };
-  file("--robot", arguments.robot, "URDF: asks about this robot in place of a SCENE");
+  file("--robot", arguments.robot, "URDF: checks this robot in place of a SCENE");
   file("--srdf", arguments.srdf, "SRDF: pairs of links not to test, named states");
   file("--trajectory", arguments.trajectory,
        ".csv (header: time and joint names), .json, or .yaml as ROS prints a JointTrajectory");
@@ -48,8 +48,8 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
        "Where joints rest that the motion does not name: as --start; 0 by default");
   command
       .add_option("--turning", arguments.turning,
-                  "Continuous joints: short, by at most half a turn (as MoveIt goes to a goal, "
-                  "the default there), or long, as the numbers say (the default of --trajectory)")
+                  "Continuous joints: short, by at most half a turn, or long, as the numbers go. "
+                  "Short is the default to a goal, as in MoveIt, long that of --trajectory")
       ->type_name("long|short")
       ->check(CLI::IsMember({"long", "short"}))
       ->group("Robot");
@@ -63,7 +63,7 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
   list("--package-root", arguments.package_roots, "FOLDER",
        "Holds packages that the robot names as package://; repeatable");
   add_number(command, "--environment-scale", arguments.environment_scale, Range::positive,
-             "Of the meshes of the environment: 0.001 where they are in millimetres")
+             "Multiplies coordinates of environment meshes: 0.001 where they are in millimetres")
       ->group("Robot");
   add_number(command, "--padding", arguments.padding, Range::not_negative,
              "[m] Thickens every link")

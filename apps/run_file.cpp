@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/read_run.h>
+#include <firstcontact/record/write_run.h>
 
 namespace firstcontact::app {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include <firstcontact/dynamics/run.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact::app {
 

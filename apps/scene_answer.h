@@ -12,7 +12,7 @@
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 namespace firstcontact::app {
 

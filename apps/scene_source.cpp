@@ -3,8 +3,8 @@
 #include <sstream>
 #include <string_view>
 
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/scene_lines.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/scene_lines.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 

@@ -11,12 +11,12 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/simulator.h>
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_rigid_ipc.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
+#include <firstcontact/simulation/simulator.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

@@ -7,11 +7,11 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/verify_run.h>
-#include <firstcontact/dynamics/write_verification.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/verify_run.h>
+#include <firstcontact/verification/write_verification.h>
 
 #include "interrupt.h"
 #include "pair_text.h"
@@ -155,8 +155,8 @@ constexpr const char* kFooter = R"(
 Looked at are the pairs that a simulation holds apart: one of the two is free, and no rule ignores
 them. Scripted and resting bodies may pass through each other; the answer names such pairs.
 
-Exit status: 0 proven; 1 refuted: two bodies interpenetrate or come closer than the run
-promises; 2 bad input, such as a record that contradicts itself; 3 not proven.
+Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that two bodies
+interpenetrate or come closer than the run promises. A record that contradicts itself is bad input.
 Ctrl-C ends with status 3; again, at once.)";
 
 }  // namespace
@@ -170,7 +170,7 @@ void add_verify_command(CLI::App& app, ExitStatus& status) {
   command->add_option("RUN", arguments->run, "The .jsonl file that a simulation wrote")->required();
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, as where the run says so");
+                    "Names in files that nobody knows are warnings, as in a run with this option");
   command
       ->add_option("--threads", arguments->threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")

@@ -17,12 +17,12 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/dynamics/load_scene_of.h>
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run_page.h>
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/record/load_scene_of.h>
+#include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/gap_curve.h>
-#include <firstcontact/scene/read_result.h>
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"
@@ -148,14 +148,15 @@ void add_view_command(CLI::App& app) {
   command
       ->add_option(
           "RESULT", arguments->result,
-          "What `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote; run "
-          "this in the same folder as that, its mesh files are read again")
+          "File that `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote. Run "
+          "this in the same folder: its mesh files are read again")
       ->required();
   add_file(*command, "-o,--output", arguments->output,
            "Where the page goes; beside the result where this is not given");
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
-  command->add_flag("--lenient", arguments->lenient,
-                    "Names in files that nobody knows are warnings, as where the result says so");
+  command->add_flag(
+      "--lenient", arguments->lenient,
+      "Names in files that nobody knows are warnings, as in a result with this option");
   command->callback([arguments] { view(*arguments); });
 }
 

@@ -1,4 +1,4 @@
-"""Tables of measurements: printed, and written into docs/performance.md."""
+"""Tables of measurements: printed, and written into docs/performance_tables.md."""
 
 import re
 

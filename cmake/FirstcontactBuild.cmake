@@ -21,6 +21,11 @@ target_compile_options(firstcontact_build_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
   # The error bounds are derived for the operations as written.
   -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+    AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT FIRSTCONTACT_WARNINGS_AS_ERRORS)
+  # At -O3 GCC 12 warns of every "literal" + std::string (GCC bug 105651), and of statics with empty vectors.
+  target_compile_options(firstcontact_build_flags INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
+endif()
 if(FIRSTCONTACT_WARNINGS_AS_ERRORS)
   target_compile_options(firstcontact_build_flags INTERFACE -Werror)
 endif()

@@ -4,6 +4,7 @@
 # `lint` and of users see each file as it stands, and every public header is compiled alone in `ci`.
 
 option(FIRSTCONTACT_QUICK_BUILD "Precompile headers, and compile tests several at a time" OFF)
+option(FIRSTCONTACT_UNITY_BUILD "Compile the library several files at a time: quick from nothing, slow after a change" OFF)
 if(FIRSTCONTACT_QUICK_BUILD AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES ccache)
   # What ccache asks for (nothing here reads __TIME__); and paths that build folders have in common, by which the
   # Python package takes what `ci` has compiled.

@@ -17,7 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/query/many_bodies.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 
 #include "benchmarks/support/fcl_scene.h"
 #include "benchmarks/support/normalised_mesh.h"

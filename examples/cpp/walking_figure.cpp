@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/articulated/check_robots.h>
-#include <firstcontact/articulated/read_asf_amc.h>
 #include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
 
 namespace {
 

@@ -43,7 +43,7 @@ def spoiled(result: dict) -> list:
 
 
 def main(tool: str, source: pathlib.Path) -> int:
-    schemas = source / "src/firstcontact/scene/schema"
+    schemas = source / "src/firstcontact/scene_files/schema"
     schema = json.loads((schemas / "result.json").read_text(encoding="utf-8"))
     jsonschema.Draft202012Validator.check_schema(schema)
     of_results = jsonschema.Draft202012Validator(schema)

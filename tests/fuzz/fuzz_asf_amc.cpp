@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/articulated/read_asf_amc.h>
+#include <firstcontact/robot_files/read_asf_amc.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_capture.h"

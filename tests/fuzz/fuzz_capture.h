@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/articulated/motion_capture.h>
+#include <firstcontact/robot_files/motion_capture.h>
 
 #include "fuzz/fuzz_reader.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/mesh_files/detail/parse_gltf.h>
+#include <firstcontact/model_files/detail/parse_gltf.h>
 #include <firstcontact/text/reading_log.h>
 
 #include "fuzz/fuzz_reader.h"

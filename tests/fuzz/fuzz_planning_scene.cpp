@@ -5,7 +5,7 @@
 #include <string_view>
 #include <variant>
 
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

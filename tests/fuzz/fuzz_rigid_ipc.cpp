@@ -3,8 +3,8 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/scene/read_rigid_ipc.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/foreign_scenes/read_rigid_ipc.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

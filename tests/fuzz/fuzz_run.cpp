@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/read_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string_view>
 
-#include <firstcontact/scene/read_trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "fuzz/fuzz_reader.h"
 #include "fuzz/text_mutator.h"

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/articulated/read_urdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_reader.h"

@@ -1,5 +1,5 @@
 /// @file
-/// Mutations of XML that keep it XML: what a fuzzer of bytes hardly ever gets to.
+/// Mutations of XML that keep it XML: a fuzzer of bytes breaks the document nearly always.
 
 #pragma once
 
@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace firstcontact::test {
@@ -45,8 +46,8 @@ inline const std::vector<std::string_view>& odd_values() {
   return values;
 }
 
-/// Changes one or a few parts of a text: tags are renamed, attributes set, renamed and removed,
-/// elements removed, repeated, moved into others and nested deeply.
+/// Changes one to four places of a text: renames tags; sets, renames and removes attributes;
+/// removes, repeats, swaps, moves and nests elements; puts other numbers into text and attributes.
 class XmlMutator {
  public:
   XmlMutator(std::string text, const XmlWords& words, unsigned seed)
@@ -125,7 +126,7 @@ class XmlMutator {
 
   void change() {
     const Element element = elements_[below(elements_.size())];
-    switch (below(9)) {
+    switch (below(11)) {
       case 0:
         return rename(element);
       case 1:
@@ -144,6 +145,10 @@ class XmlMutator {
         return copy_into(element, elements_[below(elements_.size())]);
       case 7:
         return put_into(element, "<" + name() + " " + name() + "=\"" + value() + "\"/>" + value());
+      case 8:
+        return swap(element, elements_[below(elements_.size())]);
+      case 9:
+        return change_number();
       default:
         return nest(element);
     }
@@ -201,6 +206,31 @@ class XmlMutator {
     } else {
       text_.insert(element.end, part);
     }
+  }
+
+  /// Two elements of which none contains the other.
+  void swap(Element first, Element second) {
+    if (second.begin < first.begin) {
+      std::swap(first, second);
+    }
+    if (second.begin < first.end) {
+      return;
+    }
+    const std::string before = text_.substr(first.begin, first.end - first.begin);
+    const std::string after = text_.substr(second.begin, second.end - second.begin);
+    text_.replace(second.begin, after.size(), before);
+    text_.replace(first.begin, before.size(), after);
+  }
+
+  /// The next number behind a place drawn by chance: lists of text hold most of a file's numbers.
+  void change_number() {
+    const std::size_t begin = text_.find_first_of("0123456789", below(text_.size()));
+    if (begin == std::string::npos) {
+      return;
+    }
+    const std::size_t end =
+        std::min(text_.find_first_not_of("0123456789.-+e", begin), text_.size());
+    text_.replace(begin, end - begin, one_of(odd_values()));
   }
 
   void nest(const Element& element) {

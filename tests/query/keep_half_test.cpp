@@ -13,9 +13,9 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/many_bodies.h>
 
 #include "query/sheet.h"
 

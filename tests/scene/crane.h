@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact::test {
 

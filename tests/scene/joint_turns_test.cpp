@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/articulated/robot_motion.h>
-#include <firstcontact/scene/planning_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/scene/trajectory.h>
 
 #include "scene/crane.h"

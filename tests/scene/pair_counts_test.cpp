@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include "scene/robot_text.h"
 #include "scene/scene_text.h"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/gap_bound.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
 
 #include "scene/scene_text.h"
 

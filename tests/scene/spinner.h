@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <firstcontact/articulated/robot_model.h>
+#include <firstcontact/robot/robot_model.h>
 
 namespace firstcontact::test {
 

@@ -10,7 +10,7 @@
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 namespace firstcontact {
 namespace {

@@ -37,7 +37,7 @@ function run(options: readonly string[]): Promise<void> {
   });
 }
 
-/// A step of a run, as docs/simulation.md has it.
+/// A step of a run, as docs/run_format.md has it.
 export interface RecordedStep {
   readonly time: number;
   readonly lasted: number;

@@ -21,7 +21,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/scene/parallel_sampling.h>
-#include <firstcontact/scene/read_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
 
 #include "arguments.h"
 #include "bindings.h"

@@ -11,9 +11,9 @@
 
 #include <pybind11/pybind11.h>
 
-#include <firstcontact/articulated/check_robots.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/robot_check/check_robots.h>
 
 #include "scene.h"
 

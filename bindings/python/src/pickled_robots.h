@@ -5,7 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/robot_check/check_robots.h>
 
 namespace firstcontact::python {
 

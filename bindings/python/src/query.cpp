@@ -13,7 +13,7 @@
 
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 #include "arrays.h"
 #include "bindings.h"

@@ -15,10 +15,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <firstcontact/query/body_set.h>
+#include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/many_bodies.h>
 
 #include "motion.h"
 #include "words.h"

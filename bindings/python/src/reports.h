@@ -12,7 +12,7 @@
 #include <pybind11/stl.h>
 
 #include <firstcontact/scene/pair_counts.h>
-#include <firstcontact/scene/write_reports.h>
+#include <firstcontact/scene_files/write_reports.h>
 
 namespace firstcontact::python {
 

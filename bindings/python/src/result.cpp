@@ -8,10 +8,10 @@
 
 #include <pybind11/stl.h>
 
+#include <firstcontact/page/write_page.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/parallel_sampling.h>
-#include <firstcontact/scene/write_page.h>
 
 #include "arrays.h"
 #include "bindings.h"

@@ -7,7 +7,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/articulated/read_srdf.h>
+#include <firstcontact/robot_files/read_srdf.h>
 
 #include "arguments.h"
 #include "arrays.h"

@@ -10,11 +10,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/read_trajectory.h>
-#include <firstcontact/scene/robot_question.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/robot_question.h>
+#include <firstcontact/scene_files/write_scene.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "arguments.h"
 #include "arrays.h"

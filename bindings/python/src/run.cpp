@@ -11,8 +11,8 @@
 
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/dynamics/read_run.h>
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/read_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 
 #include "arrays.h"

@@ -7,7 +7,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include <firstcontact/dynamics/run.h>
+#include <firstcontact/record/run.h>
 
 namespace firstcontact::python {
 

@@ -11,9 +11,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/scene/parallel_sampling.h>
-#include <firstcontact/scene/read_rigid_ipc.h>
-#include <firstcontact/scene/read_scene.h>
-#include <firstcontact/scene/write_scene.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/read_simulation_scene.h>
+#include <firstcontact/scene_files/write_scene.h>
 
 #include "arrays.h"
 #include "bindings.h"

@@ -13,7 +13,7 @@
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
-#include <firstcontact/scene/write_result.h>
+#include <firstcontact/scene_files/write_result.h>
 
 namespace firstcontact::python {
 

@@ -1,5 +1,5 @@
-#include <firstcontact/dynamics/simulator.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/simulation/simulator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include <pybind11/stl.h>
 
-#include <firstcontact/dynamics/write_run.h>
+#include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/simulation_duration.h>
 
 #include "arrays.h"

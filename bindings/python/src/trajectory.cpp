@@ -10,10 +10,10 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/scene/planning_scene.h>
-#include <firstcontact/scene/read_trajectory.h>
+#include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "arrays.h"
 #include "bindings.h"

@@ -1,5 +1,5 @@
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/verification/verify_run.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/dynamics/read_run.h>
+#include <firstcontact/record/read_run.h>
 
 #include "bindings.h"
 #include "errors.h"

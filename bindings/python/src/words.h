@@ -10,16 +10,16 @@
 
 #include <pybind11/pybind11.h>
 
-#include <firstcontact/articulated/coordinate_path.h>
-#include <firstcontact/articulated/limit_report.h>
-#include <firstcontact/articulated/robot_description.h>
-#include <firstcontact/dynamics/verify_run.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/elementary_contact.h>
 #include <firstcontact/narrowphase/linear_contact.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/limit_report.h>
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact::python {
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include <firstcontact/geometry/weld.h>
-#include <firstcontact/mesh_files/detail/parse_dae.h>
-#include <firstcontact/mesh_files/detail/parse_gltf.h>
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
+#include <firstcontact/model_files/detail/parse_dae.h>
+#include <firstcontact/model_files/detail/parse_gltf.h>
 #include <firstcontact/text/file_extension.h>
 #include <firstcontact/text/mapped_file.h>
 #include <firstcontact/text/parse_error.h>

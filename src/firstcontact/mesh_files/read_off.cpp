@@ -2,9 +2,9 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/mesh_files/detail/mesh_builder.h>
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
+#include <firstcontact/polygons/detail/mesh_builder.h>
 #include <firstcontact/text/text_cursor.h>
 
 namespace firstcontact {

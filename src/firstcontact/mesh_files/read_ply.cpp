@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/mesh_files/detail/mesh_builder.h>
 #include <firstcontact/mesh_files/detail/parse_mesh.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/mesh_files/read_points.h>
+#include <firstcontact/polygons/detail/mesh_builder.h>
 #include <firstcontact/text/byte_cursor.h>
 #include <firstcontact/text/text_cursor.h>
 

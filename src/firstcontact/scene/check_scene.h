@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/check_robots.h>
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/many_bodies.h>
+#include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {

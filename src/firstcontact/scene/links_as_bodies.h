@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/limit_report.h>
-#include <firstcontact/articulated/robot_scene.h>
+#include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/body_set.h>
+#include <firstcontact/robot/limit_report.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>

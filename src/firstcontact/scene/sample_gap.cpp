@@ -6,8 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include <firstcontact/articulated/robot_gap.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/robot_check/robot_gap.h>
 
 namespace firstcontact {
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/query/pair_rules.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/body_shape.h>
 #include <firstcontact/scene/scene_robot.h>

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/read_srdf.h>
-#include <firstcontact/articulated/read_urdf.h>
-#include <firstcontact/articulated/robot_model.h>
-#include <firstcontact/articulated/robot_scene.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene/trajectory.h>

@@ -10,8 +10,8 @@
 
 #include <tbb/task_arena.h>
 
-#include <firstcontact/articulated/read_urdf.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/detail/make_shape.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/sha256.h>

@@ -12,9 +12,9 @@
 #include <tuple>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/body_shape.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/text/file_report.h>

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 
 namespace firstcontact {
 

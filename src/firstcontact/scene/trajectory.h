@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/articulated/coordinate_path.h>
-#include <firstcontact/articulated/robot_model.h>
-#include <firstcontact/articulated/robot_motion.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot/robot_motion.h>
 
 namespace firstcontact {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include <firstcontact/articulated/coordinate_path.h>
+#include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/write_json.h>
 

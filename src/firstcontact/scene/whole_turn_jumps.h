@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/articulated/robot_model.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact {

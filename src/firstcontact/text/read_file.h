@@ -1,5 +1,5 @@
 /// @file
-/// The whole of a text file.
+/// A whole text file as one string.
 
 #pragma once
 
@@ -8,6 +8,8 @@
 
 namespace firstcontact::detail {
 
+/// Reads all bytes of a file.
+///
 /// @param what  was expected, for the error: "a scene file"
 /// @throws ParseError if it cannot be read
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, const std::string& what);

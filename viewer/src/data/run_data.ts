@@ -1,4 +1,4 @@
-/// A run as `firstcontact simulate` records it, as far as the page shows it (see docs/simulation.md).
+/// A run as `firstcontact simulate` records it, as far as the page shows it (see docs/run_format.md).
 
 import { bytesOf } from "./bytes";
 import type { SceneData, Vector3 } from "./result";

@@ -1,4 +1,4 @@
-/// Where the links of a robot are: joints on their polynomials, as src/firstcontact/articulated
+/// Where the links of a robot are: joints on their polynomials, as src/firstcontact/robot
 /// defines them.
 
 import type { JointData, PieceData, RobotData, SegmentData } from "../data/robot_data";

@@ -7,7 +7,7 @@
 #include <utility>
 #include <variant>
 
-#include <firstcontact/articulated/robot_motion.h>
+#include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/brief_list.h>

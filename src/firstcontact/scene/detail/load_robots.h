@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/query/pair_rules.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact::detail {

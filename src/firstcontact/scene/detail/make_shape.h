@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/articulated/link_geometry.h>
+#include <firstcontact/robot_files/link_shape.h>
 #include <firstcontact/scene/body_shape.h>
 
 namespace firstcontact::detail {

@@ -1,0 +1,154 @@
+/// @file
+/// Gauss' principle for bodies in contact: the velocities that contacts and friction allow.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// A point at which two bodies touch. In the problem its velocity u is that of B's point relative
+/// to A's, and its impulse r acts on B; both in the contact's frame: along the normal, then along
+/// two tangents.
+struct ContactPoint {
+  std::array<std::size_t, 2> bodies = {};               ///< A, then B; not equal.
+  Eigen::Vector3d arm_A = Eigen::Vector3d::Zero();      ///< [m]  p_CaP_W, from A's centre of mass.
+  Eigen::Vector3d arm_B = Eigen::Vector3d::Zero();      ///< [m]  p_CbP_W
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< [-]  Rows: n_AB_W, two tangents; a
+                                                        ///< rotation.
+  double friction = 0.0;                                ///< [-]  Coulomb's coefficient; >= 0.
+  /// [m/s]  Least normal velocity: 0 of a resting contact, what Newton's law asks of an impact,
+  /// negative where the bodies still have a way to go.
+  double least_normal_velocity = 0.0;
+  Eigen::Vector3d guess = Eigen::Vector3d::Zero();  ///< [N s]  To start from.
+};
+
+/// That a body is a link: it moves by the coordinates of a mechanism, (v, w) = J times their rates.
+struct MechanismLink {
+  std::size_t mechanism = 0;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J;
+};
+
+/// A body of a contact problem.
+struct ContactBody {
+  InverseInertia inverse_inertia = {};          ///< Zero of a body that nothing moves. Of a link
+                                                ///< without meaning.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of its centre of mass. Of a link not
+                                                ///< read.
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
+  std::optional<MechanismLink> link = {};
+};
+
+/// Links that move together, by n coordinates [rad or m].
+struct ContactMechanism {
+  Eigen::MatrixXd inverse_mass;  ///< (n, n)  Of the kinetic metric; symmetric, definite.
+  Eigen::VectorXd velocity;      ///< (n)  [rad/s or m/s]
+};
+
+/// What drives, brakes or stops one coordinate of a mechanism. Its impulse r makes the coordinate's
+/// velocity u meet u + compliance r = target, as far as its bounds let it: beyond the target r is
+/// the least, short of it the greatest.
+struct JointDrive {
+  std::size_t mechanism = 0;
+  std::size_t coordinate = 0;
+  double target = 0.0;      ///< [rad/s or m/s]
+  double compliance = 0.0;  ///< [rad/s for N m s, or m/s for N s]  >= 0
+  double least = -std::numeric_limits<double>::infinity();    ///< [N m s or N s]
+  double greatest = std::numeric_limits<double>::infinity();  ///< [N m s or N s]  >= least
+  double guess = 0.0;                                         ///< [N m s or N s]  To start from.
+};
+
+/// Bodies with the velocities that they would have without contacts, and the contacts.
+struct ContactProblem {
+  std::vector<ContactBody> bodies = {};
+  std::vector<ContactPoint> contacts = {};
+  std::vector<ContactMechanism> mechanisms = {};
+  std::vector<JointDrive> drives = {};
+};
+
+/// Where the problem is solved; the answer is the same.
+enum class ProjectionSpace {
+  automatic,  ///< The cheaper one; motion where contact does not get there.
+  contact,    ///< Unknown: the impulses. Block Gauss-Seidel, contact by contact, as the step
+              ///< of nonsmooth conjugate gradients.
+  motion,     ///< Unknown: the velocities. Newton's method on an augmented Lagrangian.
+};
+
+struct ProjectionOptions {
+  double tolerance = 1e-9;  ///< [m/s]  Of the residual; > 0.
+  ProjectionSpace space = ProjectionSpace::automatic;
+  double of_hits = 0.0;  ///< [-]  Part of the residual of the guesses that may be left where that
+                         ///< is beyond `hit`; >= 0.
+  double hit = 0.0;      ///< [m/s]  >= 0.
+  double enough = 0.0;   ///< [m/s]  A residual that sweeps may leave where an interior point would
+                         ///< come next, and half of it where more of them hardly help (if that is
+                         ///< more than ten tolerances) or the guesses leave ten times it; >= 0.
+  int sweeps = 200;      ///< At most, of all contacts in contact space; > 0.
+  int rounds = 12;       ///< At most, of the interior point; > 0.
+};
+
+struct ContactSolution {
+  std::vector<ContactBody> bodies;  ///< With the velocities that contacts allow.
+  std::vector<Eigen::VectorXd> mechanisms =
+      {};                                      ///< [rad/s or m/s]  Likewise, of their coordinates.
+  std::vector<Eigen::Vector3d> impulses = {};  ///< [N s]  r of each contact, in its frame.
+  std::vector<double> drives = {};             ///< [N m s or N s]  r of each drive.
+  double residual = 0.0;  ///< [m/s]  See contact_residual(); above `allowed`: not converged.
+  double allowed = 0.0;   ///< [m/s]  What the options let a residual be, `of_hits` and `enough`
+                          ///< included.
+  ProjectionSpace space = ProjectionSpace::contact;  ///< Where it was solved.
+  int iterations = 0;                                ///< Sweeps and factorisations.
+};
+
+/// Projects velocities on what contacts allow, in the kinetic metric.
+///
+/// Of all velocities v that meet u_n >= least_normal_velocity it finds the one nearest to the free
+/// one, |v - v_free| in the kinetic metric M (Gauss' principle of least constraint; Redon, Kheddar,
+/// Coquillart, "Gauss' least constraints principle and rigid body simulations", ICRA 2002). Its
+/// multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary to
+/// u_n - least_normal_velocity >= 0. With friction an impulse lies in Coulomb's cone |r_t| <= mu
+/// r_n, the round one; where it is on its side, u_t points against r_t, and where u_t is not
+/// 0, it is on its side. All contacts at once: impacts are simultaneous.
+///
+/// In contact space each contact is solved in turn, with all others held, until none
+/// changes, and after each sweep there and back goes on in the direction of the ones before (M.
+/// Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
+/// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in
+/// its dual, orthogonal (De Saxce, Feng, "The bipotential method", Mathematical and Computer
+/// Modelling 28 (1998)). In motion space the velocities minimise
+///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
+/// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
+/// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on
+/// (300 where there are two for each velocity), without drives, an interior point comes before it,
+/// in rounds: each solves the convex problem in which |u_t| is what the round before left, and
+/// sweeps contact space. Where a part is enough, the automatic choice takes what its rounds leave.
+/// Where there are 300 contacts and two for each velocity, it first solves a few alone, with all
+/// drives, joined by those that the answer closes fastest until none is left or these are no longer
+/// few.
+///
+/// Drives are projected along with the contacts: their impulses lie between their bounds, and the
+/// energy of their compliances adds to what is least.
+///
+/// The velocities are unique without friction, the impulses only without redundant contacts.
+///
+/// @throws std::invalid_argument if an option is outside its range.
+[[nodiscard]] FIRSTCONTACT_API ContactSolution
+project_on_contacts(const ContactProblem& problem, const ProjectionOptions& options = {});
+
+/// [m/s]  How far a solution is from the laws above: the greatest over contacts of
+/// |r - proj_K(r - rho (u' + mu |u_t| n))| / rho, with u' = u - least_normal_velocity n and rho the
+/// inverse of the contact's greatest response to an impulse (the largest of the diagonal); and over
+/// drives of the same, with the interval of their bounds as K. 0 exactly where all laws hold.
+[[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
+                                                       const ContactSolution& solution);
+
+}  // namespace firstcontact

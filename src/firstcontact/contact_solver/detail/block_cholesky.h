@@ -1,0 +1,44 @@
+/// @file
+/// Sparse symmetric systems of equations in blocks of six, as velocities of bodies have.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/contact_solver/detail/block_pattern.h>
+
+namespace firstcontact::detail {
+
+/// A symmetric, positive definite matrix of 6 x 6 blocks and its factor L L^T, in which the
+/// inverses of the blocks on the diagonal stand for them.
+class BlockCholesky {
+ public:
+  using Block = Eigen::Matrix<double, 6, 6>;
+
+  /// As BlockPattern.
+  BlockCholesky(std::size_t count, const std::vector<std::array<std::size_t, 2>>& pairs);
+
+  [[nodiscard]] BlockPattern::Place place(std::size_t i, std::size_t j) const {
+    return pattern_.place(i, j);
+  }
+
+  void set_identity();
+
+  [[nodiscard]] Block& at(const BlockPattern::Place& place) { return blocks_[place.index]; }
+
+  /// Puts the factor in the place of the matrix.
+  void factorise();
+
+  /// Solves with the factor.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
+
+ private:
+  BlockPattern pattern_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace firstcontact::detail

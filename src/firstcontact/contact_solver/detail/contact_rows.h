@@ -1,0 +1,182 @@
+/// @file
+/// The contacts of a problem as rows, ready for its solvers.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
+
+namespace firstcontact::detail {
+
+/// Whether impulses move a body that is no link.
+inline bool is_movable(const ContactBody& body) {
+  return !body.link && (body.inverse_inertia.mass.any() || body.inverse_inertia.rotation.any());
+}
+
+/// Where the velocities of a problem stand in one vector: of each body that is no link (v, w), then
+/// the coordinates of each mechanism.
+struct VelocityLayout {
+  explicit VelocityLayout(const ContactProblem& problem);
+
+  std::vector<Eigen::Index> body;  // Of a link: that of its mechanism.
+  std::vector<Eigen::Index> mechanism;
+  Eigen::Index size = 0;
+};
+
+/// What one of the two bodies adds to a contact: u_s = J V, and impulses change V by M^-1 J^T.
+struct RowSide {
+  using Jacobian = Eigen::Matrix<double, 3, 6>;
+  using Response = Eigen::Matrix<double, 6, 3>;
+
+  Eigen::Index at = 0;  // In the vector of velocities.
+  Jacobian J = Jacobian::Zero();
+  Response response = Response::Zero();
+  // Of a mechanism, in place of those above.
+  Eigen::Matrix3Xd J_q = {};
+  Eigen::MatrixX3d response_q = {};
+
+  [[nodiscard]] bool is_link() const { return J_q.cols() > 0; }
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
+    return is_link() ? Eigen::Vector3d(J_q * V.segment(at, J_q.cols()))
+                     : Eigen::Vector3d(J * V.segment<6>(at));
+  }
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
+    if (is_link()) {
+      V.segment(at, J_q.cols()) += response_q * impulse;
+    } else {
+      V.segment<6>(at) += response * impulse;
+    }
+  }
+};
+
+/// u = J_A V_A + J_B V_B, in the contact's frame with the tangents of its response.
+struct ContactRow {
+  /// Two links of one mechanism are one side, and the other one has Jacobians of zeros.
+  std::array<RowSide, 2> sides;
+  ContactResponse own;  // To its own impulse, J M^-1 J^T.
+  double friction;
+  double least;  // [m/s]  Normal velocity.
+
+  [[nodiscard]] double greatest() const { return own.greatest(); }
+  [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
+    return sides[0].velocity(V) + sides[1].velocity(V);
+  }
+  void apply(const Eigen::Vector3d& impulse, Eigen::VectorXd& V) const {
+    sides[0].apply(impulse, V);
+    sides[1].apply(impulse, V);
+  }
+  /// u - least n
+  [[nodiscard]] Eigen::Vector3d excess_velocity(const Eigen::VectorXd& V) const {
+    Eigen::Vector3d u = velocity(V);
+    u[0] -= least;
+    return u;
+  }
+};
+
+/// @param layout  of the problem
+[[nodiscard]] ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
+                                  const ContactPoint& contact);
+
+/// Solves one contact with all others held. Returns how much its velocity changes [m/s].
+inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen::VectorXd& V) {
+  if (!(row.greatest() > 0.0)) {
+    return 0.0;
+  }
+  const Eigen::Vector3d u = row.excess_velocity(V);
+  if (u[0] >= 0.0 && impulse.isZero(0.0)) {
+    return 0.0;
+  }
+  const Eigen::Vector3d u_free = u - row.own.W() * impulse;
+  const Eigen::Vector3d solved = row.own.impulse(u_free, row.friction);
+  const Eigen::Vector3d change = solved - impulse;
+  row.apply(change, V);
+  impulse = solved;
+  return change.norm() * row.greatest();
+}
+
+/// A drive of one coordinate.
+struct DriveRow {
+  Eigen::Index at;         // Of its mechanism.
+  Eigen::Index place;      // Of its coordinate.
+  Eigen::VectorXd column;  // Of the mechanism's inverse mass.
+  double own;              // To its own impulse, with its compliance.
+  double target;
+  double compliance;
+  double least;
+  double greatest;
+
+  /// u + compliance r - target
+  [[nodiscard]] double excess_velocity(double impulse, const Eigen::VectorXd& V) const {
+    return V[place] + compliance * impulse - target;
+  }
+  void apply(double impulse, Eigen::VectorXd& V) const {
+    V.segment(at, column.size()) += impulse * column;
+  }
+};
+
+/// A contact problem for its solvers.
+struct ContactRows {
+  explicit ContactRows(const ContactProblem& problem);
+
+  VelocityLayout layout;
+  Eigen::VectorXd free_velocities;
+  std::vector<ContactRow> contacts;
+  std::vector<DriveRow> drives;
+};
+
+struct Impulses {
+  std::vector<Eigen::Vector3d> contacts;  // [N s]  In the frames of the rows.
+  std::vector<double> drives;             // [N m s or N s]
+};
+
+/// [m/s]  As contact_residual(), of one contact; not finite where that could not be told.
+[[nodiscard]] double residual_of(const ContactRow& row, const Eigen::Vector3d& impulse,
+                                 const Eigen::VectorXd& V);
+
+/// [m/s]  As contact_residual().
+[[nodiscard]] double greatest_residual(const ContactRows& rows, const Impulses& impulses,
+                                       const Eigen::VectorXd& V);
+
+/// What a solver starts from and leaves behind: velocities that belong to the impulses.
+struct Projection {
+  Eigen::VectorXd velocities = {};
+  Impulses impulses = {};
+  double residual = 0.0;  // [m/s]
+  int iterations = 0;
+};
+
+/// The free velocities changed by impulses.
+[[nodiscard]] Eigen::VectorXd velocities_after(const ContactRows& rows, const Impulses& impulses);
+
+/// The problem's bodies, mechanisms and drives with a projection's velocities and impulses.
+[[nodiscard]] ContactSolution solution_of(const ContactProblem& problem, const ContactRows& rows,
+                                          const Projection& projection, ProjectionSpace space);
+
+/// @param rows  of the problem
+void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
+                              const ProjectionOptions& options, Projection& projection);
+
+/// For many contacts and no drives. In rounds: mu |u_t| is taken to be what it was after the round
+/// before, at first that of the projection. With P = diag(1, mu, mu) it is then y = P u + mu |u_t|
+/// n and z = P^-1 r that lie in the cone of Lorentz, orthogonal to each other, a convex problem;
+/// Newton's steps with the scaling of Nesterov and Todd solve it from inside, in about as many
+/// steps for each number of contacts, each the factorisation of one matrix (S. Mehrotra, SIAM
+/// Journal on Optimization 2 (1992)). Sweeps of contact space follow. That is the fixed point of V.
+/// Acary, F. Cadoux, C. Lemarechal, J. Malick, "A formulation of the linear discrete Coulomb
+/// friction problem via convex optimization", ZAMM 91 (2011).
+///
+/// Leaves the projection as it is where it finds none that is nearer to the laws.
+void project_by_interior_point(const ContactProblem& problem, const ContactRows& rows,
+                               const ProjectionOptions& options, Projection& projection);
+
+void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
+                             const ProjectionOptions& options, Projection& projection);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/coulomb_cone.h>
+#include <firstcontact/contact_solver/detail/deciding_contacts.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::ContactRow;
+using detail::ContactRows;
+using detail::Impulses;
+using detail::Projection;
+
+/// Factorisations grow with more than the number of velocities; sweeps of larger problems hardly
+/// get anywhere, but take less memory.
+constexpr std::size_t kMostInMotionSpace = 6000;
+
+/// What sweeps do not do in so many, motion space does better, unless they may leave something;
+/// sooner where contacts are many for each body.
+constexpr int kSweepsBeforeMotionSpace = 100;
+constexpr int kSweepsOfRedundant = 30;
+
+/// Then there are so many more, to this part of the tolerance: what is left would add up from step
+/// to step.
+constexpr int kExtraSweeps = 30;
+constexpr double kExtraTolerance = 0.1;
+
+/// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
+/// sweep costs as many contacts as an assembly, of which far fewer are needed).
+constexpr std::size_t kManyContacts = 12;
+
+/// From so many contacts on an interior point comes first: its factorisations hardly grow in
+/// number. Multipliers would take ten times as long.
+constexpr std::size_t kManyForInteriorPoint = 120;
+
+/// The same where there are many for each body, and few equations for multipliers.
+constexpr std::size_t kManyRedundant = 300;
+
+/// Velocities that impulses change.
+std::size_t moving_velocities(const ContactProblem& problem) {
+  std::size_t count = 0;
+  for (const ContactBody& body : problem.bodies) {
+    count += detail::is_movable(body) ? 6 : 0;
+  }
+  for (const ContactMechanism& mechanism : problem.mechanisms) {
+    count += static_cast<std::size_t>(mechanism.velocity.size());
+  }
+  return count;
+}
+
+/// The problem's guesses, as far as the laws allow them.
+Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
+  Impulses impulses;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    const ContactRow& row = rows.contacts[k];
+    impulses.contacts.push_back(
+        row.greatest() > 0.0
+            ? detail::project_on_cone(row.own.turn() * problem.contacts[k].guess, row.friction)
+            : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  }
+  for (const JointDrive& drive : problem.drives) {
+    impulses.drives.push_back(std::clamp(drive.guess, drive.least, drive.greatest));
+  }
+  return impulses;
+}
+
+/// [J]  r^T J M^-1 J^T r / 2 + r^T u_free, of which the impulses without friction are the least
+/// point; 0 without impulses.
+double dual_objective(const ContactRows& rows, const Projection& projection) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    const ContactRow& row = rows.contacts[k];
+    const Eigen::Vector3d& impulse = projection.impulses.contacts[k];
+    if (!impulse.isZero(0.0)) {
+      sum += 0.5 * impulse.dot(row.excess_velocity(rows.free_velocities) +
+                               row.excess_velocity(projection.velocities));
+    }
+  }
+  for (std::size_t k = 0; k < rows.drives.size(); ++k) {
+    const detail::DriveRow& row = rows.drives[k];
+    const double impulse = projection.impulses.drives[k];
+    sum += 0.5 * impulse *
+           (row.excess_velocity(0.0, rows.free_velocities) +
+            row.excess_velocity(impulse, projection.velocities));
+  }
+  return sum;
+}
+
+/// Starts from the guesses where they seem better than no impulse at all, and that is no solution.
+/// They are judged as a whole: of many contacts one may be wrong by much, as where a body came to
+/// lie on another feature. With friction the objective is no more than a sign of it.
+Projection start(const ContactProblem& problem, const ContactRows& rows, double tolerance) {
+  Projection none{.velocities = rows.free_velocities};
+  none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
+  none.impulses.drives.assign(rows.drives.size(), 0.0);
+  none.residual = detail::greatest_residual(rows, none.impulses, none.velocities);
+  Projection guessed{.impulses = guesses(problem, rows)};
+  guessed.velocities = detail::velocities_after(rows, guessed.impulses);
+  if (none.residual <= tolerance || !(dual_objective(rows, guessed) < 0.0)) {
+    return none;
+  }
+  guessed.residual = detail::greatest_residual(rows, guessed.impulses, guessed.velocities);
+  return guessed;
+}
+
+template <class Number>
+void require_positive(Number value, const std::string& option) {
+  if (!(value > Number())) {
+    throw std::invalid_argument("ProjectionOptions::" + option + " must be > 0, got " +
+                                std::to_string(value));
+  }
+}
+
+void require_not_negative(double value, const std::string& option) {
+  if (!(value >= 0.0)) {
+    throw std::invalid_argument("ProjectionOptions::" + option + " must be >= 0, got " +
+                                std::to_string(value));
+  }
+}
+
+/// Tries what is cheap for the problem before what is dear.
+class Solver {
+ public:
+  Solver(const ContactProblem& problem, const ProjectionOptions& options)
+      : problem_(problem),
+        options_(options),
+        rows_(problem),
+        is_automatic_(options.space == ProjectionSpace::automatic),
+        projection_(start(problem, rows_, options.tolerance)) {
+    if (projection_.residual > options.hit) {
+      options_.tolerance = std::max(options.tolerance, options.of_hits * projection_.residual);
+    }
+    const std::size_t moving = moving_velocities(problem);
+    const std::size_t contacts = rows_.contacts.size();
+    is_small_ = moving <= kMostInMotionSpace;
+    are_redundant_ = 6 * contacts >= kManyContacts * moving;
+    are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= kManyRedundant;
+    has_interior_ = is_small_ && problem.drives.empty() &&
+                    contacts >= (are_redundant_ ? kManyRedundant : kManyForInteriorPoint);
+    // Along a chain of links impulses would have to travel from joint to joint.
+    has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant_;
+  }
+
+  ContactSolution solve() {
+    if (is_solved(projection_) || sweep_first()) {
+      return solution(projection_, ProjectionSpace::contact);
+    }
+    if (are_many_redundant_) {
+      if (const std::optional<ProjectionSpace> space =
+              detail::project_by_deciding_contacts(problem_, rows_, options_, projection_)) {
+        return solution(projection_, *space);
+      }
+    }
+    if (has_interior_) {
+      if (std::optional<ContactSolution> found = from_inside()) {
+        return std::move(*found);
+      }
+    }
+    return by_multipliers();
+  }
+
+ private:
+  [[nodiscard]] bool is_solved(const Projection& projection) const {
+    return projection.residual <= options_.tolerance;
+  }
+
+  [[nodiscard]] ContactSolution solution(const Projection& projection,
+                                         ProjectionSpace space) const {
+    ContactSolution found = detail::solution_of(problem_, rows_, projection, space);
+    found.allowed = std::max(options_.tolerance, options_.enough);
+    return found;
+  }
+
+  /// Sweeps over the contacts, where that may be enough. Whether it is all that is to be done.
+  bool sweep_first() {
+    const bool is_worthwhile = is_automatic_ && !(is_small_ && has_many_);
+    if (options_.space != ProjectionSpace::contact && !is_worthwhile) {
+      return false;
+    }
+    ProjectionOptions sweeping = options_;
+    if (is_automatic_ && is_small_) {
+      sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+    }
+    detail::project_in_contact_space(problem_, rows_, sweeping, projection_);
+    return !is_automatic_ || is_solved(projection_) || !is_small_;
+  }
+
+  /// By an interior point. Nothing where multipliers are to go on.
+  std::optional<ContactSolution> from_inside() {
+    Projection inner = projection_;
+    if (is_automatic_) {  // Sweeps may be all that it takes.
+      ProjectionOptions sweeping = options_;
+      if (are_redundant_) {
+        sweeping.sweeps = std::min(options_.sweeps, kSweepsOfRedundant);
+      } else if (!(options_.enough > 0.0)) {
+        sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+      }
+      detail::project_in_contact_space(problem_, rows_, sweeping, inner);
+      if (is_solved(inner) && !are_redundant_) {
+        sweeping.sweeps = kExtraSweeps;
+        sweeping.tolerance = kExtraTolerance * options_.tolerance;
+        Projection more = inner;
+        detail::project_in_contact_space(problem_, rows_, sweeping, more);
+        more.iterations += inner.iterations;
+        if (more.residual < inner.residual) {
+          inner = std::move(more);
+        }
+      }
+      if (inner.residual <= std::max(options_.tolerance, options_.enough)) {
+        return solution(inner, ProjectionSpace::contact);
+      }
+    }
+    detail::project_by_interior_point(problem_, rows_, options_, inner);
+    if (inner.residual < projection_.residual) {
+      projection_ = std::move(inner);
+    }
+    const bool may_leave_something = is_automatic_ && options_.enough > 0.0;
+    if (may_leave_something || is_solved(projection_)) {
+      return solution(projection_, ProjectionSpace::motion);
+    }
+    return std::nullopt;
+  }
+
+  ContactSolution by_multipliers() {
+    const Projection before = projection_;
+    detail::project_in_motion_space(problem_, rows_, options_, projection_);
+    return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
+                                                  : solution(projection_, ProjectionSpace::motion);
+  }
+
+  const ContactProblem& problem_;
+  ProjectionOptions options_;
+  ContactRows rows_;
+  bool is_automatic_;
+  bool are_redundant_ = false;
+  bool are_many_redundant_ = false;
+  bool is_small_ = false;
+  bool has_interior_ = false;
+  bool has_many_ = false;
+  Projection projection_;
+};
+
+}  // namespace
+
+ContactSolution project_on_contacts(const ContactProblem& problem,
+                                    const ProjectionOptions& options) {
+  require_positive(options.tolerance, "tolerance");
+  require_positive(options.sweeps, "sweeps");
+  require_positive(options.rounds, "rounds");
+  require_not_negative(options.of_hits, "of_hits");
+  require_not_negative(options.hit, "hit");
+  require_not_negative(options.enough, "enough");
+  return Solver(problem, options).solve();
+}
+
+double contact_residual(const ContactProblem& problem, const ContactSolution& solution) {
+  const ContactRows rows(problem);
+  Impulses impulses{.contacts = {}, .drives = solution.drives};
+  for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
+    impulses.contacts.emplace_back(rows.contacts[k].own.turn() * solution.impulses[k]);
+  }
+  ContactProblem moving = problem;
+  moving.bodies = solution.bodies;
+  for (std::size_t m = 0; m < moving.mechanisms.size(); ++m) {
+    moving.mechanisms[m].velocity = solution.mechanisms[m];
+  }
+  return detail::greatest_residual(rows, impulses, ContactRows(moving).free_velocities);
+}
+
+}  // namespace firstcontact

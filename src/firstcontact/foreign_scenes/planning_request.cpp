@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/text_tree.h>
+#include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/detail/fixed_joints.h>
+#include <firstcontact/trajectory_files/detail/joint_trajectory.h>
+#include <firstcontact/trajectory_files/detail/ros_message.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::find_filled;
+using detail::in_quotes;
+using detail::JsonArray;
+using detail::JsonObject;
+using detail::JsonReader;
+using detail::JsonValue;
+
+/// Of a request.
+void refuse_attached(const JsonValue& state, const JsonReader& read) {
+  if (const JsonValue* attached = find_filled(state, "attached_collision_objects")) {
+    read.fail(*attached, "expected no attached objects here; they belong to the planning scene");
+  }
+}
+
+/// The pose of the joint between the world and the root link.
+detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
+                              const JsonReader& read) {
+  const JsonValue* joints = find_filled(state, "multi_dof_joint_state");
+  const JsonValue* names = joints == nullptr ? nullptr : find_filled(*joints, "joint_names");
+  if (names == nullptr) {
+    return {};
+  }
+  const JsonArray& list = read.array(*names, "an array of joint names");
+  const JsonValue& transforms = read.member(*joints, "transforms");
+  const JsonArray& poses = read.array(transforms, "an array of transforms");
+  if (list.size() != 1 || poses.size() != 1) {
+    read.fail(transforms,
+              "expected one joint, between the world and the robot, with one transform");
+  }
+  const std::string name = detail::name_of(list[0], "the name of a joint", read);
+  if (robot.find_joint(name)) {
+    read.fail(list[0], "expected the joint between the world and the robot, got its joint " +
+                           in_quotes(name));
+  }
+  return detail::read_message_pose(poses[0], read);
+}
+
+/// Where the joints are to be.
+detail::MessageState read_goal(const JsonValue& request, const RobotModel& robot,
+                               const JsonReader& read) {
+  const JsonValue& goals = read.member(request, "goal_constraints");
+  const JsonArray& list = read.array(goals, "an array of goals");
+  if (list.size() != 1) {
+    read.fail(goals, "expected one goal, got " + std::to_string(list.size()));
+  }
+  const JsonValue* constraints = find_filled(list[0], "joint_constraints");
+  for (const std::string_view key : {"position_constraints", "orientation_constraints"}) {
+    if (find_filled(list[0], key) != nullptr || constraints == nullptr) {
+      read.fail(list[0], "expected a goal of joint positions, \"joint_constraints\" alone");
+    }
+  }
+  detail::MessageState goal;
+  for (const JsonValue& constraint : read.array(*constraints, "an array of joint constraints")) {
+    (void)read.object(constraint,
+                      {{"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}});
+    detail::add_position(read.member(constraint, "joint_name"), read.member(constraint, "position"),
+                         robot, read, goal);
+  }
+  return goal;
+}
+
+}  // namespace
+
+PlanningRequest parse_planning_request(std::string_view text, const std::filesystem::path& source,
+                                       const RobotModel& robot) {
+  const FloatEnvironmentGuard guard;
+  const std::string name = source.string();
+  const JsonValue root = detail::parse_tree(text, source);
+  const JsonReader read(root, name);
+  const JsonValue& request =
+      detail::unwrap_message(root, {"motion_plan_request", "request"}, "goal_constraints");
+  if (!std::holds_alternative<JsonObject>(request.value)) {
+    read.fail_expected("a request, an object with \"start_state\" and \"goal_constraints\"",
+                       request);
+  }
+  PlanningRequest result;
+  std::vector<std::string> fixed;
+  if (const JsonValue* state = find_filled(request, "start_state")) {
+    refuse_attached(*state, read);
+    if (const JsonValue* joints = find_filled(*state, "joint_state")) {
+      detail::MessageState start = detail::read_joint_state(*joints, robot, read);
+      result.start = std::move(start.positions);
+      fixed = std::move(start.fixed);
+    }
+    const detail::MessagePose base = read_base(*state, robot, read);
+    result.base = base.pose;
+    if (base.has_zero_quaternion) {
+      result.warnings.push_back(detail::zero_quaternion_warning(name, {"the robot's base"}));
+    }
+  }
+  detail::MessageState goal = read_goal(request, robot, read);
+  result.goal = std::move(goal.positions);
+  fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
+  if (!fixed.empty()) {
+    result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));
+  }
+  return result;
+}
+
+PlanningRequest read_planning_request(const std::filesystem::path& path, const RobotModel& robot) {
+  return parse_planning_request(detail::read_file(path, "a request"), path, robot);
+}
+
+Trajectory straight_motion(const RobotModel& robot, const JointPositions& start,
+                           const JointPositions& goal, Turning turning) {
+  Trajectory trajectory{
+      .joint_names = {}, .points = {{.time = 0.0}, {.time = 0.0}}, .turning = turning};
+  double duration = 0.0;
+  for (const auto& [name, position] : goal) {
+    const JointCoordinate coordinate = find_coordinate(robot, name);
+    const Joint& joint = robot.joints()[coordinate.joint];
+    if (joint.mimic) {
+      continue;  // It follows.
+    }
+    const auto found = start.find(name);
+    const double from = found != start.end() ? found->second : default_position(joint);
+    trajectory.joint_names.push_back(name);
+    trajectory.points[0].positions.push_back(from);
+    trajectory.points[1].positions.push_back(position);
+    const bool is_short = turning == Turning::shortest && takes_short_way(robot, coordinate);
+    const double way = is_short ? shortest_way(from, position) : position - from;
+    if (joint.limits.velocity.value_or(0.0) > 0.0) {
+      duration = std::max(duration, std::abs(way) / *joint.limits.velocity);
+    }
+  }
+  // A little longer, so that rounding leaves no limit.
+  trajectory.points[1].time = duration > 0.0 ? duration * (1.0 + 0x1p-40) : 1.0;
+  return trajectory;
+}
+
+}  // namespace firstcontact

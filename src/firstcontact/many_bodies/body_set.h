@@ -1,0 +1,55 @@
+/// @file
+/// Many moving bodies and the rules for their pairs: what the many-body queries take.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+
+/// Moving bodies, numbered from 0. Replacing one body's shape or motion costs what that body
+/// needs; nothing else is rebuilt. Queries only read it, also from several threads at once.
+class FIRSTCONTACT_API BodySet {
+ public:
+  explicit BodySet(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
+
+  /// Returns the body's number.
+  std::size_t add(Shape shape, Motion X_WS);
+  void set_shape(std::size_t body, Shape shape);   ///< @throws std::out_of_range
+  void set_motion(std::size_t body, Motion X_WS);  ///< @throws std::out_of_range
+
+  [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+  [[nodiscard]] const Shape& shape(std::size_t body) const { return bodies_[body].shape; }
+  [[nodiscard]] const Motion& motion(std::size_t body) const { return bodies_[body].X_WS; }
+  /// Refers to this set.
+  [[nodiscard]] MovingShape moving_shape(std::size_t body) const {
+    return {shape(body), motion(body)};
+  }
+  /// Of the centre of the body's hierarchy, one for each piece of its motion.
+  [[nodiscard]] const std::vector<ConstantRatePath>& centre_path(std::size_t body) const {
+    return bodies_[body].centre_path;
+  }
+
+  [[nodiscard]] PairRules& rules() { return rules_; }
+  [[nodiscard]] const PairRules& rules() const { return rules_; }
+
+ private:
+  struct Body {
+    Shape shape;
+    Motion X_WS;
+    std::vector<ConstantRatePath> centre_path;
+  };
+  static std::vector<ConstantRatePath> centre_path_of(const Shape& shape, const Motion& X_WS);
+
+  std::vector<Body> bodies_;
+  PairRules rules_;
+};
+
+}  // namespace firstcontact

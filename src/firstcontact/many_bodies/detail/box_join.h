@@ -1,0 +1,50 @@
+/// @file
+/// All pairs of boxes that overlap.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+
+namespace firstcontact::detail {
+
+/// A tree over the boxes, halved at the median centre along the longest side, joined with itself:
+/// O(n log n + pairs) for boxes that overlap few others, whatever their sizes.
+class BoxJoin {
+ public:
+  /// Appends the overlapping pairs, touching ones included, in an order that depends on the boxes
+  /// alone. False where there are more than `most`; then some are missing.
+  bool join(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t most,
+            std::vector<BodyPair>& pairs);
+
+ private:
+  /// Its boxes are items_[begin, end). The first child follows it; a leaf has no second one.
+  struct Node {
+    Eigen::AlignedBox3d box;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    std::uint32_t second = 0;
+  };
+  struct Item {
+    Eigen::AlignedBox3d box;
+    std::uint32_t index = 0;
+  };
+
+  void build(std::uint32_t begin, std::uint32_t end);
+  bool join_within(std::uint32_t node);
+  bool join_both(std::uint32_t a, std::uint32_t b);
+  bool test(const Item& a, const Item& b);
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;
+  std::vector<BodyPair>* pairs_ = nullptr;
+  std::size_t most_ = 0;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,82 @@
+/// @file
+/// First contact of many moving bodies.
+
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/query/closest_approach.h>
+#include <firstcontact/query/first_contact.h>
+
+namespace firstcontact {
+
+struct ManyBodiesOptions {
+  FirstContactOptions pair;  ///< Of every pair; its margin is not used, the rules have it.
+  int threads = 0;           ///< At most; 0 for one on each core. Answers do not depend on it.
+  bool closest = false;      ///< answer_each_pair: also the closest approach of each.
+  /// Called now and then from the calling thread with the part that is done, in [0, 1]; for
+  /// first_contact the time proven free so far. May be empty.
+  std::function<void(double)> progress = {};
+};
+
+/// What one pair of bodies answered.
+struct PairAnswer {
+  BodyPair bodies = {};
+  double margin = 0.0;  ///< [m]
+  FirstContactResult first_contact;
+  std::optional<ClosestApproachResult> closest_approach = {};
+};
+
+/// The first contact of a set of bodies.
+struct ManyBodiesResult {
+  Verdict verdict = Verdict::free;
+  UndecidedReason reason = UndecidedReason::none;
+  double t = 1.0;                 ///< [-]  No pair is in contact in [0, t): proven. 1 when free.
+  std::optional<double> t_upper;  ///< [-]  A time that is proven to be in contact, if one is known.
+  double clearance = 0.0;         ///< [m]  Proven lower bound of every pair's distance up to t;
+                                  ///<      infinite where there are no pairs.
+  double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
+  double enclosure_error = 0.0;   ///< [m]  The greatest of these.
+  std::vector<PairAnswer> first;  ///< The pairs that decide t, by their order; none when free.
+  WorkCount work;                 ///< Of all pairs that were searched.
+};
+
+/// Scratch memory of the many-body queries, for all their threads.
+class FIRSTCONTACT_API ManyBodiesWorkspace {
+ public:
+  ManyBodiesWorkspace();
+  ~ManyBodiesWorkspace();
+  ManyBodiesWorkspace(ManyBodiesWorkspace&&) noexcept;
+  ManyBodiesWorkspace& operator=(ManyBodiesWorkspace&&) noexcept;
+
+  struct Data;
+  [[nodiscard]] Data& data() { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+/// Finds the first contact of all pairs of bodies that the rules do not ignore.
+///
+/// Before t every pair is farther apart than its margin: proven, as by first_contact() of two
+/// bodies, which answers for the pairs that balls around the bodies cannot prove free. The time is
+/// walked in intervals, halved where the bodies sweep over many others; within one, pairs come in
+/// the order of the times until which they are proven free, and the first contact found ends the
+/// search of those that cannot touch before it. The same on every run and for every number of
+/// threads. The budget holds for each pair.
+///
+/// @throws std::invalid_argument if an option is outside its documented range.
+[[nodiscard]] FIRSTCONTACT_API ManyBodiesResult first_contact(
+    const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
+
+/// The answer of every pair that the rules do not ignore, over the whole step, by their order; each
+/// as if asked alone.
+[[nodiscard]] FIRSTCONTACT_API std::vector<PairAnswer> answer_each_pair(
+    const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,61 @@
+/// @file
+/// The visual scene of a COLLADA document: its nodes with their poses, and what they place.
+
+#pragma once
+
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/model_files/detail/dae_budget.h>
+#include <firstcontact/model_files/detail/dae_document.h>
+
+namespace firstcontact::detail {
+
+/// An <instance_geometry> or <instance_controller>, and its node's map to the world.
+struct DaePlacement {
+  const XmlElement* instance = nullptr;
+  Eigen::Affine3d X_WN = Eigen::Affine3d::Identity();
+};
+
+/// A node, once for all of its instances.
+struct DaeNode {
+  std::vector<const XmlElement*> placed;               ///< Instances of geometries and controllers.
+  std::vector<const XmlElement*> children;             ///< Nodes inside, then instanced ones.
+  Eigen::Affine3d X_PN = Eigen::Affine3d::Identity();  ///< To its parent's frame.
+  Eigen::Affine3d X_WN = Eigen::Affine3d::Identity();  ///< To the world's; of its first instance.
+  std::size_t times = 0;                               ///< How often the scene holds it.
+  bool open = false;                                   ///< On the path to the node at hand.
+};
+
+/// The scene that <scene> instances, in metres, with the axes of the file.
+class DaeScene {
+ public:
+  /// @throws ParseError  no scene, a node inside of itself, an element that is not known, and as
+  ///         read_dae_transform()
+  DaeScene(const DaeDocument& document, DaeBudget& budget);
+
+  [[nodiscard]] const XmlElement& element() const { return *scene_; }
+
+  /// In the order of a walk that goes deep first.
+  [[nodiscard]] const std::vector<DaePlacement>& placements() const { return placements_; }
+
+  /// The node of an element <node>, or null if the scene does not hold it.
+  [[nodiscard]] const DaeNode* node(const XmlElement& element) const;
+
+ private:
+  DaeNode& enter(const XmlElement& element, const Eigen::Affine3d& X_WP);
+  void read_node(const XmlElement& element, DaeNode& node);
+  void walk(const XmlElement& root);
+
+  const DaeDocument& document_;
+  DaeBudget& budget_;
+  const XmlElement* scene_ = nullptr;
+  Eigen::Affine3d X_WS_;  ///< The unit.
+  std::vector<DaePlacement> placements_;
+  std::unordered_map<const XmlElement*, DaeNode> nodes_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,17 @@
+/// @file
+/// What a glTF document holds beside geometry.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/model_files/detail/gltf_document.h>
+
+namespace firstcontact::detail {
+
+/// Notes what is left out of the document: looks, cameras, animations, meshes that nothing places.
+///
+/// @param used  of each mesh, whether a node of the scene has it
+void note_left_out(const GltfDocument& document, const std::vector<bool>& used);
+
+}  // namespace firstcontact::detail

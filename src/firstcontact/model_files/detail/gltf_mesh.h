@@ -1,0 +1,63 @@
+/// @file
+/// Meshes of a glTF document: their primitives, and the arrays of these.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <firstcontact/model_files/detail/gltf_accessor.h>
+
+namespace firstcontact::detail {
+
+/// How corners make triangles.
+enum class GltfMode { triangles, strip, fan };
+
+/// Joints of a skin that move vertices, and by what weights: four a vertex.
+struct GltfInfluences {
+  GltfAccessor joints;
+  GltfAccessor weights;
+};
+
+/// A primitive of triangles.
+struct GltfPrimitive {
+  const JsonValue* where = nullptr;  ///< In the document, for errors.
+  GltfMode mode = GltfMode::triangles;
+  GltfAccessor positions;
+  std::optional<GltfAccessor> indices = {};
+  std::vector<std::optional<GltfAccessor>> targets =
+      {};  ///< What each morph target adds to positions.
+  std::vector<GltfInfluences> influences = {};
+
+  /// So many corners make triangles; the numbers of vertices where there are no indices.
+  [[nodiscard]] std::size_t corner_count() const {
+    return indices ? indices->count() : positions.count();
+  }
+  [[nodiscard]] std::size_t triangle_count() const;
+
+  /// Which corners triangle i has. Every second triangle of a strip is turned, so that all of them
+  /// are seen from the same side.
+  [[nodiscard]] std::array<std::size_t, 3> corners(std::size_t i) const;
+};
+
+struct GltfMesh {
+  std::vector<GltfPrimitive> primitives;  ///< Those of triangles.
+  std::vector<double> weights;            ///< Of the morph targets; empty if the mesh has none.
+};
+
+/// The weights of a mesh or of a node.
+[[nodiscard]] std::vector<double> read_weights(const GltfDocument& document,
+                                               const JsonObject& object);
+
+/// Reads a mesh. Points, lines and what only looks need is left out by name.
+///
+/// @throws ParseError  a mode that glTF does not have, arrays of different lengths, a number of
+///         corners that is no multiple of three, compressed geometry; and as GltfAccessorReader
+[[nodiscard]] GltfMesh read_gltf_mesh(const GltfDocument& document,
+                                      const GltfAccessorReader& accessors, std::size_t index);
+
+}  // namespace firstcontact::detail

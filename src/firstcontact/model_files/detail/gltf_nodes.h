@@ -1,0 +1,38 @@
+/// @file
+/// The node trees of a glTF document.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/model_files/detail/gltf_document.h>
+
+namespace firstcontact::detail {
+
+/// All nodes of a document, placed.
+struct GltfNodes {
+  std::vector<Eigen::Affine3d> X_WN;  ///< Maps from each node's frame to the world's.
+  /// The nodes of the scene that is read, parents before children, in the order of a walk that
+  /// goes deep first.
+  std::vector<std::size_t> scene;
+};
+
+/// Places the nodes, and chooses the scene: the one that the document names as default, the first
+/// where it names none, all trees of nodes where it has no scenes at all.
+///
+/// Maps are multiplied in double precision along each path from the root: a product's entries are
+/// rounded. Neither depth nor number of nodes has a limit. A node with a mesh that is outside of
+/// the scene is left out with a warning.
+///
+/// @throws ParseError  a node inside of itself, a node with two parents, a node of a scene that has
+///         a parent, an index out of range
+[[nodiscard]] GltfNodes place_nodes(const GltfDocument& document);
+
+/// "nodes[7]"
+[[nodiscard]] std::string place_of_node(std::size_t node);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,81 @@
+#include <firstcontact/page/detail/page_meshes.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/page/page_numbers.h>
+#include <firstcontact/robot_files/link_shape.h>
+#include <firstcontact/scene_files/detail/result_json.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Corners of a mesh with no more vertices than this have two bytes.
+constexpr std::size_t kShortIndices = 65'536;
+
+/// Vertices are relative to the middle, so that single precision suffices far from the origin too.
+JsonValue mesh_to_json(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    box.extend(vertex);
+  }
+  const Eigen::Vector3d middle = box.center();
+  PageNumbers positions;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) {
+    for (const double coordinate : Eigen::Vector3d(vertex - middle)) {
+      positions.add(static_cast<float>(coordinate));
+    }
+  }
+  PageNumbers triangles;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      triangles.add(corner, mesh.vertices.size() <= kShortIndices ? 2 : 4);
+    }
+  }
+  return {.value = JsonObject{{"origin", to_json(middle)},
+                              {"positions", {.value = positions.base64()}},
+                              {"triangles", {.value = triangles.base64()}}}};
+}
+
+/// Empty where the geometry is of no file.
+std::string key_of(const LinkGeometry& geometry) {
+  const auto* file = std::get_if<MeshGeometry>(&geometry.source);
+  return file == nullptr || file->path.empty()
+             ? ""
+             : write_json(to_json(file->scale)) + file->path.string();
+}
+
+}  // namespace
+
+std::size_t PageMeshes::append(const Mesh& mesh) {
+  meshes_.push_back(mesh_to_json(mesh));
+  return meshes_.size() - 1;
+}
+
+std::size_t PageMeshes::add(const Mesh& mesh) {
+  const auto found = of_objects_.find(&mesh);
+  return found != of_objects_.end() ? found->second : of_objects_[&mesh] = append(mesh);
+}
+
+std::size_t PageMeshes::add(const LinkGeometry& geometry) {
+  const std::string key = key_of(geometry);
+  if (const auto found = of_files_.find(key); found != of_files_.end()) {
+    return found->second;
+  }
+  const std::size_t index =
+      append(geometry.shape ? geometry.shape->mesh() : make_shape(geometry.source).mesh());
+  if (!key.empty()) {
+    of_files_[key] = index;
+  }
+  return index;
+}
+
+JsonArray PageMeshes::take() { return std::exchange(meshes_, {}); }
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,41 @@
+/// @file
+/// The meshes of a page that plays a result, each of them once.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/robot/link_geometry.h>
+#include <firstcontact/text/json_tree.h>
+
+namespace firstcontact::detail {
+
+/// Collects meshes, and numbers them from 0 in the order of adding.
+class PageMeshes {
+ public:
+  /// The number of a mesh, the same for the same object.
+  ///
+  /// @param mesh  lives as long as this
+  [[nodiscard]] std::size_t add(const Mesh& mesh);
+
+  /// Of a piece of a link, the same for the same file at the same scale. Reads the file if it is
+  /// neither known nor loaded.
+  ///
+  /// @throws as make_shape
+  [[nodiscard]] std::size_t add(const LinkGeometry& geometry);
+
+  /// All of them, as the page has them (docs/viewer.md).
+  [[nodiscard]] JsonArray take();
+
+ private:
+  std::size_t append(const Mesh& mesh);
+
+  JsonArray meshes_;
+  std::map<const Mesh*, std::size_t> of_objects_;
+  std::map<std::string, std::size_t> of_files_;  // By path and scale.
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,24 @@
+/// @file
+/// What a page needs to draw robots and to move them.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <firstcontact/page/detail/page_meshes.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/text/json_tree.h>
+
+namespace firstcontact::detail {
+
+/// The robots with links, joints and the exact pieces of their paths (docs/viewer.md).
+///
+/// @param warnings  gets a line for each visual geometry that cannot be read and is left out
+[[nodiscard]] JsonArray robots_of_page(const RobotScene& scene, PageMeshes& meshes,
+                                       std::vector<std::string>& warnings);
+
+/// How bodies move that are carried for a while.
+[[nodiscard]] JsonArray carried_of_page(const RobotScene& scene);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,130 @@
+#include <firstcontact/page/write_run_page.h>
+
+#include <array>
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/record/write_run.h>
+#include <firstcontact/scene/links_as_bodies.h>
+
+namespace firstcontact {
+namespace {
+
+void add_single(PageNumbers& row, const Eigen::Vector3d& v) {
+  for (const double coordinate : v) {
+    row.add(static_cast<float>(coordinate));
+  }
+}
+
+}  // namespace
+
+RunPage::RunPage(const RunHeader& header)
+    : header_(header),
+      centres_of_mass_(header.centres_of_mass),
+      ways_(header.centres_of_mass.size()) {}
+
+void RunPage::add(const RunStep& step) {
+  for (const RunBody& moved : step.bodies) {
+    add(moved);
+  }
+  for (const RunContact& contact : step.contacts) {
+    add(contact);
+  }
+  contacts_until_.add(contact_count_, 4);
+  // What ways and contacts hold is left out of the step.
+  RunStep rest = step;
+  rest.bodies.clear();
+  rest.contacts.clear();
+  steps_ += (steps_.empty() ? "" : ",") + write_run_step(rest);
+  time_ = step.time;
+}
+
+void RunPage::add_place(Way& way, std::size_t body, double time, const Pose& X_WB) const {
+  way.times.add(time);
+  way.places.add(Eigen::Vector3d(X_WB.position + X_WB.rotation * centres_of_mass_[body]));
+  const Eigen::Quaterniond& q = X_WB.rotation;
+  for (const double coordinate : {q.w(), q.x(), q.y(), q.z()}) {
+    way.rotations.add(static_cast<float>(coordinate));
+  }
+}
+
+void RunPage::begin_piece(std::size_t body, double time, const Pose& X_WB,
+                          const Eigen::Vector3d& turn) {
+  add_place(ways_[body], body, time, X_WB);
+  add_single(ways_[body].turns, turn);
+}
+
+void RunPage::add(const RunBody& moved) {
+  Way& way = ways_[moved.body];
+  double from = time_;
+  if (way.times.size() > 0 && way.end < from) {  // Steps left it out: it stayed where it was.
+    begin_piece(moved.body, way.end, way.X_WB, Eigen::Vector3d::Zero());
+  }
+  for (const RunPiece& piece : moved.pieces) {
+    begin_piece(moved.body, from, piece.X_WB, piece.rotation_vector);
+    from = time_ + piece.to;
+  }
+  way.end = from;
+  way.X_WB = moved.X_WB;
+}
+
+void RunPage::add(const RunContact& contact) {
+  for (const std::size_t body : contact.bodies) {
+    contact_bodies_.add(body, 4);
+  }
+  points_.add(contact.point);
+  add_single(impulses_, contact.impulse);
+  distances_.add(static_cast<float>(contact.distance));
+  ++contact_count_;
+}
+
+/// Links are bodies there, and the page has their meshes elsewhere.
+std::string RunPage::header_json(const Scene& linked) const {
+  RunHeader header = header_;
+  header.scene = linked;
+  header.scene.simulation = header_.scene.simulation;
+  header.scene.simulation->pairs = linked.simulation->pairs;
+  for (std::size_t b = header_.scene.bodies.size(); b < header.scene.bodies.size(); ++b) {
+    header.scene.bodies[b].shape.source = Mesh{};
+  }
+  return write_run_header(header);
+}
+
+std::string RunPage::ways_json() const {
+  nlohmann::ordered_json ways = nlohmann::ordered_json::array();
+  for (std::size_t body = 0; body < ways_.size(); ++body) {
+    Way way = ways_[body];
+    if (way.times.size() > 0) {
+      add_place(way, body, way.end, way.X_WB);
+      ways.push_back({{"body", body},
+                      {"times", way.times.base64()},
+                      {"places", way.places.base64()},
+                      {"rotations", way.rotations.base64()},
+                      {"turns", way.turns.base64()}});
+    }
+  }
+  return ways.dump();
+}
+
+std::string RunPage::contacts_json() const {
+  return nlohmann::ordered_json{{"until", contacts_until_.base64()},
+                                {"bodies", contact_bodies_.base64()},
+                                {"points", points_.base64()},
+                                {"impulses", impulses_.base64()},
+                                {"distances", distances_.base64()}}
+      .dump();
+}
+
+std::string RunPage::write(std::string_view page_template, const LoadedScene& loaded) const {
+  if (!(time_ > 0.0)) {
+    throw std::invalid_argument("expected a run of some time: there is nothing to play");
+  }
+  const LoadedScene linked = links_as_bodies(loaded).loaded;
+  const std::string run = "{\"header\":" + header_json(linked.scene) + ",\"steps\":[" + steps_ +
+                          "],\"ways\":" + ways_json() + ",\"contacts\":" + contacts_json() + "}";
+  return write_page(page_template, linked, {.name = "run", .json = run});
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,74 @@
+/// @file
+/// The page that plays a run.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/page/page_numbers.h>
+#include <firstcontact/record/run.h>
+#include <firstcontact/scene/loaded_scene.h>
+
+namespace firstcontact {
+
+/// Collects a run, step after step, for the viewer's page (docs/viewer.md).
+///
+/// The page holds the header word for word, of each step what is said of all bodies together, of
+/// each body the motion by all of its pieces, and of each contact bodies, point, impulse and
+/// distance. Times, positions and points are in double precision, what turns in single precision.
+class FIRSTCONTACT_API RunPage {
+ public:
+  explicit RunPage(const RunHeader& header);
+
+  /// The next step, from the first one on.
+  void add(const RunStep& step);
+
+  /// [s]  The end of the last step. A page plays some time: it is written when this is > 0.
+  [[nodiscard]] double time() const { return time_; }
+
+  /// Fills the viewer's page (share/firstcontact/viewer.html).
+  ///
+  /// @param loaded  the scene of the run, for the meshes
+  /// @throws std::invalid_argument if no time has gone by, or the template has no place for a run
+  [[nodiscard]] std::string write(std::string_view page_template, const LoadedScene& loaded) const;
+
+ private:
+  /// A body's way: where each piece begins, and after the last one where it ends. The centre of
+  /// mass moves on a line from one place to the next, while the body turns about it.
+  struct Way {
+    PageNumbers times;      // [s]
+    PageNumbers places;     // [m]  Of the centre of mass.
+    PageNumbers rotations;  // w, x, y, z of R_WB
+    PageNumbers turns;      // [rad]  Rotation vector until the next place.
+    double end = 0.0;       // [s]
+    Pose X_WB;              // There.
+  };
+
+  void begin_piece(std::size_t body, double time, const Pose& X_WB, const Eigen::Vector3d& turn);
+  void add_place(Way& way, std::size_t body, double time, const Pose& X_WB) const;
+  void add(const RunBody& moved);
+  void add(const RunContact& contact);
+  [[nodiscard]] std::string header_json(const Scene& linked) const;
+  [[nodiscard]] std::string ways_json() const;
+  [[nodiscard]] std::string contacts_json() const;
+
+  RunHeader header_;
+  std::vector<Eigen::Vector3d> centres_of_mass_;
+  double time_ = 0.0;  // [s]
+  std::string steps_;
+  std::vector<Way> ways_;  // Of every body; of those at rest empty.
+  std::uint64_t contact_count_ = 0;
+  PageNumbers contacts_until_;  // Of each step: how many there are with those before.
+  PageNumbers contact_bodies_;
+  PageNumbers points_;     // [m]
+  PageNumbers impulses_;   // [N s]
+  PageNumbers distances_;  // [m]
+};
+
+}  // namespace firstcontact

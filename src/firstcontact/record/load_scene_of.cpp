@@ -1,0 +1,18 @@
+#include <firstcontact/record/load_scene_of.h>
+
+#include <stdexcept>
+
+namespace firstcontact {
+
+LoadedScene load_scene_of(const RunHeader& header, ShapeCache& cache) {
+  LoadedScene loaded = load_scene(header.scene, cache);
+  if (!header.input_digest.empty() && loaded.input_digest != header.input_digest) {
+    throw std::invalid_argument(
+        "header.input_digest: a mesh or robot file of its scene is not what it was when the run "
+        "was "
+        "made; restore the file, or simulate again");
+  }
+  return loaded;
+}
+
+}  // namespace firstcontact

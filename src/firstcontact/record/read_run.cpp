@@ -1,0 +1,397 @@
+#include <firstcontact/record/read_run.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_result.h>
+#include <firstcontact/text/parse_error.h>
+
+namespace firstcontact {
+namespace {
+
+using nlohmann::json;
+
+/// No place of a run is deeper in the brackets of its line.
+constexpr int kDeepest = 8;
+
+/// A key without its quotes, on one line whatever it holds.
+std::string printable(const std::string& key) {
+  const std::string quoted = json(key).dump();
+  return quoted.substr(1, quoted.size() - 2);
+}
+
+/// Where a value stands below the root: ".bodies[2].pieces"; nothing if it is not there. Searched
+/// for only when there is an error to tell.
+std::optional<std::string> place_of(const json& value, const json& root, int depth = 0) {
+  if (&value == &root) {
+    return "";
+  }
+  if (depth == kDeepest) {
+    return std::nullopt;
+  }
+  if (root.is_object()) {
+    for (const auto& [key, member] : root.items()) {
+      if (const auto place = place_of(value, member, depth + 1)) {
+        return "." + printable(key) + *place;
+      }
+    }
+  } else if (root.is_array()) {
+    for (std::size_t i = 0; i < root.size(); ++i) {
+      if (const auto place = place_of(value, root[i], depth + 1)) {
+        return "[" + std::to_string(i) + "]" + *place;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// Takes values out of one line, or says which place holds something else than expected.
+class Line {
+ public:
+  Line(const std::string& text, const std::string& path, std::size_t number)
+      : path_(path), number_(number), root_(parsed(text)) {}
+
+  [[nodiscard]] const json& root() const { return root_; }
+
+  [[noreturn]] void fail(const json& where, const std::string& expected) const {
+    std::string place = place_of(where, root_).value_or("");
+    place = place.empty() ? "" : place.substr(1) + ": ";
+    throw ParseError(path_, number_, place + "expected " + expected);
+  }
+
+  /// All of the keys, and no other but the one that may be there.
+  void require_keys(const json& object, std::initializer_list<std::string_view> keys,
+                    std::initializer_list<std::string_view> may_be = {}) const {
+    if (!object.is_object()) {
+      fail(object, "an object");
+    }
+    for (const std::string_view key : keys) {
+      if (!object.contains(key)) {
+        fail(object, "the key \"" + std::string(key) + "\"");
+      }
+    }
+    for (const auto& [key, member] : object.items()) {
+      if (std::ranges::find(keys, key) == keys.end() &&
+          std::ranges::find(may_be, key) == may_be.end()) {
+        fail(member, "no such key here");
+      }
+    }
+  }
+
+  [[nodiscard]] const json& array(const json& value) const {
+    if (!value.is_array()) {
+      fail(value, "an array");
+    }
+    return value;
+  }
+
+  [[nodiscard]] const json& array(const json& value, std::size_t size) const {
+    if (!value.is_array() || value.size() != size) {
+      fail(value, "an array of " + std::to_string(size));
+    }
+    return value;
+  }
+
+  [[nodiscard]] double number(const json& value) const {
+    if (!value.is_number()) {
+      fail(value, "a number");
+    }
+    return value.get<double>();
+  }
+
+  [[nodiscard]] double not_negative(const json& value) const {
+    const double x = number(value);
+    if (!(x >= 0.0)) {
+      fail(value, "a number that is not negative");
+    }
+    return x;
+  }
+
+  /// In [0, count).
+  [[nodiscard]] std::size_t index(const json& value, std::size_t count) const {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count) {
+      fail(value, "an integer from 0 to " + std::to_string(count - 1));
+    }
+    return value.get<std::size_t>();
+  }
+
+  [[nodiscard]] std::string string(const json& value) const {
+    if (!value.is_string()) {
+      fail(value, "a string");
+    }
+    return value.get<std::string>();
+  }
+
+  /// From the elements `first` and following of a row of numbers.
+  [[nodiscard]] Eigen::Vector3d vector3(const json& row, std::size_t first) const {
+    return {number(row[first]), number(row[first + 1]), number(row[first + 2])};
+  }
+  [[nodiscard]] Eigen::Vector3d vector3(const json& value) const {
+    return vector3(array(value, 3), 0);
+  }
+
+  [[nodiscard]] Eigen::Quaterniond quaternion(const json& row, std::size_t first) const {
+    const Eigen::Vector3d v = vector3(row, first + 1);
+    Eigen::Quaterniond q(number(row[first]), v.x(), v.y(), v.z());
+    if (!(q.coeffs().cwiseAbs().maxCoeff() > 0.0)) {
+      fail(row, "a quaternion that is not zero");
+    }
+    return q;
+  }
+
+ private:
+  [[nodiscard]] json parsed(const std::string& text) const {
+    try {
+      json root = json::parse(text);
+      if (root.is_object()) {
+        return root;
+      }
+    } catch (const json::parse_error& error) {
+      throw ParseError(
+          path_, number_,
+          "expected one JSON object, got something else at its byte " + std::to_string(error.byte));
+    } catch (const json::exception&) {
+      throw ParseError(path_, number_, "expected numbers that fit a double");
+    }
+    throw ParseError(path_, number_, "expected one JSON object");
+  }
+
+  const std::string& path_;
+  std::size_t number_;
+  json root_;
+};
+
+constexpr std::size_t kAnyCount = std::numeric_limits<std::size_t>::max();
+
+RunHeader read_header(const std::string& text, const std::string& path,
+                      const ReadingOptions& options) {
+  const Line line(text, path, 1);
+  const json& root = line.root();
+  const auto version = root.find("firstcontact_run");
+  if (version == root.end() || *version != 1) {
+    line.fail(root, "the header of a run, an object with \"firstcontact_run\": 1");
+  }
+  line.require_keys(root, {"firstcontact_run", "scene", "version", "scene_digest", "input_digest",
+                           "masses", "centres_of_mass"});
+  RunHeader header;
+  header.scene = parse_embedded_scene(text, path, 1, options);
+  header.version = line.string(root["version"]);
+  header.scene.text_digest = line.string(root["scene_digest"]);
+  header.input_digest = line.string(root["input_digest"]);
+  const std::size_t count = names_with_links(header.scene).size();
+  for (const json& mass : line.array(root["masses"], count)) {
+    header.masses.push_back(line.not_negative(mass));
+  }
+  for (const json& centre : line.array(root["centres_of_mass"], count)) {
+    header.centres_of_mass.push_back(line.vector3(centre));
+  }
+  return header;
+}
+
+RunPiece read_piece(const json& row, const Line& line) {
+  (void)line.array(row, 14);
+  RunPiece piece;
+  piece.to = line.number(row[0]);
+  piece.X_WB = {line.vector3(row, 1), line.quaternion(row, 4)};
+  piece.translation = line.vector3(row, 8);
+  piece.rotation_vector = line.vector3(row, 11);
+  return piece;
+}
+
+RunBody read_body(const json& value, std::size_t bodies, double lasted, const Line& line) {
+  line.require_keys(
+      value,
+      {"body", "pieces", "position", "quaternion_wxyz", "linear_velocity", "angular_velocity"},
+      {"rests"});
+  RunBody body;
+  body.body = line.index(value["body"], bodies);
+  double from = 0.0;
+  for (const json& row : line.array(value["pieces"])) {
+    body.pieces.push_back(read_piece(row, line));
+    const double to = body.pieces.back().to;
+    if (!(to > from || (to == 0.0 && lasted == 0.0))) {
+      line.fail(row, "a piece that ends after the one before it");
+    }
+    from = to;
+  }
+  if (from != lasted) {
+    line.fail(value["pieces"], "a last piece that ends with the step");
+  }
+  body.X_WB = {line.vector3(value["position"]),
+               line.quaternion(line.array(value["quaternion_wxyz"], 4), 0)};
+  body.linear_velocity = line.vector3(value["linear_velocity"]);
+  body.angular_velocity = line.vector3(value["angular_velocity"]);
+  if (const auto rests = value.find("rests"); rests != value.end()) {
+    if (*rests != true || body.linear_velocity.any() || body.angular_velocity.any()) {
+      line.fail(*rests, "true, of a body without velocity");
+    }
+    body.rests = true;
+  }
+  return body;
+}
+
+Feature read_feature(const json& value, const json& triangle, const Line& line) {
+  constexpr std::size_t kCount = std::size_t{1} << 32;
+  line.require_keys(value, {"type", "index"});
+  const std::string type = line.string(value["type"]);
+  for (const FeatureType known : {FeatureType::vertex, FeatureType::edge, FeatureType::face}) {
+    if (type == word(known)) {
+      return {known, static_cast<std::uint32_t>(line.index(value["index"], kCount)),
+              static_cast<std::uint32_t>(line.index(triangle, kCount))};
+    }
+  }
+  line.fail(value["type"], "vertex, edge or face");
+}
+
+RunContact read_contact(const json& value, std::size_t bodies, const Line& line) {
+  line.require_keys(value,
+                    {"bodies", "features", "triangles", "point", "normal", "distance", "impulse"});
+  RunContact contact;
+  const json& pair = line.array(value["bodies"], 2);
+  contact.bodies = {line.index(pair[0], bodies), line.index(pair[1], bodies)};
+  const json& features = line.array(value["features"], 2);
+  const json& triangles = line.array(value["triangles"], 2);
+  contact.feature_A = read_feature(features[0], triangles[0], line);
+  contact.feature_B = read_feature(features[1], triangles[1], line);
+  contact.point = line.vector3(value["point"]);
+  contact.normal = line.vector3(value["normal"]);
+  contact.distance = line.number(value["distance"]);
+  contact.impulse = line.vector3(value["impulse"]);
+  return contact;
+}
+
+RunImpact read_impact(const json& value, std::size_t bodies, const Line& line) {
+  line.require_keys(value, {"at", "bodies", "point", "impulse"});
+  const json& pair = line.array(value["bodies"], 2);
+  return {.at = line.not_negative(value["at"]),
+          .bodies = {line.index(pair[0], bodies), line.index(pair[1], bodies)},
+          .point = line.vector3(value["point"]),
+          .impulse = line.vector3(value["impulse"])};
+}
+
+std::vector<RunBody> read_bodies(const json& array, std::size_t bodies, double lasted,
+                                 const Line& line) {
+  std::vector<RunBody> result;
+  for (const json& element : line.array(array)) {
+    result.push_back(read_body(element, bodies, lasted, line));
+    if (result.size() > 1 && result.back().body <= result[result.size() - 2].body) {
+      line.fail(element["body"], "bodies in the order of their numbers, each once");
+    }
+  }
+  return result;
+}
+
+std::vector<double> numbers(const json& array, const Line& line) {
+  std::vector<double> result;
+  for (const json& number : line.array(array)) {
+    result.push_back(line.number(number));
+  }
+  return result;
+}
+
+std::vector<RunRobot> read_robots(const json& array, std::size_t robots, const Line& line) {
+  std::vector<RunRobot> result;
+  for (const json& element : line.array(array)) {
+    line.require_keys(element, {"robot", "positions", "velocities", "efforts"});
+    result.push_back({.robot = line.index(element["robot"], robots),
+                      .positions = numbers(element["positions"], line),
+                      .velocities = numbers(element["velocities"], line),
+                      .efforts = numbers(element["efforts"], line)});
+    if (result.back().efforts.size() != result.back().velocities.size()) {
+      line.fail(element["efforts"], "as many as velocities");
+    }
+    if (result.size() > 1 && result.back().robot <= result[result.size() - 2].robot) {
+      line.fail(element["robot"], "robots in the order of their numbers, each once");
+    }
+  }
+  return result;
+}
+
+RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
+  const json& root = line.root();
+  line.require_keys(
+      root,
+      {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance", "kinetic_energy",
+       "potential_energy", "linear_momentum", "angular_momentum", "residual", "events"},
+      {"robots", "impacts"});
+  RunStep step;
+  step.index = line.index(root["step"], kAnyCount);
+  step.time = line.not_negative(root["time"]);
+  step.lasted = line.not_negative(root["lasted"]);
+  step.time_lost = line.not_negative(root["time_lost"]);
+  step.bodies = read_bodies(root["bodies"], bodies, step.lasted, line);
+  if (root.contains("robots")) {
+    step.robots = read_robots(root["robots"], robots, line);
+  }
+  for (const json& contact : line.array(root["contacts"])) {
+    step.contacts.push_back(read_contact(contact, bodies, line));
+  }
+  if (root.contains("impacts")) {
+    for (const json& impact : line.array(root["impacts"])) {
+      step.impacts.push_back(read_impact(impact, bodies, line));
+    }
+  }
+  step.clearance = root["clearance"].is_null() ? std::numeric_limits<double>::infinity()
+                                               : line.not_negative(root["clearance"]);
+  step.kinetic_energy = line.number(root["kinetic_energy"]);
+  step.potential_energy = line.number(root["potential_energy"]);
+  step.linear_momentum = line.vector3(root["linear_momentum"]);
+  step.angular_momentum = line.vector3(root["angular_momentum"]);
+  step.residual = line.not_negative(root["residual"]);
+  step.events = line.index(root["events"], kAnyCount);
+  return step;
+}
+
+}  // namespace
+
+RunReader::RunReader(std::istream& run, std::string path, const ReadingOptions& options)
+    : stream_(run), path_(std::move(path)) {
+  const std::optional<std::string> line = next_line();
+  if (!line) {
+    throw ParseError(path_, 1, "expected the header of a run, got no whole line");
+  }
+  header_ = read_header(*line, path_, options);
+  bodies_ = header_.masses.size();
+}
+
+std::optional<RunStep> RunReader::next() {
+  const std::optional<std::string> text = next_line();
+  if (!text) {
+    return std::nullopt;
+  }
+  const Line line(*text, path_, line_);
+  RunStep step = read_step(line, bodies_, header_.scene.robots.size());
+  if (step.index != steps_ + 1) {
+    line.fail(line.root()["step"], std::to_string(steps_ + 1) + ", the steps in order");
+  }
+  ++steps_;
+  return step;
+}
+
+/// None at the end, and where the line feed is missing there.
+std::optional<std::string> RunReader::next_line() {
+  std::string text;
+  std::getline(stream_, text);
+  if (stream_.bad() || (stream_.fail() && !stream_.eof())) {
+    throw ParseError(path_, line_ + 1, "expected a readable file");
+  }
+  if (stream_.eof()) {
+    cut_off_ = !text.empty();
+    return std::nullopt;
+  }
+  ++line_;
+  size_ += text.size() + 1;
+  return text;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,73 @@
+/// @file
+/// Bounds of the motion of a part at the tip of a chain of joints.
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <firstcontact/robot/joint_path.h>
+
+namespace firstcontact::detail {
+
+/// Bounds of the sizes of the derivatives of a part's points, joint by joint from the tip to F. The
+/// derivation stands at LinkPath::window().
+class ChainBounds {
+ public:
+  /// @param beyond  [m]  of any point of the part from the origin at the tip
+  /// @param reach   [m]  of the part from its centre
+  /// @param T       [-]  from the time at which places are known to any other of the window
+  ChainBounds(double beyond, double reach, double T) : beyond_(beyond), reach_(reach), T_(T) {}
+
+  /// A joint that rests, or what is fixed between joints, of that length [m].
+  void pass_rest(double length) { beyond_ += length; }
+
+  /// @param from_axis  [m]  of the part's centre at the time known; its error included
+  /// @param step       [m]  from the parent's origin to the pivot
+  /// @param lever      [m]  from the pivot to the child's origin
+  void pass(const JointBounds& bounds, double from_axis, double step, double lever) {
+    const auto& [w1, w2, w3] = bounds.angle;
+    beyond_ += lever;
+    const double by_axis = from_axis + reach_ + v_ * T_;
+    const double rho = std::min(by_axis, beyond_) * kUp;
+    const double more_rho = by_axis < beyond_ ? 1.0 + more_.rate * T_ : 1.0;
+    const double turning = length_of(w2, w1 * w1);
+    const double twisting = length_of(w3 + w1 * w1 * w1, 3.0 * w1 * w2);
+    more_.jerk += 3.0 * w1 * more_.acceleration + 3.0 * turning * more_.rate + twisting * more_rho;
+    more_.acceleration += 2.0 * w1 * more_.rate + turning * more_rho;
+    more_.rate += w1 * more_rho;
+    j_ = bounds.pivot.jerk + j_ + 3.0 * w1 * a_ + 3.0 * turning * v_ + twisting * rho;
+    a_ = bounds.pivot.acceleration + a_ + 2.0 * w1 * v_ + turning * rho;
+    v_ = bounds.pivot.rate + v_ + w1 * rho;
+    beyond_ += step + bounds.pivot.rate * T_;
+  }
+
+  [[nodiscard]] CoordinateSegment::Bounds bounds() const { return {v_ * kUp, a_ * kUp, j_ * kUp}; }
+
+  /// [per metre]  At most what is added for each metre by which the part reaches farther: rho is a
+  /// concave function of the reach, and with it are all the bounds.
+  [[nodiscard]] CoordinateSegment::Bounds per_metre() const {
+    return {more_.rate * kUp, more_.acceleration * kUp, more_.jerk * kUp};
+  }
+
+ private:
+  /// Sums and products of up to some hundred joints' bounds.
+  static constexpr double kUp = 1.0 + 0x1p-40;
+
+  /// Of (x, y), rounded up: std::hypot takes a multiple of the time.
+  static double length_of(double x, double y) {
+    constexpr double kUnderflow = 1e-290;
+    const double square = x * x + y * y;
+    return square > kUnderflow ? std::sqrt(square) * kUp : std::abs(x) + std::abs(y);
+  }
+
+  double beyond_;
+  double reach_;
+  double T_;
+  double v_ = 0.0;
+  double a_ = 0.0;
+  double j_ = 0.0;
+  CoordinateSegment::Bounds more_;  // Derivatives of these by the reach.
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,42 @@
+/// @file
+/// Where a robot's motion leaves the limits of its joints.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot/robot_motion.h>
+
+namespace firstcontact {
+
+enum class JointLimit { lower_position, upper_position, velocity };
+
+/// One joint beyond one of its limits. Units: rad or m; per second for velocities.
+struct LimitViolation {
+  std::size_t joint = 0;
+  JointLimit what = JointLimit::lower_position;
+  double limit = 0.0;     ///< As the model has it.
+  double excess = 0.0;    ///< The greatest way beyond the limit, to the tolerance.
+  double t_excess = 0.0;  ///< [-]  Where it is attained.
+  /// In order, at least one: outside of them the coordinate is proven to exceed the limit by no
+  /// more than the tolerance; in each there is a time at which it exceeds the limit.
+  std::vector<TimeWindow> intervals;
+};
+
+/// All limits that a motion leaves by more than a tolerance, in order of the joints.
+///
+/// Joints of one coordinate have limits, those that mimic others included. A velocity limit of 0,
+/// as many files have it who do not know one, counts as none. Proven for the exact
+/// polynomials that the input defines: nothing is sampled.
+///
+/// @param duration   [s]  of the step; > 0
+/// @param tolerance  [rad or m; per s]  > 0
+/// @throws std::invalid_argument if a number is outside its range
+[[nodiscard]] FIRSTCONTACT_API std::vector<LimitViolation> limit_report(const RobotMotion& motion,
+                                                                        double duration,
+                                                                        double tolerance = 1e-9);
+
+}  // namespace firstcontact

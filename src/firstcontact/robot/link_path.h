@@ -1,0 +1,217 @@
+/// @file
+/// How a link moves in the frame of an ancestor: its pose, and rigorous bounds of its motion along
+/// a direction.
+
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/double_double.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/joint_path.h>
+#include <firstcontact/robot/precise_transform.h>
+#include <firstcontact/robot/tracking_error.h>
+
+namespace firstcontact {
+
+/// A pose, in double precision, and how far it may be from the exact one.
+struct LinkPose {
+  Eigen::Matrix3d R_FL = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_OL = Eigen::Vector3d::Zero();  ///< [m]  From the origin asked for, in F.
+  double rotation_error = 0.0;                     ///< [-]  R y is within this of exact, per |y|.
+  double position_error = 0.0;                     ///< [m]
+};
+
+/// Where a link is and how it moves: derivatives of its origin's place and of its rotation.
+struct LinkState {
+  LinkPose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m per step]
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< [m per step^2]
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();          ///< [rad per step]
+  Eigen::Vector3d spin_rate = Eigen::Vector3d::Zero();     ///< [rad per step^2]
+  double velocity_error = 0.0;                             ///< How far each may be from exact.
+  double acceleration_error = 0.0;
+  double spin_error = 0.0;
+  double spin_rate_error = 0.0;
+};
+
+/// A part of a link: a box with any axes, thickened. A ball is a box without extent.
+struct LinkPart {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  In L.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< [-]  One per row, in L.
+  Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< [m]
+  double radius = 0.0;                                     ///< [m]
+
+  /// [m]  Covers the part from its centre; rounded up.
+  [[nodiscard]] double reach() const { return (half_extents.norm() + radius) * (1.0 + 0x1p-50); }
+};
+
+/// What holds for every point of a part from the window's time t on: in a time tau it gains along
+/// n no more than  speed tau + acceleration tau^2 / 2.
+struct DirectedBound {
+  double speed = 0.0;         ///< [m per step]
+  double acceleration = 0.0;  ///< [m per step^2]  Of one sign or the other.
+};
+
+/// The motion of a link at one time t, and bounds of it over a window around t.
+class FIRSTCONTACT_API LinkWindow {
+ public:
+  [[nodiscard]] double t() const { return t_; }
+  [[nodiscard]] double t_from() const { return t_from_; }
+  [[nodiscard]] double t_to() const { return t_to_; }
+  [[nodiscard]] const LinkPose& pose() const { return pose_; }
+
+  /// Bounds of the sizes of velocity, acceleration and jerk of every point of the window's part, at
+  /// every time of the window.
+  [[nodiscard]] const CoordinateSegment::Bounds& bounds() const { return bounds_; }
+
+  /// [per metre]  A point of the link at a distance r from the part exceeds these bounds by r times
+  /// these at most.
+  [[nodiscard]] const CoordinateSegment::Bounds& per_metre() const { return per_metre_; }
+
+  /// The displacement along n, from t to t_to().
+  ///
+  /// Derivation: a point P at offset e from the link's origin has velocity v + w x e and
+  /// acceleration a + al x e + w x (w x e), linear in e: their greatest values over a box are in
+  /// closed form. Taylor's theorem with |jerk| <= J gives
+  ///   n . (p(t + tau) - p(t)) <= n . v_P tau + (n . a_P + J T / 3) tau^2 / 2 for tau <= T.
+  /// Where the bounds of size over the window are less, they are taken.
+  ///
+  /// @param part  inside of the window's part
+  /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
+  [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n) const;
+
+  /// The same from t back to t_from(): what holds for the motion in reverse.
+  [[nodiscard]] DirectedBound displacement_back(const LinkPart& part,
+                                                const Eigen::Vector3d& n) const;
+
+  /// [m per step]  The velocity of every point of the part along n, at every time of the window.
+  [[nodiscard]] double speed_bound(const LinkPart& part, const Eigen::Vector3d& n) const;
+
+ private:
+  friend class LinkPath;
+
+  [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n,
+                                           double direction, double T) const;
+
+  /// The greatest n . (linear + angular e) over the part's offsets e from the link's origin.
+  [[nodiscard]] double support(const LinkPart& part, const Eigen::Vector3d& n,
+                               const Eigen::Vector3d& linear, const Eigen::Matrix3d& angular) const;
+
+  double t_ = 0.0;
+  double t_from_ = 0.0;
+  double t_to_ = 0.0;
+  LinkPose pose_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();      // Of the link's origin.
+  Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // Of the link's origin.
+  Eigen::Matrix3d spin_ = Eigen::Matrix3d::Zero();          // [w]x
+  Eigen::Matrix3d spin_rate_ = Eigen::Matrix3d::Zero();     // [al]x + [w]x [w]x
+  double speed_error_ = 0.0;                                // Of any point of the part at t.
+  double acceleration_error_ = 0.0;
+  CoordinateSegment::Bounds bounds_;
+  CoordinateSegment::Bounds per_metre_;
+};
+
+namespace detail {
+class ChainMemory;
+}
+
+/// Scratch memory: one per thread. It remembers the last places of joints, so that links that share
+/// joints, and questions that share times, share the work.
+class FIRSTCONTACT_API LinkScratch {
+ public:
+  LinkScratch();
+  ~LinkScratch();
+  LinkScratch(LinkScratch&&) noexcept;
+  LinkScratch& operator=(LinkScratch&&) noexcept;
+
+  [[nodiscard]] detail::ChainMemory& memory() { return *memory_; }
+
+ private:
+  std::unique_ptr<detail::ChainMemory> memory_;
+};
+
+/// The path of a link L in the frame F of an ancestor, over one smooth piece of time.
+class FIRSTCONTACT_API LinkPath {
+ public:
+  /// @param joints  from F to L, none of them null; paths of other links share them
+  LinkPath(double t_begin, double t_end, std::vector<std::shared_ptr<const JointPath>> joints);
+
+  [[nodiscard]] double t_begin() const { return t_begin_; }
+  [[nodiscard]] double t_end() const { return t_end_; }
+
+  /// The path of a frame that is fixed in L.
+  [[nodiscard]] LinkPath then(const PreciseTransform& X_LG) const;
+
+  /// The same with that transform as a joint that does not move, to be shared.
+  [[nodiscard]] LinkPath then(std::shared_ptr<const JointPath> X_LG) const;
+
+  /// X_FL(t).
+  ///
+  /// @param p_FO  [m]  positions are taken from here on, in double-double as far as the first joint
+  [[nodiscard]] LinkPose pose(double t, const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// The same, with the link's derivatives.
+  [[nodiscard]] LinkState state(double t, LinkScratch& scratch,
+                                const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// A place F O near which the links of a robot are, the same for all that share a first joint:
+  /// where positions are best taken from.
+  [[nodiscard]] DoubleDoubleVector3 anchor() const;
+
+  /// The path, where it is that of a free body; else null.
+  [[nodiscard]] const ConstantRatePath* constant_rates() const;
+
+  struct Swept {
+    LinkPose pose;       ///< At t.
+    double speed = 0.0;  ///< [m per step]  No point of the part is faster in the window.
+  };
+  /// A bound like the first of window(), whose derivation holds, at a fraction of the cost.
+  [[nodiscard]] Swept swept(double t, double t_from, double t_to, const LinkPart& part,
+                            LinkScratch& scratch) const;
+
+  /// Bounds over [t_from, t_to], which contains t and lies in the piece.
+  ///
+  /// Derivation: let rho be the greatest distance of the part from a joint's axis, w, e, f bounds
+  /// of the angle's derivatives and d1, d2, d3 of the pivot's. If v, a, j bound the derivatives of
+  /// the part's points as seen from the child, then as seen from the parent, as p = pivot +
+  /// Rot(axis, angle) y,
+  ///   v' <= d1 + v + w rho,
+  ///   a' <= d2 + a + 2 w v + sqrt(e^2 + w^4) rho,
+  ///   j' <= d3 + j + 3 w a + 3 sqrt(e^2 + w^4) v + sqrt((f + w^3)^2 + (3 w e)^2) rho,
+  /// from the tip to F. rho is the distance at t, and v T more; or the length of the chain beyond
+  /// the axis, which holds for any angles.
+  ///
+  /// @param part  the link, or as much of it as is of interest
+  [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const LinkPart& part,
+                                  LinkScratch& scratch, const DoubleDoubleVector3& p_FO = {}) const;
+
+  /// [m]  No point of the part is farther from its place, at any time of [t_from, t_to], where each
+  /// joint is within an error of its path.
+  ///
+  /// Derivation: let e bound how far the part's points are from their places as seen from a child.
+  /// With the joint at its path they are as far as seen from the parent. An error of the angle
+  /// moves what is at a distance rho from the axis by 2 sin(error / 2) rho, one of the slide by as
+  /// much:
+  ///   e' <= e + 2 sin(min(angle, pi) / 2) rho + distance,
+  /// from the tip to F, with rho as in window().
+  ///
+  /// @param errors  one for each joint of the path, from F on
+  [[nodiscard]] double tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
+                                      std::span<const TrackingError> errors,
+                                      LinkScratch& scratch) const;
+
+  [[nodiscard]] std::size_t joint_count() const { return joints_.size(); }
+
+ private:
+  double t_begin_;
+  double t_end_;
+  std::vector<std::shared_ptr<const JointPath>> joints_;
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,468 @@
+#include <firstcontact/robot/mechanism.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <firstcontact/motion/detail/turn.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::turn;
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Spatial = MechanismInstant::Spatial;
+
+/// No coordinate turns farther in a sub-step of free motion.
+constexpr double kSubStep = 0.05;  // [rad or m]
+constexpr int kMostSubSteps = 4096;
+
+/// Moments of inertia as printed: this far from what a body can have they are meant so.
+constexpr double kPrinted = 1e-3;  // [-]
+
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+Spatial spatial(const Vector3d& linear, const Vector3d& angular) {
+  Spatial s;
+  s << linear, angular;
+  return s;
+}
+
+/// The rate of a motion vector that a moving frame carries along.
+Spatial cross_motion(const Spatial& V, const Spatial& m) {
+  const Vector3d v = V.head<3>();
+  const Vector3d w = V.tail<3>();
+  return spatial(w.cross(m.head<3>()) + v.cross(m.tail<3>()), w.cross(m.tail<3>()));
+}
+
+/// The same of a force or momentum.
+Spatial cross_force(const Spatial& V, const Spatial& f) {
+  const Vector3d v = V.head<3>();
+  const Vector3d w = V.tail<3>();
+  return spatial(w.cross(f.head<3>()), v.cross(f.head<3>()) + w.cross(f.tail<3>()));
+}
+
+Quaterniond quaternion(const VectorXd& positions, Index at) {
+  return Quaterniond(positions[at], positions[at + 1], positions[at + 2], positions[at + 3])
+      .normalized();
+}
+
+void set_quaternion(const Quaterniond& q, Index at, VectorXd& positions) {
+  positions.segment<4>(at) << q.w(), q.x(), q.y(), q.z();
+}
+
+Index position_count(JointType type) {
+  switch (type) {
+    case JointType::floating:
+      return 7;
+    case JointType::ball:
+      return 4;
+    default:
+      return static_cast<Index>(coordinate_count(type));
+  }
+}
+
+Index velocity_count(JointType type) {
+  switch (type) {
+    case JointType::floating:
+      return 6;
+    case JointType::ball:
+      return 3;
+    default:
+      return static_cast<Index>(coordinate_count(type));
+  }
+}
+
+/// Of a link about a point, (6, 6).
+Eigen::Matrix<double, 6, 6> spatial_inertia(const LinkInertia& inertia, const Pose& X_WL,
+                                            const Vector3d& about) {
+  const Matrix3d R = X_WL.rotation.toRotationMatrix();
+  const Vector3d c = X_WL.position + R * inertia.p_LC - about;
+  const Matrix3d C = cross_matrix(c);
+  Eigen::Matrix<double, 6, 6> I;
+  I.topLeftCorner<3, 3>() = inertia.mass * Matrix3d::Identity();
+  I.topRightCorner<3, 3>() = -inertia.mass * C;
+  I.bottomLeftCorner<3, 3>() = inertia.mass * C;
+  I.bottomRightCorner<3, 3>() = R * inertia.about_C_L * R.transpose() - inertia.mass * C * C;
+  return I;
+}
+
+/// What is wrong with the inertia of a link; empty if some body has it.
+std::string wrong_inertia(const LinkInertia& inertia) {
+  if (!inertia.defect.empty()) {
+    return inertia.defect;
+  }
+  if (!std::isfinite(inertia.mass) || !inertia.p_LC.allFinite() || !inertia.about_C_L.allFinite() ||
+      inertia.mass < 0.0) {
+    return "its mass must be >= 0, and all numbers of its inertia finite";
+  }
+  const Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia.about_C_L, Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  if (moments[0] < -kPrinted * moments[2]) {
+    return "a principal moment of its inertia is negative: no body has such";
+  }
+  return {};
+}
+
+/// How a joint moves its child now, about a reference point.
+struct JointPlace {
+  Vector3d p_WL;
+  Quaterniond R_WL;
+  Jacobian S;                      // (6, velocities)
+  Spatial bias = Spatial::Zero();  // Beyond what the parent carries along.
+};
+
+JointPlace place_joint(const Joint& joint, const VectorXd& q, const VectorXd& v,
+                       const Vector3d& p_WJ, const Quaterniond& R_WJ, const Vector3d& reference) {
+  const Vector3d axis = R_WJ * joint.axis.normalized();
+  const auto about = [&](const Vector3d& direction, const Vector3d& point) {
+    return spatial(direction.cross(reference - point), direction);
+  };
+  const auto along = [](const Vector3d& direction) { return spatial(direction, Vector3d::Zero()); };
+  JointPlace place{.p_WL = p_WJ, .R_WL = R_WJ, .S = Jacobian(6, v.size())};
+  switch (joint.type) {
+    case JointType::fixed:
+      break;
+    case JointType::revolute:
+    case JointType::continuous:
+    case JointType::screw:
+      place.R_WL = turn(q[0] * axis) * R_WJ;
+      place.p_WL += joint.type == JointType::screw ? Vector3d(joint.pitch * q[0] * axis)
+                                                   : Vector3d(Vector3d::Zero());
+      place.S.col(0) = about(axis, p_WJ);
+      place.S.col(0) +=
+          joint.type == JointType::screw ? along(joint.pitch * axis) : Spatial(Spatial::Zero());
+      break;
+    case JointType::prismatic:
+      place.p_WL += q[0] * axis;
+      place.S.col(0) = along(axis);
+      break;
+    case JointType::planar: {
+      const Quaterniond tilt = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis);
+      const Vector3d x = R_WJ * (tilt * Vector3d::UnitX());
+      const Vector3d y = R_WJ * (tilt * Vector3d::UnitY());
+      place.p_WL += q[0] * x + q[1] * y;
+      place.R_WL = turn(q[2] * axis) * R_WJ;
+      place.S << along(x), along(y), about(axis, place.p_WL);
+      // The point about which it turns moves.
+      place.bias = along((v[0] * x + v[1] * y).cross(v[2] * axis));
+      break;
+    }
+    case JointType::floating:
+    case JointType::ball: {
+      const Index turns = joint.type == JointType::floating ? 3 : 0;
+      if (turns > 0) {
+        place.p_WL += R_WJ * q.head<3>();
+      }
+      place.R_WL = R_WJ * quaternion(q, turns);
+      for (int k = 0; k < 3; ++k) {
+        const Vector3d direction = R_WJ * Vector3d::Unit(k);
+        place.S.col(turns + k) = about(direction, place.p_WL);
+        if (turns > 0) {
+          place.S.col(k) = along(direction);
+        }
+      }
+      if (turns > 0) {
+        place.bias = along((R_WJ * v.head<3>()).cross(R_WJ * v.tail<3>()));
+      }
+      break;
+    }
+  }
+  return place;
+}
+
+}  // namespace
+
+Mechanism::Mechanism(RobotModel model, const Pose& X_WR, bool free_base)
+    : model_(std::move(model)),
+      X_WR_{X_WR.position, X_WR.rotation.normalized()},
+      free_base_(free_base) {
+  lay_out(free_base);
+  require_mass();
+}
+
+void Mechanism::lay_out(bool free_base) {
+  const auto add_block = [this](std::size_t joint, Index positions, Index velocities) {
+    blocks_.push_back({joint, position_count_, positions, size_, velocities});
+    position_count_ += positions;
+    size_ += velocities;
+  };
+  const std::span<const Joint> joints = model_.joints();
+  if (free_base) {
+    add_block(joints.size(), 7, 6);
+  }
+  parts_.resize(joints.size());
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].type != JointType::fixed && !joints[j].mimic) {
+      parts_[j].block = blocks_.size();
+      add_block(j, firstcontact::position_count(joints[j].type), velocity_count(joints[j].type));
+    }
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    // A chain of mimics ends at a joint of its own: the model has no loop.
+    std::size_t followed = j;
+    Part part;
+    while (joints[followed].mimic) {
+      const Mimic& mimic = *joints[followed].mimic;
+      part.offset += part.multiplier * mimic.offset;
+      part.multiplier *= mimic.multiplier;
+      followed = *model_.find_joint(mimic.joint);
+    }
+    if (followed != j) {
+      part.block = parts_[followed].block;
+      parts_[j] = part;
+    }
+  }
+  order_.push_back(model_.root());
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (model_.parent_link(j) == order_[k]) {
+        order_.push_back(model_.child_link(j));
+      }
+    }
+  }
+}
+
+void Mechanism::require_mass() const {
+  for (const Link& link : model_.links()) {
+    const std::string wrong = link.inertia ? wrong_inertia(*link.inertia) : std::string();
+    if (!wrong.empty()) {
+      throw std::invalid_argument("link \"" + link.name + "\": " + wrong);
+    }
+  }
+  const MatrixXd M = mass_matrix(at(rest()));
+  const double size = M.size() > 0 ? M.diagonal().maxCoeff() : 0.0;
+  for (const MechanismJoint& block : blocks_) {
+    const auto mass = M.diagonal().segment(block.velocity, block.velocities);
+    if (!(mass.minCoeff() > 1e-14 * size)) {
+      throw std::invalid_argument(
+          (block.joint < model_.joints().size()
+               ? "joint \"" + model_.joints()[block.joint].name + "\""
+               : std::string("the free base")) +
+          " moves no mass: give the links that it carries an <inertial>, or the robot's "
+          "\"dynamics\" a \"density\"");
+    }
+  }
+  if (M.size() > 0 && Eigen::LLT<MatrixXd>(M).info() != Eigen::Success) {
+    throw std::invalid_argument(
+        "robot \"" + model_.name() +
+        "\": some of its joints together move no mass: give the links between them an <inertial>");
+  }
+}
+
+MechanismState Mechanism::rest() const {
+  MechanismState state{VectorXd::Zero(position_count_), VectorXd::Zero(size_)};
+  for (const MechanismJoint& block : blocks_) {
+    if (const std::optional<Index> at = block.quaternion()) {
+      set_quaternion(Quaterniond::Identity(), *at, state.positions);
+    }
+  }
+  if (free_base_) {
+    state.positions.head<3>() = X_WR_.position;
+    set_quaternion(X_WR_.rotation, 3, state.positions);
+  }
+  return state;
+}
+
+VectorXd Mechanism::moved(const VectorXd& positions, const VectorXd& displacement) const {
+  VectorXd result = positions;
+  for (const MechanismJoint& block : blocks_) {
+    const std::optional<Index> at = block.quaternion();
+    const Index slides = at ? block.velocities - 3 : block.velocities;
+    result.segment(block.position, slides) += displacement.segment(block.velocity, slides);
+    if (at) {
+      const Vector3d turned = displacement.segment<3>(block.velocity + slides);
+      set_quaternion((turn(turned) * quaternion(positions, *at)).normalized(), *at, result);
+    }
+  }
+  return result;
+}
+
+VectorXd Mechanism::between(const VectorXd& from, const VectorXd& to, double share) const {
+  VectorXd result = from + share * (to - from);
+  for (const MechanismJoint& block : blocks_) {
+    if (const std::optional<Index> at = block.quaternion()) {
+      set_quaternion(quaternion(from, *at).slerp(share, quaternion(to, *at)).normalized(), *at,
+                     result);
+    }
+  }
+  return result;
+}
+
+void Mechanism::place(const MechanismState& state, std::size_t link,
+                      MechanismInstant& instant) const {
+  const std::optional<std::size_t> joint = model_.parent_joint(link);
+  Joint base{.type = free_base_ ? JointType::floating : JointType::fixed};
+  const Joint& moved_by = joint ? model_.joints()[*joint] : base;
+  const Part part = joint ? parts_[*joint] : Part{.block = free_base_ ? 0 : kFixed};
+  VectorXd q;
+  VectorXd v;
+  if (part.block != kFixed) {
+    const MechanismJoint& block = blocks_[part.block];
+    q = state.positions.segment(block.position, block.positions);
+    v = part.multiplier * state.velocities.segment(block.velocity, block.velocities);
+    if (joint && moved_by.mimic) {
+      q[0] = part.multiplier * q[0] + part.offset;
+    }
+  }
+  Vector3d p_WJ = free_base_ ? Vector3d(Vector3d::Zero()) : X_WR_.position;
+  Quaterniond R_WJ = free_base_ ? Quaterniond::Identity() : X_WR_.rotation;
+  Spatial V = Spatial::Zero();
+  Spatial bias = Spatial::Zero();
+  Jacobian J = Jacobian::Zero(6, size_);
+  if (joint) {
+    const std::size_t parent = model_.parent_link(*joint);
+    const Pose& X_WP = instant.X_WL[parent];
+    p_WJ = X_WP.position + X_WP.rotation * moved_by.X_PJ.position;
+    R_WJ = (X_WP.rotation * moved_by.X_PJ.rotation.normalized()).normalized();
+    V = instant.velocity[parent];
+    bias = instant.bias[parent];
+    J = instant.J[parent];
+  }
+  const JointPlace placed = place_joint(moved_by, q, v, p_WJ, R_WJ, instant.reference);
+  instant.X_WL[link] = {placed.p_WL, placed.R_WL.normalized()};
+  if (part.block != kFixed) {
+    const MechanismJoint& block = blocks_[part.block];
+    const Spatial own = placed.S * v;
+    bias += cross_motion(V, own) + placed.bias;
+    V += own;
+    J.middleCols(block.velocity, block.velocities) += part.multiplier * placed.S;
+  }
+  instant.velocity[link] = V;
+  instant.bias[link] = bias;
+  instant.J[link] = std::move(J);
+}
+
+MechanismInstant Mechanism::at(const MechanismState& state) const {
+  MechanismInstant instant;
+  instant.reference = free_base_ ? Vector3d(state.positions.head<3>()) : X_WR_.position;
+  const std::size_t count = model_.links().size();
+  instant.X_WL.resize(count);
+  instant.velocity.resize(count);
+  instant.bias.resize(count);
+  instant.J.resize(count);
+  for (const std::size_t link : order_) {
+    place(state, link, instant);
+  }
+  return instant;
+}
+
+MatrixXd Mechanism::mass_matrix(const MechanismInstant& instant) const {
+  MatrixXd M = MatrixXd::Zero(size_, size_);
+  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
+    if (const auto& inertia = model_.links()[l].inertia) {
+      const Jacobian& J = instant.J[l];
+      M += J.transpose() * spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * J;
+    }
+  }
+  return M;
+}
+
+VectorXd Mechanism::bias_forces(const MechanismInstant& instant, const Vector3d& gravity) const {
+  VectorXd forces = VectorXd::Zero(size_);
+  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
+    if (const auto& inertia = model_.links()[l].inertia) {
+      const Eigen::Matrix<double, 6, 6> I =
+          spatial_inertia(*inertia, instant.X_WL[l], instant.reference);
+      const Spatial& V = instant.velocity[l];
+      const Spatial a = instant.bias[l] - spatial(gravity, Vector3d::Zero());
+      forces += instant.J[l].transpose() * (I * a + cross_force(V, I * V));
+    }
+  }
+  return forces;
+}
+
+MechanismState Mechanism::after_free_motion(const MechanismState& state, const Vector3d& gravity,
+                                            double dt) const {
+  const auto acceleration = [&](const MechanismState& s) -> VectorXd {
+    const MechanismInstant instant = at(s);
+    return -mass_matrix(instant).llt().solve(bias_forces(instant, gravity));
+  };
+  const double way =
+      dt * (state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0);
+  const int count = static_cast<int>(
+      std::clamp(std::ceil(way / kSubStep), 1.0, static_cast<double>(kMostSubSteps)));
+  const double h = dt / count;
+  MechanismState now = state;
+  for (int k = 0; k < count; ++k) {
+    const VectorXd& v1 = now.velocities;
+    const VectorXd a1 = acceleration(now);
+    const VectorXd v2 = v1 + 0.5 * h * a1;
+    const VectorXd a2 = acceleration({moved(now.positions, 0.5 * h * v1), v2});
+    const VectorXd v3 = v1 + 0.5 * h * a2;
+    const VectorXd a3 = acceleration({moved(now.positions, 0.5 * h * v2), v3});
+    const VectorXd v4 = v1 + h * a3;
+    const VectorXd a4 = acceleration({moved(now.positions, h * v3), v4});
+    now = {moved(now.positions, h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4)),
+           v1 + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)};
+  }
+  return now;
+}
+
+VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positions) const {
+  const MechanismInstant from = at(state);
+  const MechanismInstant to = at({positions, VectorXd::Zero(size_)});
+  VectorXd momenta = VectorXd::Zero(size_);
+  double energy = 0.0;  // Twice.
+  for (std::size_t l = 0; l < from.X_WL.size(); ++l) {
+    const auto& inertia = model_.links()[l].inertia;
+    if (!inertia) {
+      continue;
+    }
+    const auto centre = [&](const MechanismInstant& instant) -> Vector3d {
+      return instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
+    };
+    const Spatial& V = from.velocity[l];
+    const Vector3d w = V.tail<3>();
+    const Vector3d v_WC = V.head<3>() + w.cross(centre(from) - from.reference);
+    const Matrix3d R = from.X_WL[l].rotation.toRotationMatrix();
+    const Vector3d linear = inertia->mass * v_WC;
+    const Vector3d angular = R * (inertia->about_C_L * (R.transpose() * w));
+    energy += linear.dot(v_WC) + angular.dot(w);
+    momenta +=
+        to.J[l].transpose() * spatial(linear, angular + (centre(to) - to.reference).cross(linear));
+  }
+  const VectorXd velocities = mass_matrix(to).llt().solve(momenta);
+  const double found = velocities.dot(momenta);
+  return found > 0.0 ? VectorXd(std::sqrt(energy / found) * velocities) : velocities;
+}
+
+MechanismMechanics Mechanism::mechanics(const MechanismState& state,
+                                        const Vector3d& gravity) const {
+  const MechanismInstant instant = at(state);
+  MechanismMechanics sum;
+  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
+    const auto& inertia = model_.links()[l].inertia;
+    if (!inertia) {
+      continue;
+    }
+    const Spatial& V = instant.velocity[l];
+    const Spatial momentum = spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * V;
+    const Vector3d p_WC = instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
+    sum.kinetic_energy += 0.5 * V.dot(momentum);
+    sum.potential_energy -= inertia->mass * gravity.dot(p_WC);
+    sum.linear_momentum += momentum.head<3>();
+    sum.angular_momentum +=
+        momentum.tail<3>() + instant.reference.cross(Vector3d(momentum.head<3>()));
+  }
+  return sum;
+}
+
+}  // namespace firstcontact

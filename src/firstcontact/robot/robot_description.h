@@ -1,0 +1,116 @@
+/// @file
+/// A robot as plain data: links, joints, and what may be wrong with them.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/link_geometry.h>
+
+namespace firstcontact {
+
+/// What of a link resists motion, as its maker says; some say what no body has.
+struct LinkInertia {
+  double mass = 0.0;                                    ///< [kg]
+  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();       ///< [m]  Centre of mass.
+  Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  Axes of L; symmetric.
+  /// What is wrong with how its file says it, with place; may be empty. Nothing that moves as it is
+  /// told minds; simulations refuse it.
+  std::string defect = {};
+};
+
+/// A rigid part of a robot, frame L.
+struct Link {
+  std::string name = {};
+  std::vector<LinkGeometry> visual = {};
+  std::vector<LinkGeometry> collision = {};
+  std::optional<LinkInertia> inertia = {};
+};
+
+/// Two links of a robot whose collision is not checked.
+struct DisabledPair {
+  std::size_t link = 0;  ///< The smaller index.
+  std::size_t other = 0;
+  std::string reason;  ///< May be empty.
+};
+
+/// How a child link may move against its parent. J is the joint frame, fixed in the parent; at
+/// zero coordinates the child's frame is J.
+enum class JointType {
+  fixed,
+  revolute,    ///< Turns about the axis by its coordinate, within limits.
+  continuous,  ///< Turns without limits.
+  prismatic,   ///< Slides along the axis.
+  screw,       ///< Turns, and slides by `pitch` times the angle.
+  planar,      ///< Slides along two directions across the axis, turns about it: three coordinates.
+  floating,    ///< Any rigid motion: a pose.
+  ball,        ///< Turns about its centre: a pose without translation.
+};
+
+/// What the maker allows; nothing where nothing is said. Units per coordinate: rad, or m for
+/// prismatic joints; of a screw they belong to the angle.
+struct JointLimits {
+  std::optional<double> lower = {};     ///< [rad or m]
+  std::optional<double> upper = {};     ///< [rad or m]
+  std::optional<double> velocity = {};  ///< [rad/s or m/s]  >= 0.
+  std::optional<double> effort = {};    ///< [N m or N]  >= 0.
+};
+
+/// The coordinate is multiplier times that of another joint, plus offset.
+struct Mimic {
+  std::string joint;
+  double multiplier = 1.0;  ///< [-]
+  double offset = 0.0;      ///< [rad or m]
+};
+
+/// Connects a child link to its parent. X_PL(q) = X_PJ X_JL(q).
+struct Joint {
+  std::string name = {};
+  JointType type = JointType::fixed;
+  std::string parent = {};
+  std::string child = {};
+  Pose X_PJ = {};
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< [-]  In J, any length but zero.
+  double pitch = 0.0;                               ///< [m/rad]  Of a screw.
+  JointLimits limits = {};
+  std::optional<Mimic> mimic = {};  ///< Of joints with one coordinate.
+  double damping = 0.0;             ///< [N m s/rad or N s/m]  >= 0.
+  double friction = 0.0;            ///< [N m or N]  >= 0; Coulomb's, of the joint itself.
+};
+
+/// How many numbers say where the joint is; 0 for floating and ball joints, which take a pose.
+FIRSTCONTACT_API std::size_t coordinate_count(JointType type);
+
+/// The word of URDF; `screw` and `ball` for those that it does not know.
+FIRSTCONTACT_API const char* to_string(JointType type);
+
+/// What a RobotModel is made of. Order is free: a joint may come before its links.
+struct RobotDescription {
+  std::string name = {};
+  std::vector<Link> links = {};
+  std::vector<Joint> joints = {};
+};
+
+/// What is wrong with a description, and where.
+struct RobotDefect {
+  std::string message;
+  std::optional<std::size_t> joint;  ///< Index into joints.
+  std::optional<std::size_t> link;   ///< Index into links.
+};
+
+/// The reasons why the description is no tree of links: unknown or doubled names, second parents,
+/// loops, second roots; and joints whose numbers make no sense. Empty if it is sound. What only
+/// follows from other defects is left out.
+FIRSTCONTACT_API std::vector<RobotDefect> find_defects(const RobotDescription& description);
+
+/// The first of find_defects(). None if the description is sound.
+FIRSTCONTACT_API std::optional<RobotDefect> find_defect(const RobotDescription& description);
+
+}  // namespace firstcontact

@@ -1,0 +1,24 @@
+/// @file
+/// How well a robot follows its nominal motion.
+
+#pragma once
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_description.h>
+
+namespace firstcontact {
+
+/// How far a joint may be from its nominal motion at any time.
+struct TrackingError {
+  double angle = 0.0;     ///< [rad]  Of a joint that turns; >= 0.
+  double distance = 0.0;  ///< [m]  Of a joint that slides; >= 0.
+};
+
+/// The error of a joint of one coordinate, in the unit of the coordinate.
+///
+/// @param coordinate  [rad or m]
+/// @throws std::invalid_argument if the joint has none or more
+[[nodiscard]] FIRSTCONTACT_API TrackingError tracking_error_of(const Joint& joint,
+                                                               double coordinate);
+
+}  // namespace firstcontact

@@ -1,0 +1,432 @@
+#include <firstcontact/robot_check/check_robots.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/contact_intervals.h>
+#include <firstcontact/robot_check/detail/least_clearance.h>
+#include <firstcontact/robot_check/detail/least_of_all.h>
+#include <firstcontact/robot_check/detail/pair_contacts.h>
+#include <firstcontact/robot_check/detail/part_search.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::is_contact;
+using detail::PartAnswer;
+using detail::PartCandidate;
+using detail::PartSearch;
+
+/// Pieces of time looked at together, and searches done side by side with the same horizon: few at
+/// first, as a contact spares the others. Fixed, so that answers do not depend on the number of
+/// threads.
+constexpr std::size_t kBlock = 32;
+constexpr std::size_t kFirstRound = 1;
+constexpr std::size_t kLargestRound = 32;
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+void require(bool condition, const char* message) {
+  if (!condition) {
+    throw std::invalid_argument(std::string("RobotCheckOptions::") + message);
+  }
+}
+
+void validate(const RobotCheckOptions& options) {
+  require(options.tolerance > 0.0 && std::isfinite(options.tolerance),
+          "tolerance must be finite and > 0");
+  require(options.time_resolution > 0.0 && options.time_resolution <= 1.0,
+          "time_resolution must be in (0, 1]");
+  require(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
+          "contacts must be nearest(1) or more");
+}
+
+/// All that checks of a scene share.
+struct Prepared {
+  explicit Prepared(const RobotScene& scene) : timeline(scene), candidates(timeline) {}
+
+  detail::RobotTimeline timeline;
+  detail::CandidateSearch candidates;
+  detail::LinkWorkspaces workspaces;
+};
+
+class RobotCheck {
+ public:
+  RobotCheck(Prepared& scene, const RobotCheckOptions& options)
+      : timeline_(scene.timeline),
+        candidates_(scene.candidates),
+        workspaces_(scene.workspaces),
+        options_(options),
+        place_of_(scene.timeline.pairs().size(), kNone) {
+    if (asks_each_pair()) {
+      answer_all();
+    }
+  }
+
+  RobotCheckResult run() {
+    walk();
+    if (options_.least_clearance && asks_each_pair()) {
+      find_least_clearances();
+    } else if (options_.least_clearance) {
+      find_least_of_all();
+    }
+    report(1.0);
+    return result();
+  }
+
+ private:
+  [[nodiscard]] bool asks_each_pair() const {
+    return options_.all_pairs || options_.all_contact_intervals;
+  }
+
+  /// Takes the pieces one after the other, as far as they matter.
+  void walk() {
+    std::size_t k = 0;
+    while (k < timeline_.piece_count() && timeline_.piece(k).begin <= horizon()) {
+      const double begin = timeline_.piece(k).begin;
+      if (const UndecidedReason reason = detail::spent(options_.budget);
+          reason != UndecidedReason::none) {
+        give_up(begin, reason);
+        break;
+      }
+      const std::size_t end = std::min(k + kBlock, timeline_.piece_count());
+      search(find_candidates(k, end));
+      k = end;
+    }
+  }
+
+  [[nodiscard]] RobotPairAnswer free_answer(std::size_t pair) const {
+    const detail::TestedPair& tested = timeline_.pairs()[pair];
+    RobotPairAnswer answer;
+    answer.members = tested.members;
+    answer.threshold = tested.margin;
+    answer.verdict = Verdict::free;
+    answer.t = 1.0;
+    answer.tolerance_used = options_.tolerance;
+    return answer;
+  }
+
+  /// That of a tested pair, by index: free until something else is found. Most pairs never need
+  /// one.
+  RobotPairAnswer& answer_of(std::size_t pair) {
+    std::size_t& place = place_of_[pair];
+    if (place == kNone) {
+      place = pairs_.size();
+      pairs_.push_back(free_answer(pair));
+      contacts_.emplace_back(most_contacts());
+    }
+    return pairs_[place];
+  }
+
+  /// Of a pair of members; of several of their parts each has one that decides.
+  [[nodiscard]] std::size_t most_contacts() const {
+    return options_.contacts.kind == ContactState::Kind::nearest ? options_.contacts.most
+                                                                 : ContactState::all.most;
+  }
+
+  void answer_all() {
+    pairs_.reserve(timeline_.pairs().size());
+    contacts_.reserve(timeline_.pairs().size());
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      (void)answer_of(pair);
+    }
+  }
+
+  /// Nothing after it matters.
+  [[nodiscard]] double horizon() const { return asks_each_pair() || only_ ? 1.0 : first_; }
+
+  void report(double done) const {
+    if (options_.progress) {
+      options_.progress(asks_each_pair() ? done : std::min(done, first_));
+    }
+  }
+
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& use) const {
+    parallel_for(options_.threads, count, use);
+  }
+
+  std::vector<PartCandidate> find_candidates(std::size_t first, std::size_t last) {
+    std::function<bool(std::size_t)> wanted;
+    if (only_) {
+      wanted = [&](std::size_t pair) { return pair == *only_; };
+    } else if (asks_each_pair() && !options_.all_contact_intervals) {
+      wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
+    }
+    std::vector<std::vector<PartCandidate>> found(last - first);
+    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
+    std::vector<PartCandidate> all;
+    for (const std::vector<PartCandidate>& of_piece : found) {
+      all.insert(all.end(), of_piece.begin(), of_piece.end());
+    }
+    return all;
+  }
+
+  void search(std::span<const PartCandidate> left) {
+    std::size_t size = kFirstRound;
+    while (!left.empty()) {
+      const auto round = left.first(std::min(size, left.size()));
+      left = left.subspan(round.size());
+      size = std::min(2 * size, kLargestRound);
+      const double end = horizon();
+      report(timeline_.piece(round.front().piece).begin);
+      std::vector<std::optional<PartAnswer>> answers(round.size());
+      for_each(round.size(), [&](std::size_t k) {
+        if (round[k].window.begin <= end) {
+          answers[k] = ask(round[k], end);
+        }
+      });
+      for (std::size_t k = 0; k < round.size(); ++k) {
+        if (answers[k]) {
+          take(round[k], std::move(*answers[k]));
+        }
+      }
+    }
+  }
+
+  PartAnswer ask(const PartCandidate& candidate, double end) {
+    PartSearch search(timeline_, candidate, options_, workspaces_.local());
+    if (options_.all_contact_intervals) {
+      return contact_intervals_of(search, candidate, options_.time_resolution);
+    }
+    return first_contact_of(search, candidate, end, is_tested_anew(candidate));
+  }
+
+  /// Bodies that come to be tested may be inside of each other by then.
+  [[nodiscard]] bool is_tested_anew(const PartCandidate& candidate) const {
+    return candidate.piece > 0 &&
+           candidate.window.begin == timeline_.piece(candidate.piece).begin &&
+           !timeline_.is_tested(timeline_.pairs()[candidate.pair], candidate.piece - 1);
+  }
+
+  /// A contact holds for the pair even beside an undecided search: nothing touches before it.
+  void take(const PartCandidate& candidate, PartAnswer&& answer) {
+    RobotPairAnswer& pair = answer_of(candidate.pair);
+    FirstContactResult& found = answer.first;
+    pair.steps += answer.steps;
+    pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
+    pair.enclosure_error = std::max(pair.enclosure_error, found.enclosure_error);
+    pair.intervals.insert(pair.intervals.end(), answer.intervals.begin(), answer.intervals.end());
+    if (found.t_upper) {
+      pair.t_upper = std::min(pair.t_upper.value_or(1.0), *found.t_upper);
+    }
+    if (found.verdict == Verdict::free) {
+      return;
+    }
+    const bool is_earlier = pair.verdict == Verdict::free || found.t < pair.t;
+    const bool says_more = found.t == pair.t && is_contact(found.verdict);
+    if (is_earlier || (says_more && !is_contact(pair.verdict))) {
+      pair.verdict = found.verdict;
+      pair.reason = found.reason;
+      pair.t = found.t;
+      pair.threshold = candidate.threshold;
+      pair.contact_count = found.contact_count;
+      contacts_[place_of_[candidate.pair]].clear();
+      contacts_[place_of_[candidate.pair]].add(answer.contacts);
+    } else if (says_more) {
+      pair.contact_count += found.contact_count;
+      contacts_[place_of_[candidate.pair]].add(answer.contacts);
+    }
+    if (!earliest_ || pair.t < first_) {
+      earliest_ = {candidate, found.t};
+    }
+    first_ = std::min(first_, pair.t);
+  }
+
+  /// All that is free so far is known to be so before t only.
+  void give_up(double t, UndecidedReason reason) {
+    if (only_) {
+      give_up(answer_of(*only_), t, reason);
+      return;
+    }
+    answer_all();
+    for (RobotPairAnswer& pair : pairs_) {
+      give_up(pair, t, reason);
+    }
+    first_ = std::min(first_, t);
+  }
+
+  static void give_up(RobotPairAnswer& pair, double t, UndecidedReason reason) {
+    pair.intervals.push_back({t, 1.0, reason});
+    if (pair.verdict == Verdict::free) {
+      pair.verdict = Verdict::undecided;
+      pair.reason = reason;
+      pair.t = t;
+    }
+  }
+
+  void find_least_clearances() {
+    detail::BallsOfPieces balls(timeline_.piece_count());
+    const auto spent = [&] { return detail::spent(options_.budget); };
+    for_each(balls.size(), [&](std::size_t piece) {
+      if (spent() != UndecidedReason::none) {
+        return;  // And so it stays: no pair asks for the balls any more.
+      }
+      const TimeWindow window = timeline_.piece(piece);
+      for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
+        balls[piece].push_back(detail::swept_ball(
+            timeline_.parts()[part].ball, timeline_.path(part, 0.5 * (window.begin + window.end)),
+            window, workspaces_.local().places));
+      }
+    });
+    for_each(timeline_.pairs().size(), [&](std::size_t k) {
+      const UndecidedReason reason = spent();
+      answer_of(k).least_clearance =
+          reason == UndecidedReason::none
+              ? least_clearance_of(timeline_, balls, k, options_, workspaces_.local())
+              : LeastClearance{.reason = reason};
+    });
+  }
+
+  void find_least_of_all() {
+    const auto found =
+        detail::least_of_all(timeline_, candidates_, earliest_, options_, workspaces_);
+    if (!found) {
+      return;
+    }
+    const RobotPairAnswer& pair = answer_of(found->pair);
+    const bool decides = pair.verdict != Verdict::free && pair.t == first_;
+    if (first_ < 1.0 && !decides && detail::spent(options_.budget) == UndecidedReason::none) {
+      answer_whole_step(found->pair);
+    }
+    answer_of(found->pair).least_clearance = found->least;
+    least_of_all_ = found->least.lower_bound;
+  }
+
+  /// Of a pair that was searched no longer than until another one's contact.
+  void answer_whole_step(std::size_t pair) {
+    RobotPairAnswer& answer = answer_of(pair);
+    const std::uint64_t steps = answer.steps;
+    answer = free_answer(pair);
+    answer.steps = steps;
+    contacts_[place_of_[pair]].clear();
+    only_ = pair;
+    walk();
+    only_.reset();
+  }
+
+  RobotCheckResult result() {
+    RobotCheckResult result;
+    result.verdict = Verdict::free;
+    result.clearance = std::numeric_limits<double>::infinity();
+    result.t = timeline_.pairs().empty() ? 1.0 : first_;
+    if (pairs_.size() < timeline_.pairs().size()) {
+      result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
+    }
+    result.tolerance_used = options_.tolerance;
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      pairs_[k].contacts = contacts_[k].take();
+    }
+    std::sort(pairs_.begin(), pairs_.end(), [](const RobotPairAnswer& x, const RobotPairAnswer& y) {
+      return x.members < y.members;
+    });
+    for (RobotPairAnswer& pair : pairs_) {
+      pair.intervals = options_.all_contact_intervals
+                           ? detail::joined(std::move(pair.intervals), options_.time_resolution)
+                           : std::vector<ContactInterval>();
+      gather(pair, result);
+      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
+      if (asks_each_pair() || decides || pair.least_clearance) {
+        result.pairs.push_back(std::move(pair));
+      }
+    }
+    take_verdict(result);
+    result.clearance = std::max(result.clearance, least_of_all_);
+    return result;
+  }
+
+  static void gather(const RobotPairAnswer& pair, RobotCheckResult& result) {
+    const double least = pair.least_clearance ? pair.least_clearance->lower_bound : 0.0;
+    const double kept = pair.t > 0.0 ? pair.threshold : 0.0;
+    result.clearance = std::min(result.clearance, std::max(kept, least));
+    result.tolerance_used = std::max(result.tolerance_used, pair.tolerance_used);
+    result.enclosure_error = std::max(result.enclosure_error, pair.enclosure_error);
+    result.steps += pair.steps;
+    if (pair.t_upper) {
+      result.t_upper = std::min(result.t_upper.value_or(1.0), *pair.t_upper);
+    }
+  }
+
+  static void take_verdict(RobotCheckResult& result) {
+    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
+      const RobotPairAnswer& pair = result.pairs[k];
+      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
+      if (decides && (!result.first || (is_contact(pair.verdict) && !is_contact(result.verdict)))) {
+        result.first = k;
+        result.verdict = pair.verdict;
+        result.reason = pair.reason;
+      }
+      const auto distance = [&](std::size_t index) {
+        return result.pairs[index].least_clearance->distance;
+      };
+      if (pair.least_clearance && (!result.closest || distance(k) < distance(*result.closest))) {
+        result.closest = k;
+      }
+    }
+  }
+
+  const detail::RobotTimeline& timeline_;
+  const detail::CandidateSearch& candidates_;
+  detail::LinkWorkspaces& workspaces_;
+  const RobotCheckOptions& options_;
+  std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
+  std::vector<RobotPairAnswer> pairs_;
+  std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
+  double first_ = 1.0;                          // Before it all pairs are proven free.
+  std::optional<detail::KnownNear> earliest_;   // The search that found it.
+  double least_of_all_ = 0.0;                   // [m]  Of all pairs, where that was asked.
+  std::optional<std::size_t> only_;             // The only pair that is asked about now.
+};
+
+RobotCheckResult check(Prepared& scene, const RobotCheckOptions& options) {
+  validate(options);
+  return RobotCheck(scene, options).run();
+}
+
+}  // namespace
+
+struct RobotChecker::Data {
+  explicit Data(RobotScene given) : scene(std::move(given)), prepared(scene) {}
+
+  RobotScene scene;
+  Prepared prepared;
+};
+
+RobotChecker::RobotChecker(RobotScene scene) {
+  const FloatEnvironmentGuard guard;
+  data_ = std::make_unique<Data>(std::move(scene));
+}
+
+RobotChecker::~RobotChecker() = default;
+RobotChecker::RobotChecker(RobotChecker&&) noexcept = default;
+RobotChecker& RobotChecker::operator=(RobotChecker&&) noexcept = default;
+
+const RobotScene& RobotChecker::scene() const { return data_->scene; }
+
+void RobotChecker::set_motion(std::size_t robot, RobotMotion motion) {
+  const FloatEnvironmentGuard guard;
+  data_->scene.set_motion(robot, std::move(motion));
+  data_->prepared.timeline.follow_motions();
+}
+
+RobotCheckResult RobotChecker::check(const RobotCheckOptions& options) {
+  const FloatEnvironmentGuard guard;
+  return firstcontact::check(data_->prepared, options);
+}
+
+RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
+  const FloatEnvironmentGuard guard;
+  Prepared prepared(scene);
+  return check(prepared, options);
+}
+
+}  // namespace firstcontact

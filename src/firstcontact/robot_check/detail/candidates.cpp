@@ -1,0 +1,365 @@
+#include <firstcontact/robot_check/detail/candidates.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <firstcontact/robot_check/detail/placed_part.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr double kUp = 1.0 + 0x1p-40;
+
+/// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
+constexpr double kLooseError = 0.05;
+constexpr int kErrorDepth = 8;
+
+/// [-]  A gap of this part of the distance at a window's middle is near enough: better ones cost
+/// more than the windows that they spare.
+constexpr double kNear = 0.5;
+
+/// Two parts that are still in question.
+struct Question {
+  std::size_t pair = 0;
+  std::array<std::size_t, 2> parts = {};
+  std::optional<std::array<std::size_t, 2>> placed = {};  // In a frame that carries both.
+  Eigen::Vector3d n = Eigen::Vector3d::Zero();            // Between the two, found last.
+  double middle = 0.0;                                    // [m]  Gap at the middle of the window.
+  bool apart = false;                                     // Beyond the threshold there.
+};
+
+class Search {
+ public:
+  /// @param distance  [m]  in place of all thresholds, where it is given
+  Search(const RobotTimeline& timeline, std::size_t piece, const std::vector<RobotTree>& trees,
+         const std::vector<std::optional<SweptPart>>& resting,
+         const std::optional<double>& distance = std::nullopt)
+      : timeline_(timeline),
+        piece_(piece),
+        grid_{timeline.piece(piece)},
+        middle_(grid_.at(TimeGrid::kMiddle)),
+        distance_(distance),
+        has_tracking_errors_(!distance && timeline.has_tracking_errors()),
+        trees_(trees),
+        resting_(resting),
+        robots_(trees.size()),
+        in_world_(resting.size()),
+        in_frames_(resting.size()) {}
+
+  std::vector<PartCandidate> run(const std::function<bool(std::size_t)>& wanted) {
+    narrow({}, near_by_boxes(wanted));
+    join_windows();
+    std::vector<PartCandidate> whole;
+    whole.swap(found_);
+    for (PartCandidate& candidate : whole) {
+      if (has_tracking_errors_) {
+        add_thresholds(candidate, 0);
+      } else {
+        candidate.threshold = margin_of(candidate.pair);
+        found_.push_back(candidate);
+      }
+    }
+    std::sort(found_.begin(), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  /// Where a part is in the piece, tracking errors included.
+  struct Box {
+    Eigen::Vector3d low;
+    Eigen::Vector3d high;
+  };
+
+  /// [m]  Of a tested pair, without tracking errors.
+  [[nodiscard]] double margin_of(std::size_t pair) const {
+    return distance_.value_or(timeline_.pairs()[pair].margin);
+  }
+
+  /// Those of the tested parts whose boxes are not farther apart than their margins.
+  std::vector<Question> near_by_boxes(const std::function<bool(std::size_t)>& wanted) {
+    const std::vector<Box> boxes = boxes_of_piece();
+    std::vector<Question> near;
+    for (std::size_t k = 0; k < timeline_.pairs().size(); ++k) {
+      const TestedPair& pair = timeline_.pairs()[k];
+      if (!timeline_.is_tested(pair, piece_) || (wanted && !wanted(k))) {
+        continue;
+      }
+      const auto [first, second] = pair.members;
+      for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
+        for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
+             ++b) {
+          const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
+          if (!(gap.maxCoeff() > margin_of(k) * kUp)) {
+            near.push_back({.pair = k, .parts = {a, b}});
+          }
+        }
+      }
+    }
+    return near;
+  }
+
+  std::vector<Box> boxes_of_piece() {
+    std::vector<Box> boxes;
+    boxes.reserve(resting_.size());
+    for (std::size_t part = 0; part < resting_.size(); ++part) {
+      const SweptPart& swept = in_world(part, {});
+      Box box{swept.low, swept.high};
+      if (has_tracking_errors_) {
+        const Eigen::Vector3d more = Eigen::Vector3d::Constant(tracking_bound(part) * kUp);
+        box.low -= more;
+        box.high += more;
+      }
+      boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  void narrow(const GridWindow& window, std::span<const Question> questions) {
+    std::vector<Question> open;
+    for (Question question : questions) {
+      if (is_far(question, window)) {
+        continue;
+      }
+      // Shorter windows help where the parts are apart at the middle of this one.
+      if (window.can_be_halved() && question.apart) {
+        open.push_back(question);
+      } else {
+        found_.push_back({grid_.at(window), piece_, question.pair, question.parts, 0.0,
+                          question.middle - margin_of(question.pair)});
+      }
+    }
+    if (!open.empty()) {
+      narrow(window.first_half(), open);
+      narrow(window.second_half(), open);
+    }
+  }
+
+  /// Whether the two are proven farther apart than their threshold throughout the window.
+  bool is_far(Question& question, const GridWindow& window) {
+    const auto [first, second] = question.parts;
+    if (!question.placed) {
+      const SweptPart& A = in_world(first, window);
+      const SweptPart& B = in_world(second, window);
+      const double threshold = threshold_of(question, window);
+      if (boxes_are_far(question, A, B, threshold)) {
+        return true;
+      }
+      const std::optional<RobotLink> frame = frame_of(first, second);
+      if (!frame) {
+        return hulls_are_far(question, A, B, threshold);
+      }
+      // In the world all pairs have their places in common. What is not far there may be so in a
+      // frame of its own, in which what moves both has cancelled.
+      question.placed = {in_frame(first, *frame), in_frame(second, *frame)};
+      question.n.setZero();
+    }
+    const SweptPart& A = placed_[(*question.placed)[0]].over(window);
+    const SweptPart& B = placed_[(*question.placed)[1]].over(window);
+    const double threshold = threshold_of(question, window);
+    return boxes_are_far(question, A, B, threshold) || hulls_are_far(question, A, B, threshold);
+  }
+
+  static bool boxes_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+                            double threshold) {
+    const SweptGap gap = gap_of_boxes(A, B);
+    if (question.n.isZero(0.0)) {
+      const Eigen::Vector3d between = B.middle.centre - A.middle.centre;
+      question.n = between.isZero(0.0) ? gap.n : between.normalized();
+    }
+    return gap.bound > threshold;
+  }
+
+  static bool hulls_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+                            double threshold) {
+    const SweptGap middle = gap_at_middle(A, B, threshold, question.n, kNear);
+    question.n = middle.n;
+    question.middle = middle.bound;
+    question.apart = middle.bound > threshold;
+    return question.apart && gap_throughout(A, B, threshold, middle.n).bound > threshold;
+  }
+
+  double threshold_of(const Question& question, const GridWindow& window) {
+    double threshold = margin_of(question.pair);
+    if (has_tracking_errors_) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        threshold += question.placed ? placed_[(*question.placed)[k]].tracking_bound(window)
+                                     : tracking_bound(question.parts[k], window);
+      }
+    }
+    return threshold * kUp;
+  }
+
+  double tracking_bound(std::size_t part, const GridWindow& window = {}) {
+    return resting_[part] ? 0.0 : placed_[place_in_world(part)].tracking_bound(window);
+  }
+
+  const SweptPart& in_world(std::size_t part, const GridWindow& window) {
+    return resting_[part] ? *resting_[part] : placed_[place_in_world(part)].over(window);
+  }
+
+  std::size_t place_in_world(std::size_t part) {
+    if (!in_world_[part]) {
+      in_world_[part] = place(part, std::nullopt);
+    }
+    return *in_world_[part];
+  }
+
+  std::size_t in_frame(std::size_t part, const RobotLink& frame) {
+    for (const auto& [known, index] : in_frames_[part]) {
+      if (known == frame) {
+        return index;
+      }
+    }
+    in_frames_[part].emplace_back(frame, place(part, frame));
+    return in_frames_[part].back().second;
+  }
+
+  /// The last link that carries both, where it moves.
+  std::optional<RobotLink> frame_of(std::size_t a, std::size_t b) {
+    const std::optional<RobotLink> link = timeline_.seat_of(a, middle_).link;
+    const std::optional<RobotLink> other = timeline_.seat_of(b, middle_).link;
+    if (!link || !other || link->robot != other->robot) {
+      return std::nullopt;
+    }
+    const RobotModel& model = timeline_.scene().robot_motion(link->robot).model();
+    const std::size_t frame = model.rigid_root(model.last_common_ancestor(link->link, other->link));
+    const bool rests = robot(link->robot).rests(trees_[link->robot].node_of_link[frame]);
+    return rests ? std::nullopt : std::optional(RobotLink{link->robot, frame});
+  }
+
+  TreeCourse& robot(std::size_t index) {
+    std::optional<TreeCourse>& course = robots_[index];
+    if (!course) {
+      const RobotMotion& motion = timeline_.scene().robot_motion(index);
+      std::vector<TreeCourse::Node> nodes = {{TreeCourse::kWorld, &motion.base_path(middle_)}};
+      for (const auto& [parent, joint] : std::span(trees_[index].nodes).subspan(1)) {
+        nodes.push_back({parent, motion.joint_path(joint, middle_)});
+      }
+      course.emplace(nodes, grid_);
+    }
+    return *course;
+  }
+
+  PartMount mount(std::size_t part) {
+    const auto [link, path] = timeline_.seat_of(part, middle_);
+    if (link) {
+      return {timeline_.parts()[part], robot(link->robot),
+              trees_[link->robot].node_of_link[link->link], *path};
+    }
+    bodies_.emplace_back(std::vector<TreeCourse::Node>{{TreeCourse::kWorld, path}}, grid_);
+    return {timeline_.parts()[part], bodies_.back()};
+  }
+
+  std::size_t place(std::size_t part, const std::optional<RobotLink>& frame) {
+    placed_.emplace_back(
+        timeline_.parts()[part], mount(part),
+        frame ? trees_[frame->robot].node_of_link[frame->link] : TreeCourse::kWorld, grid_,
+        has_tracking_errors_ ? std::optional(timeline_.path(part, middle_, frame)) : std::nullopt);
+    return placed_.size() - 1;
+  }
+
+  void join_windows() {
+    const auto key = [](const PartCandidate& c) {
+      return std::tuple(c.pair, c.parts, c.window.begin);
+    };
+    std::sort(found_.begin(), found_.end(),
+              [&](const PartCandidate& x, const PartCandidate& y) { return key(x) < key(y); });
+    std::vector<PartCandidate> joined;
+    for (const PartCandidate& c : found_) {
+      const bool follows = !joined.empty() && joined.back().pair == c.pair &&
+                           joined.back().parts == c.parts &&
+                           joined.back().window.end == c.window.begin;
+      if (follows) {
+        joined.back().window.end = c.window.end;
+        joined.back().gap = std::min(joined.back().gap, c.gap);
+      } else {
+        joined.push_back(c);
+      }
+    }
+    found_ = std::move(joined);
+  }
+
+  /// Windows so short that the bound of tracking errors is tight.
+  void add_thresholds(const PartCandidate& candidate, int depth) {
+    const auto& [window, piece, pair, parts, unused, gap] = candidate;
+    const double middle = 0.5 * (window.begin + window.end);
+    const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
+    const auto error_over = [&, &parts = candidate.parts](const TimeWindow& part) {
+      return (paths.A.tracking_bound(timeline_.parts()[parts[0]].ball, part) +
+              paths.B.tracking_bound(timeline_.parts()[parts[1]].ball, part)) *
+             kUp;
+    };
+    const double error = error_over(window);
+    if (depth < kErrorDepth && error > (1.0 + kLooseError) * error_over({middle, middle})) {
+      add_thresholds({{window.begin, middle}, piece, pair, parts, 0.0, gap}, depth + 1);
+      add_thresholds({{middle, window.end}, piece, pair, parts, 0.0, gap}, depth + 1);
+      return;
+    }
+    found_.push_back({window, piece, pair, parts, margin_of(pair) + error, gap});
+  }
+
+  const RobotTimeline& timeline_;
+  std::size_t piece_;
+  TimeGrid grid_;
+  double middle_;  // Time.
+  std::optional<double> distance_;
+  bool has_tracking_errors_;
+  const std::vector<RobotTree>& trees_;
+  const std::vector<std::optional<SweptPart>>& resting_;
+  std::vector<std::optional<TreeCourse>> robots_;
+  std::deque<TreeCourse> bodies_;
+  std::deque<PlacedPart> placed_;
+  std::vector<std::optional<std::size_t>> in_world_;  // Of each part, where placed.
+  std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
+  std::vector<PartCandidate> found_;
+};
+
+}  // namespace
+
+RobotTree::RobotTree(const RobotModel& model) : nodes{{}}, node_of_link(model.links().size()) {
+  std::vector<std::size_t> open = {model.root()};
+  while (!open.empty()) {
+    const std::size_t link = open.back();
+    open.pop_back();
+    for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
+      if (model.parent_link(joint) != link) {
+        continue;
+      }
+      open.push_back(model.child_link(joint));
+      if (model.joints()[joint].type != JointType::fixed) {
+        node_of_link[model.child_link(joint)] = nodes.size();
+        nodes.push_back({node_of_link[model.rigid_root(link)], joint});
+      }
+    }
+  }
+}
+
+CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
+    : timeline_(timeline), resting_(timeline.parts().size()) {
+  for (std::size_t robot = 0; robot < timeline.scene().robot_count(); ++robot) {
+    trees_.emplace_back(timeline.scene().robot_motion(robot).model());
+  }
+  const TimeGrid step{{0.0, 1.0}};
+  for (std::size_t k = 0; k < resting_.size(); ++k) {
+    const Part& part = timeline.parts()[k];
+    if (part.rests) {
+      TreeCourse course({{TreeCourse::kWorld, timeline.seat_of(k, 0.5).path}}, step);
+      resting_[k] = PartTrack(part, PartMount(part, course), TreeCourse::kWorld).rest();
+    }
+  }
+}
+
+std::vector<PartCandidate> CandidateSearch::find(
+    std::size_t piece, const std::function<bool(std::size_t)>& wanted) const {
+  return Search(timeline_, piece, trees_, resting_).run(wanted);
+}
+
+std::vector<PartCandidate> CandidateSearch::find_within(std::size_t piece, double distance) const {
+  return Search(timeline_, piece, trees_, resting_, distance).run({});
+}
+
+}  // namespace firstcontact::detail

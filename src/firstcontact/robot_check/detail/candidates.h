@@ -1,0 +1,72 @@
+/// @file
+/// Which parts of a scene may touch in a piece of time.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/robot_check/detail/swept_part.h>
+
+namespace firstcontact::detail {
+
+/// Two parts that may touch in a window of time.
+struct PartCandidate {
+  TimeWindow window;
+  std::size_t piece = 0;
+  std::size_t pair = 0;                   ///< Index among the tested pairs.
+  std::array<std::size_t, 2> parts = {};  ///< Of its members, in their order.
+  double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
+  double gap = 0.0;        ///< [m]  A bound of how far apart they are at some time of the window.
+
+  /// By pieces; in each the nearest first, whose contact may spare the search for others.
+  friend bool operator<(const PartCandidate& x, const PartCandidate& y) {
+    const auto key = [](const PartCandidate& c) {
+      return std::tuple(c.piece, c.gap, c.window.begin, c.pair, c.parts);
+    };
+    return key(x) < key(y);
+  }
+};
+
+/// The links of a robot that joints move, each after the one that carries it.
+struct RobotTree {
+  struct Node {
+    std::size_t parent = 0;  ///< Of no meaning for the first.
+    std::size_t joint = 0;   ///< That moves it; so, too.
+  };
+  std::vector<Node> nodes;
+  std::vector<std::size_t> node_of_link;  ///< Of a link that is its own rigid_root().
+
+  explicit RobotTree(const RobotModel& model);
+};
+
+/// Finds the parts that may touch, piece by piece. Thread-safe.
+class CandidateSearch {
+ public:
+  explicit CandidateSearch(const RobotTimeline& timeline);
+
+  /// In order; outside of their windows all pairs that are tested in the piece are farther apart
+  /// than their thresholds. Of one pair of parts the windows do not overlap.
+  ///
+  /// @param wanted  whether a tested pair is of interest, by index; empty where all are
+  [[nodiscard]] std::vector<PartCandidate> find(
+      std::size_t piece, const std::function<bool(std::size_t)>& wanted) const;
+
+  /// The same of all pairs that are tested, with one distance [m] in place of their thresholds.
+  [[nodiscard]] std::vector<PartCandidate> find_within(std::size_t piece, double distance) const;
+
+ private:
+  const RobotTimeline& timeline_;
+  std::vector<RobotTree> trees_;                   // Of each robot.
+  std::vector<std::optional<SweptPart>> resting_;  // Of each part that rests over the step.
+};
+
+}  // namespace firstcontact::detail

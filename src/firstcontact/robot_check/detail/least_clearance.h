@@ -1,0 +1,29 @@
+/// @file
+/// How close two members come.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/robot_check/detail/swept_ball.h>
+
+namespace firstcontact::detail {
+
+/// Of each piece of time, a ball around each part throughout it.
+using BallsOfPieces = std::vector<std::vector<SweptBall>>;
+
+/// The least distance of a tested pair over all pieces in which it is tested.
+///
+/// Pieces are taken in the order of what balls say of them. Looks half way through the first of
+/// them, samples and descent find a distance; first contact with a margin of it less the tolerance
+/// proves it, or finds a lesser one. Where the budget ends that, what balls say of the rest holds.
+[[nodiscard]] LeastClearance least_clearance_of(const RobotTimeline& timeline,
+                                                const BallsOfPieces& balls, std::size_t pair,
+                                                const RobotCheckOptions& options,
+                                                LinkWorkspace& workspace);
+
+}  // namespace firstcontact::detail

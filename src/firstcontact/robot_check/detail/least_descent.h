@@ -1,0 +1,45 @@
+/// @file
+/// How close two parts come in a piece of time: finds a lesser distance, or proves that there is
+/// none.
+
+#pragma once
+
+#include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/part_search.h>
+
+namespace firstcontact::detail {
+
+/// [-]  Of the tolerance: room for the rounding of differences.
+inline constexpr double kPartOfTolerance = 0.999;
+
+/// Lowers a distance that is known already, of these parts or of others.
+class LeastDescent {
+ public:
+  /// @param best  its distance, t, closest and reason are set
+  LeastDescent(const RobotCheckOptions& options, LeastClearance& best)
+      : options_(options), tolerance_(kPartOfTolerance * options.tolerance), best_(best) {}
+
+  /// [m]  The distance at a time of the piece.
+  double look(PartSearch& search, double t);
+
+  /// Whether it is less than the best distance; if so, it is the best now.
+  bool improve(PartSearch& search, double t);
+
+  /// Goes down from a time of the window: along the distance of the two triangles that are closest
+  /// there, which costs little to know, as long as that leads on.
+  void descend(PartSearch& search, const TimeWindow& window, double t);
+
+  /// Proves that the two are farther apart than the best distance less the tolerance, or finds a
+  /// lesser one for which that holds.
+  void run(PartSearch& search, const TimeWindow& window);
+
+ private:
+  void sample(PartSearch& search, const TimeWindow& window);
+
+  const RobotCheckOptions& options_;
+  double tolerance_;
+  LeastClearance& best_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,45 @@
+/// @file
+/// The pair of members that comes closest of all.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+
+namespace firstcontact::detail {
+
+using LinkWorkspaces = tbb::enumerable_thread_specific<LinkWorkspace>;
+
+struct LeastOfAll {
+  std::size_t pair = 0;  ///< Index among the tested pairs.
+  LeastClearance least;  ///< Its lower bound holds for all pairs.
+};
+
+/// Two parts at a time at which they are known to be near each other.
+struct KnownNear {
+  PartCandidate candidate;
+  double t = 0.0;
+};
+
+/// The least distance of all tested pairs over all pieces in which they are tested.
+///
+/// Looks at the parts of each pair that balls around them say are nearest, and goes down from the
+/// least distance found. Then candidates for coming nearer than that are searched, piece by piece,
+/// as those for contacts are; what one of them finds holds for the next ones. Several are searched
+/// at a time, always so many by the same distance, so that the number of threads changes nothing.
+///
+/// None where no pair is tested.
+[[nodiscard]] std::optional<LeastOfAll> least_of_all(const RobotTimeline& timeline,
+                                                     const CandidateSearch& candidates,
+                                                     const std::optional<KnownNear>& known,
+                                                     const RobotCheckOptions& options,
+                                                     LinkWorkspaces& workspaces);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,24 @@
+/// @file
+/// Queries of two links that share scratch memory with others.
+
+#pragma once
+
+#include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot_check/link_contact.h>
+
+namespace firstcontact::detail {
+
+/// All that queries of links reuse; one per thread.
+struct LinkWorkspace {
+  Workspace queries;
+  LinkScratch places;
+};
+
+void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                   LinkWorkspace& workspace, const FirstContactOptions& options,
+                   FirstContactResult& result);
+
+[[nodiscard]] DistanceResult distance(const MovingLink& A, const MovingLink& B, double t,
+                                      LinkWorkspace& workspace);
+
+}  // namespace firstcontact::detail

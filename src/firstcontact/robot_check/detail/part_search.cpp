@@ -1,0 +1,130 @@
+#include <firstcontact/robot_check/detail/part_search.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <firstcontact/narrowphase/triangle_distance.h>
+
+namespace firstcontact::detail {
+namespace {
+
+const Shape& shape_of(const RobotTimeline& timeline, std::size_t part) {
+  return *timeline.parts()[part].shape;
+}
+
+}  // namespace
+
+UndecidedReason spent(const WorkBudget& budget) {
+  if (budget.stop.stop_requested()) {
+    return UndecidedReason::cancelled;
+  }
+  const bool late = budget.deadline && std::chrono::steady_clock::now() >= *budget.deadline;
+  return late ? UndecidedReason::deadline : UndecidedReason::none;
+}
+
+PartSearch::PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
+                       const RobotCheckOptions& options, LinkWorkspace& workspace)
+    : timeline_(timeline),
+      candidate_(candidate),
+      options_(options),
+      workspace_(workspace),
+      paths_(timeline.paths(candidate.parts[0], candidate.parts[1],
+                            0.5 * (candidate.window.begin + candidate.window.end))),
+      X_FA_(std::vector<LinkPath>{paths_.A.X_FS}),
+      X_FB_(std::vector<LinkPath>{paths_.B.X_FS}),
+      A_(shape_of(timeline, candidate.parts[0])),
+      B_(shape_of(timeline, candidate.parts[1])) {}
+
+FirstContactResult PartSearch::ask(const TimeWindow& window, FirstContactOptions query) {
+  query.budget = options_.budget;
+  FirstContactResult result;
+  detail::first_contact({A_, X_FA_}, {B_, X_FB_}, window, workspace_, query, result);
+  return result;
+}
+
+FirstContactResult PartSearch::first_contact(const TimeWindow& window) {
+  return ask(window, {.margin = candidate_.threshold,
+                      .tolerance = options_.tolerance,
+                      .contacts = options_.contacts});
+}
+
+FirstContactResult PartSearch::first_contact(const TimeWindow& window, double margin,
+                                             double tolerance) {
+  return ask(window, {.margin = margin, .tolerance = tolerance, .contacts = ContactState::none});
+}
+
+DistanceResult PartSearch::nearest(double t) {
+  return detail::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_);
+}
+
+double PartSearch::distance_of_triangles(const Contact& contact, double t) const {
+  const auto placed = [t](const Shape& shape, const LinkMotion& X_FS, std::uint32_t triangle) {
+    const LinkPose pose = X_FS.at(t).pose(t);
+    const Mesh& mesh = shape.mesh();
+    Triangle corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = pose.p_OL + pose.R_FL * mesh.vertices[mesh.triangles[triangle][k]];
+    }
+    return corners;
+  };
+  const double distance = triangle_distance(placed(A_, X_FA_, contact.feature_A.triangle),
+                                            placed(B_, X_FB_, contact.feature_B.triangle))
+                              .distance;
+  return std::max(0.0, distance - A_.radius() - B_.radius());
+}
+
+bool PartSearch::is_farther(double t, double distance) {
+  if (!std::isfinite(distance)) {
+    return false;
+  }
+  return first_contact({t, t}, distance, 1e-9 + 1e-3 * distance).verdict == Verdict::free;
+}
+
+bool PartSearch::is_inside(double t) {
+  return (A_.is_solid() || B_.is_solid()) && distance(t) == 0.0;
+}
+
+bool PartSearch::touch(double t, double tolerance_used) {
+  return !(distance(t) > candidate_.threshold + tolerance_used);
+}
+
+RobotContact PartSearch::in_world(const Contact& contact, double t) const {
+  return placed(contact, frame_at(t));
+}
+
+std::vector<RobotContact> PartSearch::in_world(const std::vector<Contact>& contacts,
+                                               double t) const {
+  const LinkPose X_WF = frame_at(t);
+  std::vector<RobotContact> all;
+  all.reserve(contacts.size());
+  for (const Contact& contact : contacts) {
+    all.push_back(placed(contact, X_WF));
+  }
+  return all;
+}
+
+LinkPose PartSearch::frame_at(double t) const {
+  if (!paths_.frame) {
+    return {};
+  }
+  const RobotMotion& motion = timeline_.scene().robot_motion(paths_.frame->robot);
+  return motion.path(paths_.frame->link, t).pose(t);
+}
+
+RobotContact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
+  const auto parts = timeline_.parts();
+  const auto& [a, b] = candidate_.parts;
+  RobotContact placed{
+      {parts[a].member, parts[b].member}, {parts[a].geometry, parts[b].geometry}, contact};
+  placed.contact.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
+  placed.contact.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
+  if (contact.n_AB_W) {
+    placed.contact.n_AB_W = X_WF.R_FL * *contact.n_AB_W;
+  }
+  return placed;
+}
+
+}  // namespace firstcontact::detail

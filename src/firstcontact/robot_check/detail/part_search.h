@@ -1,0 +1,80 @@
+/// @file
+/// The questions of a check about two parts, in a piece of time.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/query/distance.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+
+namespace firstcontact::detail {
+
+/// Why a check has to end now; none if it need not. Of the steps each search takes care itself.
+[[nodiscard]] UndecidedReason spent(const WorkBudget& budget);
+
+[[nodiscard]] inline bool is_contact(Verdict verdict) {
+  return verdict == Verdict::contact || verdict == Verdict::contact_at_start;
+}
+
+/// Two parts in one window of time. Refers to all that it is made of.
+class PartSearch {
+ public:
+  PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
+             const RobotCheckOptions& options, LinkWorkspace& workspace);
+
+  /// First contact in a window, before which the two are proven free and not inside of each other;
+  /// when free, `t` is its end. With the candidate's threshold and the tolerance of the options.
+  [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
+
+  /// The same with others, and without contacts.
+  [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
+                                                 double tolerance);
+
+  /// At a time of the piece, with the closest features in the candidate's frame.
+  [[nodiscard]] DistanceResult nearest(double t);
+
+  /// [m]  The same: rounded; 0 for one inside of a solid.
+  [[nodiscard]] double distance(double t) { return nearest(t).distance; }
+
+  /// [m]  At a time of the piece, of the triangles that a contact of the two names: no less than
+  /// that of the parts.
+  [[nodiscard]] double distance_of_triangles(const Contact& contact, double t) const;
+
+  /// Whether the two are proven farther apart at t, which costs less to know than the distance.
+  [[nodiscard]] bool is_farther(double t, double distance);
+
+  /// Whether one is inside of the other, a solid.
+  [[nodiscard]] bool is_inside(double t);
+
+  /// Whether they are within threshold + tolerance.
+  [[nodiscard]] bool touch(double t, double tolerance_used);
+
+  /// A contact in the candidate's frame at t as the world sees it.
+  [[nodiscard]] RobotContact in_world(const Contact& contact, double t) const;
+  /// So, too, contacts of one t.
+  [[nodiscard]] std::vector<RobotContact> in_world(const std::vector<Contact>& contacts,
+                                                   double t) const;
+
+ private:
+  [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
+  /// Of the candidate's frame at t.
+  [[nodiscard]] LinkPose frame_at(double t) const;
+  [[nodiscard]] RobotContact placed(const Contact& contact, const LinkPose& X_WF) const;
+
+  const RobotTimeline& timeline_;
+  const PartCandidate& candidate_;
+  const RobotCheckOptions& options_;
+  LinkWorkspace& workspace_;
+  PairPaths paths_;
+  LinkMotion X_FA_;
+  LinkMotion X_FB_;
+  const Shape& A_;
+  const Shape& B_;
+};
+
+}  // namespace firstcontact::detail

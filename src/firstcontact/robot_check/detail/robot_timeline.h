@@ -1,0 +1,139 @@
+/// @file
+/// A robot scene laid out in time: its parts, the pairs that are tested, and the paths of both in a
+/// frame that they share.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot/link_path.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact::detail {
+
+/// One geometry of a member.
+struct Part {
+  std::size_t member = 0;
+  std::size_t geometry = 0;  ///< Index among those of the member.
+  const Shape* shape = nullptr;
+  LinkPart ball;       ///< Around the shape, thickening included, in its frame S.
+  LinkPart box;        ///< So too.
+  double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
+  bool rests = false;  ///< Over the whole step.
+};
+
+/// Two members that are tested, but for the times of `pauses`.
+struct TestedPair {
+  BodyPair members = {};
+  double margin = 0.0;  ///< [m]  With both paddings.
+  std::vector<TimeWindow> pauses = {};
+};
+
+/// X_FS(t) of a part over a piece of time, and how well it is followed.
+struct PartPath {
+  LinkPath X_FS;
+  std::vector<TrackingError> errors;  ///< One for each joint of the path; empty if all are zero.
+  double rest_error = 0.0;            ///< [m]  Of a body that was put down.
+
+  /// [m]  How far any point may be from its place in the window.
+  [[nodiscard]] double tracking_bound(const LinkPart& ball, const TimeWindow& window) const;
+};
+
+/// What a part is fixed to over a piece of time: a link, or its own path in the world.
+struct PartSeat {
+  std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
+  const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
+};
+
+/// Both parts of a pair in one frame F: the world, or a link that carries both.
+struct PairPaths {
+  PartPath A;
+  PartPath B;
+  std::optional<RobotLink> frame;  ///< None: the world.
+};
+
+/// Refers to the scene, which must not change meanwhile.
+class RobotTimeline {
+ public:
+  explicit RobotTimeline(const RobotScene& scene);
+
+  /// Lays out anew what depends on the motions of robots.
+  void follow_motions();
+
+  [[nodiscard]] const RobotScene& scene() const { return scene_; }
+
+  [[nodiscard]] std::span<const Part> parts() const { return parts_; }
+  /// The parts of a member are first_part(member), ... below first_part(member + 1).
+  [[nodiscard]] std::size_t first_part(std::size_t member) const { return first_part_[member]; }
+  [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }  ///< In order.
+  /// [m]  Of all pairs; infinite where there are none.
+  [[nodiscard]] double least_margin() const { return least_margin_; }
+
+  /// Whether any threshold depends on time.
+  [[nodiscard]] bool has_tracking_errors() const;
+
+  /// Pieces of time in which all paths are smooth and nothing is picked up or put down.
+  [[nodiscard]] std::size_t piece_count() const { return breaks_.size() - 1; }
+  [[nodiscard]] TimeWindow piece(std::size_t k) const { return {breaks_[k], breaks_[k + 1]}; }
+
+  [[nodiscard]] bool is_tested(const TestedPair& pair, std::size_t piece) const;
+
+  /// In the world, over the piece around t.
+  [[nodiscard]] PartPath path(std::size_t part, double t) const;
+
+  /// In a link that carries the part, or in the world where there is none.
+  [[nodiscard]] PartPath path(std::size_t part, double t,
+                              const std::optional<RobotLink>& frame) const;
+
+  /// Over the piece around t; valid as long as this, and the motions.
+  [[nodiscard]] PartSeat seat_of(std::size_t part, double t) const;
+
+  /// @param a, b  parts
+  [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;
+
+ private:
+  /// What a part is fixed to until t_end: a link, as the root of those that are fixed to each
+  /// other; or the world, in which it follows pieces of its own.
+  struct Seat {
+    double t_end = 1.0;
+    std::optional<RobotLink> link;
+    std::shared_ptr<const JointPath> X_LS;  // Of a link.
+    std::vector<double> ends;               // Of a body's pieces.
+    std::vector<std::shared_ptr<const JointPath>> pieces;
+    double rest_error = 0.0;
+
+    /// The piece that holds t, the earlier one at a break.
+    [[nodiscard]] std::size_t piece(double t) const;
+  };
+
+  void add_parts(std::size_t member);
+  void add_pairs();
+  void find_breaks();
+  [[nodiscard]] std::vector<Seat> seats_of_body(std::size_t member) const;
+  [[nodiscard]] Seat seat_on_link(const RobotLink& link, std::shared_ptr<const JointPath> X_RS,
+                                  double t_end) const;
+  [[nodiscard]] Seat carried_seat(const BodyStretch::Carried& carried, double t_end) const;
+  [[nodiscard]] const Seat& seat(std::size_t part, double t) const;
+  [[nodiscard]] PartPath path(const Seat& seat, double t, std::optional<std::size_t> frame) const;
+  [[nodiscard]] std::vector<TrackingError> errors_along(const RobotLink& link,
+                                                        std::size_t frame) const;
+
+  const RobotScene& scene_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<Seat>> seats_;  // Of each part, in order of time.
+  std::vector<std::size_t> first_part_;
+  std::vector<TestedPair> pairs_;
+  double least_margin_ = std::numeric_limits<double>::infinity();
+  std::vector<double> breaks_;
+  std::vector<std::vector<TrackingError>> joint_errors_;  // Of each robot; empty if all are zero.
+};
+
+}  // namespace firstcontact::detail

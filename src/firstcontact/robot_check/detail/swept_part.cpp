@@ -1,0 +1,146 @@
+#include <firstcontact/robot_check/detail/swept_part.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <firstcontact/narrowphase/convex_separation.h>
+#include <firstcontact/robot/detail/chain_walk.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kUp = 1.0 + 0x1p-40;
+
+/// Products and sums of a few vectors, and of unit vectors that are so but for rounding.
+constexpr double kRounding = 0x1p-46;
+
+/// A middle of two times, twice, that is rounded.
+constexpr double kTimeRounding = 0x1p-51;
+
+void enclose(SweptPart& swept, std::span<const PartPlace> places) {
+  const LinkPart& box = swept.part->box;
+  swept.low = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  swept.high = -swept.low;
+  for (const PartPlace& place : places) {
+    const Vector3d extent = (place.R_FS * box.axes.transpose()).cwiseAbs() * box.half_extents;
+    swept.low = swept.low.cwiseMin(place.centre - extent);
+    swept.high = swept.high.cwiseMax(place.centre + extent);
+  }
+  const Vector3d more = Vector3d::Constant((box.radius + swept.error) * kUp);
+  swept.low -= more;
+  swept.high += more;
+}
+
+PlacedPolytope hull(const SweptPart& swept, const PartPlace& place) {
+  return {swept.part->shape->bounds().corners, place.R_FS, place.centre};
+}
+
+double thickness(const SweptPart& A, const SweptPart& B, double error) {
+  return (A.part->box.radius + B.part->box.radius + error) * kUp;
+}
+
+}  // namespace
+
+PartMount::PartMount(const Part& part, TreeCourse& given_course, std::size_t given_node,
+                     const JointPath& X_LS)
+    : course(&given_course), node(given_node) {
+  const JointState& rest = *X_LS.rest();
+  const Vector3d p_LS = rest.p_PQ.value() + rest.p_QL;
+  R_LS = rest.R_PL;
+  p_LC = p_LS + R_LS * part.box.centre;
+  far = (p_LS.norm() + part.box.centre.norm() + part.box.reach()) * kUp;
+}
+
+PartMount::PartMount(const Part& part, TreeCourse& given_course)
+    : course(&given_course),
+      p_LC(part.box.centre),
+      far((part.box.centre.norm() + part.box.reach()) * kUp) {}
+
+PartTrack::PartTrack(const Part& part, const PartMount& mount, std::size_t frame)
+    : part_(&part), mount_(mount), frame_(frame) {
+  const auto bounds = mount.course->bounds(mount.node, mount.p_LC, part.reach, frame);
+  speed_ = bounds.rate;
+  jerk_ = bounds.jerk;
+}
+
+PartPlace PartTrack::place(int k) const {
+  const FramePlace& L = mount_.course->place(mount_.node, k);
+  PartPlace place{L.R * mount_.R_LS, L.p + L.R * mount_.p_LC, 0.0};
+  place.error =
+      (L.position_error + L.rounding + (L.rotation_error + 2.0 * kRotationStep) * mount_.far +
+       part_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
+      kUp;
+  if (frame_ != TreeCourse::kWorld) {
+    const FramePlace& F = mount_.course->place(frame_, k);
+    const Vector3d arm = place.centre - F.p;
+    const double size = place.centre.norm() + F.p.norm() + mount_.far;
+    place.error =
+        (place.error + F.position_error + F.rounding + (F.rotation_error + kRounding) * size) * kUp;
+    place.centre = F.R.transpose() * arm;
+    place.R_FS = F.R.transpose() * place.R_FS;
+  }
+  return place;
+}
+
+SweptPart PartTrack::sweep(const TimeWindow& window, const PartPlace& begin,
+                           const PartPlace& middle, const PartPlace& end) const {
+  SweptPart swept;
+  swept.part = part_;
+  swept.controls = {begin,
+                    {2.0 * middle.R_FS - 0.5 * (begin.R_FS + end.R_FS),
+                     2.0 * middle.centre - 0.5 * (begin.centre + end.centre)},
+                    end};
+  swept.middle = middle;
+  const double T = window.end - window.begin;
+  swept.error = (3.0 * std::max({begin.error, middle.error, end.error}) +
+                 jerk_ * T * T * T / 124.0 + kTimeRounding * speed_) *
+                kUp;
+  enclose(swept, swept.controls);
+  return swept;
+}
+
+SweptPart PartTrack::rest() const {
+  SweptPart swept;
+  swept.part = part_;
+  swept.middle = place(TimeGrid::kMiddle);
+  swept.controls.fill(swept.middle);
+  swept.rests = true;
+  swept.error = swept.middle.error;
+  enclose(swept, std::span(swept.controls).first(1));
+  return swept;
+}
+
+SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B) {
+  const Vector3d forth = B.low - A.high;
+  const Vector3d back = A.low - B.high;
+  Eigen::Index axis = 0;
+  const double most = forth.cwiseMax(back).maxCoeff(&axis);
+  return {most, (forth[axis] >= back[axis] ? 1.0 : -1.0) * Vector3d::Unit(axis)};
+}
+
+SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n,
+                       double near) {
+  const double thick = thickness(A, B, A.middle.error + B.middle.error);
+  const Separation found =
+      separate(hull(A, A.middle), hull(B, B.middle), n, {.least = thick + enough, .near = near});
+  return {found.gap - thick, found.n};
+}
+
+SweptGap gap_throughout(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n) {
+  const std::array<PlacedPolytope, 3> hulls_A = {hull(A, A.controls[0]), hull(A, A.controls[1]),
+                                                 hull(A, A.controls[2])};
+  const std::array<PlacedPolytope, 3> hulls_B = {hull(B, B.controls[0]), hull(B, B.controls[1]),
+                                                 hull(B, B.controls[2])};
+  const double thick = thickness(A, B, A.error + B.error);
+  const double needed = (thick + enough) * kUp;
+  const Separation found = separate(std::span(hulls_A).first(A.rests ? 1 : 3),
+                                    std::span(hulls_B).first(B.rests ? 1 : 3), n, {needed, needed});
+  return {found.gap - thick, found.n};
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,133 @@
+#include <firstcontact/robot_check/link_contact.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/shape_pair.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/link_pair_motion.h>
+
+namespace firstcontact {
+namespace {
+
+LinkBall ball_of(const MovingLink& link) {
+  const Hierarchy& hierarchy = link.shape.hierarchy();
+  return {link.X_FS, hierarchy.centre, hierarchy.radius * (1.0 + 0x1p-44)};
+}
+
+auto place_key(const LinkPose& pose) {
+  const auto& p = pose.p_OL;
+  const auto& R = pose.R_FL;
+  return std::tuple(p.x(), p.y(), p.z(), R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1));
+}
+
+/// Whether A comes before B by content, so that a question and its swap do the same arithmetic.
+bool in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window) {
+  const int shapes = A.shape.compare(B.shape);
+  if (shapes != 0) {
+    return shapes < 0;
+  }
+  for (const double part : {0.0, 0.375, 1.0}) {
+    const double t = std::min(window.begin + part * (window.end - window.begin), window.end);
+    const auto a = place_key(A.X_FS.at(t).pose(t));
+    const auto b = place_key(B.X_FS.at(t).pose(t));
+    if (a != b) {
+      return a < b;
+    }
+  }
+  return true;
+}
+
+/// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
+template <class Ask>
+bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                  LinkScratch& scratch, const Ask& ask) {
+  if (A.shape.hierarchy().deforms() || B.shape.hierarchy().deforms()) {
+    throw std::invalid_argument("queries of links: a shape deforms; links are rigid");
+  }
+  const FloatEnvironmentGuard guard;
+  const bool swapped = !in_order(A, B, window);
+  const MovingLink& first = swapped ? B : A;
+  const MovingLink& second = swapped ? A : B;
+  LinkPairMotion motion(ball_of(first), ball_of(second), scratch, window.end);
+  ask(ShapePair{first.shape, second.shape, motion});
+  return swapped;
+}
+
+void ask_first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                       Workspace& workspace, LinkScratch& scratch,
+                       const FirstContactOptions& options, FirstContactResult& result) {
+  const bool swapped = ask_in_order(A, B, window, scratch, [&](const ShapePair& pair) {
+    first_contact(pair, window, workspace, options, result);
+  });
+  if (swapped) {
+    std::for_each(result.contacts.begin(), result.contacts.end(), swap_bodies);
+  }
+}
+
+DistanceResult ask_distance(const MovingLink& A, const MovingLink& B, double t,
+                            Workspace& workspace, LinkScratch& scratch) {
+  DistanceResult result;
+  const bool swapped = ask_in_order(
+      A, B, {t, t}, scratch, [&](const ShapePair& pair) { result = distance(pair, t, workspace); });
+  if (swapped && result.closest) {
+    swap_bodies(*result.closest);
+  }
+  return result;
+}
+
+}  // namespace
+
+void detail::first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                           LinkWorkspace& workspace, const FirstContactOptions& options,
+                           FirstContactResult& result) {
+  ask_first_contact(A, B, window, workspace.queries, workspace.places, options, result);
+}
+
+DistanceResult detail::distance(const MovingLink& A, const MovingLink& B, double t,
+                                LinkWorkspace& workspace) {
+  return ask_distance(A, B, t, workspace.queries, workspace.places);
+}
+
+void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                   Workspace& workspace, const FirstContactOptions& options,
+                   FirstContactResult& result) {
+  LinkScratch scratch;
+  ask_first_contact(A, B, window, workspace, scratch, options, result);
+}
+
+void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+                   const FirstContactOptions& options, FirstContactResult& result) {
+  first_contact(A, B, {}, workspace, options, result);
+}
+
+FirstContactResult first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
+                                 const FirstContactOptions& options) {
+  FirstContactResult result;
+  first_contact(A, B, workspace, options, result);
+  return result;
+}
+
+DistanceResult distance(const MovingLink& A, const MovingLink& B, double t, Workspace& workspace) {
+  LinkScratch scratch;
+  return ask_distance(A, B, t, workspace, scratch);
+}
+
+ClosestApproachResult closest_approach(const MovingLink& A, const MovingLink& B,
+                                       Workspace& workspace,
+                                       const ClosestApproachOptions& options) {
+  ClosestApproachResult result;
+  LinkScratch scratch;
+  const bool swapped = ask_in_order(A, B, {}, scratch, [&](const ShapePair& pair) {
+    result = closest_approach(pair, workspace, options);
+  });
+  if (swapped && result.closest) {
+    swap_bodies(*result.closest);
+  }
+  return result;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,165 @@
+#include <firstcontact/robot_check/robot_gap.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/robot_check/detail/swept_ball.h>
+
+namespace firstcontact {
+namespace {
+
+/// Two parts, and how far apart balls around them are at least.
+struct NearParts {
+  double bound = 0.0;      ///< [m]
+  double threshold = 0.0;  ///< [m]
+  std::array<std::size_t, 2> parts = {};
+};
+
+class GapSampler {
+ public:
+  explicit GapSampler(const RobotScene& scene) : timeline_(scene) {}
+
+  [[nodiscard]] RobotGap at(double t) {
+    RobotGap gap;
+    for (const NearParts& near : by_distance(t)) {
+      // What is farther than this says nothing.
+      const double reach = gap.contact ? gap.distance : std::max(gap.distance, near.threshold);
+      const PartPair pair(timeline_, near.parts, t);
+      if (near.bound > reach || is_farther(pair, t, reach)) {
+        continue;
+      }
+      const DistanceResult found = detail::distance(pair.A(), pair.B(), t, workspace_);
+      if (found.distance < gap.distance) {
+        gap.distance = found.distance;
+        nearest_ = near.parts;
+      }
+      gap.lower_bound = std::min(gap.lower_bound, found.lower_bound);
+      gap.contact = gap.contact || found.distance <= near.threshold;
+    }
+    return gap;
+  }
+
+ private:
+  /// Two parts with their motions about a time.
+  class PartPair {
+   public:
+    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
+             double t)
+        : PartPair(timeline, parts, timeline.paths(parts[0], parts[1], t)) {}
+
+    [[nodiscard]] MovingLink A() const { return {A_, X_FA_}; }
+    [[nodiscard]] MovingLink B() const { return {B_, X_FB_}; }
+
+   private:
+    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
+             const detail::PairPaths& paths)
+        : A_(*timeline.parts()[parts[0]].shape),
+          B_(*timeline.parts()[parts[1]].shape),
+          X_FA_(std::vector<LinkPath>{paths.A.X_FS}),
+          X_FB_(std::vector<LinkPath>{paths.B.X_FS}) {}
+
+    const Shape& A_;
+    const Shape& B_;
+    LinkMotion X_FA_;
+    LinkMotion X_FB_;
+  };
+
+  /// Whether it can be proven so without the distance, which costs much more to know.
+  [[nodiscard]] bool is_farther(const PartPair& pair, double t, double distance) {
+    if (!std::isfinite(distance)) {
+      return false;
+    }
+    FirstContactOptions query;
+    query.margin = distance;
+    query.tolerance = 1e-9 + 1e-3 * distance;
+    query.contacts = ContactState::none;
+    FirstContactResult result;
+    detail::first_contact(pair.A(), pair.B(), {t, t}, workspace_, query, result);
+    return result.verdict == Verdict::free;
+  }
+
+  /// The earlier one at a break.
+  [[nodiscard]] std::size_t piece_at(double t) const {
+    std::size_t first = 0;
+    std::size_t last = timeline_.piece_count() - 1;
+    while (first < last) {
+      const std::size_t middle = (first + last) / 2;
+      if (timeline_.piece(middle).end < t) {
+        first = middle + 1;
+      } else {
+        last = middle;
+      }
+    }
+    return first;
+  }
+
+  [[nodiscard]] std::vector<detail::SweptBall> balls_at(double t) {
+    std::vector<detail::SweptBall> balls;
+    for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
+      balls.push_back(detail::swept_ball(timeline_.parts()[part].ball, timeline_.path(part, t),
+                                         {t, t}, workspace_.places));
+    }
+    return balls;
+  }
+
+  /// All parts of the pairs that are tested at t: those that were nearest before, then those with
+  /// the nearest balls.
+  [[nodiscard]] std::vector<NearParts> by_distance(double t) {
+    const std::vector<detail::SweptBall> balls = balls_at(t);
+    const std::size_t piece = piece_at(t);
+    std::vector<NearParts> all;
+    for (const detail::TestedPair& pair : timeline_.pairs()) {
+      if (!timeline_.is_tested(pair, piece)) {
+        continue;
+      }
+      const auto [first, second] = pair.members;
+      for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
+        for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
+             ++b) {
+          const double errors = balls[a].tracking_error + balls[b].tracking_error;
+          all.push_back({detail::gap_bound(balls[a], balls[b]), pair.margin + errors, {a, b}});
+        }
+      }
+    }
+    std::sort(all.begin(), all.end(), [this](const NearParts& x, const NearParts& y) {
+      const bool was_nearest = x.parts == nearest_;
+      if (was_nearest != (y.parts == nearest_)) {
+        return was_nearest;
+      }
+      return x.bound != y.bound ? x.bound < y.bound : x.parts < y.parts;
+    });
+    return all;
+  }
+
+  detail::RobotTimeline timeline_;
+  detail::LinkWorkspace workspace_;
+  std::array<std::size_t, 2> nearest_ = {};  // Parts, at the time before.
+};
+
+}  // namespace
+
+std::vector<RobotGap> robot_gaps(const RobotScene& scene, std::span<const double> times,
+                                 const std::stop_token& stop) {
+  const FloatEnvironmentGuard guard;
+  GapSampler sampler(scene);
+  std::vector<RobotGap> gaps;
+  for (const double t : times) {
+    if (!(t >= 0.0 && t <= 1.0)) {
+      throw std::invalid_argument("robot_gaps: t must be in [0, 1], got " + std::to_string(t));
+    }
+    if (stop.stop_requested()) {
+      break;
+    }
+    gaps.push_back(sampler.at(t));
+  }
+  return gaps;
+}
+
+}  // namespace firstcontact

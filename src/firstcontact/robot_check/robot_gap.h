@@ -1,0 +1,33 @@
+/// @file
+/// How far apart the members of a robot scene are at chosen times: what sampling sees.
+
+#pragma once
+
+#include <limits>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact {
+
+/// The least distance of all pairs that are tested at one time, without padding, margins and
+/// tracking errors.
+struct RobotGap {
+  double distance = std::numeric_limits<double>::infinity();     ///< [m]  Infinite without a pair.
+  double lower_bound = std::numeric_limits<double>::infinity();  ///< [m]  Proven at that time.
+  bool contact = false;  ///< A pair is no farther apart than its threshold.
+};
+
+/// The gap at each of the times. Proves nothing about the times between them.
+///
+/// @param times  [-]  each in [0, 1]
+/// @param stop   ends the sampling early, with fewer gaps
+/// @throws std::invalid_argument if a time is outside its range
+[[nodiscard]] FIRSTCONTACT_API std::vector<RobotGap> robot_gaps(const RobotScene& scene,
+                                                                std::span<const double> times,
+                                                                const std::stop_token& stop = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,194 @@
+/// @file
+/// Robots and bodies that move together over the step: what a check of robots is asked about.
+
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot/robot_motion.h>
+#include <firstcontact/robot/tracking_error.h>
+
+namespace firstcontact {
+
+/// A body that a link carries for a while. All by their numbers as members of the scene.
+///
+/// The body keeps its own motion before t_from. Then it is rigidly fixed to the link, with the pose
+/// relative to it frozen at t_from and rounded to doubles, which define the motion from then on.
+/// Or X_LB says where the link holds it from the start; then its own motion has no meaning. After
+/// t_to it rests where it is, rounded alike.
+struct Attachment {
+  std::size_t body = 0;
+  std::size_t link = 0;                       ///< Holds it: the two are not tested while it does.
+  double t_from = 0.0;                        ///< [-]  In [0, 1].
+  double t_to = 1.0;                          ///< [-]  In (t_from, 1].
+  std::vector<std::size_t> touch_links = {};  ///< Not tested against the body either meanwhile.
+  std::optional<Pose> X_LB = {};              ///< Only with t_from = 0.
+};
+
+/// One piece of a member, in a frame G that is fixed in the member's frame M.
+struct MemberGeometry {
+  Shape shape;
+  Pose X_MG = {};
+};
+
+/// A link of a robot, both by number.
+struct RobotLink {
+  std::size_t robot = 0;
+  std::size_t link = 0;
+
+  friend bool operator==(const RobotLink&, const RobotLink&) = default;
+};
+
+/// How a body moves over a part of the step: as given, carried by a link, or at rest.
+struct BodyStretch {
+  struct Given {};
+  struct Carried {
+    RobotLink link;
+    Pose X_LB;
+  };
+  struct Resting {
+    Pose X_WB;
+  };
+  double t_begin = 0.0;  ///< [-]
+  double t_end = 1.0;    ///< [-]
+  std::variant<Given, Carried, Resting> how = {};
+};
+
+/// Bodies and robots with their motions over the step, t in [0, 1].
+///
+/// All that can touch is a *member*, numbered from 0 in the order of adding: a body is one, a robot
+/// is as many as it has links. Which pairs of members are tested, and how far apart they have to
+/// stay, is a matter of three things:
+/// - links of one robot that are adjacent, or that only fixed joints connect, are never tested, nor
+///   are two bodies that both rest over the whole step;
+/// - rules() ignores pairs and gives margins;
+/// - a link that holds a body, and touch links, are not tested against it meanwhile.
+///
+/// Members without geometry touch nothing. Names are unique; that of a link is "robot/link".
+/// Functions throw std::invalid_argument on bad input, with the name of what is wrong.
+class FIRSTCONTACT_API RobotScene {
+ public:
+  explicit RobotScene(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
+
+  /// Returns the body's number as a member. Shapes that deform are refused.
+  std::size_t add_body(std::string name, Shape shape, Motion X_WB = Motion::fixed());
+
+  /// Returns the robot's number, from 0; its link k is the member first_member(robot) + k. Every
+  /// collision geometry of the model must have its shape (LoadShapes).
+  ///
+  /// @param disabled  pairs of links that are not tested, as an SRDF has them
+  std::size_t add_robot(std::string name, RobotMotion motion,
+                        std::span<const DisabledPair> disabled = {});
+
+  /// Another motion of the same robot; all else stays as it is said. Of bodies that it carries the
+  /// places are taken anew.
+  void set_motion(std::size_t robot, RobotMotion motion);
+
+  /// A body may be attached several times, one after the other.
+  void attach(Attachment attachment);
+
+  /// Thickens a member by a ball: adds to the margin of every pair that it is in.
+  ///
+  /// @param padding  [m]  >= 0
+  void set_padding(std::size_t member, double padding);
+
+  /// What is proven free then is so for every motion of the robot whose coordinates stay within the
+  /// errors of the nominal ones: the error's effect on a link adds to the margins of its pairs. Of
+  /// a floating or ball joint the error is one of the child's frame: its angle, and the way of its
+  /// origin. Mimic joints follow theirs, errors included.
+  void set_tracking_error(std::size_t robot, std::string_view joint, const TrackingError& error);
+
+  [[nodiscard]] PairRules& rules() { return rules_; }  ///< By members.
+  [[nodiscard]] const PairRules& rules() const { return rules_; }
+
+  [[nodiscard]] std::size_t size() const { return members_.size(); }  ///< Number of members.
+  [[nodiscard]] const std::string& name(std::size_t member) const { return members_[member].name; }
+  [[nodiscard]] std::optional<std::size_t> find_member(std::string_view name) const;
+  [[nodiscard]] std::span<const MemberGeometry> geometries(std::size_t member) const {
+    return members_[member].geometries;
+  }
+  [[nodiscard]] double padding(std::size_t member) const { return members_[member].padding; }
+  /// None for a body.
+  [[nodiscard]] std::optional<RobotLink> robot_link(std::size_t member) const {
+    return members_[member].link;
+  }
+  /// Whether it is a body that never moves.
+  [[nodiscard]] bool rests(std::size_t member) const { return members_[member].rests; }
+  /// Of a body; it holds before the body is attached for the first time.
+  [[nodiscard]] const Motion& body_motion(std::size_t member) const;
+  /// Of a body, in order, without gaps, from 0 to 1.
+  [[nodiscard]] std::span<const BodyStretch> stretches(std::size_t member) const;
+
+  [[nodiscard]] std::size_t robot_count() const { return robots_.size(); }
+  [[nodiscard]] const std::string& robot_name(std::size_t robot) const {
+    return robots_[robot].name;
+  }
+  [[nodiscard]] const RobotMotion& robot_motion(std::size_t robot) const {
+    return robots_[robot].motion;
+  }
+  [[nodiscard]] std::size_t first_member(std::size_t robot) const {
+    return robots_[robot].first_member;
+  }
+  /// One for each joint of the model; a mimic joint has that of its own times its multiplier.
+  [[nodiscard]] std::vector<TrackingError> tracking_errors(std::size_t robot) const;
+
+  /// In order of body, then of time.
+  [[nodiscard]] std::span<const Attachment> attachments() const { return attachments_; }
+
+  /// [m]  The margin of a pair with both paddings, without tracking errors; none where it is never
+  /// tested. A pair with an attached body has one, though it may not be tested all the time.
+  [[nodiscard]] std::optional<double> margin(const BodyPair& members) const;
+
+  /// What all checks of the scene share. Of a body: the pieces of its own motion. Of a link: where
+  /// each of its geometries is on the link that moves it, its rigid_root().
+  [[nodiscard]] std::span<const std::shared_ptr<const JointPath>> paths(std::size_t member) const {
+    return members_[member].paths;
+  }
+
+  /// X_WM(t), rounded to doubles; t is clamped to [0, 1].
+  [[nodiscard]] Pose pose(std::size_t member, double t) const;
+
+ private:
+  struct Member {
+    std::string name;
+    std::vector<MemberGeometry> geometries;
+    double padding = 0.0;
+    std::optional<RobotLink> link;
+    std::optional<Motion> motion = {};        // Of a body.
+    std::vector<BodyStretch> stretches = {};  // Of a body.
+    bool rests = false;                       // A body that never moves.
+    std::vector<std::shared_ptr<const JointPath>> paths = {};
+  };
+  struct Robot {
+    std::string name;
+    RobotMotion motion;
+    std::size_t first_member = 0;
+    std::vector<TrackingError> tracking_errors;
+  };
+
+  void require_member(std::size_t member) const;
+  void require_robot(std::size_t robot) const;
+  void require_new(const std::string& name) const;
+  void divide_into_stretches(std::size_t body);
+
+  std::vector<Member> members_;
+  std::vector<Robot> robots_;
+  std::vector<Attachment> attachments_;
+  PairRules rules_;
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,37 @@
+/// @file
+/// Which links touch where the robot rests: pairs that are best left out of a check.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_motion.h>
+
+namespace firstcontact {
+
+/// Two links by index, the smaller one first.
+struct LinkPairIndex {
+  std::size_t link = 0;
+  std::size_t other = 0;
+
+  friend bool operator==(const LinkPairIndex&, const LinkPairIndex&) = default;
+};
+
+/// The robot at rest in its default configuration: every coordinate 0, or the limit next to it;
+/// floating and ball joints at the identity.
+[[nodiscard]] FIRSTCONTACT_API RobotMotion at_rest(const RobotModel& model);
+
+/// All pairs of links whose collision geometries are no farther than `margin` apart at t = 0, in
+/// order of their indices, those of adjacent links included. Solids touch what is inside of them.
+/// Poses are rounded to doubles first: pairs within 1e-12 of the robot's size may go either way.
+///
+/// @param motion  of a robot whose collision shapes are there (LoadShapes)
+/// @param margin  [m]  >= 0
+/// @throws std::invalid_argument if a collision geometry has no shape, or the margin is out of
+/// range
+[[nodiscard]] FIRSTCONTACT_API std::vector<LinkPairIndex> touching_links(const RobotMotion& motion,
+                                                                         double margin = 0.0);
+
+}  // namespace firstcontact

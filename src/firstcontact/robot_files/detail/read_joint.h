@@ -1,0 +1,18 @@
+/// @file
+/// Reads the joints of a URDF.
+
+#pragma once
+
+#include <optional>
+
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
+
+namespace firstcontact::detail {
+
+/// A joint. What is wrong with it goes into the log; none where it does not say what it connects,
+/// or how it moves.
+[[nodiscard]] std::optional<Joint> read_joint(const XmlElement& element,
+                                              const UrdfContext& context);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,72 @@
+/// @file
+/// Reads the links of a URDF.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot_files/detail/urdf_context.h>
+
+namespace firstcontact::detail {
+
+/// Reads links, then makes the shapes of those that are asked for.
+class LinkReader {
+ public:
+  /// @param context  outlives the reader
+  explicit LinkReader(const UrdfContext& context) : context_(context) {}
+
+  /// A link without shapes. What is wrong with it goes into the log. What of it can touch, by the
+  /// options, is its collision geometry.
+  ///
+  /// @param index  of the link in the robot
+  [[nodiscard]] Link read(const XmlElement& element, std::size_t index);
+
+  /// Makes the shapes that are asked for. Errors go into the log.
+  void make_shapes(std::vector<Link>& links);
+
+  /// The reports of the mesh files that were read, in the order of their first use.
+  [[nodiscard]] const std::vector<FileReport>& mesh_files() const { return mesh_files_; }
+
+  /// Warns of links that have <visual> geometry, but nothing that can touch, where others have.
+  void warn_of_links_that_cannot_touch(const std::vector<Link>& links) const;
+
+ private:
+  struct Wanted {
+    std::size_t link;
+    bool is_visual;
+    std::size_t geometry;
+    const XmlElement* element;
+  };
+  using MeshKey = std::pair<std::filesystem::path, std::array<double, 3>>;
+
+  [[nodiscard]] std::vector<LinkGeometry> geometries(const XmlElement& link, bool is_visual,
+                                                     bool is_wanted, std::size_t index);
+  [[nodiscard]] std::optional<LinkGeometry> geometry(const XmlElement& piece, bool is_visual,
+                                                     bool is_wanted) const;
+  [[nodiscard]] const XmlElement* source_element(const XmlElement& holder) const;
+  [[nodiscard]] GeometrySource source(const XmlElement& element, bool is_wanted) const;
+  [[nodiscard]] GeometrySource primitive(const XmlElement& element) const;
+  [[nodiscard]] MeshGeometry mesh(const XmlElement& element, bool is_wanted) const;
+  [[nodiscard]] double size(const XmlElement& element, const char* attribute) const;
+  void warn_of_size_zero(const XmlElement& element, const GeometrySource& source) const;
+  [[nodiscard]] Shape shape(const XmlElement& element, const GeometrySource& source);
+  [[nodiscard]] Shape read_mesh_shape(const GeometrySource& source);
+
+  const UrdfContext& context_;
+  std::vector<Wanted> wanted_;
+  std::map<MeshKey, Shape> meshes_;
+  std::vector<FileReport> mesh_files_;
+};
+
+/// What an <inertial> says. What is wrong with it is its defect, and is told in the log.
+[[nodiscard]] LinkInertia read_inertia(const XmlElement& link, const XmlElement& inertial,
+                                       const UrdfContext& context);
+
+}  // namespace firstcontact::detail

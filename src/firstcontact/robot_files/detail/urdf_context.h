@@ -1,0 +1,44 @@
+/// @file
+/// What the readers of a URDF's elements share.
+
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot_files/detail/urdf_names.h>
+#include <firstcontact/robot_files/read_urdf.h>
+#include <firstcontact/text/reading_log.h>
+#include <firstcontact/text/xml_names.h>
+#include <firstcontact/text/xml_reader.h>
+
+namespace firstcontact::detail {
+
+/// One document, its names and its log. All members outlive it.
+struct UrdfContext {
+  const XmlReader& xml;
+  const XmlNameCheck& names;
+  ReadingLog& log;
+  const std::filesystem::path& source;
+  const UrdfOptions& options;
+
+  /// Reads a part; what is wrong with it goes into the log, so that the parts after it are read.
+  void attempt(const std::function<void()>& read) const;
+
+  /// The <origin> of an element; the identity where there is none.
+  ///
+  /// @throws ParseError
+  [[nodiscard]] Pose origin(const XmlElement& element) const;
+
+  /// Of an element or attribute that places nothing where urdfdom reads it: warns where the pose is
+  /// the identity, and refuses it where the author may have meant something.
+  void pass_over_pose(const XmlElement& element, const char* what, const Pose& pose) const;
+};
+
+/// The pose that an <origin> says.
+///
+/// @throws ParseError
+[[nodiscard]] Pose pose_of(const XmlElement& origin, const XmlReader& xml);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,31 @@
+/// @file
+/// The shape of a link's geometry, read from its mesh file where it has one.
+
+#pragma once
+
+#include <optional>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/link_geometry.h>
+#include <firstcontact/text/file_report.h>
+
+namespace firstcontact {
+
+/// The shape of a source, in its frame G. Coordinates of a mesh are scaled in double precision:
+/// certificates hold for the rounded products. A mirrored mesh keeps its inside.
+///
+/// @throws ParseError as read_mesh; std::invalid_argument where a number is out of its range
+[[nodiscard]] FIRSTCONTACT_API Shape make_shape(const GeometrySource& source);
+
+/// A shape and what became of the file that it is from.
+struct ShapeReading {
+  Shape shape;
+  std::optional<FileReport> report;  ///< Of a mesh.
+};
+
+/// As make_shape().
+[[nodiscard]] FIRSTCONTACT_API ShapeReading read_shape(const GeometrySource& source,
+                                                       const ReadingOptions& options = {});
+
+}  // namespace firstcontact

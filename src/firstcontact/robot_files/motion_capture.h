@@ -1,0 +1,72 @@
+/// @file
+/// Captured motion of a figure: a skeleton, its poses frame by frame, and what moves between them.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/robot_motion.h>
+
+namespace firstcontact {
+
+/// A bone, frame B: it turns about its origin against the bone that it hangs on.
+struct Bone {
+  std::string name;
+  std::size_t parent = 0;             ///< Index of a bone before this one; the root's is its own.
+  Pose X_PB = {};                     ///< At zero rotation, in the parent; of the root identity.
+  std::vector<Eigen::Vector3d> ends;  ///< [m]  In B: where it reaches from its origin.
+  bool turns = true;                  ///< Else it is rigid in its parent.
+};
+
+/// One captured pose.
+struct CaptureFrame {
+  Eigen::Vector3d root_position = Eigen::Vector3d::Zero();  ///< [m]  In the capture's frame C.
+  /// Of each bone, from its zero rotation; of the root, in C.
+  std::vector<Eigen::Quaterniond> rotations;
+};
+
+/// Bones, the root first, and their poses at equal steps of time.
+struct MotionCapture {
+  std::string name;
+  std::vector<Bone> bones;
+  double frame_time = 0.0;  ///< [s]  > 0.
+  std::vector<CaptureFrame> frames;
+};
+
+/// How thick a figure is: each bone is a capsule from its origin to each of its ends, a bone
+/// without ends is a sphere.
+struct FigureOptions {
+  double slenderness = 0.25;      ///< [-]  Radius by length.
+  double least_radius = 0.02;     ///< [m]
+  double greatest_radius = 0.09;  ///< [m]
+};
+
+/// A robot whose links are the bones, by name, with capsules and spheres as collision geometry, and
+/// whose joints are balls, named as the bone that they carry.
+///
+/// @throws std::invalid_argument  no bone, a doubled name, a bone that hangs on none before it, an
+///                                option out of its range
+[[nodiscard]] FIRSTCONTACT_API RobotModel make_figure(const MotionCapture& capture,
+                                                      const FigureOptions& options = {});
+
+/// The motion from one frame to a later one, over the step t in [0, 1]: between neighbours, every
+/// bone turns against its parent at a constant angular velocity by the shortest rotation, and the
+/// root's origin goes at a constant velocity.
+///
+/// @param figure  as make_figure made it from the same bones
+/// @param X_WC    places the capture in the world; captures are often y-up
+/// @throws std::invalid_argument if there are no such frames, or they do not fit the figure
+[[nodiscard]] FIRSTCONTACT_API RobotMotion capture_motion(const RobotModel& figure,
+                                                          const MotionCapture& capture,
+                                                          std::size_t first, std::size_t last,
+                                                          const Pose& X_WC = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,35 @@
+/// @file
+/// Reads captured motion from BVH files.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot_files/motion_capture.h>
+
+namespace firstcontact {
+
+struct BvhOptions {
+  double unit_length = 0.01;  ///< [m]  Of one unit of length in the file; > 0.
+};
+
+/// Reads a BVH file: HIERARCHY with one ROOT, then MOTION.
+///
+/// A bone reaches from its joint to each of its children's joints and to its end site. Rotations
+/// are those of the channels multiplied from left to right, in degrees. Position channels belong to
+/// the root only; there they replace its offset.
+///
+/// @throws ParseError  one line with path, line and what was expected
+/// @throws std::invalid_argument if an option is out of its range
+[[nodiscard]] FIRSTCONTACT_API MotionCapture read_bvh(const std::filesystem::path& path,
+                                                      const BvhOptions& options = {});
+
+/// @param source  names the text in errors
+[[nodiscard]] FIRSTCONTACT_API MotionCapture parse_bvh(std::string_view text,
+                                                       const std::string& source,
+                                                       const BvhOptions& options = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,77 @@
+/// @file
+/// Reads robots from URDF.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/text/file_report.h>
+
+namespace firstcontact {
+
+/// Which shapes are made while reading; the others stay descriptions.
+enum class LoadShapes {
+  none,
+  collision,  ///< Of what can touch.
+  all,
+};
+
+/// What of a robot can touch.
+enum class RobotSurface {
+  collision,
+  visual,
+  collision_or_visual,  ///< How a link looks, where it has no collision geometry.
+};
+
+struct UrdfOptions {
+  /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest, of the first root that
+  /// has NAME; then of the folders above the file.
+  std::vector<std::filesystem::path> package_roots = {};
+  LoadShapes shapes = LoadShapes::collision;
+  RobotSurface surface = RobotSurface::collision;  ///< Becomes the collision geometry of links.
+  ReadingOptions reading = {};
+};
+
+/// A robot and what became of its files.
+struct RobotReading {
+  RobotModel model;
+  std::vector<FileReport> files;  ///< The URDF, then its meshes in the order of their first use.
+};
+
+/// Reads a URDF file. Each mesh file is read once for each scale.
+///
+/// Beyond URDF 1.2: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and
+/// `ball` or `spherical`, and Drake's `<drake:capsule>` and `<drake:mimic>`.
+///
+/// What says nothing of contacts is left out by name: looks, settings of simulators and
+/// controllers, sensors, elements and attributes with a prefix, an `<inertial>` that is wrong
+/// (LinkInertia::defect). A name that is not known is an error where it is near a known one, holds
+/// or places geometry, or is xacro's; elsewhere it is a warning. docs/robot_files.md has the table.
+///
+/// Numbers are read exactly, whatever the locale. An `rpy` becomes a quaternion of doubles, which
+/// from then on means the exact rotation.
+///
+/// @throws ParseError  one line with path, place, element and what was expected, for all errors
+[[nodiscard]] FIRSTCONTACT_API RobotReading read_robot(const std::filesystem::path& path,
+                                                       const UrdfOptions& options = {});
+
+/// @param source  names the text in errors; mesh paths are relative to its folder
+[[nodiscard]] FIRSTCONTACT_API RobotReading parse_robot(std::string_view text,
+                                                        const std::filesystem::path& source,
+                                                        const UrdfOptions& options = {});
+
+/// The model of read_robot() alone.
+[[nodiscard]] FIRSTCONTACT_API RobotModel read_urdf(const std::filesystem::path& path,
+                                                    const UrdfOptions& options = {});
+
+/// The model of parse_robot() alone.
+[[nodiscard]] FIRSTCONTACT_API RobotModel parse_urdf(std::string_view text,
+                                                     const std::filesystem::path& source,
+                                                     const UrdfOptions& options = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,20 @@
+/// @file
+/// Reads what a body is made of.
+
+#pragma once
+
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/read_path.h>
+
+namespace firstcontact::detail {
+
+/// One of `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
+/// `capsule`, `box`, `cylinder`, `cone`, `convex_hull` (of a mesh or vertices), `points` (a file or
+/// inline) with `scale`, `heightmap`; with `radius` and `solid` where they may stand.
+///
+/// @throws ParseError
+[[nodiscard]] BodyShape read_shape(const JsonValue& value, const SceneFolders& folders,
+                                   const JsonReader& read);
+
+}  // namespace firstcontact::detail

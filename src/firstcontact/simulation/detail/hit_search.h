@@ -1,0 +1,98 @@
+/// @file
+/// The pairs that a plan of an island brings into contact.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/swept_hull.h>
+
+namespace firstcontact::detail {
+
+/// A pair that the plan brings into contact.
+struct Hit {
+  BodyPair bodies;
+  double t = 0.0;  ///< [-]  Of the span.
+  bool is_slight = false;
+  std::vector<TouchAhead> ahead = {};
+};
+
+/// Asks the motions of plans for first contacts. Of plans after the first one only pairs are asked
+/// of which a body moves otherwise than in the plan before.
+class HitSearch {
+ public:
+  /// @param span  [s]  of the plans
+  HitSearch(IslandState& state, double span, Workspace& workspace)
+      : state_(state), span_(span), workspace_(workspace) {}
+
+  /// Asks all pairs that the plan may bring near each other.
+  [[nodiscard]] std::vector<Hit> find(const Plan& plan);
+
+  /// [m]  No pair comes closer in the plan that was asked last, until its first hit.
+  [[nodiscard]] double clearance() const { return clearance_; }
+
+ private:
+  /// A member, or a body around the island, in the plan.
+  struct Mover {
+    std::size_t body;
+    Move move = {};
+    Eigen::AlignedBox3d box = {};   // [m]  Around the motion.
+    Eigen::AlignedBox3d room = {};  // [m]  While the box stays in it, no other pairs come near.
+    bool is_changed = true;         // It moves otherwise than in the plan before.
+    std::optional<SweptHull> hull = {};  // Where needed.
+  };
+  /// Between two bodies.
+  struct Plane {
+    Eigen::Vector3d n;  // [-]  From the first to the second, when the plan begins.
+    bool is_of_second;  // It moves with the second body.
+  };
+  /// Two bodies that may come near each other.
+  struct Candidate {
+    std::array<std::size_t, 2> movers;
+    double margin;             // [m]
+    const Manifold* manifold;  // Null beyond the band.
+    bool is_near = false;      // The boxes of the plan are.
+    std::optional<Hit> hit = {};
+    std::optional<Plane> plane = {};  // That kept them apart in the plan before.
+  };
+
+  void follow(const Plan& plan);
+  void look_around();
+  [[nodiscard]] std::size_t mover_of(std::size_t body);
+  [[nodiscard]] const Mover& mover(const Candidate& pair, int side) const {
+    return movers_[pair.movers[side]];
+  }
+  [[nodiscard]] BodyPair bodies_of(const Candidate& pair) const {
+    return {mover(pair, 0).body, mover(pair, 1).body};
+  }
+  [[nodiscard]] std::optional<Hit> ask(Candidate& pair);
+  [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
+  [[nodiscard]] Hit hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
+  [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
+  [[nodiscard]] SweptHull hull_of(std::size_t mover, double from, double to);
+  [[nodiscard]] const SweptHull& whole_hull_of(std::size_t mover);
+  [[nodiscard]] Plane likely_plane(const Candidate& pair) const;
+  [[nodiscard]] static std::optional<Plane> plane_of(const SweptHull& A, const SweptHull& B,
+                                                     double distance, const Plane& likely);
+  [[nodiscard]] bool hulls_stay_apart(Candidate& pair, double distance);
+  [[nodiscard]] bool parts_stay_apart(const Candidate& pair, double distance,
+                                      const std::array<double, 3>& times, int splits,
+                                      const Plane& likely);
+
+  IslandState& state_;
+  double span_;
+  Workspace& workspace_;
+  std::vector<Mover> movers_ = {};  // The members, then bodies around the island.
+  std::unordered_map<std::size_t, std::size_t> around_ = {};  // Where these are among the movers.
+  std::vector<Candidate> candidates_ = {};
+  FirstContactResult answer_;
+  double clearance_ = 0.0;
+};
+
+}  // namespace firstcontact::detail

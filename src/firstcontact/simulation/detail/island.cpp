@@ -1,0 +1,270 @@
+#include <firstcontact/simulation/detail/island.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <firstcontact/simulation/detail/hit_search.h>
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/rest.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// How often slight contacts of the motion ahead are turned into constraints before the bodies are
+/// moved until the first of them.
+constexpr int kRounds = 12;
+
+/// After as many impacts in a row that hardly let time pass, the island is jammed.
+constexpr std::size_t kMostStalls = 10;
+
+/// A plan that was stopped is followed by one of at least this part of its span.
+constexpr double kLeastShare = 0.1;
+
+/// Links that turn fast and bodies that tumble make plans shorter, down to this part of the step.
+constexpr double kLeastShareOfFast = 0.01;
+
+/// [rad]  So far from where it would be may a body that tumbles be halfway through a plan, as it
+/// turns at a constant rate then: an impact in between finds it there, with another inertia.
+constexpr double kMostAstray = 0.01;
+
+class Island {
+ public:
+  Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace)
+      : state_(step, std::move(members)),
+        guesses_(step.guesses),
+        stop_(step.stop),
+        workspace_(workspace),
+        span_(step.start.h) {
+    track_.members = state_.members;
+    track_.pieces.resize(state_.size());
+    track_.clearance = std::numeric_limits<double>::infinity();
+  }
+
+  std::optional<IslandTrack> run() {
+    std::size_t stalls = 0;
+    state_.find_manifolds(guesses_, workspace_);
+    if (has_bounce()) {
+      ++track_.events;
+      impact();
+    }
+    while (state_.reached < state_.start.h) {
+      if (track_.events > state_.world.events || stalls >= kMostStalls) {
+        break;
+      }
+      const double reached = state_.reached;
+      const double planned = span();
+      const std::optional<double> t = advance();
+      if (!t) {
+        return std::nullopt;
+      }
+      if (*t < 1.0) {
+        ++track_.events;
+        impact();
+      }
+      choose_span(planned, *t);
+      stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
+    }
+    track_.reached = state_.reached;
+    track_.robots = state_.robots.take_tracks();
+    return std::move(track_);
+  }
+
+ private:
+  /// [s]  Of the next plan.
+  [[nodiscard]] double span() const {
+    const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
+                                    kLeastShareOfFast * state_.start.h);
+    return std::min({span_, state_.start.h - state_.reached, of_fast});
+  }
+
+  /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
+  /// the angular acceleration a of gyroscopic moments.
+  [[nodiscard]] double tumbling_span() const {
+    double greatest = 0.0;  // [rad/s^2]
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      if (!state_.member(k).piece) {
+        greatest =
+            std::max(greatest, tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
+      }
+    }
+    return greatest > 0.0 ? std::sqrt(8.0 * kMostAstray / greatest)
+                          : std::numeric_limits<double>::infinity();
+  }
+
+  /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
+  /// than the distance of rest, to half of what is left with each impact, in less and less time.
+  /// Then plans are as short as it took, so that what pushes apart gets there within them.
+  void choose_span(double planned, double t) {
+    if (t < 1.0) {
+      span_ = state_.is_too_near()
+                  ? std::max(std::max(t, kLeastShare) * planned, stall(state_.start.h))
+                  : state_.start.h;
+    } else {
+      span_ = 2.0 * planned;
+    }
+  }
+
+  /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
+  /// plan. Returns how far, in parts of its span; nothing if it was stopped.
+  std::optional<double> advance() {
+    IslandPlanner planner(state_, span());
+    HitSearch search(state_, span(), workspace_);
+    for (int round = 1; !stop_.stop_requested(); ++round) {
+      const Plan plan = planner.plan();
+      const std::vector<Hit> hits = search.find(plan);
+      if (hits.empty() || round == kRounds || std::ranges::none_of(hits, &Hit::is_slight)) {
+        double t = state_.robots.share_within_limits(plan.robots);
+        for (const Hit& hit : hits) {
+          t = std::min(t, hit.t);
+        }
+        move_to(plan, planner.touches(), t, search.clearance());
+        return t;
+      }
+      for (const Hit& hit : hits) {
+        if (hit.is_slight) {
+          for (const TouchAhead& ahead : hit.ahead) {
+            planner.add(ahead);
+          }
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
+  /// little to be told from now.
+  void move_to(const Plan& plan, std::vector<Touch> touches, double t, double clearance) {
+    const double planned = span();
+    const bool is_last = planned >= state_.start.h - state_.reached;
+    const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned;
+    t = to > state_.reached ? t : 0.0;
+    state_.robots.move_to(plan.robots, t, to);
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      const RigidState begin = state_.states[k];
+      RigidState& end = state_.states[k];
+      end.X_WB = motion_of(state_.member(k), begin.X_WB, plan.moves[k]).pose(t);
+      end.X_WB.rotation.normalize();
+      end.v_WC = begin.v_WC + t * (plan.at_end[k].v - begin.v_WC);
+      end.w_WB =
+          turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
+                       t * plan.moves[k].rotation_vector);
+      if (state_.member(k).piece) {
+        const ContactBody body = state_.robots.body(k);
+        end.v_WC = body.v;
+        end.w_WB = body.w;
+      }
+      if (t > 0.0) {
+        const Move move = t < 1.0 ? plan.moves[k].part(t) : plan.moves[k];
+        track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
+      }
+    }
+    if (t == 1.0 && planned == state_.start.h && track_.events == 0 &&
+        comes_to_rest(state_, plan, touches)) {
+      come_to_rest();
+    }
+    state_.reached = to;
+    track_.residual = std::max(track_.residual, plan.residual);
+    track_.clearance = std::min(track_.clearance, clearance);
+    state_.poses_around.clear();
+    if (to < state_.start.h) {
+      acted_ = touches;
+      for (Touch& touch : acted_) {
+        touch.impulse *= state_.start.h / planned;
+      }
+      std::ranges::stable_sort(acted_, comes_before);
+      state_.find_manifolds(acted_, workspace_);
+    }
+    track_.touches = std::move(touches);
+  }
+
+  /// What is left of the velocities at the end of the step is no motion.
+  void come_to_rest() {
+    track_.rests = Rest::begins;
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      for (RigidState* end : {&state_.states[k], &track_.pieces[k].back().end}) {
+        end->v_WC.setZero();
+        end->w_WB.setZero();
+      }
+    }
+  }
+
+  /// Whether anything touches that approaches fast enough to bounce.
+  [[nodiscard]] bool has_bounce() {
+    ProblemBodies bodies = state_.problem_bodies();
+    for (const auto& [pair, manifold] : state_.manifolds) {
+      state_.add_others(pair, bodies);
+      for (const Touch& touch : manifold.touches) {
+        const ContactPoint contact = contact_at(touch, bodies, 0.0, 0.0);
+        if (touch.gap <= state_.world.distances.touching &&
+            state_.bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Changes the velocities of what touches now.
+  void impact() {
+    ProblemBodies bodies = state_.problem_bodies();
+    ContactProblem problem;
+    std::vector<const Touch*> touches;
+    std::vector<double> restitution;
+    for (const auto& [pair, manifold] : state_.manifolds) {
+      for (const Touch& touch : manifold.touches) {
+        if (touch.gap > state_.world.distances.touching) {
+          continue;
+        }
+        state_.add_others(pair, bodies);
+        Touch unknown = touch;
+        unknown.impulse.setZero();
+        problem.contacts.push_back(
+            contact_at(unknown, bodies, state_.world.laws.friction(pair), 0.0));
+        touches.push_back(&touch);
+        const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
+        restitution.push_back(state_.bounces(pair, closing) ? state_.world.laws.restitution(pair)
+                                                            : 0.0);
+      }
+    }
+    if (problem.contacts.empty()) {
+      return;
+    }
+    problem.bodies = bodies.bodies();
+    state_.robots.add_mechanisms(problem);
+    state_.robots.add_drives_at_impact(problem);
+    const ContactSolution solution = project_impact_of(state_, problem, restitution);
+    state_.robots.take_velocities(solution);
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      if (!solution.impulses[k].isZero(0.0)) {
+        track_.impacts.push_back({state_.reached, touches[k]->bodies, touches[k]->point,
+                                  problem.contacts[k].frame.transpose() * solution.impulses[k]});
+      }
+    }
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      state_.states[k].v_WC = solution.bodies[k].v;
+      state_.states[k].w_WB = solution.bodies[k].w;
+    }
+    track_.residual = std::max(track_.residual, solution.residual);
+  }
+
+  IslandState state_;
+  const std::vector<Touch>& guesses_;
+  const std::stop_token& stop_;
+  std::vector<Touch> acted_ = {};  // In the last plan, sorted, with the impulses of a whole step.
+  Workspace& workspace_;
+  IslandTrack track_;
+  double span_;  // [s]  Longest of a plan, for now.
+};
+
+}  // namespace
+
+std::optional<IslandTrack> advance_island(const StepContext& step, std::vector<std::size_t> members,
+                                          Workspace& workspace) {
+  return Island(step, std::move(members), workspace).run();
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,59 @@
+/// @file
+/// Bodies that act on each other within a step, advanced together.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/record/run.h>
+#include <firstcontact/simulation/detail/island_state.h>
+
+namespace firstcontact::detail {
+
+/// A part of a step without impacts.
+struct TrackPiece {
+  double to = 0.0;  ///< [s]  Since the step began.
+  Pose X_WB;        ///< At its begin.
+  Move move;
+  RigidState begin;  ///< Velocities at its begin.
+  RigidState end;    ///< Pose and velocities at its end.
+};
+
+/// Whether the bodies of an island are at rest.
+enum class Rest {
+  no,
+  begins,   ///< From the end of the step on: their velocities are none there.
+  goes_on,  ///< Since a step before.
+};
+
+/// How the bodies of an island move over a step, or over as much of it as could be proven free.
+struct IslandTrack {
+  std::vector<std::size_t> members;             ///< Free bodies.
+  std::vector<std::vector<TrackPiece>> pieces;  ///< Of each member.
+  std::vector<RobotTrack> robots = {};          ///< Whose links are members.
+  std::vector<Touch> touches = {};              ///< That acted last, with their impulses.
+  std::vector<RunImpact> impacts = {};          ///< In the order of time.
+  double reached = 0.0;                         ///< [s]
+  double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
+  double residual = 0.0;   ///< [m/s]
+  std::size_t events = 0;
+  Rest rests = Rest::no;
+};
+
+/// Advances the free bodies `members`, of a robot all its links or none, with all fixed and
+/// scripted bodies around them, and without any other.
+///
+/// Until the step is over: velocities are what gravity, forces and the contacts within the band
+/// make of them (Gauss' principle); the in-between motion over the rest of the step is asked for
+/// its first contact. Where it is slight, it becomes a constraint of the same span; else all move
+/// until it, and the impact is projected there. Where that brings a pair nearer than where it
+/// rests, less than the rest of the step is planned at a time.
+///
+/// @returns  nothing if it was stopped
+[[nodiscard]] std::optional<IslandTrack> advance_island(const StepContext& step,
+                                                        std::vector<std::size_t> members,
+                                                        Workspace& workspace);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,92 @@
+/// @file
+/// How an island is to move over a span of time: Gauss' principle on the velocities at its end.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/island_state.h>
+
+namespace firstcontact::detail {
+
+/// A touch of the motion ahead, and how it would be reached.
+struct TouchAhead {
+  Touch touch;
+  ContactPoint contact;  ///< With the arms of its time.
+  double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
+};
+
+/// What the bodies do over its span: the rest of the step, or less.
+struct Plan {
+  std::vector<Move> moves = {};  ///< Of each member.
+  /// Velocities of each member, angular ones as its body sees them, told in its axes of now: so
+  /// that what contacts do to its energy now is what they do to it at the end.
+  std::vector<ContactBody> at_end;
+  std::vector<RobotPlan> robots = {};
+  double residual = 0.0;  ///< [m/s]
+};
+
+/// Makes plans from where an island is now, each with more or tighter constraints than the one
+/// before.
+class IslandPlanner {
+ public:
+  /// Starts with what touches now, and the impulses of a whole step that it has.
+  ///
+  /// @param span  [s]
+  IslandPlanner(IslandState& state, double span);
+
+  /// Starts from the impulses of the plan before.
+  [[nodiscard]] Plan plan();
+
+  /// What the last plan holds apart, with its impulses.
+  [[nodiscard]] std::vector<Touch> touches() const;
+
+  /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
+  /// takes its place: between two that say nearly the same impulses would only slowly go over.
+  void add(const TouchAhead& ahead);
+
+ private:
+  /// Velocities without contacts, as those of Plan, and how far they lead.
+  struct FreeFlight {
+    std::vector<ContactBody> at_end;
+    std::vector<Eigen::Vector3d> rotation_vectors;
+  };
+
+  [[nodiscard]] FreeFlight free_flight() const;
+  void set_bodies();
+  [[nodiscard]] ContactPoint contact_of(const Touch& touch, double least) const;
+  void append(const Touch& touch, const ContactPoint& contact);
+  [[nodiscard]] bool is_at(const TouchAhead& ahead, std::size_t contact) const;
+  [[nodiscard]] std::optional<std::size_t> find(const TouchAhead& ahead) const;
+  void solve();
+  [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
+  [[nodiscard]] std::vector<bool> led_by_end() const;
+  void set_moves(const std::vector<bool>& by_end, Plan& plan) const;
+  void push_apart(Plan& plan);
+  void keep_push_from(const ContactPoint& contact);
+  [[nodiscard]] ContactSolution find_push() const;
+
+  IslandState& state_;
+  double span_;  // [s]
+  ProblemBodies bodies_;
+  FreeFlight flight_;
+  ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
+  std::vector<Touch> touches_;                  // Of each contact of the problem.
+  std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
+  std::multimap<BodyPair, std::size_t> ahead_;  // The others.
+  std::vector<RobotPlan> free_robots_;
+  std::optional<PlanSolution> last_ = {};
+  std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
+  std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.
+};
+
+/// [s]  Too short a time, of a step of h, for anything to be done in it: who looks at the motion
+/// could not divide it.
+inline double stall(double h) { return 1e-9 * h; }
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,197 @@
+#include <firstcontact/simulation/detail/island_response.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <firstcontact/contact_solver/detail/project_again.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of contact problems: of what gravity adds in a step. Heaps and bodies with very many contacts
+/// are solved less exactly, and where heaps slide even less.
+constexpr double kTolerance = 3e-7;
+constexpr double kHeapTolerance = 1e-3;
+constexpr std::size_t kHeap = 120;       // Contacts.
+constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
+constexpr std::size_t kManyContacts = 1000;
+
+/// Where several bodies are hit, to this part of what that asks for: weight alone asks for what
+/// gravity adds, and at rest for next to nothing beyond the step before.
+constexpr std::size_t kSeveralBodies = 6;
+constexpr double kPartOfHits = 1e-3;
+constexpr double kHit = 2.0;
+constexpr int kRoundsOfMany = 2;
+
+/// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
+constexpr double kHeapEnough = 0.3;
+constexpr int kHeapSweeps = 600;
+
+/// In a plan that is like another but for some contacts, what changes by more than this goes on to
+/// others; and how often each of all is solved, in the mean at most.
+constexpr double kAroundTolerance = 3e-2;
+constexpr int kAroundSweeps = 2;
+
+constexpr double kLeastTolerance = 1e-9;  // [m/s]
+
+/// A residual of this part of what gravity adds tells that a problem has no solution, or none that
+/// was found.
+constexpr double kUnsolved = 1e-2;
+
+/// The same of a part of the velocities themselves, where there is no gravity: well above rounding.
+constexpr double kUnsolvedOfSpeed = 1e-9;
+
+/// [m/s, rad/s]  The greatest part of any velocity.
+double fastest(const ContactSolution& solution) {
+  double greatest = 0.0;
+  for (const ContactBody& body : solution.bodies) {
+    greatest = std::max({greatest, body.v.cwiseAbs().maxCoeff(), body.w.cwiseAbs().maxCoeff()});
+  }
+  for (const Eigen::VectorXd& velocities : solution.mechanisms) {
+    greatest = std::max(greatest, velocities.cwiseAbs().maxCoeff());
+  }
+  return greatest;
+}
+
+/// [m/s]  A part of what gravity adds in a step.
+double of_gravity(const IslandState& state, double part) {
+  return std::max(kLeastTolerance, part * state.world.gravity.norm() * state.start.h);
+}
+
+/// [J]  Of the members and their robots.
+double energy_of(const IslandState& state, const ContactProblem& problem,
+                 const std::vector<ContactBody>& bodies,
+                 const std::vector<Eigen::VectorXd>& mechanisms) {
+  double sum = kinetic_energy(problem.mechanisms, mechanisms);
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    if (!state.member(k).piece) {
+      sum +=
+          kinetic_energy(state.member(k).inertia, {state.states[k].X_WB, bodies[k].v, bodies[k].w});
+    }
+  }
+  return sum;
+}
+
+/// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
+/// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
+/// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
+/// answer is anything: it is shortened to what there was before, or to what moves with the
+/// script.
+/// Motors add what they want, as long as there is a solution.
+///
+/// @returns whether it was shortened
+bool limit_energy(const IslandState& state, const ContactProblem& problem,
+                  ContactSolution& solution) {
+  const double left = state.robots.empty() ? solution.allowed : 0.0;
+  const bool is_solved = solution.residual <= std::max({left, of_gravity(state, kUnsolved),
+                                                        kUnsolvedOfSpeed * fastest(solution)});
+  if (is_solved && state.robots.has_motors()) {
+    return false;
+  }
+  const double before =
+      energy_of(state, problem, problem.bodies, velocities_of(problem.mechanisms));
+  const double after = energy_of(state, problem, solution.bodies, solution.mechanisms);
+  double mass = 0.0;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    mass += state.member(k).inertia.mass;
+  }
+  double speed = 0.0;
+  for (const ContactPoint& contact : problem.contacts) {
+    for (int side = 0; side < 2; ++side) {
+      const ContactBody& body = problem.bodies[contact.bodies[side]];
+      if (contact.bodies[side] >= state.size()) {
+        const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
+        speed = std::max(speed, (body.v + body.w.cross(arm)).norm());
+      }
+    }
+  }
+  const double along = speed * std::sqrt(0.5 * mass);
+  const double allowed =
+      is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
+  if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
+    return false;
+  }
+  const double share = allowed / std::sqrt(after);
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    solution.bodies[k].v *= share;
+    solution.bodies[k].w *= share;
+  }
+  for (Eigen::VectorXd& velocities : solution.mechanisms) {
+    velocities *= share;
+  }
+  return true;
+}
+
+}  // namespace
+
+double exact_tolerance(const IslandState& state) { return of_gravity(state, kTolerance); }
+
+bool is_heap(const IslandState& state, const ContactProblem& problem) {
+  return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
+}
+
+ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
+  if (is_heap(state, problem)) {
+    return {.tolerance = of_gravity(state, kHeapTolerance),
+            .enough = of_gravity(state, kHeapEnough),
+            .sweeps = kHeapSweeps,
+            .rounds = kRoundsOfMany};
+  }
+  if (problem.contacts.size() >= kManyContacts) {
+    return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
+  }
+  return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
+}
+
+/// Free bodies that are hit within a plan need not be solved as exactly as those that an impact
+/// parts.
+ProjectionOptions plan_options(const IslandState& state, const ContactProblem& problem) {
+  ProjectionOptions options = projection_options(state, problem);
+  if (state.size() >= kSeveralBodies && state.robots.empty() && !state.world.gravity.isZero(0.0)) {
+    options.of_hits = kPartOfHits;
+    options.hit = of_gravity(state, kHit);
+  }
+  return options;
+}
+
+PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
+  if (problem.contacts.empty() && problem.drives.empty()) {
+    return {unchanged(problem)};
+  }
+  PlanSolution plan{project_on_contacts(problem, plan_options(state, problem))};
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
+}
+
+std::optional<PlanSolution> project_plan_again(const IslandState& state,
+                                               const ContactProblem& problem,
+                                               const PlanSolution& before,
+                                               const std::vector<std::size_t>& changed) {
+  if (!is_heap(state, problem) || !state.robots.empty() || before.is_limited) {
+    return std::nullopt;
+  }
+  PlanSolution plan{
+      project_again(problem, before.velocities, changed,
+                    {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
+  if (plan.velocities.residual > projection_options(state, problem).enough) {
+    return std::nullopt;
+  }
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
+}
+
+ContactSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
+                                  const std::vector<double>& restitution) {
+  ContactSolution solution = project_impact(
+      problem, restitution, state.size(),
+      [&](const auto& moving, const auto& mechanisms) {
+        return energy_of(state, problem, moving, mechanisms);
+      },
+      projection_options(state, problem));
+  limit_energy(state, problem, solution);
+  return solution;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,47 @@
+/// @file
+/// What the contacts of an island make of velocities, in plans and at impacts.
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/simulation/detail/island_state.h>
+
+namespace firstcontact::detail {
+
+/// Whether many bodies touch at many places: such problems are solved less exactly.
+[[nodiscard]] bool is_heap(const IslandState& state, const ContactProblem& problem);
+
+/// [m/s]  To which problems of few contacts are solved.
+[[nodiscard]] double exact_tolerance(const IslandState& state);
+
+/// How exactly problems of an island are solved: to a part of what gravity adds in a step.
+[[nodiscard]] ProjectionOptions projection_options(const IslandState& state,
+                                                   const ContactProblem& problem);
+
+/// The velocities of a plan.
+struct PlanSolution {
+  ContactSolution velocities;
+  bool is_limited = false;  ///< They are shorter than contacts would have them.
+};
+
+/// The free velocities of a plan as contacts and drives allow them.
+[[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
+
+/// Those of a plan that is like another but for contacts that changed, by project_again(). Nothing
+/// where that is not worth while, or leaves too much.
+[[nodiscard]] std::optional<PlanSolution> project_plan_again(
+    const IslandState& state, const ContactProblem& problem, const PlanSolution& before,
+    const std::vector<std::size_t>& changed);
+
+/// Those after an impact, by project_impact(). Neither adds energy, but for what motors and
+/// scripted bodies do.
+///
+/// @param restitution  of each contact
+[[nodiscard]] ContactSolution project_impact_of(const IslandState& state,
+                                                const ContactProblem& problem,
+                                                const std::vector<double>& restitution);
+
+}  // namespace firstcontact::detail

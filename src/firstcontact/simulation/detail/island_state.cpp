@@ -1,0 +1,107 @@
+#include <firstcontact/simulation/detail/island_state.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <firstcontact/simulation/detail/swept_hull.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
+constexpr double kStepsWithoutBounce = 2.0;
+
+/// A body as manifolds see it.
+struct RestingBody {
+  RestingBody(const SimBody& body, const Pose& X_WB)
+      : hull(body, X_WB, Move()), shape(body.shape, X_WB) {}
+
+  SweptHull hull;
+  PlacedShape shape;
+};
+
+}  // namespace
+
+IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given_members)
+    : world(step.world),
+      start(step.start),
+      around(step.around),
+      members(std::move(given_members)),
+      robots(step.world, step.start, members) {
+  for (std::size_t k = 0; k < size(); ++k) {
+    place[members[k]] = k;
+    states.push_back(start.states[members[k]]);
+  }
+}
+
+const Pose& IslandState::pose_of(std::size_t body) {
+  if (world.bodies[body].kind == BodyKind::free) {
+    return states[place.at(body)].X_WB;
+  }
+  const auto [found, is_new] = poses_around.try_emplace(body);
+  if (is_new) {
+    found->second = scripted_pose(world, start, body, reached / start.h);
+  }
+  return found->second;
+}
+
+ProblemBodies IslandState::problem_bodies() const {
+  ProblemBodies bodies;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const RigidState& state = states[k];
+    bodies.add(members[k],
+               member(k).piece ? robots.body(k)
+                               : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
+                                             state.v_WC, state.w_WB},
+               centre_of_mass(member(k).inertia, state.X_WB));
+  }
+  return bodies;
+}
+
+void IslandState::add_others(const BodyPair& pair, ProblemBodies& bodies) {
+  for (const std::size_t b : pair) {
+    if (!bodies.has(b)) {
+      const Move& move = start.scripted[b];
+      bodies.add(b, {{}, move.translation / start.h, move.rotation_vector / start.h},
+                 centre_of_mass(world.bodies[b].inertia, pose_of(b)));
+    }
+  }
+}
+
+bool IslandState::bounces(const BodyPair& pair, double closing) const {
+  return world.laws.restitution(pair) > 0.0 &&
+         closing > kStepsWithoutBounce * world.gravity.norm() * start.h;
+}
+
+bool IslandState::is_too_near() const {
+  return std::ranges::any_of(
+      manifolds, [&](const auto& entry) { return entry.second.gap < world.distances.pushed; });
+}
+
+void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& workspace) {
+  manifolds.clear();
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::size_t k = 0; k < size(); ++k) {
+    boxes.push_back(swept_box(member(k), states[k].X_WB, {}));
+  }
+  ManifoldFinder finder(world, workspace);
+  std::unordered_map<std::size_t, RestingBody> resting;
+  const auto at_rest = [&](std::size_t body) -> const RestingBody& {
+    return resting.try_emplace(body, world.bodies[body], pose_of(body)).first->second;
+  };
+  for_each_pair(boxes, world.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
+    const RestingBody& A = at_rest(pair[0]);
+    const RestingBody& B = at_rest(pair[1]);
+    if (stays_apart(A.hull, B.hull, margin + world.distances.band,
+                    (B.hull.p_WC - A.hull.p_WC).normalized())) {
+      return;
+    }
+    Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
+    if (manifold.gap <= world.distances.band) {
+      carry_impulses(before, smaller_reach(world, pair), manifold);
+      manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
+    }
+  });
+}
+
+}  // namespace firstcontact::detail

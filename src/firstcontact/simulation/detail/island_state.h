@@ -1,0 +1,115 @@
+/// @file
+/// The bodies of an island within a step: where they are and what they touch.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/detail/overlap_tree.h>
+#include <firstcontact/query/workspace.h>
+#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/surroundings.h>
+#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// What the islands of a step share.
+struct StepContext {
+  const World& world;
+  const StepStart& start;
+  const Surroundings& around;
+  const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
+                                      ///< the solver.
+  const std::stop_token& stop;
+};
+
+/// An island now: plans, searches and impacts look at it, and Island moves it.
+struct IslandState {
+  IslandState(const StepContext& step, std::vector<std::size_t> given_members);
+
+  [[nodiscard]] std::size_t size() const { return members.size(); }
+  [[nodiscard]] const SimBody& member(std::size_t k) const { return world.bodies[members[k]]; }
+
+  /// Where a member is now, or a body around the island.
+  [[nodiscard]] const Pose& pose_of(std::size_t body);
+
+  /// The members as they move now, and what they touch.
+  [[nodiscard]] ProblemBodies problem_bodies() const;
+
+  /// Adds those of the pair that are around the island.
+  void add_others(const BodyPair& pair, ProblemBodies& bodies);
+
+  /// Whether a pair that closes so fast [m/s] does.
+  [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const;
+
+  /// Whether any pair is nearer than where it is left.
+  [[nodiscard]] bool is_too_near() const;
+
+  /// Looks around after bodies were moved.
+  ///
+  /// @param before  sorted touches whose impulses go to those found
+  void find_manifolds(const std::vector<Touch>& before, Workspace& workspace);
+
+  /// Calls use(pair, margin) for pairs of a member and any other body of the island or around it
+  /// whose boxes are as near as `reach` [m] beyond their margin.
+  ///
+  /// @param boxes  of each member, over its motion
+  /// @param share  of the step, for which bodies around the island move
+  template <class Use>
+  void for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double reach, double share,
+                     const Use& use);
+
+  const World& world;
+  const StepStart& start;
+  const Surroundings& around;
+  std::vector<std::size_t> members;
+  std::unordered_map<std::size_t, std::size_t> place;  ///< Of each member.
+  std::vector<RigidState> states;                      ///< Of each member.
+  IslandRobots robots;
+  std::map<BodyPair, Manifold> manifolds;
+  double reached = 0.0;                                ///< [s]  Since the step began.
+  std::unordered_map<std::size_t, Pose> poses_around;  ///< Of those asked for, now.
+};
+
+inline Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double by) {
+  const Eigen::Vector3d slack = Eigen::Vector3d::Constant(by);
+  return {box.min() - slack, box.max() + slack};
+}
+
+template <class Use>
+void IslandState::for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double reach,
+                                double share, const Use& use) {
+  using Eigen::AlignedBox3d;
+  const double most = reach + world.laws.greatest_margin();
+  const auto use_near = [&](std::size_t a, const AlignedBox3d& box_a, std::size_t b,
+                            const AlignedBox3d& box_b) {
+    const BodyPair pair{std::min(a, b), std::max(a, b)};
+    const std::optional<double> margin = world.laws.margin(pair);
+    if (margin && widened(box_a, reach).exteriorDistance(box_b) <= *margin) {
+      use(pair, *margin);
+    }
+  };
+  std::vector<AlignedBox3d> halfway;
+  for (std::size_t k = 0; k < size(); ++k) {
+    around.for_each_overlap(widened(boxes[k], most), [&](std::size_t b) {
+      const Move move = start.scripted[b].part(share);
+      use_near(members[k], boxes[k], b, swept_box(world.bodies[b], pose_of(b), move));
+    });
+    halfway.push_back(widened(boxes[k], 0.5 * most));
+  }
+  for (const auto& [i, k] : overlapping_pairs(halfway)) {
+    use_near(members[i], boxes[i], members[k], boxes[k]);
+  }
+}
+
+}  // namespace firstcontact::detail

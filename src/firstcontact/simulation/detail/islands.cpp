@@ -1,0 +1,267 @@
+#include <firstcontact/simulation/detail/islands.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include <firstcontact/geometry/detail/overlap_tree.h>
+#include <firstcontact/math/disjoint_sets.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/simulation/detail/rest.h>
+#include <firstcontact/simulation/detail/swept_hull.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// Islands that meet are joined so many times one by one. Then those whose ways cross are, too: of
+/// bricks that fall together and come to rest row by row each row would meet the next one.
+constexpr int kExactRounds = 2;
+
+class Islands {
+ public:
+  Islands(const World& world, const StepStart& start, const std::vector<Touch>& guesses,
+          Workspace& workspace, const std::stop_token& stop)
+      : world_(world),
+        start_(start),
+        around_(world, start),
+        step_{world, start, around_, guesses, stop},
+        workspace_(workspace),
+        sets_(world.bodies.size()) {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+      if (world.bodies[b].kind == BodyKind::free) {
+        free_.push_back(b);
+      }
+    }
+  }
+
+  std::optional<std::vector<IslandTrack>> run() {
+    join_links();
+    join_near();
+    for (int round = 0; advance_changed(); ++round) {
+      if (!join_meeting(round >= kExactRounds)) {
+        return take_tracks();
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<IslandTrack> take_tracks() {
+    std::vector<IslandTrack> tracks;
+    for (auto& track : tracks_) {
+      if (track) {
+        tracks.push_back(std::move(*track));
+      }
+    }
+    return tracks;
+  }
+
+  [[nodiscard]] std::size_t set_of(std::size_t body) {
+    return sets_.root(static_cast<std::uint32_t>(body));
+  }
+  void join(std::size_t a, std::size_t b) {
+    sets_.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  }
+
+  [[nodiscard]] bool may_touch(std::size_t a, std::size_t b) const {
+    return world_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
+  }
+
+  /// Boxes are widened by half of what any pair may have to keep apart.
+  [[nodiscard]] AlignedBox3d widened(const AlignedBox3d& box, double by) const {
+    const Vector3d slack = Vector3d::Constant(0.5 * (by + world_.laws.greatest_margin()));
+    return {box.min() - slack, box.max() + slack};
+  }
+
+  void join_links() {
+    std::vector<std::size_t> first(world_.robots.size(), kNone);
+    for (const std::size_t b : free_) {
+      if (const auto& piece = world_.bodies[b].piece) {
+        std::size_t& one = first[piece->robot];
+        one = one == kNone ? b : one;
+        join(one, b);
+      }
+    }
+  }
+
+  /// Those that are near each other, and those that would meet if nothing else were in their way:
+  /// most that will be found to meet, so that few islands are advanced twice.
+  void join_near() {
+    std::vector<Move> moves;
+    std::vector<AlignedBox3d> boxes;
+    for (const std::size_t b : free_) {
+      moves.push_back(inertial_move(b));
+      boxes.push_back(widened(swept_box(world_.bodies[b], start_.states[b].X_WB, moves.back()),
+                              world_.distances.band));
+    }
+    for (const auto& [i, k] : overlapping_pairs(boxes)) {
+      const std::size_t a = free_[i];
+      const std::size_t b = free_[k];
+      if (may_touch(a, b) && set_of(a) != set_of(b) &&
+          (are_near(a, b) || !pass_by(a, moves[i], b, moves[k]))) {
+        join(a, b);
+      }
+    }
+  }
+
+  /// As the body moves over the step by itself. Links rest: their joints lead them.
+  [[nodiscard]] Move inertial_move(std::size_t b) const {
+    const RigidState& state = start_.states[b];
+    if (world_.bodies[b].piece || start_.rests[b]) {
+      return {};
+    }
+    return {start_.h * (state.v_WC + 0.5 * start_.h * world_.gravity), start_.h * state.w_WB};
+  }
+
+  /// Whether the bodies' boxes are within the band now.
+  [[nodiscard]] bool are_near(std::size_t a, std::size_t b) const {
+    const auto box_of = [&](std::size_t body) {
+      return widened(swept_box(world_.bodies[body], start_.states[body].X_WB, {}),
+                     world_.distances.band);
+    };
+    return box_of(a).intersects(box_of(b));
+  }
+
+  /// Whether a plane tells that the hulls do not meet on their ways.
+  [[nodiscard]] bool pass_by(std::size_t a, const Move& move_a, std::size_t b,
+                             const Move& move_b) const {
+    const SweptHull A(world_.bodies[a], start_.states[a].X_WB, move_a);
+    const SweptHull B(world_.bodies[b], start_.states[b].X_WB, move_b);
+    return stays_apart(A, B, world_.distances.band, (B.p_WC - A.p_WC).normalized());
+  }
+
+  /// Advances the sets that are new. Returns false if it was stopped.
+  bool advance_changed() {
+    std::vector<std::vector<std::size_t>> members(world_.bodies.size());
+    for (const std::size_t b : free_) {
+      members[set_of(b)].push_back(b);
+    }
+    tracks_.resize(world_.bodies.size());
+    is_new_.assign(world_.bodies.size(), false);
+    for (std::size_t s = 0; s < members.size(); ++s) {
+      if (tracks_[s] && tracks_[s]->members == members[s]) {
+        continue;
+      }
+      tracks_[s].reset();
+      if (members[s].empty()) {
+        continue;
+      }
+      is_new_[s] = true;
+      tracks_[s] = stays_at_rest(step_, members[s])
+                       ? track_at_rest(step_, std::move(members[s]))
+                       : advance_island(step_, std::move(members[s]), workspace_);
+      if (!tracks_[s]) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// The index in its island's track.
+  [[nodiscard]] const std::vector<TrackPiece>& pieces_of(std::size_t body) {
+    const IslandTrack& track = *tracks_[set_of(body)];
+    const auto found = std::ranges::lower_bound(track.members, body);
+    return track.pieces[static_cast<std::size_t>(found - track.members.begin())];
+  }
+
+  [[nodiscard]] AlignedBox3d box_of(std::size_t body) {
+    AlignedBox3d box = swept_box(world_.bodies[body], start_.states[body].X_WB, {});
+    for (const TrackPiece& piece : pieces_of(body)) {
+      box.extend(swept_box(world_.bodies[body], piece.X_WB, piece.move));
+    }
+    return box;
+  }
+
+  /// Over the whole step; at rest after what the island reached.
+  [[nodiscard]] Motion motion_over_step(std::size_t body) {
+    std::vector<ConstantRatePiece> pieces;
+    Pose last = start_.states[body].X_WB;
+    for (const TrackPiece& piece : pieces_of(body)) {
+      const double t_end = piece.to < start_.h ? piece.to / start_.h : 1.0;
+      if (t_end > (pieces.empty() ? 0.0 : pieces.back().t_end)) {
+        pieces.push_back({t_end, piece.X_WB, piece.move.translation, piece.move.rotation_vector});
+        last = piece.end.X_WB;
+      }
+    }
+    if (pieces.empty() || pieces.back().t_end < 1.0) {
+      pieces.push_back({1.0, last});
+    }
+    return Motion::constant_rates(pieces, world_.bodies[body].inertia.p_BC);
+  }
+
+  [[nodiscard]] bool meet(std::size_t a, std::size_t b) {
+    const BodyPair pair{std::min(a, b), std::max(a, b)};
+    FirstContactOptions options;
+    const HeldDistance held = held_distance(world_.distances, *world_.laws.margin(pair),
+                                            std::numeric_limits<double>::infinity());
+    options.margin = held.margin;
+    options.tolerance = held.tolerance;
+    options.contacts = ContactState::none;
+    const Motion A = motion_over_step(pair[0]);
+    const Motion B = motion_over_step(pair[1]);
+    return first_contact({world_.bodies[pair[0]].shape, A}, {world_.bodies[pair[1]].shape, B},
+                         workspace_, options)
+               .verdict != Verdict::free;
+  }
+
+  /// Joins islands of which the new motions meet, or all those of which the ways do if one meets
+  /// another. Returns whether there were any.
+  bool join_meeting(bool with_ways) {
+    std::vector<AlignedBox3d> boxes;
+    for (const std::size_t b : free_) {
+      boxes.push_back(widened(box_of(b), world_.distances.least + world_.distances.tolerance));
+    }
+    std::vector<std::array<std::size_t, 2>> meeting;
+    std::vector<std::array<std::size_t, 2>> crossing;
+    for (const auto& [i, k] : overlapping_pairs(boxes)) {
+      const std::size_t a = free_[i];
+      const std::size_t b = free_[k];
+      const std::size_t set_a = set_of(a);
+      const std::size_t set_b = set_of(b);
+      if (set_a == set_b || !may_touch(a, b)) {
+        continue;
+      }
+      if ((is_new_[set_a] || is_new_[set_b]) && meet(a, b)) {
+        meeting.push_back({a, b});
+      } else if (with_ways) {
+        crossing.push_back({a, b});
+      }
+    }
+    if (meeting.empty()) {
+      return false;
+    }
+    for (const auto& [a, b] : meeting) {
+      join(a, b);
+    }
+    for (const auto& [a, b] : crossing) {
+      join(a, b);
+    }
+    return true;
+  }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  const World& world_;
+  const StepStart& start_;
+  Surroundings around_;
+  StepContext step_;
+  Workspace& workspace_;
+  DisjointSets sets_;  // Of bodies; an island is named after its least member.
+  std::vector<std::size_t> free_;
+  std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
+  std::vector<bool> is_new_;                        // Of each set.
+};
+
+}  // namespace
+
+std::optional<std::vector<IslandTrack>> advance_islands(const World& world, const StepStart& start,
+                                                        const std::vector<Touch>& guesses,
+                                                        Workspace& workspace,
+                                                        const std::stop_token& stop) {
+  return Islands(world, start, guesses, workspace, stop).run();
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,23 @@
+/// @file
+/// A step of all bodies: islands that advance apart from each other, joined where they meet.
+
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/simulation/detail/island.h>
+
+namespace firstcontact::detail {
+
+/// Advances every free body. Two islands of which the motions found bring bodies of both into
+/// contact were one: they are joined and advanced anew, until no two meet.
+///
+/// @returns  nothing if it was stopped
+[[nodiscard]] std::optional<std::vector<IslandTrack>> advance_islands(
+    const World& world, const StepStart& start, const std::vector<Touch>& guesses,
+    Workspace& workspace, const std::stop_token& stop);
+
+}  // namespace firstcontact::detail

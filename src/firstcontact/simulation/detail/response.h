@@ -1,0 +1,72 @@
+/// @file
+/// Contact problems of an island: what its touches make of velocities.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// The bodies of a problem: the members of an island first, by their place there, and the fixed and
+/// scripted bodies that they touch.
+class ProblemBodies {
+ public:
+  /// @returns its place
+  std::size_t add(std::size_t body, const ContactBody& with, const Eigen::Vector3d& p_WC);
+
+  [[nodiscard]] bool has(std::size_t body) const { return place_.contains(body); }
+  [[nodiscard]] std::size_t place(std::size_t body) const { return place_.at(body); }
+  [[nodiscard]] const std::vector<ContactBody>& bodies() const { return bodies_; }
+  [[nodiscard]] const Eigen::Vector3d& centre(std::size_t place) const { return centres_[place]; }
+
+ private:
+  std::unordered_map<std::size_t, std::size_t> place_;
+  std::vector<ContactBody> bodies_;
+  std::vector<Eigen::Vector3d> centres_;  // [m]  p_WC
+};
+
+/// A contact of the problem at a touch, whose impulse starts the solver. Arms are those of the
+/// bodies' present centres.
+[[nodiscard]] ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies,
+                                      double friction, double least_normal_velocity);
+
+/// [m/s]  Of B relative to A along the normal.
+[[nodiscard]] double normal_velocity(const ContactPoint& contact,
+                                     const std::vector<ContactBody>& bodies);
+
+/// An impact: the contacts answer by Newton's law, each with its restitution, all at once.
+///
+/// Newton's law with friction can add energy (T. R. Kane, D. A. Levinson, "Dynamics: Theory and
+/// Applications", 1985). Where it would, all restitutions are lowered alike, until there is none
+/// added: the velocities are on the line from the answer without restitution, which loses energy,
+/// to the one with it.
+///
+/// @param restitution  of each contact, whose least normal velocity is replaced
+/// @param members      how many of the bodies, the first ones, the energy is of
+/// @param energy       [J]  of velocities of bodies and mechanisms
+[[nodiscard]] ContactSolution project_impact(
+    ContactProblem problem, const std::vector<double>& restitution, std::size_t members,
+    const std::function<double(const std::vector<ContactBody>&,
+                               const std::vector<Eigen::VectorXd>&)>& energy,
+    const ProjectionOptions& options);
+
+/// Velocities that nothing changes.
+[[nodiscard]] ContactSolution unchanged(const ContactProblem& problem);
+
+[[nodiscard]] std::vector<Eigen::VectorXd> velocities_of(
+    const std::vector<ContactMechanism>& mechanisms);
+
+/// [J]  1/2 v^T M v of all, with these velocities of theirs.
+[[nodiscard]] double kinetic_energy(const std::vector<ContactMechanism>& mechanisms,
+                                    const std::vector<Eigen::VectorXd>& velocities);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,102 @@
+#include <firstcontact/simulation/detail/rest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <firstcontact/simulation/detail/island_response.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// So fast may the points of bodies at rest seem to be: of the tolerance of exact solutions, and of
+/// what gravity adds in a step, whichever is less. Nothing else tells them from what sets off.
+constexpr double kOfTolerance = 100.0;
+constexpr double kOfGravity = 3e-5;
+
+/// [m/s]  No point of the body is faster.
+double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w) {
+  return v.norm() + body.reach * w.norm();
+}
+
+/// Whether contacts press each member.
+bool are_all_held(const IslandState& state, const std::vector<Touch>& touches) {
+  std::vector<bool> is_held(state.size(), false);
+  for (const Touch& touch : touches) {
+    for (const std::size_t b : touch.bodies) {
+      const auto member = state.place.find(b);
+      if (member != state.place.end() && !touch.impulse.isZero(0.0)) {
+        is_held[member->second] = true;
+      }
+    }
+  }
+  return std::ranges::all_of(is_held, [](bool held) { return held; });
+}
+
+/// Whether a force begins or ends between the begin of the step before and the end of this one.
+bool changes(const TimedForce& force, const StepStart& start) {
+  const auto is_within = [&](double time) {
+    return time > start.time - start.h && time < start.time + start.h;
+  };
+  return is_within(force.from) || is_within(force.to);
+}
+
+bool moves(const Move& move) { return move.translation.any() || move.rotation_vector.any(); }
+
+/// Whether anything scripted that moves in the step may get near the body.
+bool is_disturbed(const World& world, const StepStart& start, const Surroundings& around,
+                  std::size_t body) {
+  const double reach = world.distances.band + world.laws.greatest_margin();
+  const AlignedBox3d box =
+      widened(swept_box(world.bodies[body], start.states[body].X_WB, {}), reach);
+  bool found = false;
+  around.for_each_overlap(box, [&](std::size_t b) { found = found || moves(start.scripted[b]); });
+  return found;
+}
+
+}  // namespace
+
+bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
+  const double seeming = std::min(kOfTolerance * exact_tolerance(state),
+                                  kOfGravity * state.world.gravity.norm() * state.start.h);
+  if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
+    return false;
+  }
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const SimBody& body = state.member(k);
+    const RigidState& begin = state.start.states[state.members[k]];
+    if (!(greatest_speed(body, begin.v_WC, begin.w_WB) <= seeming) ||
+        !(greatest_speed(body, plan.at_end[k].v, plan.at_end[k].w) <= seeming) ||
+        is_disturbed(state.world, state.start, state.around, state.members[k])) {
+      return false;
+    }
+  }
+  return are_all_held(state, touches);
+}
+
+bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& members) {
+  return std::ranges::all_of(members, [&](std::size_t b) {
+    return step.start.rests[b] &&
+           std::ranges::none_of(step.world.bodies[b].forces,
+                                [&](const auto& force) { return changes(force, step.start); }) &&
+           !is_disturbed(step.world, step.start, step.around, b);
+  });
+}
+
+IslandTrack track_at_rest(const StepContext& step, std::vector<std::size_t> members) {
+  IslandTrack track;
+  track.members = std::move(members);
+  for (const std::size_t b : track.members) {
+    const RigidState& state = step.start.states[b];
+    track.pieces.push_back({{step.start.h, state.X_WB, {}, state, state}});
+  }
+  track.reached = step.start.h;
+  // Pairs that come to rest are not too near, and are held to half of their gap at least.
+  track.clearance = 0.5 * step.world.distances.pushed;
+  track.rests = Rest::goes_on;
+  return track;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,144 @@
+#include <firstcontact/simulation/detail/sim_body.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <firstcontact/geometry/mass_properties.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDensity = 1000.0;         // [kg/m^3]  Where nothing is said: water.
+constexpr double kRelativeDistance = 1e-3;  // Of the smallest free body's radius.
+
+Inertia inertia_of(const FreeBody& free, const Shape& shape) {
+  Inertia inertia;
+  inertia.locked_translation = free.locked_translation;
+  inertia.locked_rotation = free.locked_rotation;
+  if (free.mass && free.centre_of_mass && free.inertia) {
+    inertia.mass = *free.mass;
+    inertia.p_BC = *free.centre_of_mass;
+    inertia.about_C_B = *free.inertia;
+    return inertia;
+  }
+  const MassProperties solid = mass_properties(shape);
+  const double density = free.mass ? *free.mass / solid.volume : free.density.value_or(kDensity);
+  inertia.mass = free.mass.value_or(density * solid.volume);
+  inertia.p_BC = free.centre_of_mass.value_or(solid.p_BC);
+  if (free.inertia) {
+    inertia.about_C_B = *free.inertia;
+    return inertia;
+  }
+  // Another centre of mass than the solid's: the same moments about it (the given one is trusted).
+  inertia.about_C_B = density * solid.about_C;
+  return inertia;
+}
+
+void find_reach(SimBody& body) {
+  const Mesh& mesh = body.shape.mesh();
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t v : triangle) {
+      body.box_B.extend(mesh.vertices[v]);
+      body.reach = std::max(body.reach, (mesh.vertices[v] - body.inertia.p_BC).norm());
+    }
+  }
+  body.reach += body.shape.radius();
+  const Vector3d thickness = Vector3d::Constant(body.shape.radius());
+  body.box_B = Eigen::AlignedBox3d(body.box_B.min() - thickness, body.box_B.max() + thickness);
+}
+
+/// The number of a robot of the scene among those with dynamics.
+std::size_t number_in_world(const Scene& scene, std::size_t robot) {
+  return static_cast<std::size_t>(
+      std::count_if(scene.robots.begin(), scene.robots.begin() + static_cast<std::ptrdiff_t>(robot),
+                    [](const SceneRobot& other) { return other.dynamics.has_value(); }));
+}
+
+std::uint64_t key(const BodyPair& pair) {
+  return (static_cast<std::uint64_t>(pair[0]) << 32) | pair[1];
+}
+
+}  // namespace
+
+std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked) {
+  const LoadedScene& loaded = linked.loaded;
+  const std::size_t first_piece = loaded.scene.bodies.size() - linked.pieces.size();
+  std::vector<SimBody> bodies;
+  for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
+    const Body& described = loaded.scene.bodies[b];
+    SimBody body{.shape = loaded.bodies.shape(b)};
+    if (described.free && b >= first_piece) {
+      const LinkPiece& piece = linked.pieces[b - first_piece];
+      body.kind = BodyKind::free;
+      body.piece = RobotPiece{number_in_world(scene, piece.robot), piece.link, piece.X_LG};
+      body.inertia.p_BC = described.free->centre_of_mass.value();
+    } else if (described.free) {
+      body.kind = BodyKind::free;
+      body.forces = described.free->forces;
+      try {
+        body.inertia = inertia_of(*described.free, body.shape);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("body \"" + described.name + "\": " + error.what());
+      }
+    } else if (!std::holds_alternative<FixedMotion>(described.motion)) {
+      body.kind = BodyKind::scripted;
+    }
+    find_reach(body);
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+double contact_distance_of(const Simulation& simulation, const std::vector<SimBody>& bodies) {
+  if (simulation.contact_distance) {
+    return *simulation.contact_distance;
+  }
+  double smallest = std::numeric_limits<double>::infinity();
+  double smallest_link = smallest;
+  for (const SimBody& body : bodies) {
+    if (body.kind == BodyKind::free) {
+      double& least = body.piece ? smallest_link : smallest;
+      least = std::min(least, body.reach);
+    }
+  }
+  smallest = std::isfinite(smallest) ? smallest : smallest_link;
+  return std::isfinite(smallest) ? kRelativeDistance * smallest : kRelativeDistance;
+}
+
+PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {
+  const Simulation& simulation = *loaded.scene.simulation;
+  const std::vector<double> margins = rules_->greatest_margins(loaded.scene.bodies.size());
+  greatest_margin_ = margins.empty() ? 0.0 : std::ranges::max(margins);
+  for (const Body& body : loaded.scene.bodies) {
+    friction_.push_back(body.surface.friction.value_or(simulation.friction));
+    restitution_.push_back(body.surface.restitution.value_or(simulation.restitution));
+  }
+  for (const PairSurface& pair : simulation.pairs) {
+    pairs_[key({std::min(pair.bodies[0], pair.bodies[1]),
+                std::max(pair.bodies[0], pair.bodies[1])})] = pair.surface;
+  }
+}
+
+const Surface* PairLaws::of_pair(const BodyPair& pair) const {
+  const auto found = pairs_.find(key(pair));
+  return found == pairs_.end() ? nullptr : &found->second;
+}
+
+double PairLaws::friction(const BodyPair& pair) const {
+  const Surface* own = of_pair(pair);
+  return own != nullptr && own->friction ? *own->friction
+                                         : std::sqrt(friction_[pair[0]] * friction_[pair[1]]);
+}
+
+double PairLaws::restitution(const BodyPair& pair) const {
+  const Surface* own = of_pair(pair);
+  return own != nullptr && own->restitution
+             ? *own->restitution
+             : std::max(restitution_[pair[0]], restitution_[pair[1]]);
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,82 @@
+/// @file
+/// A body of a simulation, and the laws of its pairs.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/simulation.h>
+
+namespace firstcontact::detail {
+
+enum class BodyKind {
+  fixed,     ///< Rests where the scene puts it.
+  scripted,  ///< Moves as the scene says.
+  free,      ///< Moves under forces and contacts, by itself or as a link of a robot.
+};
+
+/// A body that is a piece of a link.
+struct RobotPiece {
+  std::size_t robot = 0;  ///< Of the world.
+  std::size_t link = 0;
+  Pose X_LB = {};
+};
+
+struct SimBody {
+  BodyKind kind = BodyKind::fixed;
+  Shape shape;
+  /// Of a body that is not free, or a piece of a link, only p_BC, its pivot.
+  Inertia inertia = {};
+  std::optional<RobotPiece> piece = {};
+  double reach = 0.0;              ///< [m]  From C to the farthest point of the thickened surface.
+  Eigen::AlignedBox3d box_B = {};  ///< [m]  Around it, in the body frame.
+  std::vector<TimedForce> forces = {};
+};
+
+/// The bodies of a scene that has a simulation, those of its links among them.
+///
+/// @param scene  the one of which `linked` was made
+/// @throws std::invalid_argument  names the body whose mass cannot be found, and the mend
+[[nodiscard]] std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked);
+
+/// [m]  What the scene says, or 1e-3 of the radius of the smallest free body; where there are links
+/// only, of the smallest of them.
+[[nodiscard]] double contact_distance_of(const Simulation& simulation,
+                                         const std::vector<SimBody>& bodies);
+
+/// Friction, restitution and separation of pairs.
+class PairLaws {
+ public:
+  explicit PairLaws(const LoadedScene& loaded);
+
+  /// Nothing where the pair does not touch.
+  [[nodiscard]] std::optional<double> margin(const BodyPair& pair) const {
+    return rules_->margin(pair);
+  }
+  /// [m]  No pair has a greater one.
+  [[nodiscard]] double greatest_margin() const { return greatest_margin_; }
+  [[nodiscard]] double friction(const BodyPair& pair) const;
+  [[nodiscard]] double restitution(const BodyPair& pair) const;
+
+ private:
+  [[nodiscard]] const Surface* of_pair(const BodyPair& pair) const;
+
+  const PairRules* rules_;
+  double greatest_margin_ = 0.0;
+  std::vector<double> friction_;     // Of each body.
+  std::vector<double> restitution_;  // Of each body.
+  std::unordered_map<std::uint64_t, Surface> pairs_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,355 @@
+#include <firstcontact/simulation/detail/sim_robot.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A coordinate this near to its limit, or beyond it, is stopped there.
+constexpr double kAtLimit = 1e-9;  // [rad or m]
+
+/// So far beyond a limit a plan may lead. What pushes a link against its limit and yields as little
+/// has no solution together with it, and then neither law is kept.
+constexpr double kMostBeyond = 1e-3;  // [rad or m]
+
+double value_at(const std::vector<TimedNumber>& target, double time) {
+  const auto next = std::ranges::upper_bound(target, time, {}, &TimedNumber::time);
+  if (next == target.begin()) {
+    return next->number;
+  }
+  const TimedNumber& before = *(next - 1);
+  if (next == target.end()) {
+    return before.number;
+  }
+  const double share = (time - before.time) / (next->time - before.time);
+  return before.number + share * (next->number - before.number);
+}
+
+/// Impulses that a motor has at most.
+double bound(const JointLaw& law, double span) {
+  const double effort = law.motor->effort.value_or(law.limits.effort.value_or(kInfinity));
+  return effort * span;
+}
+
+/// Whether it holds its joint against any force, impacts too.
+bool is_rigid(const JointLaw& law) {
+  return law.motor && law.motor->kind != JointMotor::Kind::torque && !law.motor->stiffness &&
+         !std::isfinite(bound(law, 1.0));
+}
+
+/// A velocity that leads no farther than the limits: two laws that nothing yields to, against each
+/// other, have no solution.
+double within_limits(const JointLaw& law, double velocity, double q, double span) {
+  const double least = law.limits.lower ? (*law.limits.lower - q) / span : velocity;
+  const double greatest = law.limits.upper ? (*law.limits.upper - q) / span : velocity;
+  return std::min(std::max(velocity, least), greatest);
+}
+
+JointDrive motor_drive(const JointLaw& law, double q, double from, double span) {
+  const JointMotor& motor = *law.motor;
+  const double to = from + span;
+  JointDrive drive{.least = -bound(law, span), .greatest = bound(law, span)};
+  switch (motor.kind) {
+    case JointMotor::Kind::torque: {
+      const double torque = value_at(motor.target, from + 0.5 * span);
+      const double impulse = std::clamp(torque * span, drive.least, drive.greatest);
+      drive.least = drive.greatest = impulse;
+      break;
+    }
+    case JointMotor::Kind::velocity:
+      drive.target = within_limits(law, value_at(motor.target, to), q, span);
+      break;
+    case JointMotor::Kind::position: {
+      const double missing = value_at(motor.target, to) - q;
+      if (!motor.stiffness) {
+        drive.target = within_limits(law, missing / span, q, span);
+        break;
+      }
+      // r = span (k (missing - span u) + d (rate - u))
+      const double rate = (value_at(motor.target, to) - value_at(motor.target, from)) / span;
+      const double answer = span * *motor.stiffness + motor.damping;
+      drive.target = (*motor.stiffness * missing + motor.damping * rate) / answer;
+      drive.compliance = 1.0 / (span * answer);
+      break;
+    }
+  }
+  return drive;
+}
+
+/// The positions over time that a trajectory gives a coordinate, at every step.
+std::vector<TimedNumber> sampled(const RobotMotion& motion, std::size_t joint, double duration,
+                                 double step) {
+  std::vector<TimedNumber> samples;
+  const std::vector<CoordinateSegment> segments = motion.coordinate(joint);
+  std::size_t piece = 0;
+  for (std::size_t k = 0; samples.empty() || samples.back().time < duration; ++k) {
+    const double time = std::min(duration, static_cast<double>(k) * step);
+    const double t = time / duration;
+    while (piece + 1 < segments.size() && segments[piece].t_end < t) {
+      ++piece;
+    }
+    samples.push_back({time, segments[piece].state(t).value.value()});
+  }
+  return samples;
+}
+
+class RobotMaker {
+ public:
+  RobotMaker(const LoadedScene& loaded, std::size_t robot, const RobotModel& model)
+      : scene_(loaded.scene),
+        described_(loaded.scene.robots[robot]),
+        dynamics_(*described_.dynamics),
+        motion_(loaded.robots->robot_motion(robot)),
+        number_(robot),
+        model_(model) {}
+
+  SimRobot make() {
+    try {
+      const auto& base = std::get<FixedMotion>(described_.base);
+      Mechanism mechanism(model_, base.pose, dynamics_.has_free_base);
+      MechanismState start = start_of(mechanism);
+      std::vector<JointLaw> laws = laws_of(mechanism, start);
+      return {described_.name, number_, std::move(mechanism), std::move(laws), std::move(start)};
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("robot \"" + described_.name + "\": " + error.what());
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_base(const MechanismJoint& block) const {
+    return block.joint == model_.joints().size();
+  }
+
+  MechanismState start_of(const Mechanism& mechanism) const {
+    MechanismState state = mechanism.rest();
+    for (const MechanismJoint& block : mechanism.joints()) {
+      if (is_base(block)) {
+        state.velocities.segment<3>(block.velocity) = dynamics_.linear_velocity;
+        state.velocities.segment<3>(block.velocity + 3) = dynamics_.angular_velocity;
+      } else if (!block.quaternion()) {
+        set_coordinates(block, state);
+      }
+    }
+    return state;
+  }
+
+  void set_coordinates(const MechanismJoint& block, MechanismState& state) const {
+    const std::optional<JointMotion> given = motion_.given(block.joint);
+    for (Eigen::Index k = 0; k < block.positions; ++k) {
+      const auto index = static_cast<std::size_t>(k);
+      const auto* planar = given ? std::get_if<PlanarPath>(&*given) : nullptr;
+      const CoordinatePath& path =
+          planar != nullptr ? planar->at(index) : std::get<CoordinatePath>(given.value());
+      state.positions[block.position + k] = path.segments().front().state(0.0).value.value();
+      const auto velocity =
+          dynamics_.velocities.find(coordinate_name(model_, {block.joint, index}));
+      if (velocity != dynamics_.velocities.end()) {
+        state.velocities[block.velocity + k] = velocity->second;
+      }
+    }
+  }
+
+  std::vector<JointLaw> laws_of(const Mechanism& mechanism, const MechanismState& start) const {
+    std::vector<JointLaw> laws;
+    for (const MechanismJoint& block : mechanism.joints()) {
+      if (is_base(block)) {
+        continue;
+      }
+      const Joint& joint = model_.joints()[block.joint];
+      if (!(joint.damping >= 0.0 && joint.friction >= 0.0) || !std::isfinite(joint.damping) ||
+          !std::isfinite(joint.friction)) {
+        throw std::invalid_argument("joint \"" + joint.name +
+                                    "\": its damping and friction must be finite and >= 0");
+      }
+      for (Eigen::Index k = 0; k < block.velocities; ++k) {
+        JointLaw law{.position = block.position + k,
+                     .velocity = block.velocity + k,
+                     .damping = joint.damping,
+                     .friction = joint.friction};
+        if (block.positions == 1) {
+          law.limits = limits_of(joint, block, start);
+          law.motor = motor_of(block.joint);
+        }
+        laws.push_back(std::move(law));
+      }
+    }
+    return laws;
+  }
+
+  /// The joint's own; 0 as the greatest effort is a gap in a file, not a joint without strength.
+  static JointLimits limits_of(const Joint& joint, const MechanismJoint& block,
+                               const MechanismState& start) {
+    JointLimits limits = joint.limits;
+    const double q = start.positions[block.position];
+    if (q < limits.lower.value_or(q) || q > limits.upper.value_or(q)) {
+      throw std::invalid_argument("joint \"" + joint.name + "\" starts at " + std::to_string(q) +
+                                  ", beyond its limits; give it another \"state\"");
+    }
+    if (limits.effort == 0.0) {
+      limits.effort.reset();
+    }
+    return limits;
+  }
+
+  std::optional<JointMotor> motor_of(std::size_t joint) const {
+    const auto found = dynamics_.motors.find(joint);
+    if (found == dynamics_.motors.end()) {
+      return std::nullopt;
+    }
+    JointMotor motor = found->second;
+    if (motor.target.empty()) {
+      motor.target = sampled(motion_, joint, scene_.duration, scene_.simulation->step);
+    }
+    return motor;
+  }
+
+  const Scene& scene_;
+  const SceneRobot& described_;
+  const RobotDynamics& dynamics_;
+  const RobotMotion& motion_;
+  std::size_t number_;
+  const RobotModel& model_;
+};
+
+}  // namespace
+
+bool SimRobot::is_driven() const {
+  return std::ranges::any_of(laws, [](const JointLaw& law) {
+    return law.motor || law.limits.lower || law.limits.upper || law.damping > 0.0 ||
+           law.friction > 0.0;
+  });
+}
+
+std::size_t SimRobot::motor_count() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(laws, [](const JointLaw& law) { return law.motor.has_value(); }));
+}
+
+std::size_t SimRobot::rigid_motor_count() const {
+  return static_cast<std::size_t>(std::ranges::count_if(laws, is_rigid));
+}
+
+std::vector<JointDrive> SimRobot::drives(const MechanismState& state, const Eigen::VectorXd& origin,
+                                         std::size_t mechanism_number, double from,
+                                         double span) const {
+  std::vector<JointDrive> drives;
+  const auto add_to = [&](const JointLaw& law, JointDrive drive) {
+    drive.mechanism = mechanism_number;
+    drive.coordinate = static_cast<std::size_t>(law.velocity);
+    drives.push_back(drive);
+  };
+  for (const JointLaw& law : laws) {
+    if (law.motor) {
+      add_to(law, motor_drive(law, origin[law.position], from, span));
+    }
+  }
+  for (const JointLaw& law : laws) {
+    const double q = state.positions[law.position];
+    const double q_origin = origin[law.position];
+    const auto add = [&](const JointDrive& drive) { add_to(law, drive); };
+    if (law.damping > 0.0) {
+      add({.compliance = 1.0 / (span * law.damping)});
+    }
+    if (law.friction > 0.0) {
+      add({.least = -law.friction * span, .greatest = law.friction * span});
+    }
+    if (law.limits.lower) {
+      add({.target = (std::min(q, *law.limits.lower) - q_origin) / span, .least = 0.0});
+    }
+    if (law.limits.upper) {
+      add({.target = (std::max(q, *law.limits.upper) - q_origin) / span, .greatest = 0.0});
+    }
+  }
+  return drives;
+}
+
+double SimRobot::share_within_limits(const MechanismState& from, const Eigen::VectorXd& to) const {
+  double share = 1.0;
+  const auto stop_at = [&](double q, double end, double farthest) {
+    if (end > farthest) {
+      share = std::min(share, std::max(0.0, (farthest - q) / (end - q)));
+    }
+  };
+  for (const JointLaw& law : laws) {
+    const double q = from.positions[law.position];
+    const double end = to[law.position];
+    if (law.limits.upper) {
+      stop_at(q, end, std::max(*law.limits.upper + kMostBeyond, q + kAtLimit));
+    }
+    if (law.limits.lower) {
+      stop_at(-q, -end, std::max(-*law.limits.lower + kMostBeyond, -q + kAtLimit));
+    }
+  }
+  return share;
+}
+
+std::vector<JointDrive> SimRobot::drives_at_impact(const MechanismState& state,
+                                                   std::size_t mechanism_number) const {
+  std::vector<JointDrive> drives;
+  for (const JointLaw& law : laws) {
+    if (is_rigid(law)) {
+      drives.push_back({.mechanism = mechanism_number,
+                        .coordinate = static_cast<std::size_t>(law.velocity),
+                        .target = state.velocities[law.velocity]});
+    }
+  }
+  for (const JointLaw& law : laws) {
+    if (is_rigid(law)) {
+      continue;
+    }
+    const double q = state.positions[law.position];
+    JointDrive drive{.mechanism = mechanism_number,
+                     .coordinate = static_cast<std::size_t>(law.velocity)};
+    if (law.limits.lower && q <= *law.limits.lower + kAtLimit) {
+      drive.least = 0.0;
+      drives.push_back(drive);
+    } else if (law.limits.upper && q >= *law.limits.upper - kAtLimit) {
+      drive.greatest = 0.0;
+      drives.push_back(drive);
+    }
+  }
+  return drives;
+}
+
+std::vector<JointDrive> SimRobot::stops(const MechanismState& state,
+                                        std::size_t mechanism_number) const {
+  std::vector<JointDrive> drives;
+  for (const JointLaw& law : laws) {
+    const double q = state.positions[law.position];
+    JointDrive drive{.mechanism = mechanism_number,
+                     .coordinate = static_cast<std::size_t>(law.velocity)};
+    if (law.limits.lower) {
+      drive.target = std::min(0.0, *law.limits.lower - q);
+      drive.least = 0.0;
+      drive.greatest = kInfinity;
+      drives.push_back(drive);
+    }
+    if (law.limits.upper) {
+      drive.target = std::max(0.0, *law.limits.upper - q);
+      drive.least = -kInfinity;
+      drive.greatest = 0.0;
+      drives.push_back(drive);
+    }
+  }
+  return drives;
+}
+
+std::vector<SimRobot> make_sim_robots(const LoadedScene& loaded, const LinksAsBodies& linked) {
+  std::vector<SimRobot> robots;
+  for (std::size_t r = 0; r < loaded.scene.robots.size(); ++r) {
+    if (loaded.scene.robots[r].dynamics) {
+      robots.push_back(RobotMaker(loaded, r, linked.models[r]).make());
+    }
+  }
+  return robots;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,95 @@
+#include <firstcontact/simulation/detail/surface_neighbours.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The sine of the angle by which rounding may tilt a direction between points that are near.
+constexpr double kTilt = 1e-6;
+
+/// Sorts pairs of (feature, way) into rows.
+template <class Ways>
+Ways in_rows(std::size_t count, double slack,
+             std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
+  std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
+  Ways rows;
+  rows.first.assign(count + 1, 0);
+  for (const auto& [feature, way] : pairs) {
+    ++rows.first[feature + 1];
+    rows.ways.push_back({way, std::max(slack, kTilt * way.norm())});
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    rows.first[k + 1] += rows.first[k];
+  }
+  return rows;
+}
+
+/// Whether an edge with these ways across its faces divides a flat one.
+template <class Way>
+bool are_flat(std::span<const Way> ways) {
+  if (ways.size() != 2) {
+    return false;
+  }
+  const Vector3d& a = ways[0].way;
+  const Vector3d& b = ways[1].way;
+  return a.dot(b) < 0.0 && a.cross(b).norm() <= kTilt * a.norm() * b.norm();
+}
+
+}  // namespace
+
+SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) {
+  const Mesh& mesh = shape.mesh();
+  std::vector<std::pair<std::uint32_t, Vector3d>> across_faces;
+  std::vector<std::pair<std::uint32_t, Vector3d>> along_edges;
+  for (std::size_t e = 0; e < shape.edge_count(); ++e) {
+    const auto [a, b] = shape.edge(e);
+    const Vector3d along = mesh.vertices[b] - mesh.vertices[a];
+    along_edges.emplace_back(a, along);
+    along_edges.emplace_back(b, -along);
+  }
+  for (const auto& corners : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = corners[k];
+      const std::uint32_t b = corners[(k + 1) % 3];
+      if (a == b) {
+        continue;
+      }
+      const Vector3d along = (mesh.vertices[b] - mesh.vertices[a]).stableNormalized();
+      const Vector3d side = mesh.vertices[corners[(k + 2) % 3]] - mesh.vertices[a];
+      const Vector3d across = side - side.dot(along) * along;
+      if (across.squaredNorm() > 0.0) {
+        across_faces.emplace_back(shape.edge_index(a, b), across);
+      }
+    }
+  }
+  edges_ = in_rows<Ways>(shape.edge_count(), slack, std::move(across_faces));
+  vertices_ = in_rows<Ways>(mesh.vertices.size(), slack, std::move(along_edges));
+  for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
+    is_flat_.push_back(are_flat(edges_.of(e)));
+  }
+}
+
+bool SurfaceNeighbours::none_is_farther(std::span<const Way> ways, const Vector3d& direction_B) {
+  return std::ranges::all_of(ways,
+                             [&](const Way& way) { return way.way.dot(direction_B) <= way.most; });
+}
+
+bool SurfaceNeighbours::is_outermost(const Feature& feature, const Vector3d& direction_B) const {
+  switch (feature.type) {
+    case FeatureType::vertex:
+      return none_is_farther(vertices_.of(feature.index), direction_B);
+    case FeatureType::edge:
+      return none_is_farther(edges_.of(feature.index), direction_B);
+    case FeatureType::face:
+      break;
+  }
+  return true;
+}
+
+}  // namespace firstcontact::detail

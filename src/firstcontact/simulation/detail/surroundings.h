@@ -1,0 +1,32 @@
+/// @file
+/// What free bodies meet that moves as the scene says, or not at all.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/detail/overlap_tree.h>
+#include <firstcontact/simulation/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// The fixed and scripted bodies of a step, by where they are in it.
+class Surroundings {
+ public:
+  Surroundings(const World& world, const StepStart& start);
+
+  /// Calls use(body) for each body whose box over the whole step overlaps this one.
+  template <class Use>
+  void for_each_overlap(const Eigen::AlignedBox3d& box, const Use& use) const {
+    tree_.for_each_overlap(box, [&](std::size_t k) { use(bodies_[k]); });
+  }
+
+ private:
+  std::vector<std::size_t> bodies_;
+  OverlapTree tree_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,293 @@
+#include <firstcontact/simulation/detail/touch.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/detail/place_grid.h>
+#include <firstcontact/math/cell_hash.h>
+#include <firstcontact/query/close_features.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Touches nearer to each other than this part of the smaller body are one.
+constexpr double kSamePlace = 1e-3;
+constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
+
+/// A touch is taken for what touched before where it is nearer than this part of the smaller body.
+constexpr double kCloseBy = 0.01;
+
+/// Of a pair; there may be more.
+constexpr std::size_t kUsualTouches = 4;
+/// More contacts than these are very many: of those beside each other, nearer than about this part
+/// of the smaller body, the nearest counts.
+constexpr std::size_t kMany = 500;
+constexpr double kBeside = 0.1;
+
+auto features_of(const Touch& touch) {
+  return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
+                    touch.feature_B.index);
+}
+
+/// Finds what touches in place of what touched before, among the touches of a pair.
+class Successors {
+ public:
+  /// @param close_by  [m]  how far it may be where it has other features
+  Successors(double close_by, std::vector<Touch>& touches)
+      : touches_(touches), close_by_(close_by), by_place_(close_by) {
+    for (std::size_t k = 0; k < touches.size(); ++k) {
+      by_place_.add(touches[k].point, k);
+    }
+    if (touches.size() > kFew) {
+      for (std::size_t k = 0; k < touches.size(); ++k) {
+        by_features_.push_back(k);
+      }
+      std::ranges::stable_sort(by_features_, {},
+                               [&](std::size_t k) { return features_of(touches[k]); });
+    }
+  }
+
+  /// Null where there is none.
+  Touch* of(const Touch& before) {
+    if (Touch* same = of_same_features(before)) {
+      return same;
+    }
+    Touch* nearest = nullptr;
+    double least = close_by_;
+    by_place_.for_each_near(before.point, [&](std::size_t k) {
+      const double distance = (touches_[k].point - before.point).norm();
+      if (distance < least ||
+          (distance == least && (nearest == nullptr || &touches_[k] < nearest))) {
+        least = distance;
+        nearest = &touches_[k];
+      }
+    });
+    return nearest;
+  }
+
+ private:
+  /// As many are looked through as they are.
+  static constexpr std::size_t kFew = 24;
+
+  /// The first of them.
+  Touch* of_same_features(const Touch& before) {
+    if (touches_.size() <= kFew) {
+      const auto same = std::ranges::find_if(
+          touches_, [&](const Touch& touch) { return same_features(touch, before); });
+      return same != touches_.end() ? &*same : nullptr;
+    }
+    const auto same =
+        std::ranges::lower_bound(by_features_, features_of(before), {},
+                                 [&](std::size_t k) { return features_of(touches_[k]); });
+    return same != by_features_.end() && same_features(touches_[*same], before) ? &touches_[*same]
+                                                                                : nullptr;
+  }
+
+  std::vector<Touch>& touches_;
+  double close_by_;
+  std::vector<std::size_t> by_features_;  // Where there are many.
+  PlaceGrid by_place_;
+};
+
+/// Two bodies, of which features are asked whether they bulge towards each other.
+class FacingBodies {
+ public:
+  FacingBodies(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses)
+      : A_(*world.neighbours[bodies[0]]),
+        B_(*world.neighbours[bodies[1]]),
+        R_AW_(poses[0].rotation.normalized().conjugate()),
+        R_BW_(poses[1].rotation.normalized().conjugate()) {}
+
+  /// Whether the bodies bulge towards each other there. Not where edges cross within a flat face:
+  /// over it the gap is least at the ends of the other edge, or where that leaves the face.
+  [[nodiscard]] bool are_outermost(const Contact& contact) const {
+    const Vector3d& n_W = *contact.n_AB_W;
+    const bool are_edges =
+        contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
+    if (are_edges && (A_.is_flat_edge(contact.feature_A) || B_.is_flat_edge(contact.feature_B))) {
+      return false;
+    }
+    return A_.is_outermost(contact.feature_A, R_AW_ * n_W) &&
+           B_.is_outermost(contact.feature_B, R_BW_ * -n_W);
+  }
+
+ private:
+  const SurfaceNeighbours& A_;
+  const SurfaceNeighbours& B_;
+  Eigen::Quaterniond R_AW_;
+  Eigen::Quaterniond R_BW_;
+};
+
+Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
+  return {.bodies = bodies,
+          .feature_A = contact.feature_A,
+          .feature_B = contact.feature_B,
+          .point = 0.5 * (contact.p_WA + contact.p_WB),
+          .normal = *contact.n_AB_W,
+          .gap = contact.distance - margin};
+}
+
+/// Which of some contacts count where there are very many: of those beside each other that face
+/// alike the nearest, of bulging ones. The motion of a rigid body hardly differs between them, and
+/// where it does the next first contact tells.
+class NearestOfMany {
+ public:
+  /// @param apart  [m]
+  explicit NearestOfMany(double apart) : apart_(apart) {}
+
+  void add(const Contact& contact, const FacingBodies& facing) {
+    const Vector3d& n = *contact.n_AB_W;
+    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
+    for (int k = 0; k < 3; ++k) {
+      key[static_cast<std::size_t>(k)] = cell_along(contact.p_WA[k], apart_);
+    }
+    const auto [found, is_new] = nearest_.try_emplace(key, nullptr);
+    const Contact*& nearest = found->second;
+    if ((nearest == nullptr || contact.distance < nearest->distance) &&
+        facing.are_outermost(contact)) {
+      nearest = &contact;
+    }
+  }
+
+  /// In the order of the list that they are from.
+  [[nodiscard]] std::vector<const Contact*> take() const {
+    std::vector<const Contact*> all;
+    for (const auto& [cell, nearest] : nearest_) {
+      if (nearest != nullptr) {
+        all.push_back(nearest);
+      }
+    }
+    std::ranges::sort(all);
+    return all;
+  }
+
+ private:
+  /// Where, and the octant of the normal.
+  using Cell = std::array<std::int64_t, 4>;
+  double apart_;
+  std::unordered_map<Cell, const Contact*, CellHash> nearest_;
+};
+
+/// Adds a touch to those kept. Features that meet in one place, as the corner of one face and an
+/// edge of it, say the same: of them the nearest is kept.
+///
+/// @param size  [m]  of the smaller body
+void keep_once(const Touch& touch, double size, PlaceGrid& by_place, std::vector<Touch>& kept) {
+  std::size_t same = kept.size();
+  by_place.for_each_near(touch.point, [&](std::size_t k) {
+    if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
+        touch.normal.dot(kept[k].normal) >= kSameNormal) {
+      same = std::min(same, k);
+    }
+  });
+  if (same == kept.size()) {
+    kept.push_back(touch);
+  } else if (touch.gap < kept[same].gap) {
+    kept[same] = touch;
+  } else {
+    return;
+  }
+  by_place.add(touch.point, same);
+}
+
+/// @param beside  [m]
+std::vector<Touch> touches_among_many(const FacingBodies& facing, const BodyPair& bodies,
+                                      double margin, const std::vector<Contact>& contacts,
+                                      double beside) {
+  NearestOfMany nearest(beside);
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W) {
+      nearest.add(contact, facing);
+    }
+  }
+  std::vector<Touch> touches;
+  for (const Contact* contact : nearest.take()) {
+    touches.push_back(make_touch(bodies, margin, *contact));
+  }
+  return touches;
+}
+
+}  // namespace
+
+bool same_features(const Touch& x, const Touch& y) {
+  return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
+         x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
+}
+
+std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
+                                 const std::array<Pose, 2>& poses, double margin,
+                                 const std::vector<Contact>& contacts) {
+  const FacingBodies facing(world, bodies, poses);
+  if (contacts.size() > kMany) {
+    std::vector<Touch> few = touches_among_many(facing, bodies, margin, contacts,
+                                                kBeside * smaller_reach(world, bodies));
+    if (!few.empty()) {
+      return few;
+    }
+  }
+  std::vector<const Contact*> outermost;
+  outermost.reserve(contacts.size());
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W && facing.are_outermost(contact)) {
+      outermost.push_back(&contact);
+    }
+  }
+  const double size = smaller_reach(world, bodies);
+  PlaceGrid by_place(kSamePlace * size);
+  std::vector<Touch> touches;
+  if (!outermost.empty()) {
+    touches.reserve(std::min(outermost.size(), kUsualTouches));
+    for (const Contact* contact : outermost) {
+      keep_once(make_touch(bodies, margin, *contact), size, by_place, touches);
+    }
+    return touches;
+  }
+  for (const Contact& contact : contacts) {
+    if (contact.n_AB_W) {
+      keep_once(make_touch(bodies, margin, contact), size, by_place, touches);
+    }
+  }
+  return touches;
+}
+
+Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
+                              double margin) {
+  Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
+  close_features(A, B, margin + world_.distances.band, workspace_, contacts_,
+                 kBeside * smaller_reach(world_, bodies));
+  for (const Contact& contact : contacts_) {
+    manifold.gap = std::min(manifold.gap, contact.distance - margin);
+  }
+  manifold.touches = touches_among(world_, bodies, {A.pose(), B.pose()}, margin, contacts_);
+  return manifold;
+}
+
+bool comes_before(const Touch& x, const Touch& y) {
+  return std::pair(x.bodies, features_of(x)) < std::pair(y.bodies, features_of(y));
+}
+
+void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold) {
+  const auto bodies_of = [](const Touch& touch) { return touch.bodies; };
+  auto touch = std::ranges::lower_bound(before, manifold.bodies, {}, bodies_of);
+  if (touch == before.end() || touch->bodies != manifold.bodies) {
+    return;
+  }
+  Successors successors(kCloseBy * size, manifold.touches);
+  for (; touch != before.end() && touch->bodies == manifold.bodies; ++touch) {
+    if (Touch* next = successors.of(*touch)) {
+      next->impulse += touch->impulse;
+    }
+  }
+}
+
+}  // namespace firstcontact::detail

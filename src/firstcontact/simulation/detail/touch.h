@@ -1,0 +1,73 @@
+/// @file
+/// Where two bodies touch: the contacts that act on them.
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/placed_shape.h>
+#include <firstcontact/query/workspace.h>
+#include <firstcontact/simulation/detail/world.h>
+
+namespace firstcontact::detail {
+
+/// A point at which two bodies are near each other.
+struct Touch {
+  BodyPair bodies = {};
+  Feature feature_A;
+  Feature feature_B;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the surfaces.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
+  double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
+};
+
+[[nodiscard]] bool same_features(const Touch& x, const Touch& y);
+
+/// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
+/// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without
+/// normal, of surfaces that meet, are left out.
+///
+/// @param margin  [m]  of the pair
+[[nodiscard]] std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
+                                               const std::array<Pose, 2>& poses, double margin,
+                                               const std::vector<Contact>& contacts);
+
+/// The touches of two bodies at rest at these poses, and the least gap of all their features.
+struct Manifold {
+  BodyPair bodies = {};
+  double gap = 0.0;  ///< [m]  Infinite where nothing is within the band.
+  std::vector<Touch> touches = {};
+};
+
+/// Finds the manifolds of many pairs in memory that they share.
+class ManifoldFinder {
+ public:
+  ManifoldFinder(const World& world, Workspace& workspace) : world_(world), workspace_(workspace) {}
+
+  /// @param A,B     the shapes of the pair
+  /// @param margin  [m]  of the pair
+  [[nodiscard]] Manifold find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
+                              double margin);
+
+ private:
+  const World& world_;
+  Workspace& workspace_;
+  std::vector<Contact> contacts_;
+};
+
+/// Whether the bodies, or else the features, of one touch come before those of the other.
+[[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
+
+/// Gives the manifold the impulses of what touched before: each goes to the touch of the same
+/// features or, as these change with every rounding where edges lie on edges, to the nearest one
+/// close by.
+///
+/// @param before  sorted
+/// @param size    [m]  of the smaller body
+void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold);
+
+}  // namespace firstcontact::detail

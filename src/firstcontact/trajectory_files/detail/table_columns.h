@@ -1,0 +1,49 @@
+/// @file
+/// What the columns of a trajectory's table are, by their names.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact::detail {
+
+/// What the numbers of a column are.
+struct TableColumn {
+  enum class Kind {
+    time,     ///< [s]
+    numbers,  ///< Of a joint.
+    row,      ///< Counts the rows from 0 on; says nothing.
+    effort,   ///< Of a joint; moves nothing.
+  };
+  std::string name;  ///< As the header has it.
+  Kind kind = Kind::time;
+  std::vector<double> TrajectoryPoint::*numbers = nullptr;
+  std::size_t joint = 0;  ///< Of the joint names.
+};
+
+/// The columns of a table, and the joints in the order of their columns of positions.
+struct TableColumns {
+  std::vector<TableColumn> columns;
+  std::vector<std::string> joint_names;  ///< As the robot has them; fixed ones too.
+};
+
+/// Whether a column of this name holds the time [s]: "time" in any capitals, alone or with its unit
+/// as "time [s]"; or "__time", "time_from_start".
+[[nodiscard]] bool is_time_column(std::string_view name);
+
+/// Knows the columns: the time; positions by the joint's name, which may have its unit or
+/// ".position" after it; NAME.velocity, NAME.acceleration, NAME.effort, also with '/' in place of
+/// the point and then with a topic before the joint; an unnamed first column, which counts the
+/// rows.
+///
+/// @throws std::invalid_argument  names the column, and what was expected in its place
+[[nodiscard]] TableColumns table_columns(const std::vector<std::string>& names,
+                                         const RobotModel& robot);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,38 @@
+/// @file
+/// Reads a robot's trajectory from a file.
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+
+/// Reads a trajectory for a robot (docs/trajectories.md).
+///
+/// - .json, .yaml, .yml: `joint_names` and `points` with `time` [s], `positions`, and if wanted
+///   `velocities` and `accelerations`; or trajectory_msgs/JointTrajectory as ROS prints it, alone
+///   or inside of a message that holds one. A single trajectory; unknown keys are errors.
+/// - .csv: a header with `time` and joint names, then a line of numbers for each point; columns
+///   separated by commas, semicolons, tabs or blanks. Columns NAME.velocity and NAME.acceleration,
+///   where there are any, of every joint.
+///
+/// A point that stands twice is taken once, and columns of joints that are fixed and do not move
+/// are left out; `warnings` say so. Points that contradict each other are an error.
+///
+/// Numbers are read exactly, whatever the locale.
+///
+/// @throws ParseError  one line with path, line, place and what was expected
+[[nodiscard]] FIRSTCONTACT_API Trajectory read_trajectory(const std::filesystem::path& path,
+                                                          const RobotModel& robot);
+
+/// @param source  names the text in errors; its extension says the format
+[[nodiscard]] FIRSTCONTACT_API Trajectory parse_trajectory(std::string_view text,
+                                                           const std::filesystem::path& source,
+                                                           const RobotModel& robot);
+
+}  // namespace firstcontact

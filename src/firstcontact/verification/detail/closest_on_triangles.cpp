@@ -1,0 +1,102 @@
+#include <firstcontact/verification/detail/closest_on_triangles.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <optional>
+
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+double clamped(double numerator, double denominator) {
+  return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0;
+}
+
+PointPair pair_of(const Vector3d& a, const Vector3d& b) { return {a, b, (b - a).norm()}; }
+
+/// Of two segments: the lines' closest points, each put back into its segment in turn.
+PointPair closest(const Vector3d& a, const Vector3d& a_to, const Vector3d& b,
+                  const Vector3d& b_to) {
+  const Vector3d u = a_to - a;
+  const Vector3d v = b_to - b;
+  const Vector3d w = b - a;
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const double uv = u.dot(v);
+  double s = clamped(u.dot(w) * vv - v.dot(w) * uv, uu * vv - uv * uv);
+  const double t = clamped(s * uv - v.dot(w), vv);
+  s = clamped(t * uv + u.dot(w), uu);
+  return pair_of(a + s * u, b + t * v);
+}
+
+/// Where a line through p along u meets the plane of a triangle, if that is inside of it: the
+/// line's parameter.
+std::optional<double> meets(const Vector3d& p, const Vector3d& u, const TrianglePoints& t,
+                            const Vector3d& normal) {
+  const double s = normal.dot(t[0] - p) / normal.dot(u);
+  const Vector3d q = p + s * u;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = t[k];
+    // Negated, so that the NaN of a degenerate triangle is no meeting.
+    if (!(normal.dot((t[(k + 1) % 3] - from).cross(q - from)) >= 0.0)) {
+      return std::nullopt;
+    }
+  }
+  return s;
+}
+
+Vector3d normal_of(const TrianglePoints& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+/// Keeps the closer one of what is offered.
+class Closest {
+ public:
+  void offer(const PointPair& pair) {
+    if (pair.distance < best_.distance) {
+      best_ = pair;
+    }
+  }
+
+  void offer_swapped(const PointPair& pair) { offer({pair.on_B, pair.on_A, pair.distance}); }
+
+  [[nodiscard]] const PointPair& best() const { return best_; }
+
+ private:
+  PointPair best_{.distance = std::numeric_limits<double>::infinity()};
+};
+
+/// The corners of A over the face of B, and the edges of A through it; as (A, B).
+template <class Offer>
+void offer_face(const TrianglePoints& A, const TrianglePoints& B, const Offer& offer) {
+  const Vector3d normal = normal_of(B);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (const auto s = meets(A[k], normal, B, normal)) {
+      offer(pair_of(A[k], A[k] + *s * normal));
+    }
+    const Vector3d edge = A[(k + 1) % 3] - A[k];
+    const auto s = meets(A[k], edge, B, normal);
+    if (s && *s >= 0.0 && *s <= 1.0) {
+      const Vector3d through = A[k] + *s * edge;
+      offer(pair_of(through, through));
+    }
+  }
+}
+
+}  // namespace
+
+PointPair closest_estimate(const TrianglePoints& A, const TrianglePoints& B) {
+  Closest found;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      found.offer(closest(A[i], A[(i + 1) % 3], B[j], B[(j + 1) % 3]));
+    }
+  }
+  offer_face(A, B, [&](const PointPair& pair) { found.offer(pair); });
+  offer_face(B, A, [&](const PointPair& pair) { found.offer_swapped(pair); });
+  return found.best();
+}
+
+}  // namespace firstcontact::detail

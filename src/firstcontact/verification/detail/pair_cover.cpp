@@ -1,0 +1,409 @@
+#include <firstcontact/verification/detail/pair_cover.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/verification/detail/closest_on_triangles.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of what was promised.
+constexpr double kPromiseError = 0x1p-20;
+
+/// How closely the least distance is found.
+constexpr double kPrecision = 0.05;
+
+/// Of a distance, what a direction has to show of it to be the one of the closest points.
+constexpr double kPrecise = 0.999;
+
+/// So often a step is halved to find the least distance; and to prove what was promised.
+constexpr int kFineDepth = 24;
+constexpr int kDeepest = 50;
+
+/// Covers the roundings of a velocity and of what follows from it.
+constexpr double kUp = 1.0 + 0x1p-40;
+constexpr double kVelocityError = 0x1p-44;
+
+/// Covers the roundings of a position, and of a product with a direction: sums of a few terms.
+constexpr double kRounding = 64.0 * 0x1p-53;
+
+/// How far a bound falls within a window, and what it is in its middle. [m]
+struct GapBound {
+  double middle = -std::numeric_limits<double>::infinity();
+  double loss = 0.0;
+
+  [[nodiscard]] double least() const { return middle - loss; }
+};
+
+/// One body in the middle of a window.
+struct Moving {
+  BodyInstant now;
+  double reach = 0.0;  // [m]  Of the whole body from its pivot.
+  double speed = 0.0;  // [m/s]  No point is faster.
+
+  Moving(const BodyInstant& instant, double whole_reach)
+      : now(instant),
+        reach(whole_reach),
+        speed(now.velocity.norm() + now.spin.norm() * whole_reach) {}
+
+  [[nodiscard]] Vector3d position(const Vector3d& y) const { return now.pivot + now.R * y; }
+  /// Of a point at Y = R y.
+  [[nodiscard]] Vector3d velocity(const Vector3d& Y) const {
+    return now.velocity + now.spin.cross(Y);
+  }
+  /// [m]  Of a stored point, and of the sums that place it.
+  [[nodiscard]] double error() const {
+    return now.pivot_error + now.turn_error * reach + kRounding * (now.pivot.norm() + reach);
+  }
+  /// [m/s^2]  No point within `from_pivot` accelerates along n faster. Derivation: the acceleration
+  /// is -w^2 y', y' across the axis, and |n . y'| <= |n x w| / w |y|.
+  [[nodiscard]] double bend(const Vector3d& n, double from_pivot) const {
+    return now.spin.norm() * now.spin.cross(n).norm() * from_pivot;
+  }
+};
+
+/// A box in the middle of a window, as the world sees it.
+struct PlacedBox {
+  const Moving& body;
+  const BoxNode& node;
+  Vector3d lever;     // R centre
+  Vector3d centre;    // From the origin.
+  Vector3d velocity;  // Of the centre.
+
+  PlacedBox(const Moving& moving, const BoxNode& box)
+      : body(moving),
+        node(box),
+        lever(moving.now.R * box.centre),
+        centre(moving.now.pivot + lever),
+        velocity(moving.velocity(lever)) {}
+
+  /// [m]  No point is farther from the centre along n.
+  [[nodiscard]] double support(const Vector3d& n) const {
+    return node.extent.dot((body.now.R.transpose() * n).cwiseAbs());
+  }
+  /// [m/s]  No point moves along n faster than the centre by more: n . (w x y) = (n x w) . y.
+  [[nodiscard]] double spread(const Vector3d& n) const { return support(n.cross(body.now.spin)); }
+};
+
+class Cover {
+ public:
+  Cover(const CoverBody& A, const CoverBody& B, const CoverOptions& options)
+      : A_(A), B_(B), options_(options), work_left_(options.work) {
+    result_.least = std::numeric_limits<double>::infinity();
+    result_.seen = options.known;
+  }
+
+  CoverResult run() {
+    result_.outcome = CoverOutcome::proven;
+    std::size_t a = 0;
+    std::size_t b = 0;
+    double from = A_.pieces.front().from();
+    while (result_.outcome == CoverOutcome::proven && a < A_.pieces.size() &&
+           b < B_.pieces.size()) {
+      const double to = std::min(A_.pieces[a].to(), B_.pieces[b].to());
+      cover(A_.pieces[a], B_.pieces[b], from, to);
+      a += A_.pieces[a].to() <= to ? 1 : 0;
+      b += B_.pieces[b].to() <= to ? 1 : 0;
+      from = to;
+    }
+    return result_;
+  }
+
+ private:
+  struct NodePair {
+    std::uint32_t a = 0;
+    std::uint32_t b = 0;
+  };
+  struct Window {
+    double from = 0.0;
+    double to = 0.0;
+    int depth = 0;
+    std::vector<NodePair> pairs;  // What is not proven of it yet.
+  };
+  /// What holds for a whole window.
+  struct Setting {
+    Moving A;
+    Moving B;
+    double time = 0.0;    // [s]  Its middle.
+    double half = 0.0;    // [s]
+    double error = 0.0;   // [m]  Of every gap along a direction, thickness and jumps included.
+    double drift = 0.0;   // [m]  What rounded velocities may add up to.
+    double enough = 0.0;  // [m]  What was promised, but for errors.
+    bool can_split = false;
+    bool refines = false;  // For the least distance.
+  };
+
+  void cover(const PieceMotion& A, const PieceMotion& B, double from, double to) {
+    std::vector<Window> windows{{from, to, 0, {{0, 0}}}};
+    while (!windows.empty() && result_.outcome == CoverOutcome::proven) {
+      const Window window = std::move(windows.back());
+      windows.pop_back();
+      const Setting setting = set(A, B, window);
+      std::vector<NodePair> left;
+      for (const NodePair& pair : window.pairs) {
+        visit(pair, setting, left);
+        if (result_.outcome != CoverOutcome::proven) {
+          return;
+        }
+      }
+      if (left.empty()) {
+        continue;
+      }
+      if (!setting.can_split) {
+        fail(CoverOutcome::not_proven, setting.time);
+        return;
+      }
+      // The earlier half is proven first.
+      windows.push_back({setting.time, window.to, window.depth + 1, left});
+      windows.push_back({window.from, setting.time, window.depth + 1, std::move(left)});
+    }
+  }
+
+  [[nodiscard]] Setting set(const PieceMotion& A, const PieceMotion& B,
+                            const Window& window) const {
+    const double time = std::clamp(0.5 * (window.from + window.to), window.from, window.to);
+    const Vector3d& origin = A.position();
+    Setting s{Moving(A.instant(time, origin), A_.tree.nodes[0].reach),
+              Moving(B.instant(time, origin), B_.tree.nodes[0].reach)};
+    s.time = time;
+    s.half = kUp * std::max(time - window.from, window.to - time);
+    const double size = s.A.now.pivot.norm() + s.A.reach + s.B.now.pivot.norm() + s.B.reach;
+    const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
+    // The directions are unit vectors but for as much.
+    const double rounding = s.A.error() + s.B.error() + (kRounding + 2.0 * turn_errors) * size;
+    s.error = rounding + A_.jump + B_.jump;
+    s.drift = s.half * (s.A.speed * (kVelocityError + s.A.now.turn_error) +
+                        s.B.speed * (kVelocityError + s.B.now.turn_error));
+    s.enough = std::max(std::numeric_limits<double>::denorm_min(),
+                        options_.promised * (1.0 - kPromiseError) - 2.0 * s.error);
+    s.can_split = window.depth < kDeepest && window.from < time && time < window.to;
+    s.refines = s.can_split && window.depth < kFineDepth;
+    return s;
+  }
+
+  /// [m]  The bodies are apart by their triangles' gap less this.
+  [[nodiscard]] double thickness() const { return A_.thickness + B_.thickness; }
+
+  /// From here on a bound is of no interest, once it is enough.
+  [[nodiscard]] double fine() const { return (1.0 - kPrecision) * result_.seen; }
+
+  void fail(CoverOutcome outcome, double time) {
+    result_.outcome = outcome;
+    result_.time = time;
+    if (outcome == CoverOutcome::not_proven) {
+      result_.least = 0.0;
+    }
+  }
+
+  void accept(double bound) { result_.least = std::min(result_.least, bound); }
+
+  /// Proves the pair for the window, or leaves parts of it to shorter windows.
+  void visit(const NodePair& pair, const Setting& s, std::vector<NodePair>& left) {
+    stack_.assign(1, pair);
+    while (!stack_.empty() && result_.outcome == CoverOutcome::proven) {
+      const NodePair next = stack_.back();
+      stack_.pop_back();
+      if (work_left_ == 0) {
+        fail(CoverOutcome::not_proven, s.time);
+        return;
+      }
+      --work_left_;
+      const BoxNode& a = A_.tree.nodes[next.a];
+      const BoxNode& b = B_.tree.nodes[next.b];
+      if (a.is_leaf && b.is_leaf) {
+        if (!prove_triangles(a, b, s)) {
+          left.push_back(next);
+        }
+      } else {
+        visit_boxes(next, a, b, s, left);
+      }
+    }
+  }
+
+  void visit_boxes(const NodePair& pair, const BoxNode& a, const BoxNode& b, const Setting& s,
+                   std::vector<NodePair>& left) {
+    const double wanted = std::max(s.enough, fine());
+    const GapBound gap = box_gap({s.A, a}, {s.B, b}, s, wanted);
+    if (gap.least() >= wanted ||
+        (gap.least() >= s.enough && !s.refines && !(gap.loss < size(a, b)))) {
+      accept(gap.least());
+    } else if (gap.loss < size(a, b) || !s.can_split) {
+      descend(pair, a, b, s);
+    } else {
+      left.push_back(pair);  // It moves farther than it is large.
+    }
+  }
+
+  static double size(const BoxNode& a, const BoxNode& b) {
+    return a.extent.norm() + b.extent.norm();
+  }
+
+  /// Puts the pairs of the larger box's children on the stack, the nearer one on top.
+  void descend(const NodePair& pair, const BoxNode& a, const BoxNode& b, const Setting& s) {
+    const bool splits_a = b.is_leaf || (!a.is_leaf && a.extent.norm() >= b.extent.norm());
+    std::array<NodePair, 2> children{pair, pair};
+    std::array<double, 2> distances{};
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      (splits_a ? children[k].a : children[k].b) = (splits_a ? a : b).first + k;
+      distances[k] = (s.A.position(A_.tree.nodes[children[k].a].centre) -
+                      s.B.position(B_.tree.nodes[children[k].b].centre))
+                         .squaredNorm();
+    }
+    const std::size_t nearer = distances[0] <= distances[1] ? 0 : 1;
+    stack_.push_back(children[1 - nearer]);
+    stack_.push_back(children[nearer]);
+  }
+
+  /// Along the line of the centres, then along the axes of both boxes, until it is as wanted. The
+  /// one that says most.
+  [[nodiscard]] GapBound box_gap(const PlacedBox& a, const PlacedBox& b, const Setting& s,
+                                 double wanted) const {
+    const Vector3d between = b.centre - a.centre;
+    GapBound best = box_gap_along(between.normalized(), a, b, s);
+    for (const Matrix3d* axes : {&s.A.now.R, &s.B.now.R}) {
+      for (int k = 0; k < 3 && !(best.least() >= wanted); ++k) {
+        const Vector3d axis = axes->col(k);
+        const GapBound gap =
+            box_gap_along(axis.dot(between) < 0.0 ? Vector3d(-axis) : axis, a, b, s);
+        best = gap.least() > best.least() ? gap : best;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] GapBound box_gap_along(const Vector3d& n, const PlacedBox& a, const PlacedBox& b,
+                                       const Setting& s) const {
+    const double rate = std::abs(n.dot(b.velocity - a.velocity)) + a.spread(n) + b.spread(n);
+    const double bend = s.A.bend(n, a.node.reach) + s.B.bend(n, b.node.reach);
+    return {n.dot(b.centre - a.centre) - a.support(n) - b.support(n) - thickness() - s.error,
+            fall(rate, bend, s)};
+  }
+
+  /// [m]  How far a gap can fall within a window where it falls at `rate` in the middle.
+  [[nodiscard]] static double fall(double rate, double bend, const Setting& s) {
+    return kUp * (s.half * rate + 0.5 * s.half * s.half * bend) + s.drift;
+  }
+
+  /// The corners of a triangle in the middle of the window, and their velocities.
+  struct PlacedTriangle {
+    TrianglePoints corners;
+    TrianglePoints velocities;
+    double reach = 0.0;
+
+    PlacedTriangle(const Moving& body, const TrianglePoints& triangle, double from_pivot)
+        : reach(from_pivot) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d lever = body.now.R * triangle[k];
+        corners[k] = body.now.pivot + lever;
+        velocities[k] = body.velocity(lever);
+      }
+    }
+
+    [[nodiscard]] Vector3d edge(std::size_t k) const { return corners[(k + 1) % 3] - corners[k]; }
+    [[nodiscard]] Vector3d normal() const { return edge(0).cross(edge(1)).normalized(); }
+  };
+
+  bool prove_triangles(const BoxNode& a, const BoxNode& b, const Setting& s) {
+    const PlacedTriangle A(s.A, A_.tree.triangles[a.first], a.reach);
+    const PlacedTriangle B(s.B, B_.tree.triangles[b.first], b.reach);
+    const PointPair closest = closest_estimate(A.corners, B.corners);
+    const double seen = std::max(0.0, closest.distance + s.error - thickness());
+    if (seen < result_.seen) {
+      result_.seen = seen;
+      result_.seen_time = s.time;
+    }
+    if (seen < s.enough) {
+      fail(CoverOutcome::closer, s.time);
+      return true;
+    }
+    const double wanted = s.refines ? std::max(s.enough, fine()) : s.enough;
+    const double bound = triangle_bound(A, B, closest, s, wanted);
+    if (!(bound >= wanted)) {
+      return false;
+    }
+    accept(bound);
+    return true;
+  }
+
+  /// Along the line of the closest points, then along the normals of the faces, in whose planes
+  /// triangles may move for long. Where rounding blurs that line, also along the normals of the
+  /// edges two by two, which stay precise at any small distance.
+  [[nodiscard]] double triangle_bound(const PlacedTriangle& A, const PlacedTriangle& B,
+                                      const PointPair& closest, const Setting& s,
+                                      double wanted) const {
+    const Vector3d between = closest.on_B - closest.on_A;
+    const GapBound straight = triangle_gap_along(between / closest.distance, A, B, s);
+    double best = std::max(-std::numeric_limits<double>::infinity(), straight.least());
+    const auto offer = [&](const Vector3d& axis) {
+      if (!(best >= wanted)) {
+        best = std::max(best, triangle_gap_along(axis, A, B, s).least());
+      }
+    };
+    const std::array<Vector3d, 2> normals{A.normal(), B.normal()};
+    for (const Vector3d& n : normals) {
+      offer(n.dot(between) < 0.0 ? Vector3d(-n) : n);
+    }
+    if (straight.middle + thickness() + s.error >= kPrecise * closest.distance) {
+      return best;
+    }
+    for (const Vector3d& n : normals) {
+      offer(n.dot(between) < 0.0 ? n : Vector3d(-n));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        const Vector3d n = A.edge(i).cross(B.edge(j)).normalized();
+        offer(n);
+        offer(-n);
+      }
+    }
+    return best;
+  }
+
+  /// Of each two corners, as each moves on its own.
+  [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
+                                            const PlacedTriangle& B, const Setting& s) const {
+    const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);
+    double middle = std::numeric_limits<double>::infinity();
+    double least = middle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double at_A = n.dot(A.corners[i]);
+      const double speed_A = n.dot(A.velocities[i]);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double rate = std::abs(n.dot(B.velocities[j]) - speed_A);
+        const double gap = n.dot(B.corners[j]) - at_A;
+        const double bound = gap - fall(rate, bend, s);
+        if (std::isnan(bound)) {
+          return {};
+        }
+        middle = std::min(middle, gap);
+        least = std::min(least, bound);
+      }
+    }
+    return {middle - thickness() - s.error, kUp * (middle - least)};
+  }
+
+  const CoverBody& A_;
+  const CoverBody& B_;
+  const CoverOptions& options_;
+  std::size_t work_left_;
+  CoverResult result_;
+  std::vector<NodePair> stack_;
+};
+
+}  // namespace
+
+CoverResult cover_pair(const CoverBody& A, const CoverBody& B, const CoverOptions& options) {
+  return Cover(A, B, options).run();
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,159 @@
+#include <firstcontact/verification/detail/run_follower.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace firstcontact::detail {
+namespace {
+
+/// What the rounding of a recorded pose may amount to, of what it holds: a dozen operations on
+/// coordinates, a quaternion that was made of a matrix, and some room.
+constexpr double kPoseRounding = 0x1p-44;
+
+/// The times of a run are sums of what its steps lasted.
+constexpr double kTimeRounding = 0x1p-40;
+
+std::string number(double x) {
+  char text[32];
+  (void)std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+IntervalTransform at_rest(const Pose& X_WB, const Eigen::Vector3d& p_BC,
+                          const Eigen::Vector3d& origin) {
+  return PieceMotion(X_WB, 0.0, 0.0, p_BC).enclosure(0.0, origin);
+}
+
+}  // namespace
+
+RunFollower::RunFollower(const std::vector<RunMember>& members, const Scene& scene,
+                         double scripted_tolerance)
+    : members_(members), duration_(scene.duration), scripted_tolerance_(scripted_tolerance) {
+  if (scene.simulation) {
+    step_length_ = scene.simulation->step;
+  }
+  for (const RunMember& member : members) {
+    poses_.push_back(member.start);
+  }
+}
+
+FollowedStep RunFollower::follow(const RunStep& step) {
+  require_times(step);
+  FollowedStep followed{step.index, time_, step.lasted, step.clearance, {}};
+  followed.bodies.resize(members_.size());
+  std::size_t next = 0;
+  for (const RunBody& body : step.bodies) {
+    if (body.body < next || body.body >= members_.size()) {
+      throw BrokenRun("the bodies of the step are not in order");
+    }
+    next = body.body + 1;
+    followed.bodies[body.body] = follow_body(step, body);
+  }
+  for (std::size_t b = 0; b < members_.size(); ++b) {
+    std::vector<PieceMotion>& pieces = followed.bodies[b].pieces;
+    if (pieces.empty()) {
+      pieces.emplace_back(poses_[b], 0.0, step.lasted, members_[b].p_BC);
+    }
+    require_scripted(b, pieces.back(), step);
+  }
+  ++step_;
+  time_ = step.time;
+  return followed;
+}
+
+// Comparisons are negated, so that NaN is refused.
+void RunFollower::require_times(const RunStep& step) const {
+  if (step.index != step_ + 1) {
+    throw BrokenRun("step " + std::to_string(step_ + 1) + " is missing");
+  }
+  if (!(step.lasted >= 0.0 && step.lasted < std::numeric_limits<double>::infinity())) {
+    throw BrokenRun("the step lasted " + number(step.lasted) + " s");
+  }
+  const double end = time_ + step.lasted;
+  if (!(std::abs(step.time - end) <= kTimeRounding * end)) {
+    throw BrokenRun("the step ends at " + number(step.time) + " s, but " + number(step.lasted) +
+                    " s after " + number(time_) + " s it is " + number(end) + " s");
+  }
+  const double whole = step.lasted + step.time_lost;
+  if (step_length_ && !(std::abs(whole - *step_length_) <= kTimeRounding * *step_length_)) {
+    throw BrokenRun("the step lasted " + number(step.lasted) + " s and lost " +
+                    number(step.time_lost) + " s, but a step of the scene is one of " +
+                    number(*step_length_) + " s");
+  }
+  if (!(step.clearance >= 0.0)) {
+    throw BrokenRun("the clearance is " + number(step.clearance) + " m");
+  }
+}
+
+FollowedBody RunFollower::follow_body(const RunStep& step, const RunBody& body) {
+  const std::size_t b = body.body;
+  const Eigen::Vector3d& p_BC = members_[b].p_BC;
+  FollowedBody followed{.pieces = {}, .jump = 0.0, .moves = true};
+  double from = 0.0;
+  for (const RunPiece& piece : body.pieces) {
+    if (step.lasted == 0.0 && piece.to == 0.0) {
+      continue;  // Nothing moves in no time.
+    }
+    if (!(piece.to > from)) {
+      throw BrokenRun("\"" + members_[b].name + "\" goes back in time at " + number(time_ + from) +
+                      " s");
+    }
+    followed.pieces.emplace_back(piece, from, p_BC);
+    from = piece.to;
+  }
+  if (from != step.lasted) {
+    throw BrokenRun("the pieces of \"" + members_[b].name + "\" do not fill the step");
+  }
+  const PieceMotion begin(poses_[b], 0.0, 0.0, p_BC);
+  const PieceMotion end(body.X_WB, from, from, p_BC);
+  const PieceMotion* last = &begin;
+  for (const PieceMotion& piece : followed.pieces) {
+    followed.jump = std::max(followed.jump, jump(b, *last, last->to(), piece, piece.from()));
+    last = &piece;
+    require_scripted(b, piece, step);
+  }
+  followed.jump = std::max(followed.jump, jump(b, *last, last->to(), end, from));
+  poses_[b] = body.X_WB;
+  return followed;
+}
+
+double RunFollower::jump(std::size_t body, const PieceMotion& from, double from_time,
+                         const PieceMotion& to, double to_time) {
+  const RunMember& member = members_[body];
+  const Eigen::Vector3d& origin = from.position();
+  const double reach = member.tree.nodes[0].reach;
+  const double deviation =
+      deviation_bound(from.enclosure(from_time, origin), to.enclosure(to_time, origin), reach);
+  const double turn = 1.0 + from.angle() + to.angle();  // As sines of large angles err by more.
+  const double size = to.position().norm() + origin.norm() + turn * (member.p_BC.norm() + reach);
+  if (!(deviation <= kPoseRounding * size)) {
+    throw BrokenRun("\"" + member.name + "\" jumps by " + number(deviation) + " m at " +
+                    number(time_ + to_time) + " s");
+  }
+  greatest_jump_ = std::max(greatest_jump_, deviation);
+  return deviation;
+}
+
+/// A step that ends early leaves a script on the chord of what it had meant to do.
+void RunFollower::require_scripted(std::size_t body, const PieceMotion& piece,
+                                   const RunStep& step) {
+  const RunMember& member = members_[body];
+  if (member.is_free) {
+    return;
+  }
+  const double time = time_ + piece.to();
+  const Pose X_WB = member.scripted.pose(time / duration_);
+  const Eigen::Vector3d& origin = X_WB.position;
+  const double deviation =
+      deviation_bound(piece.enclosure(piece.to(), origin), at_rest(X_WB, member.p_BC, origin),
+                      member.tree.nodes[0].reach);
+  if (!(deviation <= scripted_tolerance_) && !(step.time_lost > 0.0)) {
+    throw BrokenRun("\"" + member.name + "\" is " + number(deviation) +
+                    " m from where its motion in the scene puts it at " + number(time) + " s");
+  }
+  scripted_deviation_ = std::max(scripted_deviation_, deviation);
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,83 @@
+/// @file
+/// Follows a run from step to step, and tells where its record does not hang together.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/record/run.h>
+#include <firstcontact/verification/detail/box_tree.h>
+#include <firstcontact/verification/detail/piece_motion.h>
+
+namespace firstcontact::detail {
+
+/// A body of the scene, as the verifier sees it.
+struct RunMember {
+  std::string name;
+  Shape shape;
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
+  BoxTree tree;
+  bool is_free = false;
+  Motion scripted;  ///< t = time / duration of the scene; of a body that is not free.
+  Pose start;
+};
+
+/// How a body moves in a step.
+struct FollowedBody {
+  std::vector<PieceMotion> pieces;  ///< From 0 to what the step lasted.
+  double jump = 0.0;                ///< [m]  The greatest from one to the next, or to a record.
+  bool moves = false;
+};
+
+struct FollowedStep {
+  std::size_t index = 0;
+  double begin = 0.0;  ///< [s]  Since the run began.
+  double lasted = 0.0;
+  double clearance = 0.0;
+  std::vector<FollowedBody> bodies;  ///< All of the scene.
+};
+
+/// Why a record cannot be one of a simulation. One sentence.
+class BrokenRun : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class RunFollower {
+ public:
+  /// @param members             outlive the follower
+  /// @param scripted_tolerance  [m]
+  RunFollower(const std::vector<RunMember>& members, const Scene& scene, double scripted_tolerance);
+
+  /// @throws BrokenRun
+  [[nodiscard]] FollowedStep follow(const RunStep& step);
+
+  [[nodiscard]] double time() const { return time_; }                    ///< [s]
+  [[nodiscard]] double greatest_jump() const { return greatest_jump_; }  ///< [m]
+  [[nodiscard]] double scripted_deviation() const { return scripted_deviation_; }
+
+ private:
+  void require_times(const RunStep& step) const;
+  [[nodiscard]] FollowedBody follow_body(const RunStep& step, const RunBody& body);
+  [[nodiscard]] double jump(std::size_t body, const PieceMotion& from, double from_time,
+                            const PieceMotion& to, double to_time);
+  void require_scripted(std::size_t body, const PieceMotion& piece, const RunStep& step);
+
+  const std::vector<RunMember>& members_;
+  double duration_;                         // [s]  Of the scene.
+  std::optional<double> step_length_ = {};  // [s]  Of a scene with a simulation.
+  double scripted_tolerance_;
+  std::vector<Pose> poses_;  // As last recorded.
+  std::size_t step_ = 0;
+  double time_ = 0.0;
+  double greatest_jump_ = 0.0;
+  double scripted_deviation_ = 0.0;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,80 @@
+/// @file
+/// Proves of a recorded run that no pair of bodies ever interpenetrated, frames or not.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
+#include <firstcontact/scene/pair_counts.h>
+
+namespace firstcontact {
+
+enum class RunVerdict {
+  proven,      ///< Every pair stayed apart all the time, by what each step promised.
+  closer,      ///< Proven: a pair came closer than promised, or into each other.
+  broken,      ///< The record contradicts itself or its scene, such as by a body that jumps.
+  not_proven,  ///< Neither; nothing is known of the moment that is named.
+};
+
+struct VerifyRunOptions {
+  /// [m]  > 0  So far a scripted body may be from where its motion in the scene puts it.
+  double scripted_tolerance = 1e-6;
+  std::size_t work = 20'000'000;  ///< Tests of two boxes or triangles for one pair and one step.
+  int threads = 0;                ///< At most; 0 for one on each core. The answer is the same.
+  std::stop_token stop = {};      ///< Ends with what is proven so far.
+  std::function<void(double)> progress = {};  ///< Told the time that is proven, in s.
+};
+
+/// Two bodies at a moment of a run.
+struct RunMoment {
+  std::size_t step = 0;  ///< From 1.
+  double time = 0.0;     ///< [s]  Since the run began.
+  BodyPair bodies = {};
+  double distance = 0.0;  ///< [m]  At most so far apart.
+};
+
+struct RunVerification {
+  RunVerdict verdict = RunVerdict::not_proven;
+  std::string problem;                  ///< One sentence; empty where the run is proven.
+  std::size_t steps = 0;                ///< Verified; those up to the problem where there is one.
+  double time = 0.0;                    ///< [s]  At the end of these.
+  double time_lost = 0.0;               ///< [s]  In all of them.
+  double least_distance = 0.0;          ///< [m]  Proven of these; infinite where no pair can touch.
+  std::optional<RunMoment> closest;     ///< Where bodies come about as close as that.
+  std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
+  double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
+  /// [m]  The greatest of a scripted body at the end of a piece; steps that lost time count, but
+  /// may be off by more than the tolerance.
+  double scripted_deviation = 0.0;
+  /// What the proof is about: pairs of which one is free, links of robots counted as such.
+  PairCounts pair_counts = {};
+  std::vector<std::string> warnings = {};  ///< Of reading the scene's files.
+};
+
+/// Proves a run, with other code than that which simulates.
+///
+/// For each step and each two bodies that may touch, one of them free, one moving, the whole step
+/// is covered by windows of time in each of which every two triangles are shown to be apart along
+/// some direction; windows are halved until they are. What is proven is of the exact motions that
+/// the recorded doubles define, all roundings of the proof included. A promise counts as kept when
+/// the distance is proven to be above 0 and above the promise less 2^-20 of it and less twice the
+/// rounding. From the end of a piece to the begin of the next a pose may differ by 2^-44 of what
+/// it holds, which the proof covers. That no body begins inside a solid is tested at the start.
+///
+/// @param next  the steps, one after another; none at the end
+/// @throws std::invalid_argument if an option is out of its range, or the scene has robots or
+///         bodies whose vertices move; ParseError if a mesh cannot be loaded; what `next` throws
+[[nodiscard]] FIRSTCONTACT_API RunVerification
+verify_run(const RunHeader& header, const std::function<std::optional<RunStep>()>& next,
+           const VerifyRunOptions& options = {});
+
+}  // namespace firstcontact

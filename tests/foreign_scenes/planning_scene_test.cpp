@@ -1,0 +1,312 @@
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/text/parse_error.h>
+
+#include "scene/crane.h"
+
+namespace firstcontact {
+namespace {
+
+using test::crane;
+
+PlanningScene parse(const std::string& text) {
+  return parse_planning_scene(text, "s.yaml", "ground");
+}
+
+const Pose& pose_of(const Body& body) { return std::get<FixedMotion>(body.motion).pose; }
+
+TEST(PlanningScene, HasPrimitivesAtTheirPoses) {
+  const PlanningScene scene = parse(R"(
+world:
+  collision_objects:
+  - id: can
+    primitives: [{type: cylinder, dimensions: [0.12, 0.03]}]
+    primitive_poses: [{position: [1, 2, 3], orientation: [0, 0, 0, 1]}]
+  - id: 7
+    header: {frame_id: /ground}
+    pose: {position: {x: 1, y: 0, z: 0}, orientation: {x: 0, y: 0, z: 1, w: 0}}
+    primitives: [{type: 1, dimensions: [1, 2, 3]}, {type: 2, dimensions: [4]}, {type: 4, dimensions: [5, 6]}]
+    primitive_poses: [{position: [1, 0, 0]}, {position: [0, 1, 0]}, {}]
+)");
+  ASSERT_EQ(scene.bodies.size(), 4u);
+  EXPECT_EQ(scene.bodies[0].name, "can");
+  const auto& can = std::get<CylinderShape>(scene.bodies[0].shape.source);
+  EXPECT_EQ(can.length, 0.12);
+  EXPECT_EQ(can.radius, 0.03);
+  EXPECT_EQ(pose_of(scene.bodies[0]).position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(scene.bodies[1].name, "7/0");
+  EXPECT_EQ(scene.object_ids[1], "7");
+  EXPECT_EQ(std::get<BoxShape>(scene.bodies[1].shape.source).size, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<SphereShape>(scene.bodies[2].shape.source).radius, 4.0);
+  EXPECT_EQ(std::get<ConeShape>(scene.bodies[3].shape.source).radius, 6.0);
+  // Half a turn about z, then one to the right.
+  EXPECT_TRUE(pose_of(scene.bodies[1]).position.isZero(1e-15));
+  EXPECT_TRUE(pose_of(scene.bodies[2]).position.isApprox(Eigen::Vector3d(1, -1, 0), 1e-15));
+  EXPECT_EQ(pose_of(scene.bodies[3]).position, Eigen::Vector3d(1, 0, 0));
+}
+
+TEST(PlanningScene, HasMeshesAndFrames) {
+  const PlanningScene scene = parse(R"(
+fixed_frame_transforms:
+- {child_frame_id: table, transform: {translation: [0, 0, 1], rotation: [0, 0, 0, 1]}}
+world:
+  collision_objects:
+  - id: sheet
+    header: {frame_id: table}
+    meshes:
+    - triangles: [{vertex_indices: [0, 1, 2]}]
+      vertices: [{x: 0, y: 0, z: 0}, [1, 0, 0], [0, 1, 0]]
+    mesh_poses: [{position: [5, 0, 0]}]
+)");
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(std::get<Mesh>(scene.bodies[0].shape.source).triangles.size(), 1u);
+  EXPECT_EQ(pose_of(scene.bodies[0]).position, Eigen::Vector3d(5, 0, 1));
+}
+
+TEST(PlanningScene, AllowsWhatEntriesSayThenDefaults) {
+  const AllowedCollisions allowed = parse(R"(
+allowed_collision_matrix:
+  entry_names: [a, b, c]
+  entry_values: [[false, true, false], {enabled: [1, 0, 0]}, [false, false, false]]
+  default_entry_names: [a, c, d]
+  default_entry_values: [true, false, true]
+world: {}
+)")
+                                        .allowed;
+  EXPECT_TRUE(allowed.allows("b", "a"));
+  EXPECT_FALSE(allowed.allows("a", "c"));
+  EXPECT_TRUE(allowed.allows("a", "x"));
+  EXPECT_TRUE(allowed.allows("a", "d"));
+  EXPECT_FALSE(allowed.allows("d", "c"));
+  EXPECT_FALSE(allowed.allows("x", "y"));
+}
+
+void expect_message(const std::string& text, const std::string& message) {
+  try {
+    (void)parse(text);
+    ADD_FAILURE() << "accepted: " << text;
+  } catch (const ParseError& error) {
+    EXPECT_EQ(error.what(), message) << text;
+  }
+}
+
+/// A scene of one object with these members.
+std::string object(const std::string& members) {
+  return "world:\n  collision_objects:\n  - {id: o, " + members + "}\n";
+}
+
+TEST(MalformedPlanningScene, IsNamedByLineAndPlace) {
+  const std::string place = "s.yaml:3: world.collision_objects[0]";
+  expect_message("world: {collision_object: []}",
+                 "s.yaml:1: world.collision_object: unknown key; did you mean "
+                 "\"collision_objects\"?");
+  expect_message("name: x", "s.yaml:1: expected a planning scene with \"world\", got none");
+  expect_message(
+      object("planes: [{coef: [0, 0, 1, 0]}]"),
+      place + ".planes: expected no planes, which have no end; put a box in their place");
+  expect_message(object("subframe_names: []"),
+                 place + ": expected \"primitives\" or \"meshes\" of the object, got none");
+  expect_message(object("operation: 1"), place + ".operation: expected operation 0, add, got 1");
+  expect_message(object("primitives: [{type: box, dimensions: [1, 2]}]"),
+                 place + ".primitives[0].dimensions: expected \"x\", \"y\", \"z\", got 2 numbers");
+  expect_message(object("primitives: [{type: sphere, dimensions: [.nan]}]"),
+                 place + ".primitives[0].dimensions[0]: expected a number, got \".nan\"");
+  expect_message(object("primitives: [{type: sphere, dimensions: [0]}]"),
+                 place + ".primitives[0].dimensions[0]: expected a number > 0, got 0");
+  expect_message(object("primitives: [{type: ball, dimensions: [1]}]"),
+                 place +
+                     ".primitives[0].type: unknown word \"ball\"; known are \"box\", "
+                     "\"sphere\", \"cylinder\", \"cone\"");
+  expect_message(object("primitives: [{type: sphere, dimensions: [1]}], primitive_poses: [{}, {}]"),
+                 place + ".primitive_poses: expected a pose for each of the 1 primitives, got 2");
+  expect_message(object("primitives: [{type: sphere, dimensions: [1]}], pose: {orientation: [0, 0, "
+                        "0, 2]}"),
+                 place +
+                     ".pose.orientation: expected a quaternion x, y, z, w of length 1, got one "
+                     "of length 2");
+  expect_message(object("header: {frame_id: hook}, primitives: [{type: sphere, dimensions: [1]}]"),
+                 place +
+                     ".header.frame_id: expected a frame that rests (\"\", \"ground\", "
+                     "\"world\"), got \"hook\"");
+  expect_message("world: {collision_objects: [7]}",
+                 "s.yaml:1: world.collision_objects[0]: expected an object with \"id\", got 7");
+  const std::string held =
+      "robot_state: {attached_collision_objects: [{link_name: hook, object: {id: o, header: "
+      "{frame_id: cart}, primitives: []}}]}\nworld: {}";
+  expect_message(held,
+                 "s.yaml:1: robot_state.attached_collision_objects[0].object.header.frame_id: "
+                 "expected the frame of the link that holds it, \"hook\", got \"cart\"");
+  expect_message("link_scale: [{link_name: hook, scale: 1.5}]\nworld: {}",
+                 "s.yaml:1: link_scale[0]: expected no scale of links but 1; a padding makes them "
+                 "larger");
+  expect_message(
+      "allowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 1], [0, 0]]}\n"
+      "world: {}",
+      "s.yaml:1: allowed_collision_matrix.entry_values[1][0]: expected the same for "
+      "\"b\" and \"a\" as for them swapped");
+}
+
+TEST(PlanningScene, HasWhatLinksHoldAndPadding) {
+  const PlanningScene scene = parse(R"(
+link_padding: [{link_name: hook, padding: 0.01}, {link_name: cart, padding: 0}]
+link_scale: [{link_name: hook, scale: 1}]
+robot_state:
+  attached_collision_objects:
+  - link_name: hook
+    object:
+      id: load
+      header: {frame_id: hook}
+      pose: {position: [0, 0, -1], orientation: [0, 0, 0, 1]}
+      primitives: [{type: sphere, dimensions: [0.5]}, {type: box, dimensions: [1, 1, 1]}]
+      primitive_poses: [{position: [0, 0, -2]}, {}]
+    touch_links: [mast]
+    weight: 3
+world: {}
+)");
+  EXPECT_EQ(scene.padding, (std::map<std::string, double>{{"hook", 0.01}}));
+  EXPECT_TRUE(scene.bodies.empty());
+  ASSERT_EQ(scene.attached.size(), 1u);
+  const AttachedObject& load = scene.attached[0];
+  EXPECT_EQ(load.id + load.link + load.touch_links.at(0), "loadhookmast");
+  ASSERT_EQ(load.parts.size(), 2u);
+  EXPECT_EQ(load.parts[0].name, "load/0");
+  EXPECT_EQ(pose_of(load.parts[0]).position, Eigen::Vector3d(0, 0, -3));
+}
+
+TEST(PlanningRequest, SaysFromWhereToWhere) {
+  const PlanningRequest request = parse_planning_request(R"(
+start_state:
+  joint_state: {name: [turn, lift], position: [0.5, 0.25]}
+  multi_dof_joint_state:
+    joint_names: [world_joint]
+    transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 1]}]
+goal_constraints:
+- joint_constraints: [{joint_name: turn, position: -1.5}]
+)",
+                                                         "r.yaml", crane());
+  EXPECT_EQ(request.start, (JointPositions{{"turn", 0.5}, {"lift", 0.25}}));
+  EXPECT_EQ(request.goal, (JointPositions{{"turn", -1.5}}));
+  EXPECT_EQ(request.base.position, Eigen::Vector3d(1, 0, 0));
+  const Trajectory motion = straight_motion(crane(), request.start, request.goal);
+  EXPECT_EQ(motion.joint_names, (std::vector<std::string>{"turn"}));
+  EXPECT_EQ(motion.points[0].positions[0], 0.5);
+  EXPECT_EQ(motion.points[1].positions[0], -1.5);
+  EXPECT_NEAR(motion.points[1].time, 0.5, 1e-9);  // Two radians at four in a second.
+  EXPECT_GT(motion.points[1].time, 0.5);
+}
+
+// Messages whose pose was never set have zeros, which MoveIt takes as the identity.
+TEST(PlanningScene, TakesQuaternionsOfZerosAsTheIdentityWithOneWarning) {
+  const std::string zeros = "orientation: [0, 0, 0, 0]";
+  const PlanningScene scene = parse(R"(
+fixed_frame_transforms:
+- {child_frame_id: table, transform: {translation: [0, 0, 1], rotation: {x: 0, y: 0, z: 0, w: 0}}}
+robot_state:
+  attached_collision_objects:
+  - link_name: hook
+    object: {id: load, header: {frame_id: hook}, pose: {)" +
+                                    zeros + R"(}, primitives: [{type: sphere, dimensions: [1]}]}
+world:
+  collision_objects:
+  - {id: a, header: {frame_id: table}, pose: {position: [1, 0, 0], )" +
+                                    zeros + R"(}, primitives: [{type: sphere, dimensions: [1]}]}
+  - {id: b, primitives: [{type: sphere, dimensions: [1]}, {type: sphere, dimensions: [1]}], primitive_poses: [{)" +
+                                    zeros + "}, {" + zeros + R"(}]}
+  - {id: c, primitives: [{type: sphere, dimensions: [1]}]}
+)");
+  EXPECT_EQ(pose_of(scene.bodies[0]).position, Eigen::Vector3d(1, 0, 1));
+  EXPECT_TRUE(pose_of(scene.bodies[0]).rotation.vec().isZero(0.0));
+  EXPECT_EQ(scene.warnings,
+            (std::vector<std::string>{"s.yaml: quaternions of zeros are taken as the identity, as "
+                                      "MoveIt does: table, a, b, load"}));
+}
+
+TEST(PlanningRequest, LeavesOutFixedJointsAndZeroQuaternionsWithAWarning) {
+  const PlanningRequest request = parse_planning_request(R"(
+start_state:
+  joint_state: {name: [turn, weld], position: [0.5, 0.25]}
+  multi_dof_joint_state:
+    joint_names: [world_joint]
+    transforms: [{translation: [1, 0, 0], rotation: [0, 0, 0, 0]}]
+goal_constraints:
+- joint_constraints: [{joint_name: turn, position: -1.5}, {joint_name: weld, position: 1}]
+)",
+                                                         "r.yaml", crane());
+  EXPECT_EQ(request.start, (JointPositions{{"turn", 0.5}}));
+  EXPECT_EQ(request.goal, (JointPositions{{"turn", -1.5}}));
+  EXPECT_EQ(request.base.position, Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(request.warnings,
+            (std::vector<std::string>{
+                "r.yaml: a quaternion of zeros is taken as the identity, as MoveIt does: the "
+                "robot's base",
+                "r.yaml: a position is given for a fixed joint, weld; it is where the URDF has "
+                "it"}));
+}
+
+TEST(PlanningScene, HasTheStateOfTheRobot) {
+  EXPECT_EQ(parse("robot_state: {joint_state: {name: [a, b], position: [1, 2]}}\nworld: {}").state,
+            (JointPositions{{"a", 1.0}, {"b", 2.0}}));
+  expect_message("robot_state: {joint_state: {name: [a, b], position: [1]}}\nworld: {}",
+                 "s.yaml:1: robot_state.joint_state.position: expected a number for each of the 2 "
+                 "names, got 1");
+}
+
+TEST(PlanningRequest, NeedsAGoalOfJoints) {
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      (void)parse_planning_request(text, "r.yaml", crane());
+    } catch (const ParseError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("start_state: {}"), "r.yaml:1: expected a key \"goal_constraints\", got none");
+  EXPECT_EQ(message("goal_constraints: [{position_constraints: [{}]}]"),
+            "r.yaml:1: goal_constraints[0]: expected a goal of joint positions, "
+            "\"joint_constraints\" alone");
+  EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: trun, position: 1}]}]"),
+            "r.yaml:1: goal_constraints[0].joint_constraints[0].joint_name: expected a joint of "
+            "robot \"crane\", got \"trun\"; did you mean \"turn\"?");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [trun], position: [1]}}"),
+            "r.yaml:1: start_state.joint_state.name[0]: expected a joint of robot \"crane\", got "
+            "\"trun\"; did you mean \"turn\"?");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [turn], position: [.nan]}}"),
+            "r.yaml:1: start_state.joint_state.position[0]: expected a number, got \".nan\"");
+  EXPECT_EQ(message("start_state: {joint_state: {name: [turn, lift], position: [1]}}"),
+            "r.yaml:1: start_state.joint_state.position: expected a number for each of the 2 "
+            "names, got 1");
+}
+
+// Every problem of the data set can be read.
+TEST(PlanningScene, ReadsMotionBenchMaker) {
+  const char* data = std::getenv("FIRSTCONTACT_DATA_DIR");
+  if (data == nullptr) {
+    GTEST_SKIP() << "needs FIRSTCONTACT_DATA_DIR";
+  }
+  const std::filesystem::path folder = std::filesystem::path(data) / "planning_mbm/panda";
+  const RobotModel panda =
+      read_robot_model({.urdf = std::filesystem::path(data) /
+                                "robots/moveit_resources_panda_description/urdf/panda.urdf"});
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("scene")) {
+      EXPECT_FALSE(read_planning_scene(entry.path(), "panda_link0").bodies.empty()) << name;
+      ++scenes;
+    } else if (name.starts_with("request")) {
+      EXPECT_EQ(read_planning_request(entry.path(), panda).goal.size(), 7u) << name;
+    }
+  }
+  EXPECT_EQ(scenes, 400);
+}
+
+}  // namespace
+}  // namespace firstcontact

@@ -1,0 +1,88 @@
+// The page holds all that the viewer needs, word for word.
+
+#include <firstcontact/page/write_page.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/base64.h>
+#include <firstcontact/text/parse_error.h>
+
+namespace firstcontact {
+namespace {
+
+constexpr std::string_view kTemplate = "<script>\"FIRSTCONTACT_RESULT\"</script>";
+
+std::string base64_of(std::string_view text) {
+  return detail::base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+TEST(Base64, IsAsInTheStandard) {  // RFC 4648, section 10.
+  EXPECT_EQ(base64_of(""), "");
+  EXPECT_EQ(base64_of("f"), "Zg==");
+  EXPECT_EQ(base64_of("fo"), "Zm8=");
+  EXPECT_EQ(base64_of("foo"), "Zm9v");
+  EXPECT_EQ(base64_of("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64_of("\xff\xfe\xfd"), "//79");
+}
+
+LoadedScene scene_of_one_triangle() {
+  ShapeCache cache;
+  return load_scene(parse_scene(R"({"firstcontact": 1, "bodies": [{"name": "a", "shape":
+      {"vertices": [[8, 0, 0], [10, 0, 0], [8, 4, 0]], "triangles": [[0, 1, 2]]}}]})",
+                                "scene.json"),
+                    cache);
+}
+
+TEST(WritePage, HoldsMeshAndGapAndResult) {
+  const std::vector<GapSample> gap{{.t = 0.0, .distance = 1.0}, {.t = 0.5, .distance = 0.25}};
+  const std::vector<GapPoint> bound{{.t = 0.0, .distance = 0.5}};
+  const std::string page =
+      write_page(kTemplate, scene_of_one_triangle(), R"({"id":"x"})", {gap, bound});
+  // The middle is (9, 2, 0): the vertices are (-1, -2, 0), (1, -2, 0), (-1, 2, 0) in f32.
+  EXPECT_EQ(page,
+            R"(<script>{"result":{"id":"x"},"view":{"bodies":[0],"meshes":[{"origin":[9,2,0],)"
+            R"("positions":"AACAvwAAAMAAAAAAAACAPwAAAMAAAAAAAACAvwAAAEAAAAAA",)"
+            R"("triangles":"AAABAAIA"}],)"
+            R"("gap":{"t":[0,0.5],"distance":[1,0.25]},)"
+            R"("gap_bound":{"t":[0],"distance":[0.5]}}}</script>)");
+}
+
+TEST(ListPage, HoldsEachMeshOnceAndEachResultWordForWord) {
+  ListPage list;
+  list.add(R"({"id":"a","verdict":"free"})", scene_of_one_triangle());
+  const std::size_t of_one = list.size();
+  list.add(R"({"id":"</b>","verdict":"free"})", scene_of_one_triangle());
+  EXPECT_LT(list.size() - of_one, 80U);  // Its mesh is there.
+  list.add(R"({"line":3,"error":"bad <input>","scene":{}})");
+  EXPECT_EQ(
+      list.write(kTemplate),
+      R"(<script>{"list":[{"result":{"id":"a","verdict":"free"},"view":{"bodies":[0],"meshes":[0]}},)"
+      R"({"result":{"id":"\u003c/b>","verdict":"free"},"view":{"bodies":[0],"meshes":[0]}},)"
+      R"({"summary":{"line":3,"error":"bad \u003cinput>"}}],)"
+      R"("meshes":[{"origin":[9,2,0],"positions":"AACAvwAAAMAAAAAAAACAPwAAAMAAAAAAAACAvwAAAEAAAAAA",)"
+      R"("triangles":"AAABAAIA"}]}</script>)");
+  EXPECT_THROW(list.add("[]"), ParseError);
+  EXPECT_THROW((void)list.write("no place"), std::invalid_argument);
+}
+
+TEST(WritePage, LetsNoNameEndTheScript) {
+  const std::string page =
+      write_page(kTemplate, scene_of_one_triangle(), R"({"id":"</script>"})", {});
+  EXPECT_NE(page.find(R"({"id":"\u003c/script>"})"), std::string::npos) << page;
+}
+
+TEST(WritePage, RefusesAPageWithoutAPlace) {
+  EXPECT_THROW((void)write_page("<html>", scene_of_one_triangle(), "{}", {}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact

@@ -1,0 +1,155 @@
+#include <firstcontact/scene_files/write_result.h>
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/scene/version.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
+
+#include "scene/scene_bits.h"
+#include "scene/scene_text.h"
+
+namespace firstcontact {
+namespace {
+
+using detail::find;
+using detail::JsonArray;
+using detail::JsonObject;
+using detail::JsonValue;
+using test::body;
+using test::falling;
+using test::scene;
+
+/// A result and what was written of it.
+struct Written {
+  LoadedScene loaded;
+  SceneResult result;
+  JsonObject json;
+
+  [[nodiscard]] const JsonValue& at(std::string_view key) const {
+    const JsonValue* value = find(json, key);
+    return value != nullptr ? *value : throw std::out_of_range(std::string(key));
+  }
+  [[nodiscard]] double number(std::string_view key) const {
+    return std::get<double>(at(key).value);
+  }
+  [[nodiscard]] std::string text(std::string_view key) const {
+    return std::get<std::string>(at(key).value);
+  }
+  [[nodiscard]] bool is_null(std::string_view key) const {
+    return std::holds_alternative<detail::JsonNull>(at(key).value);
+  }
+};
+
+Written write(const std::string& text, const CheckOptions& check = {},
+              const WriteResultOptions& options = {}) {
+  ShapeCache cache;
+  ManyBodiesWorkspace workspace;
+  Written written{.loaded = load_scene(parse_scene(text, "s"), cache), .result = {}, .json = {}};
+  written.result = check_scene(written.loaded, workspace, check);
+  const std::string line = write_result(written.loaded, written.result, options);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  written.json = std::get<JsonObject>(detail::parse_json(line, "result").value);
+  return written;
+}
+
+const std::string kFall = scene(body("floor") + "," + body("stone", falling("1", "-4")),
+                                R"("id": "fall", "options": {"duration": 0.5})");
+
+TEST(WriteResult, SaysWhenWhoAndWhere) {
+  const Written fall = write(kFall);
+  EXPECT_EQ(fall.text("id"), "fall");
+  EXPECT_EQ(fall.text("verdict"), "contact");
+  EXPECT_TRUE(fall.is_null("reason"));
+  EXPECT_EQ(fall.number("t"), fall.result.t);
+  EXPECT_EQ(fall.number("t_upper"), fall.result.t);
+  EXPECT_EQ(fall.number("time"), fall.result.t * 0.5);
+  EXPECT_EQ(detail::write_json(fall.at("pair")), R"(["floor","stone"])");
+  EXPECT_EQ(fall.text("version"), version());
+  EXPECT_EQ(fall.text("input_digest"), fall.loaded.input_digest);
+  const auto& contacts = std::get<JsonArray>(fall.at("contacts").value);
+  ASSERT_EQ(contacts.size(), fall.result.pairs[0].first_contact.contacts.size());
+  const auto& contact = std::get<JsonObject>(contacts[0].value);
+  EXPECT_EQ(detail::write_json(*find(contact, "normal")), "[0,0,1]");
+  // 4 m in half a second, closing.
+  EXPECT_EQ(std::get<double>(find(contact, "normal_velocity")->value), -8.0);
+}
+
+TEST(WriteResult, EmbedsTheResolvedScene) {
+  const Written fall = write(kFall);
+  const Scene embedded = parse_scene(detail::write_json(fall.at("scene")), "s");
+  EXPECT_EQ(test::SceneBits(embedded), test::SceneBits(fall.loaded.scene));
+}
+
+TEST(WriteResult, OfAFreeSceneHasNoPair) {
+  const Written free = write(scene(body("a")));
+  EXPECT_EQ(free.text("verdict"), "free");
+  EXPECT_EQ(free.number("t"), 1.0);
+  EXPECT_TRUE(free.is_null("t_upper"));
+  EXPECT_TRUE(free.is_null("pair"));
+  EXPECT_TRUE(free.is_null("clearance"));  // Infinite: there is no pair.
+  EXPECT_TRUE(std::get<JsonArray>(free.at("contacts").value).empty());
+}
+
+TEST(WriteResult, SaysMoreWhereMoreIsAsked) {
+  const Written plain = write(kFall);
+  for (const char* key : {"closest", "pairs", "sampling", "tolerance_used"}) {
+    EXPECT_EQ(find(plain.json, key), nullptr) << key;
+  }
+  const SamplingReport sampling{.rate = 240, .samples = 2, .in_contact = 1, .least = GapSample{}};
+  const Written full = write(kFall, {.closest = true}, {.all_pairs = true, .sampling = sampling});
+  EXPECT_EQ(std::get<JsonArray>(full.at("pairs").value).size(), 1u);
+  EXPECT_LE(
+      std::get<double>(find(std::get<JsonObject>(full.at("closest").value), "distance")->value),
+      1e-6);
+  EXPECT_EQ(detail::write_json(full.at("sampling")),
+            R"({"rate":240,"samples":2,"in_contact":1,"least_distance":0,"time":0})");
+}
+
+TEST(WriteResult, IsTheSameOnEveryRun) {
+  ShapeCache cache;
+  const LoadedScene loaded = load_scene(parse_scene(kFall, "s"), cache);
+  ManyBodiesWorkspace first;
+  ManyBodiesWorkspace second;
+  EXPECT_EQ(write_result(loaded, check_scene(loaded, first)),
+            write_result(loaded, check_scene(loaded, second)));
+}
+
+TEST(WriteError, NamesThePlace) {
+  EXPECT_EQ(write_error("x", "scenes.jsonl", 3, "scenes.jsonl:3: no \"bodies\""),
+            R"({"id":"x","file":"scenes.jsonl","line":3,"error":"scenes.jsonl:3: no \"bodies\""})");
+  EXPECT_EQ(write_error("", "a.json", {}, "m"), R"({"id":"","file":"a.json","error":"m"})");
+}
+
+TEST(LoadScene, NamesAllThatWasReadByOneDigest) {
+  ShapeCache cache;
+  const auto digest = [&](const std::string& text) {
+    return load_scene(parse_scene(text, "s"), cache).input_digest;
+  };
+  EXPECT_EQ(digest(kFall), digest(kFall));
+  EXPECT_NE(digest(kFall), digest(kFall + " "));
+}
+
+TEST(WriteResult, StatesTheEnclosureErrorOfCurvedBodies) {
+  const std::string cylinder = R"({"cylinder": {"radius": 1, "length": 1}})";
+  const auto named = [&](const std::string& name) {
+    return R"({"name": ")" + name + R"(", "shape": )" + cylinder + "}";
+  };
+  const Written pair =
+      write(scene(named("a") + "," + named("b")), {}, {.all_pairs = true, .sampling = {}});
+  const double both = 2.0 * make_cylinder(1.0, 1.0).enclosure_error();
+  EXPECT_GT(both, 0.0);
+  EXPECT_EQ(pair.number("enclosure_error"), both);
+  const auto& of_pair = std::get<JsonObject>(std::get<JsonArray>(pair.at("pairs").value)[0].value);
+  EXPECT_EQ(std::get<double>(find(of_pair, "enclosure_error")->value), both);
+  EXPECT_EQ(write(scene(named("a") + "," + body("b"))).number("enclosure_error"), 0.5 * both);
+  EXPECT_EQ(find(write(kFall).json, "enclosure_error"), nullptr);
+}
+
+}  // namespace
+}  // namespace firstcontact

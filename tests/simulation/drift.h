@@ -1,0 +1,55 @@
+/// @file
+/// How far the bodies of a simulation get from where they began.
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_run.h"
+
+namespace firstcontact::test {
+
+/// [m]  At which the bodies of structures rest; they are put there.
+inline constexpr double kGap = 1e-5;
+
+struct Drift {
+  double moved = 0.0;      ///< [m]  The farthest that a centre of mass got.
+  double turned = 0.0;     ///< [rad]
+  double time_lost = 0.0;  ///< [s]
+};
+
+/// Simulates for a duration [s], and verifies.
+inline Drift drift(Simulator& simulator, double duration) {
+  const RunHeader& header = simulator.header();
+  const std::vector<RigidState> begin = simulator.states();
+  const std::vector<RunStep> steps = run(
+      simulator, static_cast<std::size_t>(std::lround(duration / header.scene.simulation->step)));
+  Drift drift;
+  for (const RunStep& step : steps) {
+    drift.time_lost += step.time_lost;
+  }
+  for (std::size_t b = 0; b < begin.size(); ++b) {
+    const Pose& from = begin[b].X_WB;
+    const Pose& to = simulator.states()[b].X_WB;
+    const Eigen::Vector3d& p_BC = header.centres_of_mass[b];
+    const Eigen::Vector3d way =
+        to.position + to.rotation * p_BC - (from.position + from.rotation * p_BC);
+    drift.moved = std::max(drift.moved, way.norm());
+    drift.turned = std::max(drift.turned, to.rotation.angularDistance(from.rotation));
+  }
+  EXPECT_EQ(verify(header, steps).verdict, RunVerdict::proven);
+  return drift;
+}
+
+/// What stands moves by less than a tenth of its gaps.
+inline void expect_rest(const Drift& drift) {
+  EXPECT_EQ(drift.time_lost, 0.0);
+  EXPECT_LE(drift.moved, 0.1 * kGap);
+  EXPECT_LE(drift.turned, 1e-5);
+}
+
+}  // namespace firstcontact::test

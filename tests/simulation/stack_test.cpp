@@ -1,0 +1,93 @@
+// Stacks and houses of cards: what friction and weight hold together stands.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "simulation/drift.h"
+
+namespace firstcontact::test {
+namespace {
+
+// --- Blocks --------------------------------------------------------------------------------------
+
+/// Blocks on top of each other, each that much farther along x than the one below.
+Simulator stack(int count, double shift) {
+  std::string bodies = kFloor;
+  for (int k = 0; k < count; ++k) {
+    bodies += "," + body("block " + std::to_string(k), box("[0.2, 0.2, 0.1]"),
+                         numbers({k * shift, 0.0, 0.05 + kGap + k * (0.1 + kGap)}),
+                         R"(, "dynamics": {})");
+  }
+  return simulator(bodies, settings(0.01, 0.5, kGap));
+}
+
+TEST(Stack, OfFiveBlocksStands) {
+  Simulator s = stack(5, 0.0);
+  expect_rest(drift(s, 2.0));
+}
+
+TEST(Stack, OfTenBlocksStands) {
+  Simulator s = stack(10, 0.0);
+  expect_rest(drift(s, 2.0));
+}
+
+// Of five blocks the four upper ones overhang by 5/2 shifts at most: beyond half a block they tip.
+TEST(Stack, TipsWhereItsWeightIsBesideItsBase) {
+  Simulator leaning = stack(5, 0.0399);
+  expect_rest(drift(leaning, 1.0));
+  Simulator tipping = stack(5, 0.041);
+  EXPECT_GE(drift(tipping, 0.3).moved, 1e-3);
+}
+
+// --- Cards ---------------------------------------------------------------------------------------
+
+constexpr double kLong = 0.09;   // [m]
+constexpr double kWide = 0.06;   // [m]
+constexpr double kThick = 1e-3;  // [m]
+constexpr double kLean = 25.0 * std::numbers::pi / 180.0;
+const double kTentHeight = kGap + kLong * std::cos(kLean) + kThick * std::sin(kLean);  // [m]
+
+/// Two cards that lean against each other above x, their feet at this height.
+std::string tent(const std::string& name, double x, double foot) {
+  const double aside = 0.5 * (kGap + kLong * std::sin(kLean) + kThick * std::cos(kLean));
+  const double z = foot + kGap + 0.5 * (kLong * std::cos(kLean) + kThick * std::sin(kLean));
+  std::string bodies;
+  for (const int side : {-1, 1}) {
+    bodies += R"(, {"name": ")" + name + (side < 0 ? " left" : " right") + R"(", "shape": )" +
+              box(numbers({kThick, kWide, kLong})) + R"(, "pose": {"position": )" +
+              numbers({x + side * aside, 0.0, z}) + R"(, "rpy": )" +
+              numbers({0.0, -side * kLean, 0.0}) + R"(}, "dynamics": {"density": 700}})";
+  }
+  return bodies;
+}
+
+TEST(Cards, TentStands) {
+  Simulator s = simulator(kFloor + tent("a", 0.0, 0.0), settings(0.005, 0.7, kGap));
+  expect_rest(drift(s, 2.0));
+}
+
+// A card's weight acts halfway up: half of it, times the tangent, pushes each foot outwards.
+TEST(Cards, TentFallsWithLessFrictionThanItLeans) {
+  const double needed = 0.5 * std::tan(kLean);
+  Simulator rough = simulator(kFloor + tent("a", 0.0, 0.0), settings(0.005, 1.05 * needed, kGap));
+  expect_rest(drift(rough, 1.0));
+  Simulator smooth = simulator(kFloor + tent("a", 0.0, 0.0), settings(0.005, 0.9 * needed, kGap));
+  EXPECT_GE(drift(smooth, 0.4).moved, 1e-3);
+}
+
+TEST(Cards, HouseOfTwoStoreysStands) {
+  const double apart = kLong * std::sin(kLean) + kThick + 1e-3;
+  const std::string ceiling = "," + body("ceiling", box(numbers({kLong, kWide, kThick})),
+                                         numbers({0.0, 0.0, kTentHeight + kGap + 0.5 * kThick}),
+                                         R"(, "dynamics": {"density": 700})");
+  Simulator s = simulator(kFloor + tent("a", -apart, 0.0) + tent("b", apart, 0.0) + ceiling +
+                              tent("c", 0.0, kTentHeight + kGap + kThick),
+                          settings(0.005, 0.7, kGap));
+  expect_rest(drift(s, 2.0));
+}
+
+}  // namespace
+}  // namespace firstcontact::test
