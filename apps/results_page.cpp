@@ -8,9 +8,9 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/page/write_page.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/read_result.h>
-#include <firstcontact/scene/write_page.h>
+#include <firstcontact/scene_files/read_result.h>
 
 #include "atomic_file.h"
 #include "terminal_text.h"
