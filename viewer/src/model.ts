@@ -26,6 +26,7 @@ export interface Part {
   readonly mesh: MeshData;
   readonly pose: Pose; ///< In the body.
   readonly radius: number; ///< [m] By which its triangles are thickened.
+  readonly color: string | null; ///< That it looks like, if its file says so.
   readonly to: readonly Vector3[] | null; ///< Where its vertices end, in the world, if it deforms.
 }
 
@@ -85,7 +86,7 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
     label: data.name,
     robot: null,
     kind: kinds[motion?.type ?? "fixed"] ?? "",
-    parts: [{ mesh, pose: identity, radius: radiusOf(data), to }],
+    parts: [{ mesh, pose: identity, radius: radiusOf(data), color: null, to }],
     looks: null,
     motion: motionOf(data, duration),
     atRest: isAtRest(data),
@@ -131,12 +132,16 @@ function linkMotion(robot: RobotData, link: number) {
   };
 }
 
+const cssColor = (color: Vector3): string =>
+  `rgb(${color.map((share) => Math.round(255 * share)).join(" ")})`;
+
 function linksOf(robot: RobotData, index: number, first: number, meshes: readonly MeshData[]) {
   const motions = linkMotions(robot);
-  const part = ({ mesh, pose, radius = 0 }: GeometryData): Part => ({
+  const part = ({ mesh, pose, radius = 0, color }: GeometryData): Part => ({
     mesh: meshes[mesh]!,
     pose: poseOf(pose),
     radius,
+    color: color ? cssColor(color) : null,
     to: null,
   });
   return robot.links.map(({ name, collision, visual = [] }, link): Body => ({
@@ -297,9 +302,11 @@ export class Model {
     return parts.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
   }
 
-  /// Whether any link looks different from what was tested.
+  /// Whether any link looks different from what was tested, or has a colour of its own.
   get hasLooks(): boolean {
-    return this.bodies.some(({ looks }) => looks !== null);
+    return this.bodies.some(
+      ({ parts, looks }) => looks !== null || parts.some(({ color }) => color !== null),
+    );
   }
 
   body(name: string): Body {

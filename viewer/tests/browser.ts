@@ -184,6 +184,7 @@ interface SurfaceOfPage {
   position: { toArray(): number[] };
   material: {
     opacity: number;
+    color: { getHexString(): string };
     clippingPlanes: { normal: { toArray(): number[] }; constant: number }[];
   };
   /// As drawn: deformed.

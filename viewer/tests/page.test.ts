@@ -86,7 +86,7 @@ const armUrdf = `<robot name="arm"><link name="base"/>
   <link name="bar">
     <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
     <visual><origin xyz="0.5 0 0"/><geometry><cylinder radius="0.03" length="0.1"/></geometry></visual>
-    <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+    <visual><geometry><box size="0.2 0.2 0.2"/></geometry><material name="m"><color rgba="1 0 0.5 1"/></material></visual>
   </link>
   <link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
   <joint name="elbow" type="revolute"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
@@ -517,6 +517,14 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await shown()).toEqual([[1, 0], [1, 0], [0, 0], [0, 2], [1, 0]]); // prettier-ignore
     await page.keyboard.press("v");
     expect(await button.getAttribute("aria-pressed")).toBe("false");
+    const color = () =>
+      page.evaluate(() => {
+        const { color: shown } = window.firstcontact.view.bodies[3]!.looks[1]!.surface.material;
+        return shown.getHexString();
+      });
+    expect(await color()).not.toBe("ff0080");
+    await button.click();
+    expect(await color()).toBe("ff0080"); // As the URDF says.
     const plain = await show(peg);
     expect(await plain.getByRole("button", { name: /collision geometry/ }).count()).toBe(0);
   });

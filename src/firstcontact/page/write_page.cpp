@@ -74,7 +74,13 @@ JsonObject look_of(const LoadedScene& loaded) {
   JsonObject view{{"bodies", {.value = meshes_of_bodies(loaded, meshes)}}};
   if (loaded.robots) {
     std::vector<std::string> warnings;
-    view.push_back({"robots", {.value = detail::robots_of_page(*loaded.robots, meshes, warnings)}});
+    std::vector<detail::UrdfColors> colors;
+    for (const SceneRobot& robot : loaded.scene.robots) {
+      colors.push_back(detail::read_urdf_colors(robot.file.urdf));
+    }
+    colors.resize(loaded.robots->robot_count());  // A scene may have robots of no file.
+    view.push_back(
+        {"robots", {.value = detail::robots_of_page(*loaded.robots, colors, meshes, warnings)}});
     view.push_back({"carried", {.value = detail::carried_of_page(*loaded.robots)}});
     view.push_back({"warnings", to_json(warnings)});
   }

@@ -90,7 +90,12 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
   const row = (pair: PairAnswer): HTMLElement => {
     const [, ...others] = columns.map(({ text }) => text(pair, model));
     const title = `Look at ${pair.pair.join(" and ")}`;
-    const button = element("button.row-name", { type: "button", title }, namesOf(pair.pair));
+    const label = pair.pair.map((name) => model.shortName(name)).join(" · ");
+    const button = element(
+      "button.row-name",
+      { type: "button", title, "aria-label": label },
+      namesOf(pair.pair),
+    );
     button.addEventListener("click", () => focus(pair));
     return element(
       "tr",

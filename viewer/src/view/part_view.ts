@@ -60,6 +60,8 @@ export function deform(part: Object3D, t: number): void {
   }
 }
 
+const edgeColor = (color: string): Color => new Color(color).multiplyScalar(0.32);
+
 function surfaceMaterial(color: string, flatShading: boolean): MeshPhongMaterial {
   const material = new MeshPhongMaterial({
     color,
@@ -101,6 +103,7 @@ export class PartView {
   readonly group = new Group();
   readonly surface: Surface;
   private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
+  private shownColor: string;
   private style: Style = {
     wireframe: false,
     xray: false,
@@ -123,8 +126,13 @@ export class PartView {
         : new Mesh(geometry, surfaceMaterial(color, kind === "triangles"));
     this.surface.position.set(...origin);
     this.surface.userData = { body, part };
+    this.shownColor = color;
     setPose(this.group, part.pose);
     this.group.add(this.surface);
+  }
+
+  get drawnColor(): string {
+    return this.shownColor;
   }
 
   get shown(): boolean {
@@ -143,7 +151,7 @@ export class PartView {
 
   /// The edges take a while to find: they come after the first picture.
   setEdges(geometry: BufferGeometry): void {
-    const color = new Color(this.color).multiplyScalar(0.32);
+    const color = edgeColor(this.shownColor);
     this.edges = new LineSegments(
       geometry,
       new LineBasicMaterial({ color, transparent: true, opacity: edgeOpacity }),
@@ -151,6 +159,13 @@ export class PartView {
     this.edges.position.copy(this.surface.position);
     this.group.add(this.edges);
     this.restyle();
+  }
+
+  /// The colour that the piece looks like, if it has one, or that of its body.
+  setOwnColor(own: boolean): void {
+    this.shownColor = (own ? this.part.color : null) ?? this.color;
+    this.surface.material.color.set(this.shownColor);
+    this.edges?.material.color.copy(edgeColor(this.shownColor));
   }
 
   setStyle(style: Style): void {
@@ -180,7 +195,7 @@ export class PartView {
   /// A faint copy of the piece. It cannot be clicked.
   ghost(t: number, opacity: number): Group {
     const look = {
-      color: this.color,
+      color: this.shownColor,
       transparent: true,
       opacity,
       depthWrite: false,
@@ -192,7 +207,9 @@ export class PartView {
         ? [
             new Points(
               geometry,
-              Object.assign(this.surface.material.clone(), look, { color: new Color(this.color) }),
+              Object.assign(this.surface.material.clone(), look, {
+                color: new Color(this.shownColor),
+              }),
             ),
           ]
         : [new Mesh(geometry, new MeshBasicMaterial({ ...look, side: DoubleSide }))];
