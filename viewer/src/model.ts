@@ -133,7 +133,7 @@ function linkMotion(robot: RobotData, link: number) {
 }
 
 const cssColor = (color: Vector3): string =>
-  `rgb(${color.map((share) => Math.round(255 * share)).join(" ")})`;
+  `rgb(${color.map((share) => Math.round(255 * share)).join(",")})`; // As three reads it.
 
 function linksOf(robot: RobotData, index: number, first: number, meshes: readonly MeshData[]) {
   const motions = linkMotions(robot);
