@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -25,9 +27,11 @@
 #include "progress.h"
 #include "question_options.h"
 #include "results_file.h"
+#include "results_page.h"
 #include "scene_answer.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -43,6 +47,7 @@ struct Shard {
 struct Arguments {
   std::string jobs;
   std::string results;
+  std::string page;
   std::size_t threads = 0;  // As many as there are processors.
   Shard shard;
   bool resume = false;
@@ -137,6 +142,11 @@ class Batch {
       throw ParseError(arguments_.jobs, "changed while its scenes were answered");
     }
     say(tally_.summary(seconds()));
+    if (!arguments_.page.empty() && !interrupt_.token().stop_requested()) {
+      say(write_results_page(arguments_.results, arguments_.page, question.reading(),
+                             interrupt_.token(),
+                             [this](std::string text) { progress_.doing(std::move(text)); }));
+    }
     flush_stdout();
     return tally_.status();
   }
@@ -144,8 +154,14 @@ class Batch {
  private:
   /// Nobody wants the results in the place of the jobs.
   ResultsFile open_results() const {
-    require_no_input({{"-o", arguments_.results}, {"-o", arguments_.results + ".batch"}},
-                     {arguments_.jobs});
+    const std::vector<OutputFile> outputs{{"-o", arguments_.results},
+                                          {"-o", arguments_.results + ".batch"},
+                                          {"--html", arguments_.page}};
+    require_different(outputs);
+    require_no_input(outputs, {arguments_.jobs});
+    if (!arguments_.page.empty()) {
+      (void)viewer_page();  // Without the viewer all would be answered, and no page made.
+    }
     return {arguments_.results, origin_of(arguments_, survey_), arguments_.resume};
   }
 
@@ -233,6 +249,8 @@ void add_batch_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "-o,--output", arguments->results, "Where the results go, one in each line")
       ->required()
       ->type_name("RESULTS");
+  add_file(*command, "--html", arguments->page,
+           "Makes a page that lists the results and plays each");
   command->add_flag("--resume", arguments->resume, "Goes on with the results that are there");
   add_count(*command, "--threads", arguments->threads, "In place of one for each processor");
   command

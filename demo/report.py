@@ -14,41 +14,9 @@ import sys
 
 UNITS = (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9))
 
-PAGE = """<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>firstcontact: demo</title>
-<style>
-  body {{ font: 16px/1.5 Helvetica, Arial, sans-serif; color: #222; max-width: 860px; margin: 2em auto; padding: 0 1em; }}
-  h2 {{ margin: 2.5em 0 .3em; font-size: 1.2em; }}
-  img {{ width: 100%; border: 1px solid #dde3e7; }}
-  pre {{ background: #f5f7f8; padding: .8em 1em; overflow-x: auto; font-size: 13px; line-height: 1.45; }}
-  table {{ border-collapse: collapse; font-size: 14px; }}
-  td, th {{ text-align: left; padding: .25em 1em .25em 0; border-bottom: 1px solid #dde3e7; vertical-align: top; }}
-  .free {{ color: #2e7d32; font-weight: bold; }}
-  .contact {{ color: #c0392b; font-weight: bold; }}
-</style>
-<h1>When do they touch for the first time?</h1>
-<p>Green is proven free of contact, for every instant and not only for those that are drawn. The curve is the least
-distance of any two bodies at single instants; it goes on after a contact, as if nothing stopped the bodies.</p>
-{table}
-{sections}
-</html>
-"""
-
-SECTION = """<h2 id="{name}">{title}</h2>
-<img src="{name}.svg" alt="The gap over time. {title}: {verdict}">
-<pre>{text}</pre>
-<p><a href="{name}.html">Play it</a> · <a href="{name}.json">{name}.json</a></p>
-"""
-
-SIMULATION = """<h2 id="{name}">{title}</h2>
-<pre>{text}</pre>
-<p>{links}</p>
-"""
-
 COLUMNS = ("scene", "answer", "time", "triangles", "normal", "least gap")
+
+WORDS = {"free": "Free", "contact": "Contact", "contact_at_start": "In contact at the start", "undecided": "Undecided"}
 
 
 def length(metres: float) -> str:
@@ -85,44 +53,86 @@ def terminal_table(rows: list) -> str:
     return "\n".join([lines[0], "-" * max(map(len, lines)), *lines[1:]])
 
 
-def html_table(names: list, rows: list) -> str:
-    head = "".join(f"<th>{column}</th>" for column in COLUMNS)
-    body = ""
-    for name, (title, verdict, *others) in zip(names, rows):
-        cells = "".join(f"<td>{html.escape(cell)}</td>" for cell in others)
-        body += (f'<tr><td><a href="#{name}">{html.escape(title)}</a></td>'
-                 f'<td class="{verdict}">{verdict}</td>{cells}</tr>\n')
-    return f"<table>\n<tr>{head}</tr>\n{body}</table>"
+def plural(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def section(folder: pathlib.Path, name: str, result: dict) -> str:
-    text = (folder / f"{name}.txt").read_text(encoding="utf-8")
-    return SECTION.format(name=name, title=html.escape(result["id"]), verdict=result["verdict"],
-                          text=html.escape(text.strip()))
+def fact(result: dict) -> str:
+    """What there is to know beside the verdict, in a line."""
+    _, verdict, _, _, _, least_gap = row(result)
+    if verdict == "free":
+        return f"apart by {least_gap}" if least_gap.startswith(">") else f"closest {least_gap}" if least_gap else ""
+    pair = " and ".join(result["pair"]) + " at " if result["pair"] else "after "
+    return f"{pair}{result['time']:.4g} s"
 
 
-def simulation_section(folder: pathlib.Path, name: str) -> str:
+def of_result(folder: pathlib.Path, name: str, result: dict) -> dict:
+    """What the card of a scene says."""
+    has_plot = (folder / f"{name}.svg").exists()
+    return {"name": name, "title": result["id"], "kind": result["verdict"], "word": WORDS[result["verdict"]],
+            "fact": fact(result), "tested": result["pair_counts"]["tested"],
+            "warnings": len(result.get("warnings", [])), "data": f"{name}.json",
+            "plot": f"{name}.svg" if has_plot else ""}
+
+
+def of_simulation(folder: pathlib.Path, name: str, text: str) -> dict:
     with open(folder / f"{name}.jsonl", encoding="utf-8") as run:
         title = json.loads(run.readline())["scene"]["id"]
-    text = (folder / f"{name}.txt").read_text(encoding="utf-8")
-    page = f'<a href="{name}.html">Play it</a> · ' if (folder / f"{name}.html").exists() else ""
-    return SIMULATION.format(name=name, title=html.escape(title), text=html.escape(text.strip()),
-                             links=f'{page}<a href="{name}.jsonl">{name}.jsonl</a>')
+        last = None
+        steps = 0
+        for line in run:
+            steps += 1
+            last = line
+    seconds = json.loads(last)["time"] if last else 0.0
+    proven = "jsonl: proven: " in text
+    tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
+    return {"name": name, "title": title, "kind": "free" if proven else "undecided",
+            "word": "Simulated, verified" if proven else "Simulated", "fact": f"{plural(steps, 'step')}, {seconds:.3g} s",
+            "tested": int(tested) if tested else None, "warnings": text.count("warning:"), "data": f"{name}.jsonl",
+            "plot": ""}
+
+
+def card(folder: pathlib.Path, facts: dict, text: str) -> str:
+    name = facts["name"]
+    title = html.escape(facts["title"])
+    playable = (folder / f"{name}.html").exists()
+    plot = f'<img class="plot" src="{facts["plot"]}" alt="">' if facts["plot"] else ""
+    picture = f'<span class="picture" data-page="{name}.html">{plot}</span>' if playable else plot
+    top = f'<a href="{name}.html" title="Play {title}">{picture}</a>' if playable else picture
+    worth = [plural(facts["tested"], "pair") + " tested"] if facts["tested"] is not None else []
+    worth += [f'<em>⚠ {plural(facts["warnings"], "warning")}</em>'] if facts["warnings"] else []
+    links = [f'<a href="{name}.html">Play</a>'] if playable else []
+    links += [f'<a href="{facts["plot"]}">Gap over time</a>'] if facts["plot"] else []
+    links += [f'<a href="{facts["data"]}">{facts["data"]}</a>']
+    return f"""<article id="{name}" data-kind="{facts["kind"]}">
+{top}
+<div class="words">
+<h3>{title}</h3>
+<p><strong>{facts["word"]}</strong> {html.escape(facts["fact"])}</p>
+<p class="worth">{" · ".join(worth)}</p>
+<p>{" · ".join(links)}</p>
+<details><summary>What the tool says</summary><pre>{html.escape(text.strip())}</pre></details>
+</div>
+</article>"""
 
 
 def main(folder: pathlib.Path, names: list, simulations: list) -> int:
     names = [name for name in names if (folder / f"{name}.json").exists()]
     results = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in names]
-    rows = [row(result) for result in results]
-    print(terminal_table(rows) + "\n")
+    print(terminal_table([row(result) for result in results]) + "\n")
     for result in results:
         if "sampling" in result:
             print(sampling_note(result))
-    sections = "".join(section(folder, name, result) for name, result in zip(names, results))
-    sections += "".join(simulation_section(folder, name) for name in simulations
-                        if (folder / f"{name}.jsonl").exists())
-    (folder / "index.html").write_text(PAGE.format(table=html_table(names, rows), sections=sections),
-                                       encoding="utf-8")
+
+    def said(name: str) -> str:
+        return (folder / f"{name}.txt").read_text(encoding="utf-8")
+
+    scenes = [card(folder, of_result(folder, name, result), said(name)) for name, result in zip(names, results)]
+    runs = [card(folder, of_simulation(folder, name, said(name)), said(name)) for name in simulations
+            if (folder / f"{name}.jsonl").exists()]
+    page = (pathlib.Path(__file__).parent / "index_template.html").read_text(encoding="utf-8")
+    (folder / "index.html").write_text(page.replace("<!-- scenes -->", "\n".join(scenes))
+                                           .replace("<!-- simulations -->", "\n".join(runs)), encoding="utf-8")
     print(f"\nPlots and results: {folder / 'index.html'}")
     return 0
 

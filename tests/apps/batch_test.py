@@ -301,6 +301,49 @@ class Resume(BatchTest):
         self.assertEqual([json.loads(line)["line"] for line in self.results().splitlines()], [2, 4])
 
 
+class Page(BatchTest):
+    """The page that lists the results."""
+
+    def setUp(self):
+        super().setUp()
+        self.template = pathlib.Path(tool_test.TOOL).resolve().parent.parent / "share/firstcontact/viewer.html"
+        self.file("jobs.jsonl", "".join(line + "\n" for line in (scenes.CONTACT, scenes.BAD, scenes.FREE)))
+
+    def test_has_every_result_and_each_mesh_once(self):
+        if not self.template.exists():
+            self.skipTest("the viewer's page is not built")
+        result = self.batch("--html", "list.html")
+        self.assertEqual(result.returncode, 2, result)
+        self.assertTrue(result.stdout.endswith("page of 3 results, 2 to be played: list.html\n"), result)
+        self.assert_list()
+        (self.folder / "list.html").unlink()
+        result = self.batch("--resume", "--html", "list.html")  # Nothing is left to be answered.
+        self.assertEqual(result.returncode, 2, result)
+        self.assert_list()
+
+    def assert_list(self):
+        text = (self.folder / "list.html").read_text(encoding="utf-8")
+        data = json.loads(text.split('type="application/json">', 1)[1].split("</script>", 1)[0])
+        lines = [json.loads(line) for line in self.results().splitlines()]
+        self.assertEqual([data["list"][k]["result"] for k in (0, 2)], [lines[0], lines[2]])
+        self.assertEqual(data["list"][1], {"summary": {key: lines[1][key] for key in data["list"][1]["summary"]}})
+        self.assertEqual(data["list"][1]["summary"]["error"], lines[1]["error"])
+        self.assertEqual(len(data["meshes"]), 1)  # All bodies have the same triangle.
+
+    def test_is_neither_the_results_nor_the_jobs(self):
+        for page, why in (("out.jsonl", "the file of -o"), ("jobs.jsonl", "an input, jobs.jsonl")):
+            self.assert_refused(self.batch("--html", page), f"--html {page}: this would overwrite {why}")
+        self.assertFalse((self.folder / "out.jsonl").exists())
+
+    def test_is_missed_before_any_work(self):
+        if self.template.exists():
+            self.skipTest("the viewer's page is built")
+        result = self.batch("--html", "list.html")
+        self.assertEqual(result.returncode, 2, result)
+        self.assertIn("the viewer's page is missing here", result.stderr)
+        self.assertFalse((self.folder / "out.jsonl").exists())
+
+
 class Files(BatchTest):
     def test_that_cannot_be_used_are_said_so(self):
         self.file("jobs.jsonl", scenes.FREE)

@@ -930,7 +930,7 @@ class OutputFile(ToolTest):
         """An empty one is a shell's variable that is not set."""
         scene = self.file("s.json", scenes.FREE)
         for command, options in (("check", ["-o", "--svg", "--gap", "--html", "--robot", "--trajectory"]),
-                                 ("simulate", ["-o", "--html"]), ("view", ["-o"]), ("batch", ["-o"])):
+                                 ("simulate", ["-o", "--html"]), ("view", ["-o"]), ("batch", ["-o", "--html"])):
             for option in options:
                 self.assert_refused(self.run_tool(command, scene, option, ""),
                                     f"{option} expects a file, got an empty name")

@@ -2,6 +2,7 @@
 
 #include <firstcontact/page/write_page.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/base64.h>
+#include <firstcontact/text/parse_error.h>
 
 namespace firstcontact {
 namespace {
@@ -51,6 +53,24 @@ TEST(WritePage, HoldsMeshAndGapAndResult) {
             R"("triangles":"AAABAAIA"}],)"
             R"("gap":{"t":[0,0.5],"distance":[1,0.25]},)"
             R"("gap_bound":{"t":[0],"distance":[0.5]}}}</script>)");
+}
+
+TEST(ListPage, HoldsEachMeshOnceAndEachResultWordForWord) {
+  ListPage list;
+  list.add(R"({"id":"a","verdict":"free"})", scene_of_one_triangle());
+  const std::size_t of_one = list.size();
+  list.add(R"({"id":"</b>","verdict":"free"})", scene_of_one_triangle());
+  EXPECT_LT(list.size() - of_one, 100U);  // Its mesh is there.
+  list.add(R"({"line":3,"error":"bad <input>","scene":{}})");
+  EXPECT_EQ(
+      list.write(kTemplate),
+      R"(<script>{"list":[{"result":{"id":"a","verdict":"free"},"view":{"bodies":[0],"meshes":[0]}},)"
+      R"({"result":{"id":"\u003c/b>","verdict":"free"},"view":{"bodies":[0],"meshes":[0]}},)"
+      R"({"summary":{"line":3,"error":"bad \u003cinput>"}}],)"
+      R"("meshes":[{"origin":[9,2,0],"positions":"AACAvwAAAMAAAAAAAACAPwAAAMAAAAAAAACAvwAAAEAAAAAA",)"
+      R"("triangles":"AAABAAIA"}]}</script>)");
+  EXPECT_THROW(list.add("[]"), ParseError);
+  EXPECT_THROW((void)list.write("no place"), std::invalid_argument);
 }
 
 TEST(WritePage, LetsNoNameEndTheScript) {

@@ -2,6 +2,17 @@
 
 import { Signal } from "./core/signal";
 
+/// A plane: what stands before it is not drawn.
+export interface Cut {
+  readonly along: "view" | "x" | "y" | "z";
+  /// How far along, from 0 to 1. Of the view, 0.5 is at the point that the camera looks at.
+  readonly share: number;
+  /// Not drawn is what stands behind it.
+  readonly otherSide: boolean;
+  /// It came with a contact that could not be seen, and goes with it.
+  readonly byItself: boolean;
+}
+
 export class Display {
   readonly wireframe = new Signal(false);
   readonly xray = new Signal(false);
@@ -13,11 +24,13 @@ export class Display {
   readonly forces = new Signal(true);
   /// What links look like, in place of what was tested.
   readonly looks = new Signal(false);
-  /// Cuts away what stands before the point that the camera looks at.
-  readonly cutaway = new Signal(false);
+  /// Where bodies are cut; null where they are whole.
+  readonly cut = new Signal<Cut | null>(null);
   readonly measure = new Signal(false);
   /// Indices of the bodies that are hidden.
   readonly hidden = new Signal<ReadonlySet<number>>(new Set());
+  /// By index of a body, from 0 to 1; 1 of those that are not named.
+  readonly opacities = new Signal<ReadonlyMap<number, number>>(new Map());
 
   setVisible(body: number, visible: boolean): void {
     this.setAllVisible([body], visible);
@@ -27,6 +40,30 @@ export class Display {
     const hidden = new Set(this.hidden.value);
     bodies.forEach((body) => (visible ? hidden.delete(body) : hidden.add(body)));
     this.hidden.value = hidden;
+  }
+
+  setOpacity(bodies: readonly number[], opacity: number): void {
+    this.opacities.value = new Map([
+      ...this.opacities.value,
+      ...bodies.map((body) => [body, opacity] as const),
+    ]);
+  }
+
+  opacityOf(body: number): number {
+    return this.opacities.value.get(body) ?? 1;
+  }
+
+  /// What stands before the point that is looked at is cut away, or all is whole again.
+  toggleCut(): void {
+    const first: Cut = { along: "view", share: 0.5, otherSide: false, byItself: false };
+    this.cut.value = this.cut.value ? null : first;
+  }
+
+  /// Ends a cut that came with a contact; one that was asked for stays.
+  endOwnCut(): void {
+    if (this.cut.value?.byItself) {
+      this.cut.value = null;
+    }
   }
 
   isVisible(body: number): boolean {

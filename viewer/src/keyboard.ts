@@ -8,10 +8,14 @@ const flip = (signal: Signal<boolean>): void => {
   signal.value = !signal.value;
 };
 
-function isTyping(target: EventTarget | null): boolean {
-  return target instanceof HTMLInputElement
-    ? target.type !== "range"
-    : target instanceof HTMLSelectElement;
+const ofRanges = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"];
+
+/// Whether a key belongs to what has the focus. Time goes by the same keys on its own slider.
+function isTyping(target: EventTarget | null, key: string): boolean {
+  if (target instanceof HTMLInputElement && target.type === "range") {
+    return ofRanges.includes(key) && !target.closest(".slider");
+  }
+  return target instanceof HTMLInputElement || target instanceof HTMLSelectElement;
 }
 
 export function listenToKeys(model: Model, { player, display, commands }: Commands): void {
@@ -23,7 +27,7 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     f: commands.fit,
     w: () => flip(display.wireframe),
     x: () => flip(display.xray),
-    k: () => flip(display.cutaway),
+    k: () => display.toggleCut(),
     e: () => flip(display.edges),
     g: () => flip(display.ghosts),
     o: () => flip(display.onion),
@@ -32,6 +36,9 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     v: () => model.hasLooks && flip(display.looks),
     m: () => flip(display.measure),
     l: () => flip(player.loop),
+    "+": () => player.window.zoom(player.t.value, 2),
+    "-": () => player.window.zoom(player.t.value, 0.5),
+    "0": () => player.window.showAll(),
     s: commands.savePicture,
     t: commands.switchTheme,
     p: commands.togglePanel,
@@ -42,7 +49,7 @@ export function listenToKeys(model: Model, { player, display, commands }: Comman
     Number(/^(?:Digit|Numpad)([1-9])$/.exec(code)?.[1]);
 
   document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) {
+    if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target, event.key)) {
       return;
     }
     // A button that has the focus is pressed by these keys, as everywhere.

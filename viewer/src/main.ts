@@ -2,14 +2,16 @@
 
 import "./style.css";
 import type { Commands } from "./commands";
-import { element } from "./core/dom";
+import { element, iconButton } from "./core/dom";
+import { icons } from "./core/icons";
 import { Signal } from "./core/signal";
 import { readPageData } from "./data/page_data";
+import { readResultList, type ResultList } from "./data/result_list";
 import { Display } from "./display";
 import { download, fileName } from "./export/download";
 import { animationOf } from "./export/glb";
 import { listenToKeys } from "./keyboard";
-import { linkMoments, momentOf } from "./link";
+import { linkMoments, momentOf, resultLink, resultOf } from "./link";
 import { isDrawn, Model, type Coordinate } from "./model";
 import { bodiesPanel } from "./panels/bodies";
 import { contactsPanel } from "./panels/contacts";
@@ -19,6 +21,7 @@ import { jointContent } from "./panels/joint_chart";
 import { jointsPanel } from "./panels/joints";
 import { pairsPanel } from "./panels/pairs";
 import { probePanel } from "./panels/probe";
+import { resultTable } from "./panels/result_table";
 import { runPanel } from "./panels/run";
 import { runCharts, runChartsPanel, type RunChart } from "./panels/run_charts";
 import { stepContactsPanel, stepPanel } from "./panels/step";
@@ -27,7 +30,9 @@ import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
 import { transport } from "./panels/transport";
 import { filesPanel } from "./panels/files";
+import { verdictBadge } from "./panels/verdict";
 import { warningsPanel } from "./panels/warnings";
+import { sendPicture, wantsPicture } from "./picture";
 import { Player } from "./player";
 import { Theme } from "./theme";
 import { SceneView } from "./view/scene_view";
@@ -56,7 +61,38 @@ function notice(stage: HTMLElement, text: string): void {
   setTimeout(() => bubble.remove(), 4000);
 }
 
-function start(model: Model): void {
+/// Shows one of several results, with a way back to their list.
+function startOne(list: ResultList, index: number): void {
+  const page = list.pageOf(index)!;
+  document.body.replaceChildren();
+  start(new Model(page), index);
+  const back = iconButton(icons.list, "Back to the list", null, () => {
+    location.hash = "";
+  });
+  const group = element("div.tool-group", { role: "group", "aria-label": "Results" }, back);
+  document.querySelector(".toolbar")!.prepend(group);
+}
+
+function showList(list: ResultList): void {
+  document.title = `${list.summaries.length} results · firstcontact`;
+  new Theme();
+  const table = resultTable(list, (index) => {
+    location.hash = resultLink(index);
+  });
+  document.body.append(table);
+  const go = (): void => {
+    const index = resultOf(location.hash);
+    if (index !== null && list.canPlay(index)) {
+      removeEventListener("hashchange", go);
+      startOne(list, index);
+    }
+  };
+  addEventListener("hashchange", go);
+  go();
+}
+
+/// @param result  the index of the model's, of several
+function start(model: Model, result: number | null = null): void {
   document.title = `${model.title} · firstcontact`;
   const theme = new Theme();
   const display = new Display();
@@ -84,7 +120,7 @@ function start(model: Model): void {
       toContact: () => {
         player.toContact();
         if (firstContact) {
-          view.showContacts(model.contacts);
+          view.showContacts(model.contacts, model.contactTime);
           view.focusContact(firstContact);
         }
       },
@@ -127,6 +163,7 @@ function start(model: Model): void {
   const cards = [
     ...(model.result ? [summaryPanel(model, model.result)] : []),
     ...(model.run ? [runPanel(model, model.run)] : []),
+    warningsPanel(model),
     probePanel(view, display, player),
     ...(model.run
       ? [stepPanel(model.run, player), runChartsPanel(model.run, charts, player, shownChart)]
@@ -136,10 +173,9 @@ function start(model: Model): void {
     jointsPanel(model, player, joint),
     bodiesPanel(model, view, display),
     model.run && stepContactsPanel(model, model.run, view, player),
-    warningsPanel(model),
     filesPanel(model),
   ].filter((card) => card !== null);
-  stage.append(toolbar(model, commands, panelOpen), triad(view));
+  stage.append(toolbar(model, commands, panelOpen), triad(view), verdictBadge(model, panelOpen));
   app.append(element("aside.panel", { "aria-label": "Details" }, ...cards));
   app.append(transport(model, commands, chart.element), help);
   panelOpen.subscribe((open) => app.classList.toggle("panel-open", open));
@@ -151,14 +187,21 @@ function start(model: Model): void {
   setTimeout(() => view.addEdges());
   listenToKeys(model, commands);
   listenToClicks(view);
-  linkMoments(player);
+  linkMoments(player, result);
   // For whoever embeds the page or asks it from the console.
   Object.assign(window, { firstcontact: { model, player, display, view } });
 }
 
 try {
   const text = document.getElementById("firstcontact-data")?.textContent ?? "";
-  start(new Model(readPageData(text)));
+  const list = readResultList(text);
+  if (list) {
+    showList(list);
+  } else if (wantsPicture(location.hash)) {
+    sendPicture(new Model(readPageData(text)));
+  } else {
+    start(new Model(readPageData(text)));
+  }
 } catch (error) {
   document.body.append(
     element("p.failure", { role: "alert" }, error instanceof Error ? error.message : String(error)),

@@ -1,6 +1,15 @@
 /// A result, or a run, made ready to be shown.
 
-import type { BodyData, Contact, Limit, PairAnswer, Result, Vector3 } from "./data/result";
+import type {
+  Answer,
+  BodyData,
+  Contact,
+  Limit,
+  PairAnswer,
+  Result,
+  Turn,
+  Vector3,
+} from "./data/result";
 import type { FileReport, PairCounts } from "./data/reports";
 import type { GapLine, MeshData, PageData } from "./data/page_data";
 import type { GeometryData, RobotData, StretchData } from "./data/robot_data";
@@ -17,6 +26,7 @@ export interface Part {
   readonly mesh: MeshData;
   readonly pose: Pose; ///< In the body.
   readonly radius: number; ///< [m] By which its triangles are thickened.
+  readonly color: string | null; ///< That it looks like, if its file says so.
   readonly to: readonly Vector3[] | null; ///< Where its vertices end, in the world, if it deforms.
 }
 
@@ -50,6 +60,8 @@ export interface Coordinate {
   readonly breaks: readonly number[]; ///< Where its segments end.
   readonly at: (t: number) => number;
   readonly violations: readonly Limit[];
+  /// Which way it went, of a joint that turns without end.
+  readonly turn: Turn | null;
 }
 
 const kinds: Readonly<Record<string, string>> = {
@@ -74,7 +86,7 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
     label: data.name,
     robot: null,
     kind: kinds[motion?.type ?? "fixed"] ?? "",
-    parts: [{ mesh, pose: identity, radius: radiusOf(data), to }],
+    parts: [{ mesh, pose: identity, radius: radiusOf(data), color: null, to }],
     looks: null,
     motion: motionOf(data, duration),
     atRest: isAtRest(data),
@@ -120,12 +132,16 @@ function linkMotion(robot: RobotData, link: number) {
   };
 }
 
+const cssColor = (color: Vector3): string =>
+  `rgb(${color.map((share) => Math.round(255 * share)).join(",")})`; // As three reads it.
+
 function linksOf(robot: RobotData, index: number, first: number, meshes: readonly MeshData[]) {
   const motions = linkMotions(robot);
-  const part = ({ mesh, pose, radius = 0 }: GeometryData): Part => ({
+  const part = ({ mesh, pose, radius = 0, color }: GeometryData): Part => ({
     mesh: meshes[mesh]!,
     pose: poseOf(pose),
     radius,
+    color: color ? cssColor(color) : null,
     to: null,
   });
   return robot.links.map(({ name, collision, visual = [] }, link): Body => ({
@@ -161,7 +177,11 @@ function carried(body: Body, stretches: readonly StretchData[], bodies: readonly
 }
 
 /// Limits belong to the coordinate of a joint that has one.
-function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]): Coordinate[] {
+function coordinatesOf(
+  robot: RobotData,
+  index: number,
+  { limits = [], turns: ways = [] }: Partial<Result>,
+): Coordinate[] {
   return robot.joints.flatMap(({ name: joint, type, limits: own, mimics, coordinates = [] }) =>
     coordinates.map(({ name, segments }, k): Coordinate => {
       const single = coordinates.length === 1;
@@ -178,6 +198,8 @@ function coordinatesOf(robot: RobotData, index: number, limits: readonly Limit[]
         breaks: segments.map(({ until }) => until),
         at: (t) => coordinateAt(segments, t),
         violations: limits.filter((found) => found.robot === robot.name && found.joint === joint),
+        // That of a planar joint has the name of the coordinate.
+        turn: ways.find((way) => way.robot === robot.name && way.joint === name) ?? null,
       };
     }),
   );
@@ -228,9 +250,7 @@ export class Model {
     });
     this.bodies = bodies;
     this.robots = robots.map(({ name }) => name);
-    this.coordinates = robots.flatMap((robot, index) =>
-      coordinatesOf(robot, index, result?.limits ?? []),
-    );
+    this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));
     this.pairs = result?.pairs ?? [];
     this.pairCounts = page.pairCounts;
@@ -255,6 +275,24 @@ export class Model {
     return touch ? this.provenUntil : null;
   }
 
+  /// [m] Lengths of a result are not known better; 0 where nothing is said of it.
+  get grain(): number {
+    const { tolerance_used, enclosure_error = 0, scene } = this.result ?? {};
+    return this.result ? (tolerance_used ?? scene?.options.tolerance ?? 0) + enclosure_error : 0;
+  }
+
+  /// [s] In which the bodies of an answer close its tolerance; 0 where their speed is not known.
+  timeGrain({ contacts }: Answer): number {
+    const speeds = contacts.map(({ normal_velocity }) => Math.abs(normal_velocity ?? 0));
+    const fastest = Math.max(...speeds, 0);
+    return fastest > 0 ? this.grain / fastest : 0;
+  }
+
+  /// t at which something touches for the first time, in a result or a run.
+  get firstTouch(): number | null {
+    return this.run ? this.run.firstTouch : this.contactTime;
+  }
+
   get contacts(): readonly Contact[] {
     return this.result?.contacts ?? [];
   }
@@ -264,9 +302,11 @@ export class Model {
     return parts.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
   }
 
-  /// Whether any link looks different from what was tested.
+  /// Whether any link looks different from what was tested, or has a colour of its own.
   get hasLooks(): boolean {
-    return this.bodies.some(({ looks }) => looks !== null);
+    return this.bodies.some(
+      ({ parts, looks }) => looks !== null || parts.some(({ color }) => color !== null),
+    );
   }
 
   body(name: string): Body {

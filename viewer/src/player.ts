@@ -1,6 +1,7 @@
 /// The clock: which moment is shown, and how it runs.
 
 import { Signal } from "./core/signal";
+import { TimeWindow } from "./time_window";
 
 /// Seconds of the scene for each second of the person who looks.
 export const speeds = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10] as const;
@@ -12,6 +13,8 @@ export class Player {
   readonly playing = new Signal(false);
   readonly speed: Signal<number>;
   readonly loop = new Signal(false);
+  /// What of the time charts show; it follows t.
+  readonly window = new TimeWindow();
 
   /// @param duration   [s] of the scene
   /// @param contact    t of the first contact, where there is one: playing pauses there
@@ -21,6 +24,7 @@ export class Player {
     t = 0,
   ) {
     this.t = new Signal(clamp(t));
+    this.t.subscribe((moment) => this.window.include(moment));
     this.speed = new Signal<number>(
       speeds.reduce((best, speed) =>
         misfit(speed, duration) < misfit(best, duration) ? speed : best,

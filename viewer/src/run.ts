@@ -5,6 +5,14 @@ import type { RunContactsData, RunData, StepData } from "./data/run_data";
 import { scale } from "./motion/vector";
 import { firstNotLess } from "./motion/way";
 
+/// An impact at its moment.
+export interface RunImpact {
+  readonly t: number;
+  readonly bodies: readonly [number, number];
+  readonly point: Vector3;
+  readonly impulse: Vector3; ///< [N s] On the second body.
+}
+
 export interface RunContact {
   readonly bodies: readonly [number, number];
   readonly point: Vector3;
@@ -28,6 +36,9 @@ export class Run {
   /// [W] Of all motors together in each step, negative where they brake; none without motors.
   readonly motorPowers: readonly number[] | null;
 
+  /// All of them, in the order of time.
+  readonly impacts: readonly RunImpact[];
+
   private readonly all: RunContactsData;
 
   constructor({ header, steps, contacts }: RunData) {
@@ -38,6 +49,7 @@ export class Run {
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
     this.greatestForces = steps.map((_, step) => this.greatestForce(step));
+    this.impacts = steps.flatMap((step) => this.impactsOf(step)).sort((a, b) => a.t - b.t);
     const hasMotors = steps.some(({ robots }) =>
       robots?.some(({ efforts }) => efforts.some(Boolean)),
     );
@@ -46,6 +58,21 @@ export class Run {
 
   get duration(): number {
     return this.steps.at(-1)!.time;
+  }
+
+  /// t of the first impact, or of the end of the first step with a contact if that is earlier.
+  get firstTouch(): number | null {
+    const step = this.steps.findIndex((_, k) => this.contactCount(k) > 0);
+    const times = [
+      ...this.impacts.slice(0, 1).map(({ t }) => t),
+      ...(step < 0 ? [] : [this.ends[step]!]),
+    ];
+    return times.length > 0 ? Math.min(...times) : null;
+  }
+
+  /// Whether it was simulated to the end that was asked for.
+  get isWhole(): boolean {
+    return this.duration > this.asked * (1 - 1e-9);
   }
 
   /// The number, from 0, of the step that is under way or just ends.
@@ -81,6 +108,16 @@ export class Run {
       point: row(points, k),
       force: scale(lasted > 0 ? 1 / lasted : 0, row(impulses, k)),
       distance: distances[k]!,
+    }));
+  }
+
+  private impactsOf({ time, lasted, impacts = [] }: StepData): RunImpact[] {
+    const begin = time - lasted;
+    return impacts.map(({ at, bodies, point, impulse }) => ({
+      t: Math.min((begin + at) / this.duration, 1),
+      bodies,
+      point,
+      impulse,
     }));
   }
 

@@ -30,7 +30,9 @@ export const launch = (): Promise<Browser> =>
 function run(options: readonly string[]): Promise<void> {
   return new Promise((resolve, reject) => {
     execFile(tool!, options, (error) =>
-      error && error.code !== 1 ? reject(new Error(error.message)) : resolve(),
+      error && error.code !== 1 && options[0] !== "batch"
+        ? reject(new Error(error.message))
+        : resolve(),
     );
   });
 }
@@ -45,6 +47,7 @@ export interface RecordedStep {
     readonly position: Vector3;
   }[];
   readonly contacts: readonly { readonly point: Vector3; readonly impulse: Vector3 }[];
+  readonly impacts?: readonly { readonly at: number }[];
   readonly kinetic_energy: number;
 }
 
@@ -65,6 +68,12 @@ export class Folder {
 
   write(name: string, text: string): void {
     writeFileSync(join(this.path, name), text);
+  }
+
+  /// @returns  its address
+  writePage(name: string, body: string): string {
+    this.write(name, `<!DOCTYPE html><html><body>${body}</body></html>`);
+    return `file://${join(this.path, name)}`;
   }
 
   /// A page of a scene of the repository, or of one given as an object.
@@ -95,6 +104,17 @@ export class Folder {
       file,
       steps: lines.map((line) => JSON.parse(line) as RecordedStep),
     };
+  }
+
+  /// The page of a batch: one job a line, as objects or as text that is none.
+  async batch(name: string, jobs: readonly (object | string)[]): Promise<string> {
+    const [page, results, input] = [".html", ".results.jsonl", ".jobs.jsonl"].map((end) =>
+      join(this.path, name + end),
+    ) as [string, string, string];
+    const lines = jobs.map((job) => (typeof job === "string" ? job : JSON.stringify(job)));
+    writeFileSync(input, `${lines.join("\n")}\n`);
+    await run(["batch", input, "-o", results, "--html", page]);
+    return `file://${page}`;
   }
 
   remove(): void {
@@ -132,6 +152,7 @@ declare global {
       view: {
         bodies: {
           group: { matrix: { elements: number[] } };
+          pieces: { group: { children: TouchingOfPage[] } }[];
           parts: PieceOfPage[];
           looks: PieceOfPage[];
         }[];
@@ -140,6 +161,7 @@ declare global {
           arrows: {
             visible: boolean;
             count: number;
+            geometry: { attributes: { shown: { array: Float32Array } } };
             instanceMatrix: { array: Float32Array };
           };
         } | null;
@@ -148,6 +170,11 @@ declare global {
     };
   }
 }
+/// The triangles of a contact are in the group of this name.
+interface TouchingOfPage {
+  name: string;
+  children: { material: { opacity: number; visible: boolean } }[];
+}
 interface PieceOfPage {
   part: { mesh: MeshOfPage };
   surface: SurfaceOfPage;
@@ -155,6 +182,11 @@ interface PieceOfPage {
 }
 interface SurfaceOfPage {
   position: { toArray(): number[] };
+  material: {
+    opacity: number;
+    color: { getHexString(): string };
+    clippingPlanes: { normal: { toArray(): number[] }; constant: number }[];
+  };
   /// As drawn: deformed.
   getVertexPosition(index: number, target: object): { toArray(): number[] };
 }

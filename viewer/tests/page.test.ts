@@ -86,7 +86,7 @@ const armUrdf = `<robot name="arm"><link name="base"/>
   <link name="bar">
     <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
     <visual><origin xyz="0.5 0 0"/><geometry><cylinder radius="0.03" length="0.1"/></geometry></visual>
-    <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+    <visual><geometry><box size="0.2 0.2 0.2"/></geometry><material name="m"><color rgba="1 0 0.5 1"/></material></visual>
   </link>
   <link name="tip"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
   <joint name="elbow" type="revolute"><parent link="base"/><child link="bar"/><axis xyz="0 0 1"/>
@@ -115,6 +115,39 @@ const armScene = {
     },
   ],
 };
+
+const wheelUrdf = `<robot name="wheel"><link name="base"/><link name="rim">
+    <collision><origin xyz="1 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <joint name="axle" type="continuous"><parent link="base"/><child link="rim"/><axis xyz="0 0 1"/></joint>
+</robot>`;
+const wheelScene = (turning: "long" | "short") => ({
+  firstcontact: 1,
+  id: "wheel",
+  bodies: [{ name: "far", shape: { sphere: { radius: 0.1 } }, pose: { position: [9, 0, 0] } }],
+  robots: [
+    {
+      name: "wheel",
+      urdf: "wheel.urdf",
+      turning,
+      trajectory: {
+        joint_names: ["axle"],
+        points: [
+          { time: 0, positions: [0] },
+          { time: 4, positions: [5] },
+        ],
+      },
+    },
+  ],
+});
+
+/// A result's time as the page rounds it: down, as it is a time until which all is proven, and with
+/// no digit of less than what the tolerance takes at the speed of the contact.
+function untilText({ result }: MadePage): string {
+  const { time, contacts, scene } = result;
+  const speeds = contacts.map(({ normal_velocity }) => Math.abs(normal_velocity ?? 0));
+  const grain = scene.options.tolerance! / Math.max(...speeds);
+  return timeText(time, 5, { grain, down: true });
+}
 
 describe.skipIf(!canLook)("the page", () => {
   let browser: Browser;
@@ -187,7 +220,7 @@ describe.skipIf(!canLook)("the page", () => {
     const answer = page.getByRole("region", { name: "Answer" });
     expect(await answer.textContent()).toContain("Peg, tilted by 2 degrees");
     expect(await answer.textContent()).toContain(
-      `Proven free until ${timeText(peg.result.t)}; then peg and hole touch`,
+      `Proven free until ${untilText(peg)}; then peg and hole touch`,
     );
     expect(await page.title()).toContain("Peg");
   });
@@ -484,6 +517,14 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await shown()).toEqual([[1, 0], [1, 0], [0, 0], [0, 2], [1, 0]]); // prettier-ignore
     await page.keyboard.press("v");
     expect(await button.getAttribute("aria-pressed")).toBe("false");
+    const color = () =>
+      page.evaluate(() => {
+        const { color: shown } = window.firstcontact.view.bodies[3]!.looks[1]!.surface.material;
+        return shown.getHexString();
+      });
+    expect(await color()).not.toBe("ff0080");
+    await button.click();
+    expect(await color()).toBe("ff0080"); // As the URDF says.
     const plain = await show(peg);
     expect(await plain.getByRole("button", { name: /collision geometry/ }).count()).toBe(0);
   });
@@ -508,6 +549,124 @@ describe.skipIf(!canLook)("the page", () => {
     expect(await page.locator(".chart-title").textContent()).toBe("gap [mm]");
     const warnings = page.getByRole("region", { name: "Warnings" });
     expect(await warnings.textContent()).toContain('joint "elbow" leaves its upper limit');
+  });
+
+  test("cuts with a plane, along the view or an axis", async () => {
+    const page = await show(peg);
+    const planes = () =>
+      page.evaluate(() => {
+        const { material } = window.firstcontact.view.bodies[0]!.parts[0]!.surface;
+        return material.clippingPlanes.map(({ normal, constant }) => ({
+          normal: normal.toArray(),
+          constant,
+        }));
+      });
+    const bar = page.getByRole("group", { name: "Cut" });
+    expect(await bar.isVisible()).toBe(false);
+    expect(await planes()).toEqual([]);
+    await page.keyboard.press("k");
+    expect(await bar.isVisible()).toBe(true);
+    await page.waitForTimeout(200);
+    const [view] = await planes();
+    const camera = await cameraOf(page);
+    const size = Math.hypot(...view!.normal);
+    expect(size).toBeCloseTo(1, 12);
+    // Away from the camera, which stands before the plane.
+    const before = [camera.x, camera.y, camera.z].reduce((s, x, i) => s + x * view!.normal[i]!, 0);
+    expect(before + view!.constant).toBeLessThan(0);
+    await bar.getByRole("combobox").selectOption("z");
+    await bar.getByRole("slider").fill("0");
+    await page.waitForTimeout(200);
+    const [low] = await planes();
+    expect(low!.normal).toEqual([0, 0, 1]);
+    await bar.getByRole("slider").fill("1");
+    await page.waitForTimeout(200);
+    expect((await planes())[0]!.constant).toBeLessThan(low!.constant);
+    await bar.getByRole("button", { name: "Cut away the other side" }).click();
+    await page.waitForTimeout(200);
+    expect((await planes())[0]!.normal[2]).toBe(-1);
+    await bar.getByRole("button", { name: "Cut nothing" }).click();
+    await page.waitForTimeout(200);
+    expect(await planes()).toEqual([]);
+  });
+
+  test("gives each body an opacity", async () => {
+    const page = await show(arm);
+    const opacities = () =>
+      page.evaluate(() =>
+        window.firstcontact.view.bodies.map(({ parts }) => parts[0]?.surface.material.opacity),
+      );
+    await page.getByRole("slider", { name: "Opacity of ball" }).fill("0.5");
+    await page.getByRole("slider", { name: "Opacity of arm", exact: true }).fill("0.25");
+    expect(await opacities()).toEqual([0.5, 1, undefined, 0.25, 0.25]);
+    expect(await page.getByRole("slider", { name: "Opacity of tip" }).inputValue()).toBe("0.25");
+    await page.keyboard.press("x");
+    expect((await opacities())[0]).toBeCloseTo(0.14, 12);
+  });
+
+  test("shows contacts near their time", async () => {
+    const page = await show(peg);
+    const seen = async (t: number) => {
+      await page.evaluate((to) => window.firstcontact.player.seek(to), t);
+      return page.evaluate(() =>
+        window.firstcontact.view.bodies
+          .flatMap(({ pieces }) => pieces.flatMap(({ group }) => group.children))
+          .filter(({ name }) => name === "touching")
+          .flatMap(({ children }) => children.map(({ material }) => material))
+          .map(({ opacity, visible }) => (visible ? opacity : 0)),
+      );
+    };
+    const { t } = peg.result;
+    const at = await seen(t);
+    expect(Math.min(...at)).toBeGreaterThan(0.5);
+    const near = await seen(t - 0.02);
+    near.forEach((opacity, k) => expect(opacity).toBeCloseTo(0.5 * at[k]!, 6));
+    expect(Math.max(...(await seen(t - 0.05)))).toBe(0);
+  });
+
+  test("zooms on a part of the time", async () => {
+    const page = await show(peg, "#t=0.5");
+    const slider = page.getByRole("slider", { name: "Time" });
+    const range = async () => [await slider.getAttribute("min"), await slider.getAttribute("max")];
+    await page.getByRole("button", { name: "Less of the time" }).click();
+    await page.keyboard.press("+");
+    expect((await range()).map(Number)).toEqual([0.375, 0.625]);
+    const chart = (await page.locator(".chart .u-over").boundingBox())!;
+    await page.mouse.click(chart.x + 0.2 * chart.width, chart.y + 20);
+    expect(await timeOf(page)).toBeCloseTo(0.425, 3);
+    await page.mouse.wheel(0, -200);
+    const [from, to] = (await range()).map(Number) as [number, number];
+    expect(to - from).toBeCloseTo(0.25 * Math.exp(-0.4), 6);
+    expect((0.425 - from) / (to - from)).toBeCloseTo(0.2, 2); // What is under the pointer stays there.
+    await page.keyboard.press("Enter"); // The contact is elsewhere: the window goes there.
+    const [begin, end] = (await range()).map(Number) as [number, number];
+    expect(begin).toBeLessThan(peg.result.t);
+    expect(end).toBeGreaterThan(peg.result.t);
+    await page.getByRole("button", { name: "All of the time" }).click();
+    expect((await range()).map(Number)).toEqual([0, 1]);
+    expect(await page.getByRole("button", { name: "All of the time" }).count()).toBe(0);
+  });
+
+  test("says which way a joint without ends turned", async () => {
+    folder.write("wheel.urdf", wheelUrdf);
+    for (const turning of ["long", "short"] as const) {
+      const page = await show(await folder.make(`wheel_${turning}`, wheelScene(turning)));
+      const joints = await page.getByRole("region", { name: "Joints" }).textContent();
+      expect(joints).toContain(
+        turning === "long"
+          ? "turned by 5\u00a0rad · 286.5°, as its numbers say: from 0 to 5\u00a0rad"
+          : "turned by −1.283\u00a0rad · −73.5°, the short way: from 0 to 5\u00a0rad",
+      );
+    }
+  });
+
+  test("has the verdict over the picture while its panel is closed", async () => {
+    const page = await show(arm, "", phone);
+    const badge = page.getByRole("button", { name: /^Contact .*1 warning/ });
+    expect(await badge.textContent()).toContain(`${arm.result.pair_counts!.tested} pairs tested`);
+    await badge.tap();
+    expect(await page.getByRole("region", { name: "Answer" }).isVisible()).toBe(true);
+    expect(await badge.count()).toBe(0);
   });
 
   test("hides a robot with all its links", async () => {
@@ -577,8 +736,14 @@ describe.skipIf(!canLook)("the page", () => {
     const answer = page.getByRole("region", { name: "Answer" });
     const { tested, untested } = arm.result.pair_counts!;
     expect(tested).toBeGreaterThan(0);
-    expect(await answer.getByText("Pairs tested").count()).toBe(1);
-    expect(await answer.getByText("of links that joints connect").count()).toBe(1);
+    expect(await answer.getByText(`${tested} pairs tested`, { exact: true }).isVisible()).toBe(
+      true,
+    );
+    expect(await answer.getByText("of links that joints connect").isVisible()).toBe(false);
+    await answer.locator("summary").click();
+    expect(await answer.getByText("of links that joints connect").isVisible()).toBe(true);
+    const warned = answer.getByRole("button", { name: "1 warning" });
+    expect(await warned.isVisible()).toBe(true);
     expect(untested.map(({ why }) => why)).toContain("joined_links");
     const files = page.getByRole("region", { name: "Files" });
     await files.locator("summary").click();
@@ -615,6 +780,70 @@ describe.skipIf(!canLook)("the page", () => {
       );
     }
     expect(Math.min(...times)).toBeLessThan(2000);
+  });
+
+  test("draws itself for a page around it, on a transparent ground", async () => {
+    const context = await browser.newContext();
+    const around = await context.newPage();
+    const url = folder.writePage("around.html", '<iframe src="peg.html#picture" width="320" height="200"></iframe>'); // prettier-ignore
+    const sent = new Promise<string>((resolve) => {
+      void around.exposeFunction("received", resolve).then(async () => {
+        await around.addInitScript(() =>
+          addEventListener("message", ({ data }: MessageEvent<{ firstcontactPicture: string }>) =>
+            (window as unknown as { received: (text: string) => void }).received(
+              data.firstcontactPicture,
+            ),
+          ),
+        );
+        await around.goto(url);
+      });
+    });
+    const [kind, base64] = (await sent).split(",");
+    expect(kind).toBe("data:image/png;base64");
+    const { count, largest } = await colorsOf(around, Buffer.from(base64!, "base64"));
+    expect(count).toBeGreaterThan(200);
+    expect(largest).toBeGreaterThan(0.1); // What nothing is drawn on.
+    expect(largest).toBeLessThan(0.95);
+    await context.close();
+  });
+
+  test("lists many results, and plays the one that is clicked", async () => {
+    const free = { ...stones, id: "apart", bodies: stones.bodies.slice(2, 4) };
+    const url = await folder.batch("many", [stones, free, "{}", { ...stones, id: "again" }]);
+    const made = { url, file: "", result: many.result };
+    const context = await browser.newContext({ reducedMotion: "reduce", ...desktop });
+    const page = await context.newPage();
+    page.on("pageerror", (error) => complaints.push(String(error)));
+    open.push(page);
+    await page.goto(made.url);
+    const rows = page.locator("tbody tr");
+    expect(await page.locator("h1").textContent()).toBe("4 results");
+    expect(await rows.count()).toBe(4);
+    expect(await rows.nth(0).textContent()).toMatch(/^1stones.*contactfloor · soon249\.9\s+ms/);
+    expect(await rows.nth(2).getByRole("button").count()).toBe(0); // The error.
+    await page.getByRole("button", { name: "1 free" }).click();
+    expect(await rows.count()).toBe(1);
+    await page.getByRole("button", { name: "1 free" }).click();
+    await page.getByRole("button", { name: "Verdict" }).click();
+    await page.getByRole("button", { name: "Verdict" }).click();
+    expect(await rows.nth(0).textContent()).toContain("free");
+    await page.getByRole("searchbox").fill("again");
+    expect(await rows.count()).toBe(1);
+    await page.getByRole("button", { name: "again" }).click();
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await page.title()).toContain("again");
+    const answer = page.getByRole("region", { name: "Answer" });
+    expect(await answer.textContent()).toContain("then floor and soon touch");
+    await page.getByRole("button", { name: "First contact" }).click();
+    await page.waitForFunction(() => location.hash.startsWith("#result=4&t=0.2"));
+    await page.getByRole("button", { name: "Back to the list" }).click();
+    await rows.nth(3).waitFor();
+    expect(await rows.count()).toBe(4);
+    await page.goto(`${made.url}#result=2&t=0.5`);
+    await page.reload();
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await timeOf(page)).toBe(0.5);
+    expect(await page.title()).toContain("apart");
   });
 
   test("complained about nothing, and asked the network for nothing", () => {

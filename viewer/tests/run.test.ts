@@ -242,3 +242,81 @@ describe.skipIf(!canLook)("the page of a run", () => {
     expect(complaints).toEqual([]);
   });
 });
+
+/// Two balls that are shot at a thin plate, and fly on to where the plate is a dot.
+const shot = {
+  firstcontact: 1,
+  id: "shot",
+  bodies: [
+    { name: "plate", shape: { box: { size: [0.001, 1, 1] } } },
+    ...[-0.2, 0.2].map((y) => ({
+      name: `ball at ${y} m`,
+      shape: { sphere: { radius: 0.05 } },
+      pose: { position: [-0.5, y, 0] },
+      dynamics: { density: 1000, linear_velocity: [100, 0, 0], restitution: 0.5 },
+    })),
+  ],
+  simulation: { duration: 0.5, gravity: [0, 0, -9.81] },
+};
+
+describe.skipIf(!canLook)("the page of bodies that fly far apart", () => {
+  let browser: Browser;
+  let made: MadeRun;
+  const folder = new Folder();
+
+  beforeAll(async () => {
+    made = await folder.simulate("shot", shot);
+    browser = await launch();
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+
+  const show = async (): Promise<Page> => {
+    const context = await browser.newContext({ reducedMotion: "reduce" });
+    const page = await context.newPage();
+    await page.goto(made.url);
+    await page.waitForFunction(() => "firstcontact" in window);
+    return page;
+  };
+
+  test("opens on the way to the first impact, and shows the whole by a key", async () => {
+    const page = await show();
+    const range = () =>
+      page.evaluate(() => {
+        const { x, y, z } = window.firstcontact.view.camera.position;
+        return Math.hypot(x, y, z);
+      });
+    const opening = await range();
+    expect(opening).toBeLessThan(8); // The balls fly farther than 20 m.
+    await page.keyboard.press("f");
+    await page.waitForTimeout(300);
+    expect(await range()).toBeGreaterThan(3 * opening);
+    await page.keyboard.press("f");
+    await page.waitForTimeout(300);
+    expect(await range()).toBeCloseTo(opening, 6);
+    await page.context().close();
+  });
+
+  test("draws impacts near their time, on the body that they move", async () => {
+    const page = await show();
+    const { impacts, lasted, time } = made.steps.find((step) => step.impacts)!;
+    const end = made.steps.at(-1)!.time;
+    const hit = (time - lasted + impacts![0]!.at) / end;
+    const shown = (t: number) =>
+      page.evaluate((to) => {
+        window.firstcontact.player.seek(to);
+        const { count, geometry, instanceMatrix } = window.firstcontact.view.forces!.arrows;
+        const seen = [...geometry.attributes.shown.array.slice(0, count)];
+        const most = Math.max(0, ...seen);
+        return { most, along: instanceMatrix.array[16 * seen.indexOf(most) + 8]! }; // In x.
+      }, t);
+    const at = await shown(hit);
+    expect(at.most).toBeCloseTo(1, 5);
+    expect(at.along).toBeLessThan(0); // The plate throws the balls back.
+    expect((await shown(0.9)).most).toBe(0);
+    await page.context().close();
+  });
+});

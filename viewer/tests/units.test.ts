@@ -5,6 +5,7 @@ import { lengthText, pointText, timeText } from "../src/core/format";
 import { readPageData } from "../src/data/page_data";
 import type { Vector3 } from "../src/data/result";
 import { momentOf } from "../src/link";
+import { sharedBeginnings } from "../src/names";
 import { noneOf, pairFacts, untestedText } from "../src/panels/pair_facts";
 import { runCharts } from "../src/panels/run_charts";
 import { Player } from "../src/player";
@@ -20,6 +21,30 @@ describe("quantities", () => {
     expect(lengthText(null)).toBe("—");
     expect(timeText(0.00936776)).toBe("9.3678\u00a0ms");
     expect(pointText([0.001, -0.02, 0])).toBe("(1, −20, 0) mm");
+  });
+
+  test("have no digits below their grain", () => {
+    expect(lengthText(0.00436899, 4, { grain: 1e-6 })).toBe("4.369\u00a0mm");
+    expect(lengthText(0.00436899, 4, { grain: 3e-6 })).toBe("4.37\u00a0mm");
+    expect(lengthText(0.00436899, 4, { grain: 3e-6, down: true })).toBe("4.36\u00a0mm");
+    expect(lengthText(7.8e-7, 4, { grain: 1e-6 })).toBe("< 1\u00a0µm");
+    expect(lengthText(1.23456, 4, { grain: 1e-6 })).toBe("1.235\u00a0m");
+    expect(timeText(1.122429910063828, 5, { grain: 4e-4 })).toBe("1.122\u00a0s");
+    expect(pointText([0.0012345678, -0.02, 0], 6, 1e-6)).toBe("(1.235, −20, 0) mm");
+  });
+
+  test("are not more than they are where they are proven to be no less", () => {
+    expect(lengthText(0.0043689954, 4, { down: true })).toBe("4.368\u00a0mm");
+    expect(lengthText(0.29, 4, { down: true })).toBe("290\u00a0mm");
+    expect(lengthText(7.8e-7, 4, { grain: 1e-6, down: true })).toBe("0.7\u00a0µm");
+    expect(timeText(0.99999999, 5, { down: true })).toBe("999.99\u00a0ms");
+    for (let k = 1; k < 2000; ++k) {
+      const value = Math.sqrt(k) * 10 ** ((k % 13) - 9);
+      const shown = lengthText(value, 3, { down: true, grain: 1e-9 * (k % 7) });
+      const [digits, unit] = shown.split("\u00a0");
+      const size = { km: 1e3, m: 1, mm: 1e-3, µm: 1e-6, nm: 1e-9 }[unit!]!;
+      expect(Number(digits) * size).toBeLessThanOrEqual(value * (1 + 1e-12));
+    }
   });
 
   test("have round numbers below them", () => {
@@ -50,7 +75,14 @@ describe("a run", () => {
         events: 0,
         robots: [{ efforts: efforts[k]!, velocities: velocities[k]! }],
         ...(k === 0 && impulses.length > 0
-          ? { impacts: impulses.map((impulse) => ({ impulse })) }
+          ? {
+              impacts: impulses.map((impulse, i) => ({
+                at: 0.5 / (i + 1),
+                bodies: [0, 1] as const,
+                point: [0, 0, 0] as const,
+                impulse,
+              })),
+            }
           : {}),
       })),
       ways: [],
@@ -91,6 +123,9 @@ describe("a run", () => {
     const chart = runCharts(hit).find(({ name }) => name === "greatest impact")!;
     expect(chart.content.unit).toBe("N s");
     expect(chart.values).toEqual([5, 0]);
+    expect(hit.impacts.map(({ t }) => t)).toEqual([0.125, 0.25]); // In the order of time.
+    expect(hit.firstTouch).toBe(0.125);
+    expect(run(still, still).firstTouch).toBeNull();
   });
 
   test("has no charts of what it does not have", () => {
@@ -200,6 +235,22 @@ describe("the data of a page", () => {
   });
 });
 
+describe("names", () => {
+  test("share the beginnings that tell nothing", () => {
+    const names = ["panda_link1", "panda_leftfinger", "Can1", "shelf_top", "shelf_left_1", "a_b"];
+    expect([...sharedBeginnings(names).values()]).toEqual([
+      "panda_",
+      "panda_",
+      "",
+      "shelf_",
+      "shelf_",
+      "",
+    ]);
+    expect(sharedBeginnings(["arm/left_1", "arm/left_2"]).get("arm/left_2")).toBe("arm/left_");
+    expect(sharedBeginnings(["a_", "a_", "a_b"]).get("a_")).toBe("");
+  });
+});
+
 describe("the pairs that an answer is about", () => {
   const counts = {
     tested: 3,
@@ -221,7 +272,6 @@ describe("the pairs that an answer is about", () => {
   test("are told with a count, the first few names and a reason", () => {
     expect(untestedText(counts.untested[0])).toBe("5 by the SRDF: a and b, a and c, and 3 more");
     expect(pairFacts(counts)).toEqual([
-      ["Pairs tested", "3"],
       ["Ignored", "5 by the SRDF: a and b, a and c, and 3 more"],
       ["Left out", "1 of which neither is free (they may pass through each other): d and e"],
     ]);

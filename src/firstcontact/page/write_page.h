@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/gap_bound.h>
@@ -49,5 +52,38 @@ struct PageRecord {
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
                                                       const PageRecord& record);
+
+/// Fills the viewer's page with a list of results, each of which it plays.
+///
+/// A mesh that several results have stands in the page once. There is no gap over time: it would
+/// have to be sampled.
+class FIRSTCONTACT_API ListPage {
+ public:
+  /// Adds a result or an error as a line of the list that cannot be played.
+  ///
+  /// @param result  JSON, as write_result and write_error make it
+  /// @throws ParseError if it is no JSON object
+  void add(std::string_view result);
+
+  /// Adds a result that can be played.
+  ///
+  /// @param result  JSON, as write_result makes it
+  /// @param loaded  the scene of the result
+  void add(std::string_view result, const LoadedScene& loaded);
+
+  /// [byte]  That the page will have, but for the viewer's own.
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// @throws std::invalid_argument if the template has no place for results
+  [[nodiscard]] std::string write(std::string_view page_template) const;
+
+ private:
+  [[nodiscard]] std::size_t add_mesh(std::string json);
+
+  std::string entries_;
+  std::vector<std::string> meshes_;
+  std::unordered_map<std::string, std::size_t> of_digests_;  // SHA-256 of the mesh.
+  std::size_t size_ = 0;
+};
 
 }  // namespace firstcontact

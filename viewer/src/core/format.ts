@@ -79,27 +79,66 @@ export function number(value: number, digits = 4): string {
   return text.replace("-", "−");
 }
 
-/// Without a value a dash.
-export function quantity(value: number | null, unit: Unit, digits: number): string {
-  return value === null
-    ? "—"
-    : `${number(value / unit.size, digits)}${unit.name && `\u00a0${unit.name}`}`;
+/// How a quantity is rounded, beside the most digits that it has.
+export interface Rounding {
+  /// In the unit of the quantity: digits below it say nothing, and are left out. 0: none are.
+  readonly grain?: number;
+  /// Towards zero: what is proven of a number is proven of a smaller one too.
+  readonly down?: boolean;
 }
 
-export const lengthText = (value: number | null, digits = 4): string =>
-  quantity(value, lengthUnit(value ?? 0), digits);
-export const timeText = (value: number | null, digits = 5): string =>
-  quantity(value, timeUnit(value ?? 0), digits);
+/// The power of ten of the last digit that a grain leaves.
+const lastPlace = (grain: number): number => Math.ceil(Math.log10(grain) - 1e-9);
+
+/// Towards zero, unless the value is the rounded one but for the rounding of doubles.
+function cutTo(value: number, digits: number): number {
+  const scale = 10 ** (digits - 1 - Math.floor(Math.log10(Math.abs(value))));
+  const near = Math.round(value * scale);
+  const same = Math.abs(value * scale - near) <= 1e-12 * Math.abs(near);
+  return (same ? near : Math.trunc(value * scale)) / scale;
+}
+
+/// Without a value a dash; "< 1 µm" of one that is less than its last digit would be.
+export function quantity(
+  value: number | null,
+  unit: Unit,
+  digits: number,
+  { grain = 0, down = false }: Rounding = {},
+): string {
+  const end = unit.name && `\u00a0${unit.name}`;
+  if (value === null || value === 0) {
+    return value === null ? "—" : `0${end}`;
+  }
+  const place = grain > 0 ? lastPlace(grain) : -Infinity;
+  const kept = Math.min(digits, Math.floor(Math.log10(Math.abs(value))) - place + 1);
+  if (kept < 1 && !down) {
+    return `< ${number(10 ** place / unit.size, 1)}${end}`;
+  }
+  const shown = down ? cutTo(value, Math.max(kept, 1)) : value;
+  return `${number(shown / unit.size, Math.max(kept, 1))}${end}`;
+}
+
+export const lengthText = (value: number | null, digits = 4, rounding: Rounding = {}): string =>
+  quantity(
+    value,
+    lengthUnit(Math.max(Math.abs(value ?? 0), rounding.grain ?? 0)),
+    digits,
+    rounding,
+  );
+export const timeText = (value: number | null, digits = 5, rounding: Rounding = {}): string =>
+  quantity(value, timeUnit(value ?? 0), digits, rounding);
 
 export const energyText = (value: number, digits = 4): string =>
   quantity(value, energyUnit(value), digits);
 export const forceText = (value: number, digits = 3): string =>
   quantity(value, forceUnit(value), digits);
 
-/// "(x, y, z) mm", all in the unit of the greatest.
-export function pointText(point: Vector3, digits = 6): string {
+/// "(x, y, z) mm", all in the unit of the greatest and with no digit below the grain.
+export function pointText(point: Vector3, digits = 6, grain = 0): string {
   const unit = lengthUnit(Math.max(...point.map(Math.abs)));
-  return `(${point.map((x) => number(x / unit.size, digits)).join(", ")}) ${unit.name}`;
+  const place = grain > 0 ? 10 ** lastPlace(grain) : 0;
+  const kept = (x: number): number => (place > 0 ? Math.round(x / place) * place : x);
+  return `(${point.map((x) => number(kept(x) / unit.size, digits)).join(", ")}) ${unit.name}`;
 }
 
 /// Unit vectors have no unit.

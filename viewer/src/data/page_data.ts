@@ -41,32 +41,34 @@ export interface PageData {
   readonly gapBound: GapLine;
 }
 
-interface StoredMesh {
+export interface StoredMesh {
   readonly origin: Vector3;
   readonly positions: string;
   readonly triangles: string;
 }
 
-interface StoredPage {
+export interface StoredView {
+  readonly meshes: readonly StoredMesh[];
+  readonly bodies: readonly number[];
+  readonly robots?: readonly RobotData[];
+  readonly carried?: readonly CarriedData[];
+  readonly warnings?: readonly string[];
+  /// Of runs: a result has these itself.
+  readonly pair_counts?: PairCounts;
+  readonly files?: readonly FileReport[];
+  readonly gap?: GapLine;
+  readonly gap_bound?: GapLine;
+}
+
+export interface StoredPage {
   readonly result?: Result;
   readonly run?: StoredRun;
-  readonly view: {
-    readonly meshes: readonly StoredMesh[];
-    readonly bodies: readonly number[];
-    readonly robots?: readonly RobotData[];
-    readonly carried?: readonly CarriedData[];
-    readonly warnings?: readonly string[];
-    /// Of runs: a result has these itself.
-    readonly pair_counts?: PairCounts;
-    readonly files?: readonly FileReport[];
-    readonly gap?: GapLine;
-    readonly gap_bound?: GapLine;
-  };
+  readonly view: StoredView;
 }
 
 const shortIndices = 65_536; // Vertices; of so many or fewer the corners have two bytes.
 
-function meshOf({ origin, positions, triangles }: StoredMesh): MeshData {
+export function meshOf({ origin, positions, triangles }: StoredMesh): MeshData {
   const vertices = new Float32Array(bytesOf(positions));
   const corners = bytesOf(triangles);
   const short = vertices.length / 3 <= shortIndices;
@@ -82,19 +84,23 @@ const noLine: GapLine = { t: [], distance: [] };
 /// @throws Error where the text is not what the tool leaves
 export function readPageData(text: string): PageData {
   const stored = JSON.parse(text) as StoredPage | string;
-  const source = typeof stored === "string" ? null : (stored.result ?? stored.run?.header);
-  if (typeof stored === "string" || !source || !stored.view) {
+  if (typeof stored === "string" || !stored.view) {
     throw new Error(
       "This page holds no result. Make one with: firstcontact check SCENE --html PAGE",
     );
   }
-  const { result, run, view } = stored;
+  return pageOf(stored, stored.view.meshes.map(meshOf));
+}
+
+/// @param meshes  of the view
+export function pageOf({ result, run, view }: StoredPage, meshes: readonly MeshData[]): PageData {
+  const source = result ?? run!.header;
   return {
     result: result ?? null,
     run: run ? runOf(run) : null,
     scene: source.scene,
     version: source.version,
-    meshes: view.meshes.map(meshOf),
+    meshes,
     bodies: view.bodies,
     robots: view.robots ?? [],
     carried: view.carried ?? [],

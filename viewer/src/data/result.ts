@@ -47,7 +47,11 @@ export interface BodyData {
 export interface SceneData {
   readonly id: string;
   readonly bodies: readonly BodyData[];
-  readonly options: { readonly duration: number; readonly margin: number };
+  readonly options: {
+    readonly duration: number;
+    readonly margin: number;
+    readonly tolerance?: number;
+  };
 }
 
 export type Verdict = "free" | "contact" | "contact_at_start" | "undecided";
@@ -117,8 +121,21 @@ export interface Limit {
   readonly intervals: readonly (readonly [number, number])[];
 }
 
+/// Which way a continuous joint went [rad].
+export interface Turn {
+  readonly robot: string;
+  readonly joint: string;
+  readonly from: number;
+  readonly to: number;
+  readonly turned: number;
+  readonly turning: "long" | "short";
+}
+
 export interface Result extends Answer {
   readonly id: string;
+  readonly tolerance_used?: number;
+  readonly enclosure_error?: number;
+  readonly turns?: readonly Turn[];
   readonly pairs?: readonly PairAnswer[];
   readonly limits?: readonly Limit[];
   readonly warnings?: readonly string[];

@@ -7,6 +7,8 @@ export interface GeometryData {
   readonly mesh: number;
   readonly pose: PoseData;
   readonly radius?: number;
+  /// Red, green, blue, from 0 to 1: of what a link looks like.
+  readonly color?: Vector3;
 }
 
 export interface LinkData {

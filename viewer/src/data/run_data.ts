@@ -3,6 +3,13 @@
 import { bytesOf } from "./bytes";
 import type { SceneData, Vector3 } from "./result";
 
+export interface ImpactData {
+  readonly at: number; ///< [s] Since the step began.
+  readonly bodies: readonly [number, number];
+  readonly point: Vector3;
+  readonly impulse: Vector3; ///< [N s] On the second body.
+}
+
 /// What is said of all bodies together.
 export interface StepData {
   readonly step: number;
@@ -17,7 +24,7 @@ export interface StepData {
   readonly residual: number; ///< [m/s]
   readonly events: number;
   readonly robots?: readonly RobotStepData[]; ///< That forces move.
-  readonly impacts?: readonly { readonly impulse: Vector3 }[]; ///< [N s] On the second body.
+  readonly impacts?: readonly ImpactData[];
 }
 
 /// A robot at the end of a step.

@@ -73,8 +73,8 @@ function surfaceOf({ geometry, kind }: DrawnShape, color: string): Object3D {
     : new Mesh(geometry, new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.1 }));
 }
 
-function pieceOf({ part, drawn, surface }: PartView, name: string, color: string): Object3D {
-  const look = surfaceOf(drawn, color);
+function pieceOf({ part, drawn, surface, drawnColor }: PartView, name: string): Object3D {
+  const look = surfaceOf(drawn, drawnColor);
   look.name = name;
   look.position.copy(surface.position);
   const { position, rotation } = part.pose;
@@ -90,7 +90,7 @@ export async function animationOf(model: Model, views: readonly BodyView[]): Pro
   root.name = model.title;
   root.quaternion.setFromUnitVectors(new Vector3(...model.up), new Vector3(0, 1, 0)); // As in glTF.
   const tracks: KeyframeTrack[] = [];
-  for (const { body, color, shownPieces } of views) {
+  for (const { body, shownPieces } of views) {
     const name = `body${body.index}`;
     const node = new Object3D();
     node.name = name;
@@ -98,7 +98,7 @@ export async function animationOf(model: Model, views: readonly BodyView[]): Pro
     const { position, rotation } = body.motion(0);
     node.position.set(...position);
     node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);
-    shownPieces.forEach((piece, k) => node.add(pieceOf(piece, `${name}-surface${k || ""}`, color)));
+    shownPieces.forEach((piece, k) => node.add(pieceOf(piece, `${name}-surface${k || ""}`)));
     root.add(node);
     if (!body.atRest) {
       tracks.push(...tracksOf(body, name, keys, model.duration));

@@ -40,6 +40,8 @@ export function bodiesPanel(model: Model, view: SceneView, display: Display): HT
   const all = rowsOf(model);
   let eyes: { button: HTMLButtonElement; bodies: readonly Body[] }[] = [];
 
+  let sliders: { slider: HTMLInputElement; index: number }[] = [];
+
   const isHidden = (bodies: readonly Body[]): boolean =>
     bodies.every(({ index }) => display.hidden.value.has(index));
 
@@ -55,6 +57,22 @@ export function bodiesPanel(model: Model, view: SceneView, display: Display): HT
     return button;
   };
 
+  const sliderOf = ({ bodies, name }: Row): HTMLElement => {
+    const indices = bodies.map(({ index }) => index);
+    const title = `Opacity of ${name}`;
+    const slider = element("input.opacity", {
+      type: "range",
+      min: 0.05,
+      max: 1,
+      step: 0.05,
+      title,
+      "aria-label": title,
+    });
+    slider.addEventListener("input", () => display.setOpacity(indices, Number(slider.value)));
+    sliders.push({ slider, index: indices[0]! });
+    return slider;
+  };
+
   const rowElement = (row: Row): HTMLElement => {
     const { bodies, name, detail, kind } = row;
     const [first] = bodies;
@@ -68,7 +86,7 @@ export function bodiesPanel(model: Model, view: SceneView, display: Display): HT
       element("span.detail", {}, detail),
     );
     button.addEventListener("click", () => view.focusBodies(bodies));
-    return element("li", { "data-kind": kind }, button, eyeOf(row));
+    return element("li", { "data-kind": kind }, button, sliderOf(row), eyeOf(row));
   };
 
   const fill = (filter: string): void => {
@@ -78,11 +96,19 @@ export function bodiesPanel(model: Model, view: SceneView, display: Display): HT
       ),
     );
     eyes = [];
+    sliders = [];
     list.replaceChildren(...found.slice(0, mostRows).map(rowElement));
     more.hidden = found.length <= mostRows;
     more.textContent = `${found.length - mostRows} more; type to find one`;
     showHidden();
+    showOpacities();
   };
+
+  const showOpacities = (): void =>
+    sliders.forEach(({ slider, index }) => {
+      slider.value = String(display.opacityOf(index));
+      slider.classList.toggle("changed", display.opacityOf(index) < 1);
+    });
 
   const showHidden = (): void =>
     eyes.forEach(({ button, bodies }) => {
@@ -99,6 +125,7 @@ export function bodiesPanel(model: Model, view: SceneView, display: Display): HT
   search.addEventListener("input", () => fill(search.value));
   fill("");
   display.hidden.subscribe(showHidden);
+  display.opacities.subscribe(showOpacities);
   const title = model.robots.length > 0 ? "Robots and bodies " : "Bodies ";
   const count = String(model.bodies.filter(isDrawn).length);
   return element(

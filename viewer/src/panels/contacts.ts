@@ -18,13 +18,13 @@ function featureText(model: Model, contact: Contact, side: 0 | 1): string {
 }
 
 function speedText(speed: number): string {
-  return `${speed < 0 ? "closing" : "parting"} at ${lengthText(Math.abs(speed))}/s`;
+  return `${speed < 0 ? "closing" : "parting"} at ${lengthText(Math.abs(speed), 3)}/s`;
 }
 
-function description(contact: Contact): HTMLElement {
+function description(contact: Contact, grain: number): HTMLElement {
   const lines = [
-    `at ${pointText(contact.points[0])}`,
-    `distance ${lengthText(contact.distance)}`,
+    `at ${pointText(contact.points[0], 6, grain)}`,
+    `distance ${lengthText(contact.distance, 4, { grain })}`,
     ...(contact.normal ? [`normal ${directionText(contact.normal)}`] : []),
     ...(contact.normal_velocity === null ? [] : [speedText(contact.normal_velocity)]),
   ];
@@ -44,11 +44,11 @@ export function contactsPanel(model: Model, view: SceneView, player: Player): HT
       "button.row-name.tall",
       { type: "button", "data-points": JSON.stringify(contact.points) },
       element("span.name", {}, title),
-      description(contact),
+      description(contact, model.grain),
     );
     button.addEventListener("click", () => {
       player.toContact();
-      view.showContacts(contacts);
+      view.showContacts(contacts, model.contactTime);
       view.focusContact(contact);
     });
     return element("li", {}, button);

@@ -10,14 +10,15 @@ const keys: readonly (readonly [string, string])[] = [
   ["← →", "step by a hundredth, or a step of a run; with Shift by a thousandth"],
   ["Home End", "start, end"],
   ["Enter", "first contact"],
-  ["f", "show everything"],
+  ["f", "show everything; or what the page opened on"],
   ["1 … 9", "look at a body; with Shift show or hide it"],
-  ["w x k e", "wireframe, x-ray, cut away what is in front, edges"],
+  ["w x k e", "wireframe, x-ray, cut, edges"],
   ["g o c", "ghosts, onion skin, contact points"],
   ["a", "contact forces of a run"],
   ["v", "what robots look like, in place of their collision geometry"],
   ["m", "measure: click two points"],
   ["l", "repeat"],
+  ["+ - 0", "less of the time in the charts, more, all"],
   ["s t p", "save a picture, dark or light, side panel"],
   ["?", "this help"],
 ];
@@ -26,6 +27,10 @@ const mouse: readonly (readonly [string, string])[] = [
   ["Drag", "turn; with the right button move"],
   ["Wheel", "nearer, farther"],
   ["Click", "coordinates of a point"],
+  [
+    "On a chart",
+    "click: go to a moment; wheel: less or more of the time, with Shift earlier or later",
+  ],
 ];
 
 function table(title: string, rows: readonly (readonly [string, string])[]): HTMLElement {
@@ -33,7 +38,11 @@ function table(title: string, rows: readonly (readonly [string, string])[]): HTM
     "dl.keys",
     { "aria-label": title },
     ...rows.flatMap(([key, what]) => [
-      element("dt", {}, ...key.split(" ").map((part) => element("kbd", {}, part))),
+      element(
+        "dt",
+        {},
+        ...key.split(title === "Keys" ? " " : "\n").map((part) => element("kbd", {}, part)),
+      ),
       element("dd", {}, what),
     ]),
   );

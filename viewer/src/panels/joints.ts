@@ -4,6 +4,7 @@
 import { element } from "../core/dom";
 import { number } from "../core/format";
 import type { Signal } from "../core/signal";
+import type { Turn } from "../data/result";
 import type { Coordinate, Model } from "../model";
 import type { Player } from "../player";
 import { chartButton } from "./chart_button";
@@ -34,13 +35,20 @@ function limitsText({ lower, upper, unit }: Coordinate): string {
   return lower === null && upper === null ? "no limits" : `${end(lower)} … ${end(upper)} ${unit}`;
 }
 
+/// "turned by 12.57 rad · 720°, as its numbers say: from 0 to 12.57 rad"
+function turnText({ turned, turning, from, to }: Turn): string {
+  const degrees = number(Number(((turned * 180) / Math.PI).toFixed(1)));
+  const way = turning === "short" ? "the short way" : "as its numbers say";
+  return `turned by ${number(turned)}\u00a0rad · ${degrees}°, ${way}: from ${number(from)} to ${number(to)}\u00a0rad`;
+}
+
 function row(
   coordinate: Coordinate,
   model: Model,
   player: Player,
   selected: Signal<Coordinate | null>,
 ): HTMLElement {
-  const { name, violations, mimics, atRest } = coordinate;
+  const { name, violations, mimics, atRest, turn } = coordinate;
   const button = chartButton(name, coordinate, selected, player, {
     textAt: (t) => valueText(coordinate.at(t), coordinate),
     pick: () => (selected.value = selected.value === coordinate ? null : coordinate),
@@ -51,6 +59,7 @@ function row(
     button,
     picture(coordinate, model, player),
     element("span.detail", {}, limitsText(coordinate), mimics ? ` · follows ${mimics}` : ""),
+    ...(turn ? [element("span.detail.turn", {}, turnText(turn))] : []),
     ...violations.map((found) => element("span.joint-bad", {}, violationText(found, coordinate))),
   );
 }

@@ -1,6 +1,8 @@
 /// Which pairs an answer is about.
 
+import { element } from "../core/dom";
 import type { PairCounts, UntestedPairs, WhyUntested } from "../data/reports";
+import { factList } from "./facts";
 
 const reasons: Readonly<Record<WhyUntested, string>> = {
   joined_links: "of links that joints connect",
@@ -23,17 +25,26 @@ const isLeftOut = ({ why }: UntestedPairs): boolean =>
   why === "both_rest" || why === "both_scripted";
 
 /// Nothing of results that were made before pairs were counted.
-export function pairFacts(counts: PairCounts | null): [string, string][] {
-  if (!counts) {
-    return [];
-  }
-  return [
-    ["Pairs tested", String(counts.tested)],
-    ...counts.untested.map((pairs): [string, string] => [
-      isLeftOut(pairs) ? "Left out" : "Ignored",
-      untestedText(pairs),
-    ]),
-  ];
+export const pairFacts = (counts: PairCounts | null): [string, string][] =>
+  (counts?.untested ?? []).map((pairs) => [
+    isLeftOut(pairs) ? "Left out" : "Ignored",
+    untestedText(pairs),
+  ]);
+
+/// The pairs that were not tested, and why; closed at first, as the names are long.
+export function untestedPairs(counts: PairCounts | null): HTMLElement[] {
+  const facts = pairFacts(counts);
+  const count = (counts?.ignored ?? 0) + (counts?.left_out ?? 0);
+  return facts.length === 0
+    ? []
+    : [
+        element(
+          "details",
+          {},
+          element("summary", {}, `${count} ${count === 1 ? "pair" : "pairs"} not tested`),
+          factList(facts),
+        ),
+      ];
 }
 
 /// "none of the 3 tested pairs touches": the subject and what is denied of it.

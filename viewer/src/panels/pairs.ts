@@ -6,9 +6,7 @@ import type { PairAnswer } from "../data/result";
 import type { Model } from "../model";
 import type { Player } from "../player";
 import type { SceneView } from "../view/scene_view";
-
-const pairText = ({ pair }: PairAnswer, model: Model): string =>
-  pair.map((name) => model.shortName(name)).join(" · ");
+import { pairNames } from "./pair_name";
 
 interface Column {
   readonly title: string;
@@ -29,7 +27,7 @@ const clearanceOf = (pair: PairAnswer): number =>
   (pair.closest?.lower_bound ?? pair.clearance) || Infinity;
 
 const columns: readonly Column[] = [
-  { title: "Pair", key: ({ pair }) => pair.join(" "), text: pairText },
+  { title: "Pair", key: ({ pair }) => pair.join(" "), text: () => "" }, // Names have a look of their own.
   {
     title: "Verdict",
     key: ({ verdict }) => order.indexOf(verdict),
@@ -38,9 +36,16 @@ const columns: readonly Column[] = [
   {
     title: "Time",
     key: ({ verdict, t }) => (verdict === "free" ? 2 : t),
-    text: ({ verdict, time }) => (verdict === "free" ? "—" : timeText(time, 4)),
+    text: (pair, model) =>
+      pair.verdict === "free"
+        ? "—"
+        : timeText(pair.time, 4, { grain: model.timeGrain(pair), down: true }),
   },
-  { title: "Clear", key: clearanceOf, text: (pair) => lengthText(finite(clearanceOf(pair)), 3) },
+  {
+    title: "Clear",
+    key: clearanceOf,
+    text: (pair, { grain }) => lengthText(finite(clearanceOf(pair)), 3, { grain, down: true }),
+  },
 ];
 
 const firstRows = 12; // Of lists that are longer than this by a few.
@@ -58,6 +63,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     return null;
   }
   const body = element("tbody");
+  const namesOf = pairNames(model);
   const heads = columns.map(({ title }, index) => {
     const button = element("button.sort", { type: "button" }, title);
     button.addEventListener("click", () => sortBy(index));
@@ -72,7 +78,7 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
     } else if (pair.closest) {
       player.seek(pair.closest.t);
     }
-    view.showContacts(pair.contacts);
+    view.showContacts(pair.contacts, pair.t);
     const contact = pair.contacts[0];
     if (contact) {
       view.focusContact(contact);
@@ -82,11 +88,13 @@ export function pairsPanel(model: Model, view: SceneView, player: Player): HTMLE
   };
 
   const row = (pair: PairAnswer): HTMLElement => {
-    const [first, ...others] = columns.map(({ text }) => text(pair, model));
+    const [, ...others] = columns.map(({ text }) => text(pair, model));
+    const title = `Look at ${pair.pair.join(" and ")}`;
+    const label = pair.pair.map((name) => model.shortName(name)).join(" · ");
     const button = element(
       "button.row-name",
-      { type: "button", title: `Look at ${first}` },
-      first!,
+      { type: "button", title, "aria-label": label },
+      namesOf(pair.pair),
     );
     button.addEventListener("click", () => focus(pair));
     return element(

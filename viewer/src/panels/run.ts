@@ -5,7 +5,8 @@ import { energyText, forceText, lengthText, number, timeText } from "../core/for
 import type { Model } from "../model";
 import type { Run } from "../run";
 import { factList } from "./facts";
-import { noneOf, noPair, pairFacts } from "./pair_facts";
+import { noneOf, noPair, untestedPairs } from "./pair_facts";
+import { verdictLine } from "./verdict";
 
 const sum = (values: readonly number[]): number => values.reduce((total, x) => total + x, 0);
 const least = (values: readonly number[]): number => values.reduce((a, b) => Math.min(a, b));
@@ -20,7 +21,7 @@ function facts(model: Model, run: Run): [string, string][] {
     ["Steps", `${steps.length}, ${timeText(run.duration)}`],
     ["Bodies", `${masses.length}, ${masses.filter((mass) => mass > 0).length} free`],
     ...(clearances.length > 0
-      ? [["Apart", `≥ ${lengthText(least(clearances))}`] as [string, string]]
+      ? [["Apart", `≥ ${lengthText(least(clearances), 4, { down: true })}`] as [string, string]]
       : []),
     ["Impacts", String(sum(steps.map(({ events }) => events)))],
     ["Greatest force", forceText(most(run.greatestForces))],
@@ -28,34 +29,29 @@ function facts(model: Model, run: Run): [string, string][] {
     ["Energy at the end", energyText(energies.at(-1)!)],
     ["Time lost", lost > 0 ? timeText(lost) : "none"],
     ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`],
-    ...pairFacts(model.pairCounts),
     ["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")],
   ];
 }
 
 /// Of a whole run, or of one that was stopped.
-function sentence({ pairCounts }: Model, run: Run, isWhole: boolean): string {
+function sentence({ pairCounts }: Model, run: Run): string {
   if (pairCounts?.tested === 0) {
     return noPair;
   }
   const claim = noneOf(pairCounts, "interpenetrates");
-  return isWhole
+  return run.isWhole
     ? `During all of it ${claim}.`
     : `After ${timeText(run.duration)} of ${timeText(run.asked)}; until then ${claim}.`;
 }
 
 export function runPanel(model: Model, run: Run): HTMLElement {
-  const isWhole = run.duration > run.asked * (1 - 1e-9);
   return element(
     "section.card",
     { "aria-label": "Run" },
     element("h1", {}, model.title),
-    element(
-      "p.verdict",
-      { "data-verdict": isWhole ? "free" : "undecided" },
-      isWhole ? "Simulated" : "Stopped early",
-    ),
-    element("p", {}, sentence(model, run, isWhole)),
+    verdictLine(model),
+    element("p", {}, sentence(model, run)),
     factList(facts(model, run)),
+    ...untestedPairs(model.pairCounts),
   );
 }

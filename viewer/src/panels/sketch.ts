@@ -46,7 +46,7 @@ export function layer(kind: string, from: number, to: number, { range }: SketchL
 function seekIn(svg: SVGElement, player: Player): void {
   const seek = (event: PointerEvent): void => {
     const box = svg.getBoundingClientRect();
-    player.seek((event.clientX - box.left) / box.width);
+    player.seek(player.window.at((event.clientX - box.left) / box.width));
   };
   svg.addEventListener("pointerdown", (event) => {
     svg.setPointerCapture(event.pointerId);
@@ -68,13 +68,15 @@ export function sketch(
   player: Player,
 ): SVGElement {
   const svg = shape("svg", "sketch", {
-    viewBox: `0 0 1000 ${height}`,
     preserveAspectRatio: "none",
     "aria-hidden": "true",
   });
   const d = value.map((v, k) => `${k ? "L" : "M"}${1000 * t[k]!} ${y(v, range)}`).join("");
   const now = upright("now", 0);
   svg.append(...below, shape("path", "curve", { d }), ...above, now);
+  player.window.shown.subscribe(({ from, to }) =>
+    svg.setAttribute("viewBox", `${1000 * from} 0 ${1000 * (to - from)} ${height}`),
+  );
   player.t.subscribe((moment) => now.setAttribute("d", `M${1000 * moment} 0V${height}`));
   seekIn(svg, player);
   return svg;

@@ -22,7 +22,10 @@ function facts(run: Run, index: number): [string, string][] {
     ["Lasts", timeText(step.lasted)],
     ...(step.time_lost > 0 ? [["Lost", timeText(step.time_lost)] as [string, string]] : []),
     ["Contacts", String(run.contactCount(index))],
-    ["Apart", step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance)}`],
+    [
+      "Apart",
+      step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
+    ],
     ["Impacts", String(step.events)],
     ["Greatest force", forceText(run.greatestForces[index]!)],
     ["Kinetic energy", energyText(step.kinetic_energy)],

@@ -48,6 +48,17 @@ export interface ChartContent {
   readonly close?: () => void;
 }
 
+const wheelZoom = 0.002; // By pixels of the wheel.
+const wheelMove = 0.0005;
+
+/// What is drawn from now on stays within the lines' part of the chart, but for half a line.
+function clipTo(ctx: CanvasRenderingContext2D, { left, top, width, height }: uPlot.BBox): void {
+  const edge = devicePixelRatio;
+  ctx.beginPath();
+  ctx.rect(left - edge, top, width + 2 * edge, height);
+  ctx.clip();
+}
+
 export class TimeChart {
   readonly element = element("div.chart", { "aria-label": "Chart over time", role: "figure" });
   private plot: uPlot | null = null;
@@ -68,7 +79,19 @@ export class TimeChart {
     this.theme.name.subscribe(() => this.make());
     this.content.subscribe(() => this.make());
     this.player.t.subscribe(() => this.plot?.redraw(false));
+    this.player.window.shown.subscribe(() => this.zoom());
     new ResizeObserver(() => this.plot?.setSize(this.size())).observe(this.element);
+  }
+
+  private get timeRange(): [number, number] {
+    const { from, to } = this.player.window.shown.value;
+    const whole = this.model.duration / this.unit.size;
+    return [from * whole, to * whole];
+  }
+
+  private zoom(): void {
+    const [min, max] = this.timeRange;
+    this.plot?.setScale("x", { min, max });
   }
 
   private size(): { width: number; height: number } {
@@ -109,7 +132,7 @@ export class TimeChart {
         legend: { show: false },
         cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
         scales: {
-          x: { time: false, range: [0, this.model.duration / this.unit.size] },
+          x: { time: false, range: () => this.timeRange },
           y: { range: [...content.range], distr: content.logarithmic ? 3 : 1 },
         },
         axes: [
@@ -138,7 +161,9 @@ export class TimeChart {
       title.append(close);
     }
     this.element.append(title);
-    this.element.append(element("span.chart-unit", {}, `time [${this.unit.name}]`));
+    this.element.append(
+      element("span.chart-unit", {}, ...this.zoomButtons(), `time [${this.unit.name}]`),
+    );
     this.followPointer(this.plot);
   }
 
@@ -148,11 +173,40 @@ export class TimeChart {
     return uPlot.join(lines.map(({ t, value }): uPlot.AlignedData => [t.map(seconds), [...value]]));
   }
 
+  private zoomButtons(): HTMLElement[] {
+    const { player } = this;
+    const zoom = (factor: number) => () => player.window.zoom(player.t.value, factor);
+    const all = iconButton(icons.whole, "All of the time", "0", () => player.window.showAll());
+    player.window.shown.subscribe(() => (all.hidden = player.window.isWhole));
+    return [
+      all,
+      iconButton(icons.minus, "More of the time", "-", zoom(0.5)),
+      iconButton(icons.plus, "Less of the time", "+", zoom(2)),
+    ];
+  }
+
   private followPointer({ over }: uPlot): void {
-    const seek = (event: PointerEvent): void => {
+    const { window } = this.player;
+    const momentOf = ({ clientX }: MouseEvent): number => {
       const box = over.getBoundingClientRect();
-      this.player.seek((event.clientX - box.left) / box.width);
+      return window.at((clientX - box.left) / box.width);
     };
+    const seek = (event: PointerEvent): void => this.player.seek(momentOf(event));
+    over.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        const sideways = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+        const by = event.deltaY + event.deltaX;
+        if (sideways) {
+          window.move(wheelMove * by);
+        } else {
+          window.zoom(momentOf(event), Math.exp(-wheelZoom * by));
+        }
+      },
+      { passive: false },
+    );
+    over.addEventListener("dblclick", () => window.showAll());
     over.style.touchAction = "none";
     over.addEventListener("pointerdown", (event) => {
       over.setPointerCapture(event.pointerId);
@@ -173,11 +227,14 @@ export class TimeChart {
       { from: t, to: 1, color: "chart-after" },
       ...bands,
     ];
+    const { window } = this.player;
     ctx.save();
+    clipTo(ctx, bbox);
     for (const { from, to, color } of all) {
       ctx.fillStyle = this.theme.color(color);
-      const width = Math.max(bbox.width * (to - from), to > from ? devicePixelRatio : 0);
-      ctx.fillRect(bbox.left + bbox.width * from, bbox.top, width, bbox.height);
+      const [left, right] = [window.shareOf(from), window.shareOf(to)];
+      const width = Math.max(bbox.width * (right - left), to > from ? devicePixelRatio : 0);
+      ctx.fillRect(bbox.left + bbox.width * left, bbox.top, width, bbox.height);
     }
     ctx.restore();
   }
@@ -192,9 +249,10 @@ export class TimeChart {
       ctx.lineTo(x2, y2);
       ctx.stroke();
     };
-    const x = (t: number): number => bbox.left + bbox.width * t;
+    const x = (t: number): number => bbox.left + bbox.width * this.player.window.shareOf(t);
     const bottom = bbox.top + bbox.height;
     ctx.save();
+    clipTo(ctx, bbox);
     ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
     for (const level of levels) {
       const y = plot.valToPos(level, "y", true);

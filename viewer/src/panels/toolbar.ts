@@ -4,11 +4,21 @@ import { element, iconButton } from "../core/dom";
 import { icons } from "../core/icons";
 import type { Signal } from "../core/signal";
 import type { Commands } from "../commands";
+import type { Display } from "../display";
 import type { Model } from "../model";
+import { cutBar } from "./cut_bar";
 
 function toggle(path: string, label: string, key: string | null, signal: Signal<boolean>) {
   const button = iconButton(path, label, key, () => (signal.value = !signal.value));
   signal.subscribe((on) => button.setAttribute("aria-pressed", String(on)));
+  return button;
+}
+
+function cutButton(display: Display): HTMLElement {
+  const button = iconButton(icons.cutaway, "Cut away what is in front", "k", () =>
+    display.toggleCut(),
+  );
+  display.cut.subscribe((cut) => button.setAttribute("aria-pressed", String(cut !== null)));
   return button;
 }
 
@@ -24,7 +34,7 @@ export function toolbar(
     iconButton(icons.fit, "Show everything", "f", commands.fit),
     toggle(icons.wireframe, "Wireframe", "w", display.wireframe),
     toggle(icons.xray, "X-ray", "x", display.xray),
-    toggle(icons.cutaway, "Cut away what is in front", "k", display.cutaway),
+    cutButton(display),
     toggle(icons.edges, "Edges", "e", display.edges),
     toggle(icons.ghosts, "Ghosts of start and end", "g", display.ghosts),
     toggle(icons.onion, "Onion skin of the sweep", "o", display.onion),
@@ -44,5 +54,5 @@ export function toolbar(
     iconButton(icons.help, "Help", "?", commands.help),
     panel,
   );
-  return element("div.toolbar", {}, look, page);
+  return element("div.toolbar", {}, look, page, cutBar(display));
 }

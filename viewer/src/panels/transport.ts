@@ -18,20 +18,30 @@ function slider(model: Model, { player }: Commands): HTMLElement {
   const track = element("div.slider", {}, input);
   const unit = timeUnit(model.duration);
   input.addEventListener("input", () => player.seek(Number(input.value)));
-  player.t.subscribe((t) => {
+  const percent = (t: number): string =>
+    `${100 * Math.min(Math.max(player.window.shareOf(t), 0), 1)}%`;
+  const place = (t: number): void => {
     input.value = String(t);
-    track.style.setProperty("--done", `${100 * t}%`);
+    track.style.setProperty("--done", percent(t));
+  };
+  player.t.subscribe((t) => {
+    place(t);
     input.setAttribute(
       "aria-valuetext",
       `${number((t * model.duration) / unit.size, 5)} ${unit.name}`,
     );
   });
-  track.style.setProperty("--free", `${100 * model.provenUntil}%`);
-  if (model.contactTime !== null) {
-    const mark = element("span.contact-mark", { "aria-hidden": "true" });
-    mark.style.left = `${100 * model.contactTime}%`;
-    track.prepend(mark);
-  }
+  const mark = element("span.contact-mark", { "aria-hidden": "true" });
+  track.prepend(mark);
+  player.window.shown.subscribe(({ from, to }) => {
+    input.min = String(from);
+    input.max = String(to);
+    place(player.t.value);
+    track.style.setProperty("--free", percent(model.provenUntil));
+    const { contactTime } = model;
+    mark.hidden = contactTime === null || contactTime < from || contactTime > to;
+    mark.style.left = percent(contactTime ?? 0);
+  });
   return track;
 }
 

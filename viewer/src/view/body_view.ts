@@ -44,6 +44,7 @@ export class BodyView {
     const differ = this.looks.length > 0;
     this.parts.forEach((part) => (part.shown = !looks || !differ));
     this.looks.forEach((look) => (look.shown = looks));
+    this.pieces.forEach((piece) => piece.setOwnColor(looks));
   }
 
   setStyle(style: Style): void {

@@ -7,6 +7,9 @@ import { place } from "../motion/motion";
 import { add, scale } from "../motion/vector";
 
 const moments = 33;
+const farApart = 2.5; // By the size of the way to the first touch.
+
+const size = (box: Box3): number => box.getSize(new Vector3()).length();
 
 /// The corners of boxes around the parts of a body, in its frame, at both ends of the step: in
 /// between, what deforms is in the box between them.
@@ -58,21 +61,37 @@ export class Bounds {
 
   /// All bodies over the whole step; without resting bodies that dwarf those that move.
   sweep(): Box3 {
-    const moving = this.sweepOf(this.bodies.filter(({ atRest }) => !atRest));
-    const all = this.sweepOf(this.bodies);
-    const size = (box: Box3): number => box.getSize(new Vector3()).length();
+    return this.sweepUntil(1);
+  }
+
+  /// What is looked at first. Where bodies fly far apart after the first touch, only the way to it.
+  opening(firstTouch: number | null): Box3 {
+    const whole = this.sweep();
+    if (firstTouch === null || firstTouch === 0) {
+      return whole;
+    }
+    const before = this.sweepUntil(firstTouch);
+    return size(whole) < farApart * size(before) ? whole : before;
+  }
+
+  private sweepUntil(end: number): Box3 {
+    const moving = this.sweepOf(
+      this.bodies.filter(({ atRest }) => !atRest),
+      end,
+    );
+    const all = this.sweepOf(this.bodies, end);
     if (moving.isEmpty() || size(all) < 4 * size(moving)) {
       return all;
     }
     return moving.expandByScalar(0.3 * size(moving)).intersect(all);
   }
 
-  private sweepOf(bodies: readonly Body[]): Box3 {
+  private sweepOf(bodies: readonly Body[], end: number): Box3 {
     const box = new Box3();
     for (const body of bodies) {
       const count = body.atRest ? 1 : moments;
       for (let k = 0; k < count; ++k) {
-        this.include(body, count > 1 ? k / (count - 1) : 0, box);
+        this.include(body, count > 1 ? (end * k) / (count - 1) : 0, box);
       }
     }
     return box;

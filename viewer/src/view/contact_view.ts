@@ -10,6 +10,7 @@ import {
   Group,
   Mesh,
   MeshBasicMaterial,
+  type Object3D,
   PerspectiveCamera,
   Points,
   PointsMaterial,
@@ -23,6 +24,8 @@ import { cornersAt } from "./triangle";
 /// A corner, or a long line of contact, has many feature pairs: only the first shows its normal.
 const arrowLength = 0.09; // of the distance from the camera
 const dotSize = 15; // [px]
+const fillOpacity = 0.7;
+const outlineOpacity = 0.6;
 const many = 12; // Contacts; from here on their dots are small.
 
 export function roundDot(): CanvasTexture {
@@ -84,9 +87,9 @@ export function touchingSurface(body: Body, part: Part, contacts: readonly Conta
     if (part.to) {
       geometry.morphAttributes.position = [new BufferAttribute(cornersOfAll(1), 3)];
     }
-    const fill = overlay(0.7);
+    const fill = overlay(fillOpacity);
     fill.depthTest = true; // A body before it hides it, the outline shows all the same.
-    const outline = overlay(0.6);
+    const outline = overlay(outlineOpacity);
     outline.wireframe = true;
     [fill, outline].forEach((material) => {
       const mesh = new Mesh(geometry, material);
@@ -97,6 +100,17 @@ export function touchingSurface(body: Body, part: Part, contacts: readonly Conta
   }
   group.position.set(...part.mesh.origin);
   return group;
+}
+
+/// @param nearness  1 at the moment of contact, 0 far from it
+export function fadeSurface(surface: Object3D, nearness: number): void {
+  surface.traverse((part) => {
+    if (part instanceof Mesh) {
+      const material = part.material as MeshBasicMaterial;
+      material.opacity = nearness * (material.wireframe ? outlineOpacity : fillOpacity);
+      material.visible = nearness > 0;
+    }
+  });
 }
 
 /// Directions from which the normal is seen from the side, those near the camera's first.
@@ -160,10 +174,11 @@ export class ContactMarkers {
     }
   }
 
-  /// Bright at the moment of contact, faint before and after it.
-  setPresent(present: boolean): void {
-    this.points.opacity = present ? 1 : 0.3;
-    this.arrowMaterial.opacity = present ? 1 : 0.25;
+  /// @param nearness  1 at the moment of contact, 0 far from it
+  fade(nearness: number): void {
+    this.points.opacity = nearness;
+    this.arrowMaterial.opacity = nearness;
+    this.points.visible = this.arrowMaterial.visible = nearness > 0;
   }
 
   /// The arrow is as long on the screen from near and far.

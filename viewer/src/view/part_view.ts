@@ -12,6 +12,7 @@ import {
   MeshBasicMaterial,
   MeshPhongMaterial,
   Object3D,
+  type Plane,
   Points,
   PointsMaterial,
   Quaternion,
@@ -31,7 +32,12 @@ export interface Style {
   readonly wireframe: boolean;
   readonly xray: boolean;
   readonly edges: boolean;
+  readonly opacity: number; ///< From 0 to 1.
+  readonly cut: Plane[]; ///< What is before one of them is not drawn.
 }
+
+const xrayOpacity = 0.28;
+const edgeOpacity = 0.75;
 
 export type Surface =
   Mesh<BufferGeometry, MeshPhongMaterial> | Points<BufferGeometry, PointsMaterial>;
@@ -53,6 +59,8 @@ export function deform(part: Object3D, t: number): void {
     part.morphTargetInfluences[0] = t;
   }
 }
+
+const edgeColor = (color: string): Color => new Color(color).multiplyScalar(0.32);
 
 function surfaceMaterial(color: string, flatShading: boolean): MeshPhongMaterial {
   const material = new MeshPhongMaterial({
@@ -95,7 +103,14 @@ export class PartView {
   readonly group = new Group();
   readonly surface: Surface;
   private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
-  private style: Style = { wireframe: false, xray: false, edges: true };
+  private shownColor: string;
+  private style: Style = {
+    wireframe: false,
+    xray: false,
+    edges: true,
+    opacity: 1,
+    cut: [],
+  };
 
   /// @param body  index of the body, for whoever finds the surface
   constructor(
@@ -111,8 +126,13 @@ export class PartView {
         : new Mesh(geometry, surfaceMaterial(color, kind === "triangles"));
     this.surface.position.set(...origin);
     this.surface.userData = { body, part };
+    this.shownColor = color;
     setPose(this.group, part.pose);
     this.group.add(this.surface);
+  }
+
+  get drawnColor(): string {
+    return this.shownColor;
   }
 
   get shown(): boolean {
@@ -131,14 +151,21 @@ export class PartView {
 
   /// The edges take a while to find: they come after the first picture.
   setEdges(geometry: BufferGeometry): void {
-    const color = new Color(this.color).multiplyScalar(0.32);
+    const color = edgeColor(this.shownColor);
     this.edges = new LineSegments(
       geometry,
-      new LineBasicMaterial({ color, transparent: true, opacity: 0.75 }),
+      new LineBasicMaterial({ color, transparent: true, opacity: edgeOpacity }),
     );
     this.edges.position.copy(this.surface.position);
     this.group.add(this.edges);
     this.restyle();
+  }
+
+  /// The colour that the piece looks like, if it has one, or that of its body.
+  setOwnColor(own: boolean): void {
+    this.shownColor = (own ? this.part.color : null) ?? this.color;
+    this.surface.material.color.set(this.shownColor);
+    this.edges?.material.color.copy(edgeColor(this.shownColor));
   }
 
   setStyle(style: Style): void {
@@ -147,30 +174,42 @@ export class PartView {
   }
 
   private restyle(): void {
-    const { wireframe, xray, edges } = this.style;
+    const { wireframe, xray, edges, opacity, cut } = this.style;
+    const seen = opacity * (xray ? xrayOpacity : 1);
     const { material } = this.surface;
     if (material instanceof MeshPhongMaterial) {
       material.wireframe = wireframe;
     }
-    material.transparent = xray;
-    material.opacity = xray ? 0.28 : 1;
-    material.depthWrite = !xray;
+    material.transparent = seen < 1;
+    material.opacity = seen;
+    material.depthWrite = seen === 1;
+    material.clippingPlanes = cut;
     material.needsUpdate = true;
     if (this.edges) {
+      this.edges.material.opacity = edgeOpacity * opacity;
+      this.edges.material.clippingPlanes = cut;
       this.edges.visible = this.surface.visible && edges && !wireframe;
     }
   }
 
   /// A faint copy of the piece. It cannot be clicked.
   ghost(t: number, opacity: number): Group {
-    const look = { color: this.color, transparent: true, opacity, depthWrite: false } as const;
+    const look = {
+      color: this.shownColor,
+      transparent: true,
+      opacity,
+      depthWrite: false,
+      clippingPlanes: this.style.cut,
+    };
     const { geometry } = this.surface;
     const copies: Object3D[] =
       this.surface instanceof Points
         ? [
             new Points(
               geometry,
-              Object.assign(this.surface.material.clone(), look, { color: new Color(this.color) }),
+              Object.assign(this.surface.material.clone(), look, {
+                color: new Color(this.shownColor),
+              }),
             ),
           ]
         : [new Mesh(geometry, new MeshBasicMaterial({ ...look, side: DoubleSide }))];

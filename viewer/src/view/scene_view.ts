@@ -26,7 +26,16 @@ import { BodyView } from "./body_view";
 import { Bounds, corners } from "./bounds";
 import { CameraFlight, type Viewpoint } from "./camera_flight";
 import { bodyColor } from "./colors";
-import { contactSize, ContactMarkers, middleOf, sideViews, touchingSurface } from "./contact_view";
+import {
+  contactSize,
+  ContactMarkers,
+  fadeSurface,
+  middleOf,
+  sideViews,
+  touchingSurface,
+} from "./contact_view";
+import { CutPlane } from "./cut_plane";
+import { nearness } from "./fading";
 import { DrawnShapes } from "./drawn_shape";
 import { edgeGeometry } from "./feature_edges";
 import { ForceMarkers } from "./force_view";
@@ -37,6 +46,8 @@ import { fieldOfView, type PartView, type Surface } from "./part_view";
 import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
+const nearContact = 0.04; // In t: contacts of a result are seen within it.
+const blink = 0.2; // [s] Of the person who looks: no less long are contacts seen.
 
 export class SceneView {
   readonly camera = new PerspectiveCamera(fieldOfView, 1, 0.01, 100);
@@ -58,9 +69,14 @@ export class SceneView {
   private readonly grid: Grid;
   private readonly sweep: Box3;
   private readonly home: Sphere;
+  /// Of the whole motion, where what is looked at first is less than that.
+  private readonly whole: Box3;
+  private readonly reach: number; // [m] From the middle of what is looked at first.
+  private showsWhole = false;
   private readonly edges = new Map<MeshData, BufferGeometry | null>();
   private shownContacts: readonly Contact[] = [];
-  private cutDepth = 0;
+  private readonly cut = new CutPlane();
+  private contactsAt: number | null = null; // t
   private dirty = true;
   private lastFrame: number | null = null;
   private coarse = false;
@@ -71,7 +87,12 @@ export class SceneView {
     private readonly display: Display,
     private readonly container: HTMLElement,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({
+      alpha: true,
+      antialias: true,
+      powerPreference: "high-performance",
+    });
+    this.renderer.localClippingEnabled = true;
     this.renderer.domElement.setAttribute("role", "img");
     this.renderer.domElement.setAttribute("aria-label", "The bodies in motion");
     container.append(this.renderer.domElement);
@@ -82,8 +103,11 @@ export class SceneView {
     this.flight = new CameraFlight(this.camera, this.controls.target);
 
     this.bounds = new Bounds(model.bodies);
-    this.sweep = this.bounds.sweep();
+    this.sweep = this.bounds.opening(model.firstTouch);
     this.home = this.sweep.getBoundingSphere(new Sphere());
+    this.whole = this.bounds.sweep();
+    this.reach = this.home.center.distanceTo(this.whole.getCenter(new Vector3()));
+    this.reach += 0.5 * this.whole.getSize(new Vector3()).length();
     this.grid = new Grid(this.sweep, this.camera.up);
     this.bodies = this.makeBodies();
     this.ghosts = new Ghosts(this.bodies);
@@ -98,7 +122,7 @@ export class SceneView {
       this.camera,
     );
     this.addLights();
-    this.showContacts(model.contacts);
+    this.showContacts(model.contacts, model.contactTime);
     this.listen();
   }
 
@@ -117,13 +141,15 @@ export class SceneView {
       this.frame(now);
     };
     this.resize();
-    this.fitAll(true);
+    this.fit(this.sweep, true);
+    this.controls.update();
     this.draw();
     requestAnimationFrame(frame);
   }
 
-  setColors(background: string, grid: string): void {
-    this.renderer.setClearColor(background);
+  /// @param background  none where what is behind the canvas is to be seen
+  setColors(background: string | null, grid: string): void {
+    this.renderer.setClearColor(background ?? "#000", background === null ? 0 : 1);
     this.grid.color = grid;
     this.requestFrame();
   }
@@ -145,23 +171,29 @@ export class SceneView {
     this.showMoment(this.player.t.value);
   }
 
-  fitAll(atOnce = false): void {
-    this.display.cutaway.value = false;
-    const seen = corners(this.sweep.min, this.sweep.max);
-    const target = this.home.center.clone();
+  /// The whole motion; and by turns what was looked at first, where that is less.
+  fitAll(): void {
+    this.showsWhole = !this.showsWhole && !this.whole.equals(this.sweep);
+    this.fit(this.showsWhole ? this.whole : this.sweep);
+  }
+
+  private fit(box: Box3, atOnce = false): void {
+    this.display.endOwnCut();
+    const seen = corners(box.min, box.max);
+    const target = box.getCenter(new Vector3());
     const direction = homeDirection(this.model);
     const range = this.rangeFor(seen, target, direction);
     this.fly({ position: target.clone().addScaledVector(direction, range), target }, atOnce);
   }
 
   focusBodies(bodies: readonly Body[]): void {
-    this.display.cutaway.value = false;
+    this.display.endOwnCut();
     this.flyTo(this.bounds.bodiesAt(bodies, this.player.t.value));
   }
 
   /// Near enough to see where two bodies touch.
   focusPoint(point: Triple, bodies: readonly Body[]): void {
-    this.display.cutaway.value = false;
+    this.display.endOwnCut();
     const sizes = bodies.map((body) => this.bounds.bodiesAt([body], this.player.t.value).radius);
     this.flyTo(new Sphere(new Vector3(...point), Math.min(...sizes)));
   }
@@ -169,7 +201,10 @@ export class SceneView {
   /// From where the normal is seen from the side, near enough to see the triangles. What hides the
   /// contact from every side is cut away.
   focusContact(contact: Contact): void {
-    this.showContacts([contact, ...this.shownContacts.filter((other) => other !== contact)]);
+    this.showContacts(
+      [contact, ...this.shownContacts.filter((other) => other !== contact)],
+      this.contactsAt,
+    );
     const scene = this.home.radius;
     const size = Math.min(
       Math.max(5 * contactSize(this.model, contact), 0.03 * scene),
@@ -178,14 +213,21 @@ export class SceneView {
     const middle = middleOf(contact);
     const toCamera = this.camera.position.clone().sub(this.controls.target).normalize();
     const open = sideViews(contact, toCamera).find((side) => this.sees(middle, side, 0.02 * size));
-    this.cutDepth = 0.25 * size;
-    this.display.cutaway.value = open === undefined;
-    this.flyTo(new Sphere(middle, size), open ?? sideViews(contact, toCamera)[0]);
+    const around = new Sphere(middle, size);
+    this.display.endOwnCut();
+    if (open === undefined && !this.display.cut.value) {
+      const share = 0.5 * (1 - (0.25 * size) / this.rangeTo(around));
+      this.display.cut.value = { along: "view", share, otherSide: false, byItself: true };
+    }
+    this.flyTo(around, open ?? sideViews(contact, toCamera)[0]);
   }
 
   /// The contacts of the scene, or those of a pair that touches later.
-  showContacts(contacts: readonly Contact[]): void {
+  ///
+  /// @param t  when they are
+  showContacts(contacts: readonly Contact[], t: number | null): void {
     this.shownContacts = contacts;
+    this.contactsAt = t;
     this.markers.show(contacts);
     this.bodies.forEach(({ body, parts }) =>
       parts.forEach(({ group, part }) => {
@@ -217,7 +259,7 @@ export class SceneView {
     ray.params.Points.threshold = 0.005 * this.home.radius;
     const hit = ray
       .intersectObjects(this.shownSurfaces(), false)
-      .find(({ distance }) => distance > this.camera.near);
+      .find(({ distance, point }) => distance > this.camera.near && this.cut.keeps(point));
     if (!hit) {
       this.probe.clear();
       return;
@@ -233,6 +275,7 @@ export class SceneView {
   /// Draws now, for a picture of it.
   draw(): void {
     this.adaptClipping();
+    this.cut.update(this.display.cut.value, this.camera, this.controls.target, this.sweep);
     this.markers.adapt(this.camera);
     this.renderer.render(this.scene, this.camera);
     this.onFrame?.();
@@ -291,7 +334,9 @@ export class SceneView {
       setTimeout(() => this.addEdges());
       this.requestFrame();
     });
-    display.cutaway.subscribe(() => this.requestFrame());
+    display.cut.subscribe(() => this.requestFrame());
+    display.opacities.subscribe(() => this.restyle());
+    player.speed.subscribe(() => this.showMoment(player.t.value));
     [display.ghosts, display.onion].forEach((signal) => signal.subscribe(() => this.showGhosts()));
     display.contacts.subscribe((shown) => {
       this.markers.group.visible = shown;
@@ -325,17 +370,35 @@ export class SceneView {
 
   private showMoment(t: number): void {
     this.bodies.forEach((view) => view.show(t));
-    const contact = this.player.contact;
-    this.markers.setPresent(contact !== null && Math.abs(t - contact) < 1e-9);
-    this.forces?.show(t);
+    const { duration, speed } = this.player;
+    const window = (blink * speed.value) / duration;
+    this.fadeContacts(
+      this.contactsAt === null ? 0 : nearness(t, this.contactsAt, Math.max(window, nearContact)),
+    );
+    this.forces?.show(t, window);
     this.probe.show(t);
     this.requestFrame();
+  }
+
+  /// Points, normal and triangles of the contacts that are shown.
+  private fadeContacts(nearness: number): void {
+    this.markers.fade(nearness);
+    this.bodies
+      .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
+      .filter(({ name }) => name === "touching")
+      .forEach((surface) => fadeSurface(surface, nearness));
   }
 
   private restyle(): void {
     const { wireframe, xray, edges } = this.display;
     this.bodies.forEach((view) =>
-      view.setStyle({ wireframe: wireframe.value, xray: xray.value, edges: edges.value }),
+      view.setStyle({
+        wireframe: wireframe.value,
+        xray: xray.value,
+        edges: edges.value,
+        opacity: this.display.opacityOf(view.body.index),
+        cut: this.cut.planes,
+      }),
     );
     this.requestFrame();
   }
@@ -362,12 +425,17 @@ export class SceneView {
     );
   }
 
+  /// From where a ball fills the picture.
+  private rangeTo({ radius }: Sphere): number {
+    const half = (0.5 * this.camera.fov * Math.PI) / 180;
+    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
+    return (1.08 * Math.max(radius, 1e-9)) / Math.sin(narrow);
+  }
+
   private flyTo(sphere: Sphere, direction?: Vector3): void {
     const toCamera =
       direction ?? this.camera.position.clone().sub(this.controls.target).normalize();
-    const half = (0.5 * this.camera.fov * Math.PI) / 180;
-    const narrow = Math.atan(Math.tan(half) * Math.min(1, this.camera.aspect));
-    const range = (1.08 * Math.max(sphere.radius, 1e-9)) / Math.sin(narrow);
+    const range = this.rangeTo(sphere);
     const target = sphere.center.clone();
     this.fly({ position: target.clone().addScaledVector(toCamera, range), target });
   }
@@ -419,10 +487,7 @@ export class SceneView {
     const range = this.camera.position.distanceTo(this.controls.target);
     const away = this.camera.position.distanceTo(this.home.center);
     this.camera.near = Math.max(range / 200, (away - 6 * this.home.radius) / 50, 1e-12);
-    if (this.display.cutaway.value) {
-      this.camera.near = Math.max(this.camera.near, range - this.cutDepth);
-    }
-    this.camera.far = Math.max(away + 8 * this.home.radius, 4 * range);
+    this.camera.far = Math.max(away + 8 * this.home.radius, away + this.reach, 4 * range);
     this.camera.updateProjectionMatrix();
   }
 }

@@ -78,9 +78,16 @@ JsonValue to_json(const JointLimits& limits) {
 }
 
 class RobotPage {
+  using Color = UrdfColors::mapped_type::value_type;
+
  public:
-  RobotPage(const RobotMotion& motion, PageMeshes& meshes, std::vector<std::string>& warnings)
-      : motion_(motion), model_(motion.model()), meshes_(meshes), warnings_(warnings) {}
+  RobotPage(const RobotMotion& motion, const UrdfColors& colors, PageMeshes& meshes,
+            std::vector<std::string>& warnings)
+      : motion_(motion),
+        model_(motion.model()),
+        colors_(colors),
+        meshes_(meshes),
+        warnings_(warnings) {}
 
   [[nodiscard]] JsonValue write(const std::string& name) {
     JsonArray links;
@@ -98,23 +105,45 @@ class RobotPage {
   }
 
  private:
-  /// What a link looks like is written where that is not what it is made of for collisions.
+  /// What a link looks like is written where that is not what it is made of for collisions; else
+  /// its colours stand there.
   JsonValue write(const Link& link) {
-    JsonValue collision{.value = write(link.collision, link.name)};
-    JsonValue visual{.value = write(link.visual, link.name)};
-    const bool differ = write_json(collision) != write_json(visual);
-    JsonObject object{{"name", to_json(link.name)}, {"collision", std::move(collision)}};
+    JsonValue collision{.value = write(link.collision, link.name, {})};
+    const JsonArray coloured = write(link.visual, link.name, colors_of(link));
+    JsonValue visual{.value = coloured};
+    const bool differ = write_json(collision) != write_json({.value = without_colors(coloured)});
+    JsonObject object{{"name", to_json(link.name)},
+                      {"collision", differ ? std::move(collision) : visual}};
     if (differ) {
       object.push_back({"visual", std::move(visual)});
     }
     return {.value = std::move(object)};
   }
 
-  JsonArray write(std::span<const LinkGeometry> geometries, const std::string& link) {
+  static JsonArray without_colors(JsonArray geometries) {
+    for (JsonValue& geometry : geometries) {
+      auto& members = std::get<JsonObject>(geometry.value);
+      if (!members.empty() && members.back().key == "color") {
+        members.pop_back();
+      }
+    }
+    return geometries;
+  }
+
+  /// Of each visual; empty where the file has others than the model.
+  [[nodiscard]] std::vector<Color> colors_of(const Link& link) const {
+    const auto found = colors_.find(link.name);
+    return found == colors_.end() || found->second.size() != link.visual.size()
+               ? std::vector<Color>{}
+               : found->second;
+  }
+
+  JsonArray write(std::span<const LinkGeometry> geometries, const std::string& link,
+                  std::span<const Color> colors) {
     JsonArray array;
-    for (const LinkGeometry& geometry : geometries) {
+    for (std::size_t k = 0; k < geometries.size(); ++k) {
       try {
-        array.push_back(write(geometry));
+        array.push_back(write(geometries[k], colors.empty() ? std::nullopt : colors[k]));
       } catch (const std::exception& error) {  // A file, or a size, that no shape can be made of.
         warnings_.push_back("link " + in_quotes(link) + " is drawn in part: " + error.what());
       }
@@ -122,11 +151,14 @@ class RobotPage {
     return array;
   }
 
-  JsonValue write(const LinkGeometry& geometry) {
+  JsonValue write(const LinkGeometry& geometry, const Color& color) {
     JsonObject object{{"mesh", to_json(meshes_.add(geometry))}, {"pose", to_json(geometry.X_LG)}};
     const double radius = radius_of(geometry);
     if (radius > 0.0) {
       object.push_back({"radius", to_json(radius)});
+    }
+    if (color) {
+      object.push_back({"color", to_json(*color)});
     }
     return {.value = std::move(object)};
   }
@@ -188,6 +220,7 @@ class RobotPage {
 
   const RobotMotion& motion_;
   const RobotModel& model_;
+  const UrdfColors& colors_;
   PageMeshes& meshes_;
   std::vector<std::string>& warnings_;
 };
@@ -212,11 +245,12 @@ JsonValue to_json(const BodyStretch& stretch, const RobotScene& scene) {
 
 }  // namespace
 
-JsonArray robots_of_page(const RobotScene& scene, PageMeshes& meshes,
-                         std::vector<std::string>& warnings) {
+JsonArray robots_of_page(const RobotScene& scene, std::span<const UrdfColors> colors,
+                         PageMeshes& meshes, std::vector<std::string>& warnings) {
   JsonArray robots;
   for (std::size_t k = 0; k < scene.robot_count(); ++k) {
-    robots.push_back(RobotPage(scene.robot_motion(k), meshes, warnings).write(scene.robot_name(k)));
+    robots.push_back(
+        RobotPage(scene.robot_motion(k), colors[k], meshes, warnings).write(scene.robot_name(k)));
   }
   return robots;
 }

@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include <firstcontact/page/detail/page_meshes.h>
+#include <firstcontact/page/detail/urdf_colors.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/text/json_tree.h>
 
@@ -14,9 +16,10 @@ namespace firstcontact::detail {
 
 /// The robots with links, joints and the exact pieces of their paths (docs/viewer.md).
 ///
+/// @param colors    of each robot
 /// @param warnings  gets a line for each visual geometry that cannot be read and is left out
-[[nodiscard]] JsonArray robots_of_page(const RobotScene& scene, PageMeshes& meshes,
-                                       std::vector<std::string>& warnings);
+[[nodiscard]] JsonArray robots_of_page(const RobotScene& scene, std::span<const UrdfColors> colors,
+                                       PageMeshes& meshes, std::vector<std::string>& warnings);
 
 /// How bodies move that are carried for a while.
 [[nodiscard]] JsonArray carried_of_page(const RobotScene& scene);

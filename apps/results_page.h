@@ -1,0 +1,31 @@
+/// @file
+/// A page that lists the results of a batch, and plays each.
+
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact::app {
+
+/// Reads results again, with the meshes of their scenes, and writes the page that lists them. Those
+/// that would make it larger than a browser opens are in the list, but cannot be played; nor can
+/// those whose meshes cannot be read any more.
+///
+/// @param results  a file of results, one in each line
+/// @param page     where the page goes
+/// @param reading  of the scenes
+/// @param stop     ends the work early, without a page
+/// @param doing    called with what is being done
+/// @returns        what there is to say, in lines
+/// @throws std::runtime_error, one line, where the viewer is missing or a file cannot be read or
+///         written
+[[nodiscard]] std::string write_results_page(const std::string& results, const std::string& page,
+                                             const ReadingOptions& reading,
+                                             const std::stop_token& stop,
+                                             const std::function<void(std::string)>& doing);
+
+}  // namespace firstcontact::app
