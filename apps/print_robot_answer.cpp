@@ -27,7 +27,7 @@ class RobotAnswerText {
     }
     contacts();
     if (std::isfinite(result_.clearance) && result_.clearance > 0.0) {
-      line("clearance", fmt::format("more than {}{}", length_text(result_.clearance),
+      line("clearance", fmt::format("more than {}{}", lower_bound_text(result_.clearance),
                                     result_.verdict == Verdict::free ? "" : " before"));
     }
     turns();

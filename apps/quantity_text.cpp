@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include <fmt/core.h>
 
@@ -42,6 +43,20 @@ Unit length_unit(double metres) { return fitting(kLengths, metres, kLengths[1]);
 Unit time_unit(double seconds) { return fitting(kTimes, seconds, kTimes[0]); }
 
 std::string length_text(double metres) { return in_unit(metres, length_unit(metres)); }
+
+std::string lower_bound_text(double metres) {
+  if (!(metres > 0.0) || !std::isfinite(metres)) {
+    return length_text(metres);
+  }
+  const Unit unit = length_unit(metres);
+  const double quantity = metres / unit.size;
+  // One unit of the last of four digits less is enough, as the nearest text is off by half of one.
+  const double digit = std::pow(10.0, std::floor(std::log10(quantity)) - 3.0);
+  const std::string nearest = in_unit(metres, unit);
+  return std::stod(fmt::format("{:.4g}", quantity)) > quantity
+             ? in_unit(metres - digit * unit.size, unit)
+             : nearest;
+}
 
 std::string time_text(double seconds) { return in_unit(seconds, time_unit(seconds)); }
 

@@ -21,6 +21,9 @@ struct Unit {
 /// "0.913 µm"
 [[nodiscard]] std::string length_text(double metres);
 
+/// As length_text(), but never more than the length: for proven lower bounds.
+[[nodiscard]] std::string lower_bound_text(double metres);
+
 /// "12.5 ms"
 [[nodiscard]] std::string time_text(double seconds);
 
