@@ -25,7 +25,8 @@ set(public_headers
   firstcontact/robot/limit_report.h
   firstcontact/robot/robot_model.h
   firstcontact/robot/robot_motion.h
-  firstcontact/robot_files/read_asf_amc.h
+  firstcontact/robot_files/read_amc.h
+  firstcontact/robot_files/read_asf.h
   firstcontact/robot_files/read_bvh.h
   firstcontact/robot_files/read_srdf.h
   firstcontact/robot_files/read_urdf.h
