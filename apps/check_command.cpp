@@ -10,7 +10,12 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "atomic_file.h"

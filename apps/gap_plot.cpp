@@ -6,7 +6,10 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/sample_gap.h>
 
 #include "plot_axis.h"
 #include "print_result.h"

@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/robot_check/touching_links.h>
 

@@ -11,6 +11,8 @@
 #include "quantity_text.h"
 #include "terminal_text.h"
 
+#include <firstcontact/robot_check/robot_scene.h>
+
 namespace firstcontact::app {
 namespace {
 

@@ -2,9 +2,12 @@
 
 #include <array>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
+#include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/scene_files/robot_question.h>
 
 #include "command_line_file.h"
@@ -51,7 +54,7 @@ void add_robot_options(CLI::App& command, RobotArguments& arguments) {
                   "Continuous joints: short, by at most half a turn, or long, as the numbers go. "
                   "Short is the default to a goal, as in MoveIt, long that of --trajectory")
       ->type_name("long|short")
-      ->check(CLI::IsMember({"long", "short"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kTurningWords.begin(), kTurningWords.end())))
       ->group("Robot");
   command
       .add_flag(

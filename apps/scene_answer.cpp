@@ -4,8 +4,14 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_curve.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/shape_cache.h>
 
 namespace firstcontact::app {
 namespace {

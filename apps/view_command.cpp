@@ -21,6 +21,8 @@
 #include <firstcontact/page/write_run_page.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene_files/read_result.h>
 #include <firstcontact/text/parse_error.h>

@@ -26,7 +26,8 @@
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/robot_check/touching_links.h>
 #include <firstcontact/robot_files/motion_capture.h>
-#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_amc.h>
+#include <firstcontact/robot_files/read_asf.h>
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/loaded_scene.h>

@@ -18,7 +18,8 @@
 
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/robot_check/check_robots.h>
-#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_amc.h>
+#include <firstcontact/robot_files/read_asf.h>
 
 namespace {
 

@@ -25,7 +25,8 @@ set(public_headers
   firstcontact/robot/limit_report.h
   firstcontact/robot/robot_model.h
   firstcontact/robot/robot_motion.h
-  firstcontact/robot_files/read_asf_amc.h
+  firstcontact/robot_files/read_amc.h
+  firstcontact/robot_files/read_asf.h
   firstcontact/robot_files/read_bvh.h
   firstcontact/robot_files/read_srdf.h
   firstcontact/robot_files/read_urdf.h
@@ -59,9 +60,6 @@ set(supporting_headers
   firstcontact/motion/relative_state.h
   firstcontact/motion/time_window.h
   firstcontact/text/file_report.h
-  firstcontact/geometry/feature_table.h
-  firstcontact/geometry/hierarchy.h
-  firstcontact/geometry/shape_bounds.h
   firstcontact/contact_solver/kinetics.h
   firstcontact/narrowphase/elementary_contact.h
   firstcontact/narrowphase/oscillation.h
@@ -88,4 +86,5 @@ set(supporting_headers
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h
   firstcontact/scene/trajectory.h
-  firstcontact/record/run.h)
+  firstcontact/record/run.h
+  firstcontact/record/run_step.h)

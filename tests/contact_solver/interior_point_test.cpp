@@ -10,6 +10,8 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_space.h>
+#include <firstcontact/contact_solver/detail/interior_point.h>
 
 #include "contact_solver/wall_problem.h"
 

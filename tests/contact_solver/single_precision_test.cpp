@@ -9,6 +9,7 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_space.h>
 
 #include "contact_solver/wall_problem.h"
 

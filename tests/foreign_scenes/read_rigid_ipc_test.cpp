@@ -1,4 +1,5 @@
 #include <firstcontact/foreign_scenes/read_rigid_ipc.h>
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/scene_files/read_simulation_scene.h>
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 #include <cstring>
 #include <string_view>
 
-#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_amc.h>
+#include <firstcontact/robot_files/read_asf.h>
 #include <firstcontact/text/parse_error.h>
 
 #include "fuzz/fuzz_capture.h"

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/feature_table.h>
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
 

@@ -11,6 +11,7 @@
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/geometry/shape_bounds.h>
 
 #include "support/random.h"
 

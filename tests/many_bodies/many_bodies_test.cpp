@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/many_bodies/detail/box_join.h>
 #include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/query/detail/ball_path.h>

@@ -19,6 +19,7 @@
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/page/write_page.h>
 #include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/write_scene.h>

@@ -11,6 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/text/base64.h>
 #include <firstcontact/text/parse_error.h>

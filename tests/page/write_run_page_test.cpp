@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 
 #include "record/recorded_run.h"

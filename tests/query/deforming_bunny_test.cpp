@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/deforming_body.h>
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/mesh_files/read_mesh.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/query/closest_approach.h>

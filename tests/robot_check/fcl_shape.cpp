@@ -7,6 +7,8 @@
 
 #include "benchmarks/support/fcl_model.h"
 
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact::test {
 
 struct FclShape::Model {

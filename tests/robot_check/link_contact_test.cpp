@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/distance.h>

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/robot/precise_transform.h>
 #include <firstcontact/robot_check/detail/swept_part.h>
 #include <firstcontact/robot_check/detail/tree_course.h>

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/robot_files/read_asf_amc.h>
+#include <firstcontact/robot_files/read_amc.h>
+#include <firstcontact/robot_files/read_asf.h>
 #include <firstcontact/robot_files/read_bvh.h>
 #include <firstcontact/text/parse_error.h>
 

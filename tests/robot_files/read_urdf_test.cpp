@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/text/parse_error.h>
 

@@ -1,3 +1,4 @@
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/pair_counts.h>
 
 #include <random>

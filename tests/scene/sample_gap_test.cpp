@@ -1,3 +1,6 @@
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
 #include <algorithm>
@@ -10,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/write_result.h>
 

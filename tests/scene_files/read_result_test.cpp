@@ -1,3 +1,7 @@
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_result.h>
 
 #include <string>

@@ -11,6 +11,8 @@
 
 #include "simulation/simulated_run.h"
 
+#include <firstcontact/record/run_step.h>
+
 namespace firstcontact::test {
 
 /// [m]  At which the bodies of structures rest; they are put there.

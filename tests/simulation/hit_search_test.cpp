@@ -12,6 +12,10 @@
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/hit_search.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/surroundings.h>
+#include <firstcontact/simulation/detail/world.h>
 
 #include "simulation/random_body.h"
 

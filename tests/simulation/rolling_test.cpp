@@ -8,6 +8,8 @@
 
 #include "simulation/drift.h"
 
+#include <firstcontact/record/run_step.h>
+
 namespace firstcontact {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/simulator.h>

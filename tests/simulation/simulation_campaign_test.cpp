@@ -26,6 +26,8 @@
 #include "simulation/simulated_run.h"
 #include "support/random.h"
 
+#include <firstcontact/record/run_step.h>
+
 namespace firstcontact::test {
 namespace {
 

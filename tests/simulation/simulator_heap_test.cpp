@@ -10,6 +10,8 @@
 
 #include "simulation/simulated_run.h"
 
+#include <firstcontact/record/run_step.h>
+
 namespace firstcontact {
 namespace {
 

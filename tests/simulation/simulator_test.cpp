@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/record/run_step.h>
 #include <firstcontact/record/write_run.h>
 
 #include "simulation/simulated_run.h"

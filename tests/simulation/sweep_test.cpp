@@ -10,6 +10,8 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/world.h>
 

@@ -7,7 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 #include "simulation/random_body.h"

@@ -16,6 +16,7 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/simulation/detail/world.h>
 
 #include "simulation/random_body.h"
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/query/distance.h>
+#include <firstcontact/scene/body_motion.h>
 #include <firstcontact/verification/verify_run.h>
 
 #include "record/recorded_run.h"

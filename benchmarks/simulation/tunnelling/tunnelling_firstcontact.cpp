@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/simulator.h>

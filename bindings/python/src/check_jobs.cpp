@@ -20,7 +20,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 
 #include "arguments.h"

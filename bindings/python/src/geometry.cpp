@@ -14,6 +14,7 @@
 #include <firstcontact/geometry/convex_hull.h>
 #include <firstcontact/geometry/deforming_body.h>
 #include <firstcontact/geometry/height_map.h>
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/geometry/point_cloud.h>
 #include <firstcontact/geometry/primitives.h>
@@ -134,6 +135,19 @@ Vertices count as they are numbered: weld first.)")
                     "[m^3] Of a closed, consistently oriented mesh, else None.");
 }
 
+/// What a pickled shape is made of again.
+py::tuple shape_state(const py::object& self) {
+  const Shape& shape = self.cast<const Shape&>();
+  if (shape.hierarchy().deforms()) {
+    throw py::type_error(
+        "a deforming shape cannot be pickled; pickle what move_vertices was given");
+  }
+  return py::make_tuple(
+      py::make_tuple(view(shape.mesh().vertices, self), view(shape.mesh().triangles, self)),
+      shape.radius(), shape.is_solid() ? Filling::solid : Filling::surface,
+      shape.enclosure_error());
+}
+
 void bind_shape(py::module_& m) {
   py::class_<Shape>(
       m, "Shape", R"(A union of simplices thickened by a radius, with its bounding-volume hierarchy.
@@ -200,23 +214,10 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
                          : "") +
                     (shape.is_solid() ? ", solid>" : ">");
            })
-      .def(py::pickle(
-          [](const py::object& self) {
-            const Shape& shape = self.cast<const Shape&>();
-            if (shape.hierarchy().deforms()) {
-              throw py::type_error(
-                  "a deforming shape cannot be pickled; pickle what move_vertices was given");
-            }
-            return py::make_tuple(py::make_tuple(view(shape.mesh().vertices, self),
-                                                 view(shape.mesh().triangles, self)),
-                                  shape.radius(),
-                                  shape.is_solid() ? Filling::solid : Filling::surface,
-                                  shape.enclosure_error());
-          },
-          [](const py::tuple& state) {
-            return make_shape(state[0], state[1].cast<double>(), state[2].cast<Filling>(),
-                              state[3].cast<double>());
-          }));
+      .def(py::pickle(&shape_state, [](const py::tuple& state) {
+        return make_shape(state[0], state[1].cast<double>(), state[2].cast<Filling>(),
+                          state[3].cast<double>());
+      }));
 }
 
 void bind_makers(py::module_& m) {

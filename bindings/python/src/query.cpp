@@ -11,8 +11,12 @@
 
 #include <pybind11/stl.h>
 
+#include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/robot/joint_path.h>
 #include <firstcontact/scene_files/write_result.h>
 
 #include "arrays.h"

@@ -8,10 +8,22 @@
 
 #include <pybind11/stl.h>
 
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/motion/time_window.h>
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/robot/limit_report.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
 
 #include "arrays.h"
 #include "bindings.h"

@@ -11,6 +11,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/foreign_scenes/planning_scene.h>
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/robot_question.h>
 #include <firstcontact/scene_files/write_scene.h>
@@ -209,40 +211,6 @@ HeldRobotScene make_scene(const py::object& robot, const py::object& srdf,
   return scene;
 }
 
-void warn(const std::string& text) {
-  if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) {
-    throw py::error_already_set();  // Warnings may be errors.
-  }
-}
-
-void add_positions(const py::handle& value, const SceneRobot& robot, JointPositions& positions) {
-  if (PyUnicode_Check(value.ptr())) {
-    for (const auto& [name, position] :
-         group_state(robot.model, robot.semantics, value.cast<std::string>())) {
-      positions[name] = position;
-    }
-  } else if (PyMapping_Check(value.ptr()) && py::hasattr(value, "items")) {
-    for (const auto& [name, position] :
-         by_name(py::dict(py::reinterpret_borrow<py::object>(value)), "positions")) {
-      if (names_fixed_joint(robot.model, name)) {
-        warn("a position is given for a fixed joint, " + name + "; it is where the URDF has it");
-        continue;
-      }
-      (void)find_coordinate(robot.model, name);
-      positions[name] = position;
-    }
-  } else if (py::isinstance<py::sequence>(value)) {
-    for (const py::handle element : py::reinterpret_borrow<py::sequence>(value)) {
-      add_positions(element, robot, positions);
-    }
-  } else {
-    throw py::type_error(
-        "positions: expected a dict by joint, the name of a state of the SRDF, or "
-        "a sequence of these, got " +
-        std::string(py::repr(value)));
-  }
-}
-
 Trajectory straight(const HeldRobotScene& scene, const py::object& start, const py::object& goal,
                     Turning turning) {
   const SceneRobot& robot = scene.robot();
@@ -256,12 +224,6 @@ Trajectory straight(const HeldRobotScene& scene, const py::object& start, const 
 }
 
 }  // namespace
-
-JointPositions positions_from(const py::object& value, const SceneRobot& robot) {
-  JointPositions positions;
-  add_positions(value, robot, positions);
-  return positions;
-}
 
 HeldRobotScene::HeldRobotScene(Scene scene, std::shared_ptr<ShapeCache> shapes)
     : scene_(std::move(scene)), shapes_(std::move(shapes)) {
@@ -433,6 +395,25 @@ std::shared_ptr<HeldScene> scene_along(const HeldRobotScene& scene, const py::ob
   return scene.along(&read, file.filename().string());
 }
 
+void attach_body(HeldRobotScene& s, const std::string& body, const std::string& link,
+                 double from_time, std::optional<double> to_time,
+                 const std::vector<std::string>& touch_links, const std::optional<Pose>& pose) {
+  const std::vector<std::size_t> found = members_named(s.scene(), body);
+  if (found.size() != 1 || found.front() >= s.scene().bodies.size()) {
+    throw py::value_error("body: expected the name of a body, got " +
+                          std::string(py::repr(py::str(body))));
+  }
+  SceneAttachment attachment{.body = found.front(),
+                             .link = s.link(link),
+                             .from_time = from_time,
+                             .to_time = to_time,
+                             .pose = pose};
+  for (const std::string& touched : touch_links) {
+    attachment.touch_links.push_back(s.link(touched));
+  }
+  s.attach(std::move(attachment));
+}
+
 void bind_robot_scene(py::module_& m) {
   RobotSceneClass type(m, "RobotScene",
                        R"(A robot and its surroundings, to be asked about trajectories.
@@ -477,30 +458,10 @@ environment; 0.001 reads millimetres. lenient: as of load_scene.)")
           py::arg("name"), py::arg("shape"),
           py::arg("X_WB") = RecordedMotion{Motion::fixed(), "fixed", py::make_tuple(Pose{})},
           "Its motion takes the duration of the trajectory: t runs from 0 to 1 over it.")
-      .def(
-          "attach",
-          [](HeldRobotScene& s, const std::string& body, const std::string& link, double from_time,
-             std::optional<double> to_time, const std::vector<std::string>& touch_links,
-             const std::optional<Pose>& pose) {
-            const std::vector<std::size_t> found = members_named(s.scene(), body);
-            if (found.size() != 1 || found.front() >= s.scene().bodies.size()) {
-              throw py::value_error("body: expected the name of a body, got " +
-                                    std::string(py::repr(py::str(body))));
-            }
-            SceneAttachment attachment{.body = found.front(),
-                                       .link = s.link(link),
-                                       .from_time = from_time,
-                                       .to_time = to_time,
-                                       .pose = pose};
-            for (const std::string& touched : touch_links) {
-              attachment.touch_links.push_back(s.link(touched));
-            }
-            s.attach(std::move(attachment));
-          },
-          py::arg("body"), py::arg("link"), py::arg("from_time") = 0.0,
-          py::arg("to_time") = py::none(), py::arg("touch_links") = py::tuple(),
-          py::arg("pose") = py::none(),
-          R"(Lets a link carry a body from one time to another [s], to the end by default.
+      .def("attach", &attach_body, py::arg("body"), py::arg("link"), py::arg("from_time") = 0.0,
+           py::arg("to_time") = py::none(), py::arg("touch_links") = py::tuple(),
+           py::arg("pose") = py::none(),
+           R"(Lets a link carry a body from one time to another [s], to the end by default.
 
 Meanwhile the body is not tested against the link and the touch_links; before, it moves by itself;
 after, it rests. pose: of the body in the link's frame, from the start on; by default it is held as it

@@ -10,7 +10,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/parallel_sampling.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/read_simulation_scene.h>
 #include <firstcontact/scene_files/write_scene.h>

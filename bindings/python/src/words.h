@@ -16,6 +16,7 @@
 #include <firstcontact/narrowphase/linear_contact.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/verdict_words.h>
 #include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/robot/limit_report.h>
 #include <firstcontact/robot/robot_description.h>
@@ -30,7 +31,7 @@ struct Words;
 template <>
 struct Words<Verdict> {
   static constexpr const char* kName = "Verdict";
-  static constexpr std::array kWords{"free", "contact", "contact_at_start", "undecided"};
+  static constexpr const auto& kWords = kVerdictWords;
 };
 
 /// Of deforming features, which cannot say `contact_at_start`.
@@ -43,40 +44,39 @@ struct Words<LinearVerdict> {
 template <>
 struct Words<UndecidedReason> {
   static constexpr const char* kName = "UndecidedReason";
-  static constexpr std::array kWords{"none",   "work",      "deadline",
-                                     "memory", "precision", "cancelled"};
+  static constexpr const auto& kWords = kUndecidedReasonWords;
 };
 
 template <>
 struct Words<StartContacts> {
   static constexpr const char* kName = "StartContacts";
-  static constexpr std::array kWords{"report", "keep_half"};
+  static constexpr const auto& kWords = kStartContactsWords;
 };
 
 /// Of those that are no number.
 template <>
 struct Words<ContactState> {
   static constexpr const char* kName = "ContactState";
-  static constexpr std::array kWords{"none", "first", "all"};
+  static constexpr const auto& kWords = kContactStateWords;
   static constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
 };
 
 template <>
 struct Words<FeatureType> {
   static constexpr const char* kName = "FeatureType";
-  static constexpr std::array kWords{"vertex", "edge", "face"};
+  static constexpr const auto& kWords = kFeatureTypeWords;
 };
 
 template <>
 struct Words<Between> {
   static constexpr const char* kName = "Between";
-  static constexpr std::array kWords{"constant_velocity", "screw"};
+  static constexpr const auto& kWords = kBetweenWords;
 };
 
 template <>
 struct Words<Filling> {
   static constexpr const char* kName = "Filling";
-  static constexpr std::array kWords{"surface", "solid"};
+  static constexpr const auto& kWords = kFillingWords;
 };
 
 template <>
@@ -88,26 +88,25 @@ struct Words<ElementaryVerdict> {
 template <>
 struct Words<JointType> {
   static constexpr const char* kName = "JointType";
-  static constexpr std::array kWords{"fixed", "revolute", "continuous", "prismatic",
-                                     "screw", "planar",   "floating",   "ball"};
+  static constexpr const auto& kWords = kJointTypeWords;
 };
 
 template <>
 struct Words<JointLimit> {
   static constexpr const char* kName = "JointLimit";
-  static constexpr std::array kWords{"lower_position", "upper_position", "velocity"};
+  static constexpr const auto& kWords = kJointLimitWords;
 };
 
 template <>
 struct Words<Turning> {
   static constexpr const char* kName = "Turning";
-  static constexpr std::array kWords{"long", "short"};
+  static constexpr const auto& kWords = kTurningWords;
 };
 
 template <>
 struct Words<RunVerdict> {
   static constexpr const char* kName = "RunVerdict";
-  static constexpr std::array kWords{"proven", "closer", "broken", "not_proven"};
+  static constexpr const auto& kWords = kRunVerdictWords;
 };
 
 /// A class of firstcontact/_tuples.py.

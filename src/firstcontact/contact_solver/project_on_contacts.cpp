@@ -5,9 +5,13 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/deciding_contacts.h>
+#include <firstcontact/contact_solver/detail/interior_point.h>
+#include <firstcontact/contact_solver/detail/motion_space.h>
 
 namespace firstcontact {
 namespace {
@@ -16,31 +20,6 @@ using detail::ContactRow;
 using detail::ContactRows;
 using detail::Impulses;
 using detail::Projection;
-
-/// Factorisations grow with more than the number of velocities; sweeps of larger problems hardly
-/// get anywhere, but take less memory.
-constexpr std::size_t kMostInMotionSpace = 6000;
-
-/// What sweeps do not do in so many, motion space does better, unless they may leave something;
-/// sooner where contacts are many for each body.
-constexpr int kSweepsBeforeMotionSpace = 100;
-constexpr int kSweepsOfRedundant = 30;
-
-/// Then there are so many more, to this part of the tolerance: what is left would add up from step
-/// to step.
-constexpr int kExtraSweeps = 30;
-constexpr double kExtraTolerance = 0.1;
-
-/// Contacts for each body, that is for six velocities, from where on motion space is cheaper (a
-/// sweep costs as many contacts as an assembly, of which far fewer are needed).
-constexpr std::size_t kManyContacts = 12;
-
-/// From so many contacts on an interior point comes first: its factorisations hardly grow in
-/// number. Multipliers would take ten times as long.
-constexpr std::size_t kManyForInteriorPoint = 120;
-
-/// The same where there are many for each body, and few equations for multipliers.
-constexpr std::size_t kManyRedundant = 300;
 
 /// Velocities that impulses change.
 std::size_t moving_velocities(const ContactProblem& problem) {
@@ -138,11 +117,12 @@ class Solver {
     }
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
-    is_small_ = moving <= kMostInMotionSpace;
-    are_redundant_ = 6 * contacts >= kManyContacts * moving;
-    are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= kManyRedundant;
-    has_interior_ = is_small_ && problem.drives.empty() &&
-                    contacts >= (are_redundant_ ? kManyRedundant : kManyForInteriorPoint);
+    is_small_ = moving <= detail::kMostInMotionSpace;
+    are_redundant_ = 6 * contacts >= detail::kManyContactsOfBody * moving;
+    are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= detail::kManyRedundant;
+    has_interior_ =
+        is_small_ && problem.drives.empty() &&
+        contacts >= (are_redundant_ ? detail::kManyRedundant : detail::kManyForInteriorPoint);
     // Along a chain of links impulses would have to travel from joint to joint.
     has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant_;
   }
@@ -185,7 +165,7 @@ class Solver {
     }
     ProjectionOptions sweeping = options_;
     if (is_automatic_ && is_small_) {
-      sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+      sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeMotionSpace);
     }
     detail::project_in_contact_space(problem_, rows_, sweeping, projection_);
     return !is_automatic_ || is_solved(projection_) || !is_small_;
@@ -197,14 +177,14 @@ class Solver {
     if (is_automatic_) {  // Sweeps may be all that it takes.
       ProjectionOptions sweeping = options_;
       if (are_redundant_) {
-        sweeping.sweeps = std::min(options_.sweeps, kSweepsOfRedundant);
+        sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsOfRedundant);
       } else if (!(options_.enough > 0.0)) {
-        sweeping.sweeps = std::min(options_.sweeps, kSweepsBeforeMotionSpace);
+        sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeMotionSpace);
       }
       detail::project_in_contact_space(problem_, rows_, sweeping, inner);
       if (is_solved(inner) && !are_redundant_) {
-        sweeping.sweeps = kExtraSweeps;
-        sweeping.tolerance = kExtraTolerance * options_.tolerance;
+        sweeping.sweeps = detail::kExtraSweeps;
+        sweeping.tolerance = detail::kExtraTolerance * options_.tolerance;
         Projection more = inner;
         detail::project_in_contact_space(problem_, rows_, sweeping, more);
         more.iterations += inner.iterations;

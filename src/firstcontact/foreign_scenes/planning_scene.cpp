@@ -1,98 +1,20 @@
 #include <firstcontact/foreign_scenes/planning_scene.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <variant>
-
+#include <firstcontact/foreign_scenes/detail/allowed_collisions.h>
 #include <firstcontact/foreign_scenes/detail/planning_objects.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_file.h>
 #include <firstcontact/text/text_tree.h>
-#include <firstcontact/text/write_json.h>
 #include <firstcontact/trajectory_files/detail/joint_trajectory.h>
 #include <firstcontact/trajectory_files/detail/ros_message.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::find;
 using detail::find_filled;
-using detail::in_quotes;
-using detail::JsonArray;
-using detail::JsonObject;
 using detail::JsonReader;
 using detail::JsonValue;
-
-bool read_flag(const JsonValue& value, const JsonReader& read) {
-  const auto* number = std::get_if<double>(&value.value);
-  if (number != nullptr && (*number == 0.0 || *number == 1.0)) {
-    return *number == 1.0;
-  }
-  return read.boolean(value);
-}
-
-std::vector<std::string> read_names(const JsonValue& matrix, std::string_view key,
-                                    const JsonReader& read) {
-  std::vector<std::string> names;
-  if (const JsonValue* list = find_filled(matrix, key)) {
-    for (const JsonValue& name : read.array(*list, "an array of names")) {
-      names.push_back(detail::name_of(name, "a name", read));
-    }
-  }
-  return names;
-}
-
-/// One row for each name, each as long as there are names: [true, false] or {enabled: [...]}.
-void read_entries(const JsonValue& matrix, AllowedCollisions& allowed, const JsonReader& read) {
-  const std::vector<std::string> names = read_names(matrix, "entry_names", read);
-  if (names.empty()) {
-    return;
-  }
-  const JsonValue& values = read.member(matrix, "entry_values");
-  const std::string expected = "a row of " + std::to_string(names.size()) + " for each of the " +
-                               std::to_string(names.size()) + " entry_names";
-  const JsonArray& rows = read.array(values, expected);
-  if (rows.size() != names.size()) {
-    read.fail(values, "expected " + expected + ", got " + std::to_string(rows.size()) + " rows");
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const JsonValue* enabled = find_filled(rows[i], "enabled");
-    const JsonValue& list = enabled != nullptr ? *enabled : rows[i];
-    const JsonArray& row = read.array(list, expected);
-    if (row.size() != names.size()) {
-      read.fail_expected(expected, list);
-    }
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      const bool flag = read_flag(row[j], read);
-      if (names[i] == names[j]) {
-        continue;
-      }
-      const auto [known, is_new] = allowed.entries.insert(
-          {{std::min(names[i], names[j]), std::max(names[i], names[j])}, flag});
-      if (!is_new && known->second != flag) {
-        read.fail(row[j], "expected the same for " + in_quotes(names[i]) + " and " +
-                              in_quotes(names[j]) + " as for them swapped");
-      }
-    }
-  }
-}
-
-void read_defaults(const JsonValue& matrix, AllowedCollisions& allowed, const JsonReader& read) {
-  const std::vector<std::string> names = read_names(matrix, "default_entry_names", read);
-  if (names.empty()) {
-    return;
-  }
-  const JsonValue& values = read.member(matrix, "default_entry_values");
-  const JsonArray& flags = read.array(values, "an array of true and false");
-  if (flags.size() != names.size()) {
-    read.fail(values, "expected a value for each of the " + std::to_string(names.size()) +
-                          " default_entry_names, got " + std::to_string(flags.size()));
-  }
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    allowed.defaults[names[k]] = read_flag(flags[k], read);
-  }
-}
 
 /// moveit_msgs/LinkPadding: {link_name: , padding: }
 void read_padding(const JsonValue& list, PlanningScene& scene, const JsonReader& read) {
@@ -137,6 +59,42 @@ JointPositions read_state(const JsonValue& value, const JsonReader& read) {
   return state;
 }
 
+/// The robot's links, and which pairs may touch.
+void read_links(const JsonValue& scene, PlanningScene& result, const JsonReader& read) {
+  if (const JsonValue* padding = find_filled(scene, "link_padding")) {
+    read_padding(*padding, result, read);
+  }
+  if (const JsonValue* scale = find_filled(scene, "link_scale")) {
+    refuse_scale(*scale, read);
+  }
+  if (const JsonValue* matrix = find_filled(scene, "allowed_collision_matrix")) {
+    result.allowed = detail::read_allowed_collisions(*matrix, read);
+  }
+}
+
+void read_world(const JsonValue& world, detail::PlanningObjects& objects, PlanningScene& result,
+                const JsonReader& read) {
+  (void)read.object(world, {{"collision_objects", "octomap"}});
+  refuse_octomap(world, read);
+  if (const JsonValue* list = find_filled(world, "collision_objects")) {
+    for (const JsonValue& object : read.array(*list, "an array of objects")) {
+      objects.add_object(object, result);
+    }
+  }
+}
+
+void read_robot_state(const JsonValue& state, detail::PlanningObjects& objects,
+                      PlanningScene& result, const JsonReader& read) {
+  if (const JsonValue* attached = find_filled(state, "attached_collision_objects")) {
+    for (const JsonValue& object : read.array(*attached, "an array of attached objects")) {
+      objects.add_attached(object, result);
+    }
+  }
+  if (const JsonValue* joints = find_filled(state, "joint_state")) {
+    result.state = read_state(*joints, read);
+  }
+}
+
 PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::path& source,
                                 std::string_view frame, const JsonReader& read) {
   const JsonValue& scene = detail::unwrap_message(root, {"planning_scene", "scene"}, "world");
@@ -151,39 +109,14 @@ PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::pa
   if (const JsonValue* transforms = find_filled(scene, "fixed_frame_transforms")) {
     objects.add_frames(*transforms);
   }
-  if (const JsonValue* padding = find_filled(scene, "link_padding")) {
-    read_padding(*padding, result, read);
-  }
-  if (const JsonValue* scale = find_filled(scene, "link_scale")) {
-    refuse_scale(*scale, read);
-  }
-  if (const JsonValue* matrix = find_filled(scene, "allowed_collision_matrix")) {
-    (void)read.object(
-        *matrix, {{"entry_names", "entry_values", "default_entry_names", "default_entry_values"}});
-    read_entries(*matrix, result.allowed, read);
-    read_defaults(*matrix, result.allowed, read);
-  }
+  read_links(scene, result, read);
   const JsonValue* world = is_world ? &scene : find_filled(scene, "world");
   if (world == nullptr) {
     read.fail(scene, "expected a planning scene with \"world\", got none");
   }
-  (void)read.object(*world, {{"collision_objects", "octomap"}});
-  refuse_octomap(*world, read);
-  if (const JsonValue* list = find_filled(*world, "collision_objects")) {
-    for (const JsonValue& object : read.array(*list, "an array of objects")) {
-      objects.add_object(object, result);
-    }
-  }
-  const JsonValue* state = find_filled(scene, "robot_state");
-  const JsonValue* attached =
-      state == nullptr ? nullptr : find_filled(*state, "attached_collision_objects");
-  if (attached != nullptr) {
-    for (const JsonValue& object : read.array(*attached, "an array of attached objects")) {
-      objects.add_attached(object, result);
-    }
-  }
-  if (const JsonValue* joints = state == nullptr ? nullptr : find_filled(*state, "joint_state")) {
-    result.state = read_state(*joints, read);
+  read_world(*world, objects, result, read);
+  if (const JsonValue* state = find_filled(scene, "robot_state")) {
+    read_robot_state(*state, objects, result, read);
   }
   if (!objects.with_zero_quaternions().empty()) {
     result.warnings.push_back(
@@ -193,19 +126,6 @@ PlanningScene to_planning_scene(const JsonValue& root, const std::filesystem::pa
 }
 
 }  // namespace
-
-bool AllowedCollisions::allows(const std::string& name, const std::string& other) const {
-  const auto entry = entries.find({std::min(name, other), std::max(name, other)});
-  if (entry != entries.end()) {
-    return entry->second;
-  }
-  const auto first = defaults.find(name);
-  const auto second = defaults.find(other);
-  if (first == defaults.end() && second == defaults.end()) {
-    return false;
-  }
-  return (first == defaults.end() || first->second) && (second == defaults.end() || second->second);
-}
 
 PlanningScene parse_planning_scene(std::string_view text, const std::filesystem::path& source,
                                    std::string_view frame) {

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact {
 namespace {
 

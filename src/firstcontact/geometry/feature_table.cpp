@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/shape.h>
 
 namespace firstcontact {

@@ -10,8 +10,6 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/math/export.h>
-
 namespace firstcontact {
 
 /// Triangles over shared vertices, in the body frame. A soup is legal: open, non-manifold,

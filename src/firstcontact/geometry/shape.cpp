@@ -13,8 +13,10 @@
 #include <vector>
 
 #include <firstcontact/geometry/detail/vertex_components.h>
+#include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/geometry/glide_bounds.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/math/double_double.h>
 
 namespace firstcontact {

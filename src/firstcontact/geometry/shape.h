@@ -9,18 +9,21 @@
 #include <memory>
 #include <span>
 
-#include <firstcontact/geometry/feature_table.h>
-#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh.h>
-#include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
 
+struct FeatureTable;
 struct GlidingSurface;
+struct Hierarchy;
+struct ShapeBounds;
 
 /// Whether the space that a closed mesh encloses belongs to the shape.
 enum class Filling { surface, solid };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kFillingWords{"surface", "solid"};
 
 /// A union of simplices thickened by a radius, with its bounding-volume hierarchy.
 ///

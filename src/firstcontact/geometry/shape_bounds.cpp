@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/hierarchy.h>
 
 namespace firstcontact {
 namespace {

@@ -5,10 +5,11 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
+
+struct Hierarchy;
 
 /// One point per row [m]: columns are what sums run along.
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -20,6 +21,9 @@ enum class Between {
   constant_velocity,  ///< The body origin moves on a line, the body turns at a constant rate.
   screw,              ///< One rotation about, and one translation along, one axis.
 };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kBetweenWords{"constant_velocity", "screw"};
 
 /// One piece of a motion of constant rates, from the end of the piece before it.
 struct ConstantRatePiece {

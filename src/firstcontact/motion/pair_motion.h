@@ -26,18 +26,9 @@ class FIRSTCONTACT_API PairMotion {
   /// faster during the piece.
   [[nodiscard]] virtual double speed_bound(double radius_A, double radius_B) const = 0;
 
-  /// [-]  Boxes are not placed anew for less motion than this part of the shapes' size: a bound
-  /// from a little earlier loses only what is of second order in time. The more where a state is
-  /// dear.
-  [[nodiscard]] virtual double boxes_window() const { return 0x1p-9; }
-
-  /// [-]  Boxes farther apart than this part of their sizes are bounded once more when they are
-  /// due, nearer ones opened. The less the longer bodies stay beside each other.
-  [[nodiscard]] virtual double far_boxes() const { return 0.15; }
-
-  /// [-]  Of two boxes one that is larger by this factor is opened alone, else both are. The more
-  /// where what comes near is seldom of one size.
-  [[nodiscard]] virtual double larger_boxes() const { return 1.5; }
+  /// Whether chains of joints carry the bodies: a state takes long to compute, and bodies stay
+  /// beside each other for long. It steers how a search proceeds, not what it proves.
+  [[nodiscard]] virtual bool follows_joints() const { return false; }
 
   /// [m]  A's point C in the frame of the motions, where points are reported.
   [[nodiscard]] virtual Eigen::Vector3d origin(double t) const = 0;

@@ -9,6 +9,7 @@
 
 #include <firstcontact/page/detail/page_meshes.h>
 #include <firstcontact/page/detail/page_robots.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene_files/detail/reports_json.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 #include <firstcontact/text/json_tree.h>

@@ -12,10 +12,11 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/scene/gap_bound.h>
-#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
 
 /// The gap over time, in the order of times.
 struct GapChart {

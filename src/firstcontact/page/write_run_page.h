@@ -13,9 +13,10 @@
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/page/page_numbers.h>
 #include <firstcontact/record/run.h>
-#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
 
 /// Collects a run, step after step, for the viewer's page (docs/viewer.md).
 ///

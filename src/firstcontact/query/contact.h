@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -12,6 +13,9 @@
 namespace firstcontact {
 
 enum class FeatureType { vertex, edge, face };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 3> kFeatureTypeWords{"vertex", "edge", "face"};
 
 /// A feature of a shape: a vertex, a unique edge or a triangle, by its index in the shape.
 struct Feature {

@@ -1,5 +1,7 @@
 #include <firstcontact/query/placed_shape.h>
 
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact {
 
 PlacedShape::PlacedShape(const Shape& shape, const Pose& X_WS)

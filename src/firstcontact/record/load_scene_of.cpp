@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <firstcontact/record/run.h>
+
 namespace firstcontact {
 
 LoadedScene load_scene_of(const RunHeader& header, ShapeCache& cache) {

@@ -4,11 +4,12 @@
 #pragma once
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/record/run.h>
 #include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/shape_cache.h>
 
 namespace firstcontact {
+
+class ShapeCache;
+struct RunHeader;
 
 /// Reads the meshes and robots that a run's scene names.
 ///

@@ -244,11 +244,11 @@ Feature read_feature(const json& value, const json& triangle, const Line& line) 
   constexpr std::size_t kCount = std::size_t{1} << 32;
   line.require_keys(value, {"type", "index"});
   const std::string type = line.string(value["type"]);
-  for (const FeatureType known : {FeatureType::vertex, FeatureType::edge, FeatureType::face}) {
-    if (type == word(known)) {
-      return {known, static_cast<std::uint32_t>(line.index(value["index"], kCount)),
-              static_cast<std::uint32_t>(line.index(triangle, kCount))};
-    }
+  const auto known = std::ranges::find(kFeatureTypeWords, type);
+  if (known != kFeatureTypeWords.end()) {
+    return {static_cast<FeatureType>(known - kFeatureTypeWords.begin()),
+            static_cast<std::uint32_t>(line.index(value["index"], kCount)),
+            static_cast<std::uint32_t>(line.index(triangle, kCount))};
   }
   line.fail(value["type"], "vertex, edge or face");
 }

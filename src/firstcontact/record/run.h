@@ -1,5 +1,5 @@
 /// @file
-/// The record of a simulation: every in-between motion, state and contact of every step.
+/// The record of a simulation: what it begins with, and its steps.
 
 #pragma once
 
@@ -9,83 +9,10 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/math/export.h>
-#include <firstcontact/motion/pose.h>
-#include <firstcontact/query/contact.h>
+#include <firstcontact/record/run_step.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
-
-/// A part of a step in which a body's centre of mass moves on a line while the body turns about it
-/// at a constant rate: Motion::constant_rates with the centre of mass as pivot.
-struct RunPiece {
-  double to = 0.0;  ///< [s]  Its end, since the step began; it begins where the one before ended.
-  Pose X_WB;        ///< Where it begins.
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]  Of the centre of mass.
-  Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World axes.
-};
-
-/// A body at the end of a step, and how it got there. It is one of the scene, or behind them a
-/// piece of a link (LinksAsBodies). Bodies that rest at the scene's pose for the whole run have
-/// none.
-struct RunBody {
-  std::size_t body = 0;
-  std::vector<RunPiece> pieces = {};  ///< At least one, one after another; the last one ends with
-                                      ///< the step. Where that lasted 0 s: none or of no length.
-  Pose X_WB = {};
-  Eigen::Vector3d linear_velocity = Eigen::Vector3d::Zero();   ///< [m/s]  Of the centre of mass.
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]  World axes.
-  bool rests = false;  ///< Contacts hold it where it is: until something disturbs them, steps are
-                       ///< as this one.
-};
-
-/// The coordinates of a robot at the end of a step. Its links are among the bodies.
-struct RunRobot {
-  std::size_t robot = 0;                ///< Its number in the scene.
-  std::vector<double> positions = {};   ///< As MechanismState has them.
-  std::vector<double> velocities = {};  ///< Likewise.
-  std::vector<double> efforts = {};     ///< [N m or N]  Of motors along each of the velocities, the
-                                        ///< mean over the step; 0 where there is none.
-};
-
-/// A contact that acted at the end of a step.
-struct RunContact {
-  BodyPair bodies = {};
-  Feature feature_A;  ///< Of the first body.
-  Feature feature_B;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the two surfaces.
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From the first to the second body.
-  double distance = 0.0;                              ///< [m]
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body, in the step.
-};
-
-/// What an impact within a step did at one place.
-struct RunImpact {
-  double at = 0.0;  ///< [s]  Since the step began.
-  BodyPair bodies = {};
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the two surfaces.
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body.
-};
-
-struct RunStep {
-  std::size_t index = 0;          ///< From 1.
-  double time = 0.0;              ///< [s]  Simulated until here; the sum of what the steps lasted.
-  double lasted = 0.0;            ///< [s]  The step asked for, but for what is lost.
-  double time_lost = 0.0;         ///< [s]  In this step, its events spent.
-  double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0, infinite
-                                  ///< where there is no pair.
-  double kinetic_energy = 0.0;    ///< [J]  Of the free bodies and robots.
-  double potential_energy = 0.0;  ///< [J]  In the field of gravity; 0 at the world's origin.
-  Eigen::Vector3d linear_momentum = Eigen::Vector3d::Zero();   ///< [kg m/s]
-  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
-  double residual = 0.0;   ///< [m/s]  The greatest of the step's contact problems.
-  std::size_t events = 0;  ///< Times within the step at which contacts were projected.
-  std::vector<RunBody> bodies = {};
-  std::vector<RunRobot> robots = {};  ///< That forces move, in order.
-  std::vector<RunContact> contacts = {};
-  std::vector<RunImpact> impacts = {};  ///< In the order of time.
-};
 
 /// What a run begins with.
 struct RunHeader {

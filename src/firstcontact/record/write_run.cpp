@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/record/run.h>
+#include <firstcontact/record/run_step.h>
 #include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/scene_files/write_scene.h>
 

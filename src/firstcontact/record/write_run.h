@@ -6,9 +6,11 @@
 #include <string>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/record/run.h>
 
 namespace firstcontact {
+
+struct RunHeader;
+struct RunStep;
 
 /// The first line of a run, with its line feed. Numbers read back to the same double.
 ///

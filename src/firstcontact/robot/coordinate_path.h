@@ -66,6 +66,9 @@ enum class Turning {
   shortest,
 };
 
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kTurningWords{"long", "short"};
+
 /// [rad]  The way of Turning::shortest from one position to another, to the nearest double.
 [[nodiscard]] FIRSTCONTACT_API double shortest_way(double from, double to);
 

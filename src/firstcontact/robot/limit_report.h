@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,10 @@
 namespace firstcontact {
 
 enum class JointLimit { lower_position, upper_position, velocity };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 3> kJointLimitWords{"lower_position", "upper_position",
+                                                             "velocity"};
 
 /// One joint beyond one of its limits. Units: rad or m; per second for velocities.
 struct LimitViolation {

@@ -244,11 +244,7 @@ std::size_t coordinate_count(JointType type) {
   return 0;
 }
 
-const char* to_string(JointType type) {
-  constexpr std::array<const char*, 8> kWords = {"fixed", "revolute", "continuous", "prismatic",
-                                                 "screw", "planar",   "floating",   "ball"};
-  return kWords[static_cast<std::size_t>(type)];
-}
+const char* to_string(JointType type) { return kJointTypeWords[static_cast<std::size_t>(type)]; }
 
 std::vector<RobotDefect> find_defects(const RobotDescription& robot) {
   return DefectSearch(robot).run();

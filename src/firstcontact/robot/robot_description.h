@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -53,6 +54,10 @@ enum class JointType {
   floating,    ///< Any rigid motion: a pose.
   ball,        ///< Turns about its centre: a pose without translation.
 };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 8> kJointTypeWords{
+    "fixed", "revolute", "continuous", "prismatic", "screw", "planar", "floating", "ball"};
 
 /// What the maker allows; nothing where nothing is said. Units per coordinate: rad, or m for
 /// prismatic joints; of a screw they belong to the angle.

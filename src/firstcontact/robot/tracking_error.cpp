@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <firstcontact/robot/robot_description.h>
+
 namespace firstcontact {
 
 TrackingError tracking_error_of(const Joint& joint, double coordinate) {

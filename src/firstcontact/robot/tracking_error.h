@@ -4,9 +4,10 @@
 #pragma once
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/robot/robot_description.h>
 
 namespace firstcontact {
+
+struct Joint;
 
 /// How far a joint may be from its nominal motion at any time.
 struct TrackingError {

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot_check/detail/link_query.h>

@@ -46,9 +46,7 @@ class FIRSTCONTACT_API LinkPairMotion final : public PairMotion {
   double enter(double t) override;
   [[nodiscard]] RelativeState state(double t) const override;
   [[nodiscard]] double speed_bound(double radius_A, double radius_B) const override;
-  [[nodiscard]] double boxes_window() const override { return 0x1p-6; }
-  [[nodiscard]] double far_boxes() const override { return 0.03; }
-  [[nodiscard]] double larger_boxes() const override { return 2.5; }
+  [[nodiscard]] bool follows_joints() const override { return true; }
   [[nodiscard]] Eigen::Vector3d origin(double t) const override;
 
  private:

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/robot_check/robot_scene.h>
 
 namespace firstcontact {
+
+class RobotScene;
 
 /// The least distance of all pairs that are tested at one time, without padding, margins and
 /// tracking errors.

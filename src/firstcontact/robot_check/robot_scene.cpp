@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/robot/precise_transform.h>
 

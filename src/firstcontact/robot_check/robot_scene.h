@@ -18,11 +18,12 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/robot/robot_description.h>
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot/tracking_error.h>
 
 namespace firstcontact {
+
+struct DisabledPair;
 
 /// A body that a link carries for a while. All by their numbers as members of the scene.
 ///

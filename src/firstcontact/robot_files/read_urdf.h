@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -27,6 +28,10 @@ enum class RobotSurface {
   visual,
   collision_or_visual,  ///< How a link looks, where it has no collision geometry.
 };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 3> kRobotSurfaceWords{"collision", "visual",
+                                                               "collision_or_visual"};
 
 struct UrdfOptions {
   /// Folders that hold packages: `package://NAME/rest` is ROOT/NAME/rest, of the first root that

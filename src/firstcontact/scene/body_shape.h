@@ -13,7 +13,6 @@
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/math/export.h>
 
 namespace firstcontact {
 

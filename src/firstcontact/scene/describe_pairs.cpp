@@ -57,24 +57,6 @@ std::string no_pair_warning(const PairCounts& counts) {
   return text;
 }
 
-const char* word(WhyUntested why) {
-  switch (why) {
-    case WhyUntested::joined_links:
-      return "joined_links";
-    case WhyUntested::srdf:
-      return "srdf";
-    case WhyUntested::allowed_collisions:
-      return "allowed_collisions";
-    case WhyUntested::held:
-      return "held";
-    case WhyUntested::both_rest:
-      return "both_rest";
-    case WhyUntested::both_scripted:
-      return "both_scripted";
-    case WhyUntested::rule:
-      break;
-  }
-  return "rule";
-}
+const char* word(WhyUntested why) { return kWhyUntestedWords[static_cast<std::size_t>(why)]; }
 
 }  // namespace firstcontact

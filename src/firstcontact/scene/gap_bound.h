@@ -7,10 +7,13 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+class BodySet;
+struct GapSample;
+struct LoadedScene;
+struct SceneResult;
 
 /// A corner of a polyline over time.
 struct GapPoint {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/parallel_sampling.h>
 
 namespace firstcontact {

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
+struct SceneResult;
 
 /// [-]  Where a plot looks closely: at the contact, or else at the closest approach.
 [[nodiscard]] FIRSTCONTACT_API double time_of_interest(const SceneResult& result);

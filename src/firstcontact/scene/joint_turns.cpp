@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -89,13 +90,14 @@ std::vector<JointTurn> joint_turns(const RobotModel& robot, const Trajectory& tr
   return turns;
 }
 
-const char* to_string(Turning turning) { return turning == Turning::shortest ? "short" : "long"; }
+const char* to_string(Turning turning) { return kTurningWords[static_cast<std::size_t>(turning)]; }
 
 Turning turning_of(std::string_view word) {
-  if (word != "long" && word != "short") {
+  const auto found = std::ranges::find(kTurningWords, word);
+  if (found == kTurningWords.end()) {
     throw std::invalid_argument("expected \"long\" or \"short\", got " + detail::in_quotes(word));
   }
-  return word == "short" ? Turning::shortest : Turning::as_given;
+  return static_cast<Turning>(found - kTurningWords.begin());
 }
 
 }  // namespace firstcontact

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/geometry/mass_properties.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/text/write_json.h>

@@ -11,13 +11,14 @@
 #include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/robot/limit_report.h>
-#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
+
+class RobotScene;
 
 /// The limits that a robot of the scene leaves.
 struct SceneLimits {

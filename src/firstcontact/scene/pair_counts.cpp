@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/member_classes.h>
 #include <firstcontact/scene/loaded_scene.h>
 

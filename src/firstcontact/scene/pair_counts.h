@@ -27,6 +27,10 @@ enum class WhyUntested {
   both_scripted,       ///< In a simulation: neither of the two is free, and one of them moves.
 };
 
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 7> kWhyUntestedWords{
+    "joined_links", "srdf", "allowed_collisions", "held", "rule", "both_rest", "both_scripted"};
+
 /// Pairs that are not looked at for one reason.
 struct UntestedPairs {
   WhyUntested why = WhyUntested::rule;

@@ -5,6 +5,8 @@
 #include <future>
 #include <thread>
 
+#include <firstcontact/scene/loaded_scene.h>
+
 namespace firstcontact {
 namespace {
 

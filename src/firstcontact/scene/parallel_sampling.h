@@ -8,10 +8,11 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
 
 /// As sample_gap; distances are the same for every number of processors, proven bounds to their
 /// last digits. A stop leaves samples out.

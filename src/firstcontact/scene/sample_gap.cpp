@@ -6,8 +6,12 @@
 #include <optional>
 #include <stdexcept>
 
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/robot_check/robot_gap.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
 

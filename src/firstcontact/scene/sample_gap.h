@@ -10,9 +10,10 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
 
 /// The least distance of all pairs at one time.
 struct GapSample {

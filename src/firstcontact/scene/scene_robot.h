@@ -11,8 +11,9 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/robot/robot_model.h>
-#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/robot/tracking_error.h>
 #include <firstcontact/robot_files/read_srdf.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/body_motion.h>

@@ -10,9 +10,11 @@
 
 #include <tbb/task_arena.h>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/mesh_defects.h>
 #include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/detail/make_shape.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/sha256.h>
 

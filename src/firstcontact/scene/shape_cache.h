@@ -15,11 +15,14 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_files/read_urdf.h>
 #include <firstcontact/scene/body_shape.h>
-#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/text/file_report.h>
 
 namespace firstcontact {
+
+struct Hierarchy;
+struct RobotFile;
 
 /// A shape and the digest of the file that it came from.
 struct CachedShape {

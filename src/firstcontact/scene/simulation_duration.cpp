@@ -6,6 +6,12 @@
 #include <stdexcept>
 #include <variant>
 
+#include <firstcontact/scene/scene.h>
+
+#include <firstcontact/scene/simulation.h>
+
+#include <firstcontact/scene/body_motion.h>
+
 namespace firstcontact {
 namespace {
 

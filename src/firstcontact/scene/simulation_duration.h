@@ -6,9 +6,11 @@
 #include <cstddef>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
+
+struct Scene;
+struct Simulation;
 
 /// Simulates a scene for another time. Scripted bodies keep their rates: a run may end before they
 /// do, and in a longer one constant velocities and screws go on; who moves between two poses rests

@@ -1,10 +1,11 @@
 #include <firstcontact/scene_files/read_result.h>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
+#include <firstcontact/query/verdict_words.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/scene_files/write_result.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>
@@ -40,10 +41,10 @@ ResultSummary read_summary(std::string_view result, const std::filesystem::path&
       return summary;
     }
     const std::string* found = find_string(*object, "verdict");
-    for (const Verdict verdict :
-         {Verdict::free, Verdict::contact, Verdict::contact_at_start, Verdict::undecided}) {
-      if (found != nullptr && *found == word(verdict)) {
-        summary.verdict = verdict;
+    if (found != nullptr) {
+      const auto known = std::ranges::find(kVerdictWords, *found);
+      if (known != kVerdictWords.end()) {
+        summary.verdict = static_cast<Verdict>(known - kVerdictWords.begin());
         return summary;
       }
     }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/verdict_words.h>
 #include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pairs.h>
@@ -153,7 +154,7 @@ ContactState read_contacts(const JsonValue& value, const JsonReader& read) {
     return ContactState::nearest(static_cast<std::size_t>(*number));
   }
   constexpr std::array kStates{ContactState::none, ContactState::first, ContactState::all};
-  return kStates.at(read.word(value, {{"none", "first", "all"}}));
+  return kStates.at(read.word(value, {{kContactStateWords.begin(), kContactStateWords.end()}}));
 }
 
 SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
@@ -168,8 +169,7 @@ SceneOptions read_options(const JsonObject& object, const JsonReader& read) {
     options.contacts = read_contacts(*contacts, read);
   }
   if (const JsonValue* start_contacts = find(object, "start_contacts")) {
-    constexpr std::array kStarts{StartContacts::report, StartContacts::keep_half};
-    options.start_contacts = kStarts.at(read.word(*start_contacts, {{"report", "keep_half"}}));
+    options.start_contacts = read.enumerator<StartContacts>(*start_contacts, kStartContactsWords);
   }
   if (const JsonValue* contact_band = find(object, "contact_band")) {
     options.contact_band = read.not_negative(*contact_band);

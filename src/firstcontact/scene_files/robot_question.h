@@ -9,7 +9,9 @@
 #include <vector>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 
 namespace firstcontact {
 

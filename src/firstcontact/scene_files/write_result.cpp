@@ -6,6 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/closest_approach.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene_files/detail/contact_json.h>
 #include <firstcontact/scene_files/detail/reports_json.h>

@@ -10,11 +10,14 @@
 #include <string_view>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/first_contact.h>
 #include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
+struct SceneResult;
 
 /// What sampling at a rate would have seen, to set beside the proven answer.
 struct SamplingReport {

@@ -11,6 +11,22 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/geometry/height_map.h>
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/verdict_words.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_files/read_urdf.h>
+#include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/detail/write_simulation.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/write_json.h>
@@ -53,7 +69,7 @@ JsonValue to_json(const Body& body);
 JsonValue to_json(const TrajectoryPoint& point);
 
 JsonValue to_json(Between between) {
-  return to_json(between == Between::screw ? "screw" : "constant_velocity");
+  return to_json(kBetweenWords[static_cast<std::size_t>(between)]);
 }
 
 template <class T>
@@ -194,7 +210,7 @@ struct MotionMember {
   }
 
   JsonMember operator()(const TwoPoseMotion& motion) const {
-    return member(motion.between == Between::screw ? "screw" : "constant_velocity",
+    return member(kBetweenWords[static_cast<std::size_t>(motion.between)],
                   {{"from", to_json(motion.from)}, {"to", to_json(motion.to)}});
   }
 
@@ -270,8 +286,8 @@ JsonValue robot_to_json(const SceneRobot& robot, const Scene& scene) {
   }
   object.push_back({"package_roots", {.value = paths(robot.file.package_roots)}});
   if (robot.file.surface != RobotSurface::collision) {
-    const bool is_visual = robot.file.surface == RobotSurface::visual;
-    object.push_back({"surface", to_json(is_visual ? "visual" : "collision_or_visual")});
+    const auto surface = static_cast<std::size_t>(robot.file.surface);
+    object.push_back({"surface", to_json(kRobotSurfaceWords[surface])});
   }
   JsonMember base = std::visit(MotionMember{}, robot.base);
   object.push_back({base.key == "pose" ? "base" : "base_motion", std::move(base.value)});
@@ -341,26 +357,22 @@ JsonValue pairs_to_json(const Scene& scene) {
 }
 
 JsonValue contacts_to_json(const ContactState& contacts) {
-  switch (contacts.kind) {
-    case ContactState::Kind::none:
-      return to_json("none");
-    case ContactState::Kind::first:
-      return to_json("first");
-    case ContactState::Kind::nearest:
-      return to_json(static_cast<double>(contacts.most));
-    case ContactState::Kind::all:
-      break;
+  if (contacts.kind == ContactState::Kind::nearest) {
+    return to_json(static_cast<double>(contacts.most));
   }
-  return to_json("all");
+  constexpr std::array kKinds{ContactState::Kind::none, ContactState::Kind::first,
+                              ContactState::Kind::all};
+  const auto found = std::ranges::find(kKinds, contacts.kind) - kKinds.begin();
+  return to_json(kContactStateWords[static_cast<std::size_t>(found)]);
 }
 
 JsonValue options_to_json(const Scene& scene) {
   const SceneOptions& options = scene.options;
-  const bool keep_half = options.start_contacts == StartContacts::keep_half;
+  const auto start_contacts = static_cast<std::size_t>(options.start_contacts);
   JsonObject object{{"tolerance", to_json(options.tolerance)},
                     {"margin", to_json(options.margin)},
                     {"contacts", contacts_to_json(options.contacts)},
-                    {"start_contacts", to_json(keep_half ? "keep_half" : "report")},
+                    {"start_contacts", to_json(kStartContactsWords[start_contacts])},
                     {"contact_band", to_json(options.contact_band)}};
   if (options.deadline) {
     object.push_back({"deadline", to_json(*options.deadline)});

@@ -6,9 +6,10 @@
 #include <string>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
+
+struct Scene;
 
 /// The resolved scene as one JSON object on one line: poses as position and quaternion, every
 /// default written out, inline meshes embedded, mesh files by their path as opened.

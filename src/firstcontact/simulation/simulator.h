@@ -12,9 +12,10 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/record/run.h>
 #include <firstcontact/robot/mechanism.h>
-#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
+
+struct LoadedScene;
 
 /// Advances a scene step by step.
 ///

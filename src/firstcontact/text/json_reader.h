@@ -57,6 +57,14 @@ class JsonReader {
   /// Which of the words a string is.
   [[nodiscard]] std::size_t word(const JsonValue& value, const KnownKeys& known) const;
 
+  /// The enumerator whose word a string is.
+  ///
+  /// @param words  of the enumerators, in their order
+  template <class Enum, class Words>
+  [[nodiscard]] Enum enumerator(const JsonValue& value, const Words& words) const {
+    return static_cast<Enum>(word(value, {{words.begin(), words.end()}}));
+  }
+
  private:
   const JsonValue& root_;
   const std::string& source_;

@@ -11,9 +11,11 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/record/load_scene_of.h>
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/verification/detail/box_tree.h>

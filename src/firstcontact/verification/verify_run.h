@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -13,10 +14,12 @@
 
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/record/run.h>
+#include <firstcontact/record/run_step.h>
 #include <firstcontact/scene/pair_counts.h>
 
 namespace firstcontact {
+
+struct RunHeader;
 
 enum class RunVerdict {
   proven,      ///< Every pair stayed apart all the time, by what each step promised.
@@ -24,6 +27,10 @@ enum class RunVerdict {
   broken,      ///< The record contradicts itself or its scene, such as by a body that jumps.
   not_proven,  ///< Neither; nothing is known of the moment that is named.
 };
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 4> kRunVerdictWords{"proven", "closer", "broken",
+                                                             "not_proven"};
 
 struct VerifyRunOptions {
   /// [m]  > 0  So far a scripted body may be from where its motion in the scene puts it.

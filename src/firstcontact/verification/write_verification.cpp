@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/record/run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene_files/write_reports.h>
+#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact {
 namespace {
@@ -44,18 +46,6 @@ std::string write_verification(const RunHeader& header, const RunVerification& v
   return result.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-const char* word(RunVerdict verdict) {
-  switch (verdict) {
-    case RunVerdict::proven:
-      return "proven";
-    case RunVerdict::closer:
-      return "closer";
-    case RunVerdict::broken:
-      return "broken";
-    case RunVerdict::not_proven:
-      break;
-  }
-  return "not_proven";
-}
+const char* word(RunVerdict verdict) { return kRunVerdictWords[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace firstcontact

@@ -6,9 +6,12 @@
 #include <string>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/verification/verify_run.h>
 
 namespace firstcontact {
+
+enum class RunVerdict;
+struct RunHeader;
+struct RunVerification;
 
 /// One JSON object on one line, without a line feed; bodies by their names, what is infinite null.
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(const RunHeader& header,

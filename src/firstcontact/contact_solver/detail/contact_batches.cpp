@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
@@ -12,13 +13,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-/// Fewer are swept one by one.
-constexpr std::size_t kFewContacts = 16;
-
-/// In double precision, which is for answers of many digits, only where contacts are very many
-/// their order is given up: along it an answer travels through a stack in one sweep.
-constexpr std::size_t kVeryMany = 500;
 
 constexpr std::size_t kNumbersOfBody = 8;  // In x.
 
@@ -54,7 +48,7 @@ std::optional<ContactBatches<Number>> ContactBatches<Number>::of(const ContactPr
   if (problem.contacts.size() < kFewContacts || !problem.mechanisms.empty()) {
     return std::nullopt;
   }
-  const bool in_any_order = sizeof(Number) == 4 || problem.contacts.size() >= kVeryMany;
+  const bool in_any_order = sizeof(Number) == 4 || problem.contacts.size() >= kVeryManyInOrder;
   const std::optional<PairLanes> lanes = place_pairs(problem, kLanes<Number>, in_any_order);
   if (!lanes) {
     return std::nullopt;

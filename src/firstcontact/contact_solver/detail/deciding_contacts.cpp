@@ -6,15 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/contact_solver/detail/constants.h>
+
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr int kMostRounds = 30;
-
-/// Beyond this part of all, they are no few.
-constexpr std::size_t kPartOfAll = 4;
 
 /// Which of eight directions a vector has.
 unsigned octant(const Vector3d& v) {
@@ -120,7 +117,7 @@ std::optional<ProjectionSpace> project_by_deciding_contacts(const ContactProblem
   deciding.add_acting(found);
   ProjectionSpace space = ProjectionSpace::contact;
   double left = options.tolerance;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostRoundsOfDeciding; ++round) {
     const bool are_more = deciding.add_closing(found.velocities, left);
     if ((!are_more && round > 0) || !deciding.are_few()) {
       break;

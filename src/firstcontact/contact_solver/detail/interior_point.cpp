@@ -1,3 +1,5 @@
+#include <firstcontact/contact_solver/detail/interior_point.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,6 +9,7 @@
 
 #include <firstcontact/contact_solver/detail/block_cholesky.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
+#include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
 
 namespace firstcontact::detail {

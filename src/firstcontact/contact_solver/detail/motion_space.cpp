@@ -1,3 +1,5 @@
+#include <firstcontact/contact_solver/detail/motion_space.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -5,19 +5,11 @@
 #include <numeric>
 #include <utility>
 
+#include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// [-]  Of the lanes. Below it the order is given up for more of them, where that is allowed.
-constexpr double kGoodFill = 0.6;
-
-/// With fewer contacts in a batch, in the mean, one by one is faster.
-constexpr double kLeastInBatch = 2.5;
-
-/// So many contacts of a pair in turn are solved before other pairs.
-constexpr std::size_t kMostOfPair = 4;
 
 /// Gives out the lanes of pair batches, each from a batch on; skips many full ones at once.
 class FreeLanes {

@@ -12,7 +12,8 @@
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/simulation.h>
 
 namespace firstcontact::detail {
 

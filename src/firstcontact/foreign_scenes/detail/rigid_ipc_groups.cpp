@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/scene/scene.h>
+namespace firstcontact {
+struct Scene;
+}
 
 namespace firstcontact::detail {
 

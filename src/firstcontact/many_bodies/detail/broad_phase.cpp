@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact::detail {
 namespace {
 

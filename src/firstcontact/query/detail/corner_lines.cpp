@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include <firstcontact/geometry/hierarchy.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/math/root_isolation.h>
+#include <firstcontact/query/detail/search_tuning.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -241,8 +242,9 @@ double MovingPair::gap_along(const Vector3d& n, const PlacedBox& a, const Placed
 
 BoxFrame MovingPair::box_frame() const {
   BoxFrame frame{};
-  frame.far = static_cast<float>(motion_.far_boxes());
-  frame.larger = static_cast<float>(motion_.larger_boxes());
+  const SearchTuning& tuning = search_tuning(motion_.follows_joints());
+  frame.far = static_cast<float>(tuning.far_boxes);
+  frame.larger = static_cast<float>(tuning.larger_boxes);
   const std::array<double, 2> units{A_.unit, B_.unit};
   const std::array<double, 2> deformation{A_.deformation_speed, B_.deformation_speed};
   for (int body = 0; body < 2; ++body) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/query/first_contact.h>
 

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include <firstcontact/geometry/hierarchy.h>
+
+#include <firstcontact/geometry/shape_bounds.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include <firstcontact/scene/loaded_scene.h>
+
+#include <firstcontact/text/file_report.h>
+
 namespace firstcontact::detail {
 
 void add_report(const FileReport& report, LoadedScene& scene) {

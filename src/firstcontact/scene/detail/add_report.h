@@ -5,7 +5,10 @@
 
 #include <vector>
 
-#include <firstcontact/scene/loaded_scene.h>
+namespace firstcontact {
+struct FileReport;
+struct LoadedScene;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

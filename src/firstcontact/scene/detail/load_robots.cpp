@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <firstcontact/robot/robot_motion.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/brief_list.h>

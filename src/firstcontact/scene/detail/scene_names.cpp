@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/write_json.h>
 

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/scene/scene.h>
+namespace firstcontact {
+struct Scene;
+}
 
 namespace firstcontact::detail {
 

@@ -10,6 +10,15 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/write_json.h>
 

@@ -3,7 +3,9 @@
 
 #pragma once
 
-#include <firstcontact/scene/loaded_scene.h>
+namespace firstcontact {
+struct LoadedScene;
+}
 
 namespace firstcontact::detail {
 

@@ -7,7 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/begins_inside.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

@@ -3,8 +3,10 @@
 
 #pragma once
 
-#include <firstcontact/scene/loaded_scene.h>
-#include <firstcontact/scene/shape_cache.h>
+namespace firstcontact {
+class ShapeCache;
+struct LoadedScene;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
+#include <firstcontact/scene/scene.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -3,8 +3,12 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/simulation.h>
 #include <firstcontact/text/json_reader.h>
+
+namespace firstcontact {
+struct Body;
+}
 
 namespace firstcontact::detail {
 

@@ -112,8 +112,7 @@ BodyMotion read_waypoints(const JsonValue& value, const JsonReader& read) {
                          std::to_string(motion.times.size()) + " times");
   }
   if (const JsonValue* between = find(object, "between")) {
-    const bool screw = read.word(*between, {{"constant_velocity", "screw"}}) == 1;
-    motion.between = screw ? Between::screw : Between::constant_velocity;
+    motion.between = read.enumerator<Between>(*between, kBetweenWords);
   }
   return motion;
 }

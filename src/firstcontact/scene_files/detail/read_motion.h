@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/body_motion.h>
 #include <firstcontact/text/json_reader.h>
 
 namespace firstcontact::detail {

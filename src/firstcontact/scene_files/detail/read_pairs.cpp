@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/scene/detail/scene_names.h>
+#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {

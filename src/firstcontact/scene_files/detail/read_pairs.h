@@ -3,8 +3,11 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/json_reader.h>
+
+namespace firstcontact {
+struct Scene;
+}
 
 namespace firstcontact::detail {
 

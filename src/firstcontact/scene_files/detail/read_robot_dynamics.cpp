@@ -9,6 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/text/write_json.h>
 

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include <firstcontact/robot_files/read_srdf.h>
+#include <firstcontact/robot_files/read_urdf.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
@@ -77,10 +80,7 @@ class RobotReader {
       file.package_roots = read_package_roots(*roots, folders_.scene, read_);
     }
     if (const JsonValue* surface = find(object, "surface")) {
-      constexpr std::array kSurfaces{RobotSurface::collision, RobotSurface::visual,
-                                     RobotSurface::collision_or_visual};
-      file.surface =
-          kSurfaces.at(read_.word(*surface, {{"collision", "visual", "collision_or_visual"}}));
+      file.surface = read_.enumerator<RobotSurface>(*surface, kRobotSurfaceWords);
     }
     return file;
   }
@@ -116,8 +116,7 @@ class RobotReader {
 
   void take_turning(const JsonObject& object, SceneRobot& robot) const {
     if (const JsonValue* turning = find(object, "turning")) {
-      constexpr std::array kTurnings{Turning::as_given, Turning::shortest};
-      robot.trajectory.turning = kTurnings.at(read_.word(*turning, {{"long", "short"}}));
+      robot.trajectory.turning = read_.enumerator<Turning>(*turning, kTurningWords);
     }
     const JsonValue* unwrap = find(object, "unwrap");
     if (unwrap != nullptr && read_.boolean(*unwrap)) {

@@ -3,9 +3,12 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_path.h>
+
+namespace firstcontact {
+struct Scene;
+}
 
 namespace firstcontact::detail {
 

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/body_shape.h>
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/read_path.h>
 

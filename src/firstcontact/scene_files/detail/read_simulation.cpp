@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <firstcontact/scene/detail/scene_names.h>
+#include <firstcontact/scene/scene.h>
 #include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/text/write_json.h>
 

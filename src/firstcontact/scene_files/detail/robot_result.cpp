@@ -3,23 +3,23 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/motion/time_window.h>
+#include <firstcontact/robot/limit_report.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/detail/contact_json.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 
 namespace firstcontact::detail {
 namespace {
 
-const char* word(JointLimit limit) {
-  switch (limit) {
-    case JointLimit::lower_position:
-      return "lower_position";
-    case JointLimit::upper_position:
-      return "upper_position";
-    case JointLimit::velocity:
-      break;
-  }
-  return "velocity";
-}
+const char* word(JointLimit limit) { return kJointLimitWords[static_cast<std::size_t>(limit)]; }
 
 class RobotResultWriter {
  public:

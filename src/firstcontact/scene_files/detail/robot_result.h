@@ -3,9 +3,12 @@
 
 #pragma once
 
-#include <firstcontact/robot_check/check_robots.h>
-#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/text/json_tree.h>
+
+namespace firstcontact {
+struct LoadedScene;
+struct RobotCheckResult;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/scene/trajectory.h>
+
 namespace firstcontact::detail {
 namespace {
 

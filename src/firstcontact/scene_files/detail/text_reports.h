@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <filesystem>
 
-#include <firstcontact/scene/scene_robot.h>
-#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/file_report.h>
+
+namespace firstcontact {
+struct Trajectory;
+}
 
 namespace firstcontact::detail {
 

@@ -8,6 +8,9 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/simulation.h>
 #include <firstcontact/scene_files/detail/result_json.h>
 
 namespace firstcontact::detail {

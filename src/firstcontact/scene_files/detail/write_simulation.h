@@ -3,8 +3,13 @@
 
 #pragma once
 
-#include <firstcontact/scene/scene.h>
 #include <firstcontact/text/json_tree.h>
+
+namespace firstcontact {
+struct Body;
+struct Scene;
+struct SceneRobot;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

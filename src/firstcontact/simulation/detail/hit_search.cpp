@@ -3,24 +3,18 @@
 #include <algorithm>
 #include <limits>
 
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/sim_body.h>
+
+#include <firstcontact/simulation/detail/island_state.h>
+
+#include <firstcontact/simulation/detail/contact_distances.h>
+
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-/// A contact ahead is slight if the bodies approach by less than this part of the smaller one's
-/// radius over the span of the plan, and would not bounce.
-constexpr double kSlightApproach = 0.4;
-
-/// Where plans are made again bodies move otherwise by little: so much room they have, of their
-/// reach and of their way, before all pairs are looked for anew.
-constexpr double kRoomOfReach = 0.03;
-constexpr double kRoomOfWay = 0.1;
-
-/// Where no plane tells for a whole plan that two hulls stay apart, planes for parts of it often
-/// do; a first contact takes as long as thirty of them.
-constexpr int kSplits = 3;
 
 }  // namespace
 
@@ -193,7 +187,7 @@ bool HitSearch::hulls_stay_apart(Candidate& pair, double distance) {
   const Plane likely = likely_plane(pair);
   pair.plane =
       plane_of(whole_hull_of(pair.movers[0]), whole_hull_of(pair.movers[1]), distance, likely);
-  return pair.plane || parts_stay_apart(pair, distance, {0.0, 0.5, 1.0}, kSplits, likely);
+  return pair.plane || parts_stay_apart(pair, distance, {0.0, 0.5, 1.0}, kSplitsOfPlan, likely);
 }
 
 /// What bends away from a plane does so by a quarter in halves of a time.

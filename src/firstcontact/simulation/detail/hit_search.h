@@ -9,11 +9,18 @@
 #include <unordered_map>
 #include <vector>
 
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
+
+struct IslandState;
 
 /// A pair that the plan brings into contact.
 struct Hit {

@@ -6,30 +6,15 @@
 #include <optional>
 #include <utility>
 
+#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/hit_search.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/rest.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// How often slight contacts of the motion ahead are turned into constraints before the bodies are
-/// moved until the first of them.
-constexpr int kRounds = 12;
-
-/// After as many impacts in a row that hardly let time pass, the island is jammed.
-constexpr std::size_t kMostStalls = 10;
-
-/// A plan that was stopped is followed by one of at least this part of its span.
-constexpr double kLeastShare = 0.1;
-
-/// Links that turn fast and bodies that tumble make plans shorter, down to this part of the step.
-constexpr double kLeastShareOfFast = 0.01;
-
-/// [rad]  So far from where it would be may a body that tumbles be halfway through a plan, as it
-/// turns at a constant rate then: an impact in between finds it there, with another inertia.
-constexpr double kMostAstray = 0.01;
 
 class Island {
  public:
@@ -101,7 +86,7 @@ class Island {
   void choose_span(double planned, double t) {
     if (t < 1.0) {
       span_ = state_.is_too_near()
-                  ? std::max(std::max(t, kLeastShare) * planned, stall(state_.start.h))
+                  ? std::max(std::max(t, kLeastShareOfPlan) * planned, stall(state_.start.h))
                   : state_.start.h;
     } else {
       span_ = 2.0 * planned;
@@ -116,7 +101,7 @@ class Island {
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
       const std::vector<Hit> hits = search.find(plan);
-      if (hits.empty() || round == kRounds || std::ranges::none_of(hits, &Hit::is_slight)) {
+      if (hits.empty() || round == kRoundsOfSlight || std::ranges::none_of(hits, &Hit::is_slight)) {
         double t = state_.robots.share_within_limits(plan.robots);
         for (const Hit& hit : hits) {
           t = std::min(t, hit.t);

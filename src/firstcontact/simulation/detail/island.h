@@ -7,10 +7,16 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/record/run.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/query/workspace.h>
+#include <firstcontact/record/run_step.h>
+#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
+
+struct StepContext;
 
 /// A part of a step without impacts.
 struct TrackPiece {

@@ -3,23 +3,17 @@
 #include <algorithm>
 
 #include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/scene/simulation.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/contact_distances.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Half of what is missing to the rest distance is made up for in a plan.
-constexpr double kPush = 0.5;
-constexpr double kPushTolerance = 1e-2;  // Of that distance.
-
-/// How often contacts around what is too near are solved, in the mean of all, before all are swept.
-constexpr int kPushSweepsAround = 4;
-
-/// A touch ahead takes the place of what the same features say if that is as near as this part of
-/// the smaller body and points as much the same way.
-constexpr double kReplacedWithin = 0.1;
-constexpr double kReplacedNormal = 1.0 - 1e-3;  // [-]  Cosine.
 
 }  // namespace
 
@@ -268,8 +262,9 @@ void IslandPlanner::keep_push_from(const ContactPoint& contact) {
 /// without velocity, so that they add no energy of motion.
 ContactSolution IslandPlanner::find_push() const {
   const ContactDistances& distances = state_.world.distances;
-  const ProjectionOptions options{
-      .tolerance = kPushTolerance * distances.least, .enough = 0.3 * distances.least, .sweeps = 50};
+  const ProjectionOptions options{.tolerance = kPushTolerance * distances.least,
+                                  .enough = kPushEnough * distances.least,
+                                  .sweeps = kPushSweeps};
   ContactProblem problem;
   std::vector<std::size_t> too_near;
   for (const auto& [pair, manifold] : state_.manifolds) {

@@ -9,10 +9,18 @@
 #include <optional>
 #include <vector>
 
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_response.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
+
+struct IslandState;
 
 /// A touch of the motion ahead, and how it would be reached.
 struct TouchAhead {
@@ -87,6 +95,6 @@ class IslandPlanner {
 
 /// [s]  Too short a time, of a step of h, for anything to be done in it: who looks at the motion
 /// could not divide it.
-inline double stall(double h) { return 1e-9 * h; }
+inline double stall(double h) { return kStallOfStep * h; }
 
 }  // namespace firstcontact::detail

@@ -4,44 +4,14 @@
 #include <cmath>
 
 #include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/response.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Of contact problems: of what gravity adds in a step. Heaps and bodies with very many contacts
-/// are solved less exactly, and where heaps slide even less.
-constexpr double kTolerance = 3e-7;
-constexpr double kHeapTolerance = 1e-3;
-constexpr std::size_t kHeap = 120;       // Contacts.
-constexpr std::size_t kHeapBodies = 20;  // One on another may have as many contacts.
-constexpr std::size_t kManyContacts = 1000;
-
-/// Where several bodies are hit, to this part of what that asks for: weight alone asks for what
-/// gravity adds, and at rest for next to nothing beyond the step before.
-constexpr std::size_t kSeveralBodies = 6;
-constexpr double kPartOfHits = 1e-3;
-constexpr double kHit = 2.0;
-constexpr int kRoundsOfMany = 2;
-
-/// What sweeps of a heap may leave: where that brings bodies too near, the next plan holds them.
-constexpr double kHeapEnough = 0.3;
-constexpr int kHeapSweeps = 600;
-
-/// In a plan that is like another but for some contacts, what changes by more than this goes on to
-/// others; and how often each of all is solved, in the mean at most.
-constexpr double kAroundTolerance = 3e-2;
-constexpr int kAroundSweeps = 2;
-
-constexpr double kLeastTolerance = 1e-9;  // [m/s]
-
-/// A residual of this part of what gravity adds tells that a problem has no solution, or none that
-/// was found.
-constexpr double kUnsolved = 1e-2;
-
-/// The same of a part of the velocities themselves, where there is no gravity: well above rounding.
-constexpr double kUnsolvedOfSpeed = 1e-9;
 
 /// [m/s, rad/s]  The greatest part of any velocity.
 double fastest(const ContactSolution& solution) {
@@ -126,10 +96,10 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 
 }  // namespace
 
-double exact_tolerance(const IslandState& state) { return of_gravity(state, kTolerance); }
+double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
 bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeap && state.size() >= kHeapBodies;
+  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies;
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
@@ -139,7 +109,7 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
             .sweeps = kHeapSweeps,
             .rounds = kRoundsOfMany};
   }
-  if (problem.contacts.size() >= kManyContacts) {
+  if (problem.contacts.size() >= kManyContactsOfIsland) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
   return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
@@ -151,7 +121,7 @@ ProjectionOptions plan_options(const IslandState& state, const ContactProblem& p
   ProjectionOptions options = projection_options(state, problem);
   if (state.size() >= kSeveralBodies && state.robots.empty() && !state.world.gravity.isZero(0.0)) {
     options.of_hits = kPartOfHits;
-    options.hit = of_gravity(state, kHit);
+    options.hit = of_gravity(state, kHitOfGravity);
   }
   return options;
 }

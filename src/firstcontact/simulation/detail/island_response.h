@@ -7,9 +7,10 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/simulation/detail/island_state.h>
 
 namespace firstcontact::detail {
+
+struct IslandState;
 
 /// Whether many bodies touch at many places: such problems are solved less exactly.
 [[nodiscard]] bool is_heap(const IslandState& state, const ContactProblem& problem);

@@ -8,6 +8,10 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -15,9 +19,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// [rad]  That links turn in a plan, at most.
-constexpr double kMostTurn = 0.1;
 
 Pose piece_pose(const SimBody& body, const MechanismInstant& instant) {
   const Pose& X_WL = instant.X_WL[body.piece->link];
@@ -92,7 +93,7 @@ double IslandRobots::longest_span() const {
       fastest = std::max(fastest, w.norm());
     }
   }
-  return fastest > 0.0 ? kMostTurn / fastest : std::numeric_limits<double>::infinity();
+  return fastest > 0.0 ? kMostTurnOfLinks / fastest : std::numeric_limits<double>::infinity();
 }
 
 const IslandRobots::PiecePlace& IslandRobots::piece_of(std::size_t member) const {

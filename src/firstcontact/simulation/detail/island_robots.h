@@ -9,9 +9,17 @@
 #include <Eigen/Core>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/simulation/detail/move.h>
 
 namespace firstcontact::detail {
+
+struct SimBody;
+struct SimRobot;
+struct StepStart;
+struct World;
 
 /// A part of a step of a robot without impacts.
 struct RobotTrackPiece {

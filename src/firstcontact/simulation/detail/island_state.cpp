@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 namespace firstcontact::detail {
 namespace {
-
-/// Impacts slower than what gravity adds in this many steps do not bounce: bodies come to rest.
-constexpr double kStepsWithoutBounce = 2.0;
 
 /// A body as manifolds see it.
 struct RestingBody {

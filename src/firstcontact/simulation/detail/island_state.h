@@ -13,10 +13,13 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/touch.h>
 #include <firstcontact/simulation/detail/world.h>

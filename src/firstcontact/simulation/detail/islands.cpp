@@ -7,18 +7,21 @@
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/contact_distances.h>
+#include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/rest.h>
+#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-/// Islands that meet are joined so many times one by one. Then those whose ways cross are, too: of
-/// bricks that fall together and come to rest row by row each row would meet the next one.
-constexpr int kExactRounds = 2;
 
 class Islands {
  public:
@@ -41,7 +44,7 @@ class Islands {
     join_links();
     join_near();
     for (int round = 0; advance_changed(); ++round) {
-      if (!join_meeting(round >= kExactRounds)) {
+      if (!join_meeting(round >= kExactRoundsOfIslands)) {
         return take_tracks();
       }
     }

@@ -9,8 +9,12 @@
 #include <vector>
 
 #include <firstcontact/simulation/detail/island.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
+
+struct StepStart;
+struct World;
 
 /// Advances every free body. Two islands of which the motions found bring bodies of both into
 /// contact were one: they are joined and advanced anew, until no two meet.

@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <firstcontact/simulation/detail/touch.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -11,10 +11,10 @@
 #include <Eigen/Core>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/simulation/detail/touch.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
+
+struct Touch;
 
 /// The bodies of a problem: the members of an island first, by their place there, and the fixed and
 /// scripted bodies that they touch.

@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <utility>
 
+#include <firstcontact/scene/simulation.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/surroundings.h>
+#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-/// So fast may the points of bodies at rest seem to be: of the tolerance of exact solutions, and of
-/// what gravity adds in a step, whichever is less. Nothing else tells them from what sets off.
-constexpr double kOfTolerance = 100.0;
-constexpr double kOfGravity = 3e-5;
 
 /// [m/s]  No point of the body is faster.
 double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w) {
@@ -59,8 +62,8 @@ bool is_disturbed(const World& world, const StepStart& start, const Surroundings
 }  // namespace
 
 bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
-  const double seeming = std::min(kOfTolerance * exact_tolerance(state),
-                                  kOfGravity * state.world.gravity.norm() * state.start.h);
+  const double seeming = std::min(kRestOfExactTolerance * exact_tolerance(state),
+                                  kRestOfGravity * state.world.gravity.norm() * state.start.h);
   if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
   }

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
+
+struct IslandState;
+struct Plan;
+struct StepContext;
 
 /// Whether bodies that a plan moves over the whole step are held where they are: a contact presses
 /// each of them, nothing scripted moves beside them, and before and after it none is faster than a

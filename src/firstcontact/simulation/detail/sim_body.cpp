@@ -6,14 +6,17 @@
 #include <stdexcept>
 
 #include <firstcontact/geometry/mass_properties.h>
+#include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/simulation/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDensity = 1000.0;         // [kg/m^3]  Where nothing is said: water.
-constexpr double kRelativeDistance = 1e-3;  // Of the smallest free body's radius.
 
 Inertia inertia_of(const FreeBody& free, const Shape& shape) {
   Inertia inertia;
@@ -26,7 +29,8 @@ Inertia inertia_of(const FreeBody& free, const Shape& shape) {
     return inertia;
   }
   const MassProperties solid = mass_properties(shape);
-  const double density = free.mass ? *free.mass / solid.volume : free.density.value_or(kDensity);
+  const double density =
+      free.mass ? *free.mass / solid.volume : free.density.value_or(kDefaultDensity);
   inertia.mass = free.mass.value_or(density * solid.volume);
   inertia.p_BC = free.centre_of_mass.value_or(solid.p_BC);
   if (free.inertia) {
@@ -106,7 +110,7 @@ double contact_distance_of(const Simulation& simulation, const std::vector<SimBo
     }
   }
   smallest = std::isfinite(smallest) ? smallest : smallest_link;
-  return std::isfinite(smallest) ? kRelativeDistance * smallest : kRelativeDistance;
+  return std::isfinite(smallest) ? kContactDistanceOfRadius * smallest : kContactDistanceOfRadius;
 }
 
 PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {

@@ -14,9 +14,14 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/scene/links_as_bodies.h>
-#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/scene/simulation.h>
+
+namespace firstcontact {
+struct LinksAsBodies;
+struct LoadedScene;
+struct Scene;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

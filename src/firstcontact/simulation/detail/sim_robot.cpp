@@ -6,19 +6,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/trajectory.h>
+#include <firstcontact/simulation/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// A coordinate this near to its limit, or beyond it, is stopped there.
-constexpr double kAtLimit = 1e-9;  // [rad or m]
-
-/// So far beyond a limit a plan may lead. What pushes a link against its limit and yields as little
-/// has no solution together with it, and then neither law is kept.
-constexpr double kMostBeyond = 1e-3;  // [rad or m]
 
 double value_at(const std::vector<TimedNumber>& target, double time) {
   const auto next = std::ranges::upper_bound(target, time, {}, &TimedNumber::time);
@@ -282,10 +282,10 @@ double SimRobot::share_within_limits(const MechanismState& from, const Eigen::Ve
     const double q = from.positions[law.position];
     const double end = to[law.position];
     if (law.limits.upper) {
-      stop_at(q, end, std::max(*law.limits.upper + kMostBeyond, q + kAtLimit));
+      stop_at(q, end, std::max(*law.limits.upper + kMostBeyondLimit, q + kAtLimit));
     }
     if (law.limits.lower) {
-      stop_at(-q, -end, std::max(-*law.limits.lower + kMostBeyond, -q + kAtLimit));
+      stop_at(-q, -end, std::max(-*law.limits.lower + kMostBeyondLimit, -q + kAtLimit));
     }
   }
   return share;

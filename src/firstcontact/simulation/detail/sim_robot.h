@@ -10,8 +10,13 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/robot/mechanism.h>
-#include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/robot/robot_description.h>
 #include <firstcontact/scene/simulation.h>
+
+namespace firstcontact {
+struct LinksAsBodies;
+struct LoadedScene;
+}  // namespace firstcontact
 
 namespace firstcontact::detail {
 

@@ -1,5 +1,11 @@
 #include <firstcontact/simulation/detail/surroundings.h>
 
+#include <firstcontact/simulation/detail/sim_body.h>
+
+#include <firstcontact/simulation/detail/step_start.h>
+
+#include <firstcontact/simulation/detail/world.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -9,9 +9,11 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/detail/overlap_tree.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
+
+struct StepStart;
+struct World;
 
 /// The fixed and scripted bodies of a step, by where they are in it.
 class Surroundings {

@@ -3,8 +3,11 @@
 #include <cstddef>
 #include <span>
 
+#include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/narrowphase/convex_separation.h>
+#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/sim_body.h>
 
 namespace firstcontact::detail {
 namespace {

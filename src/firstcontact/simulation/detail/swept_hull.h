@@ -9,9 +9,16 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+struct ShapeBounds;
+}
 
 namespace firstcontact::detail {
+
+struct Move;
+struct SimBody;
 
 /// A body's hull over a part of a move.
 struct SweptHull {

@@ -14,25 +14,17 @@
 #include <firstcontact/geometry/detail/place_grid.h>
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
+#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/surface_neighbours.h>
+#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Touches nearer to each other than this part of the smaller body are one.
-constexpr double kSamePlace = 1e-3;
-constexpr double kSameNormal = 1.0 - 1e-5;  // [-]  Cosine.
-
-/// A touch is taken for what touched before where it is nearer than this part of the smaller body.
-constexpr double kCloseBy = 0.01;
-
 /// Of a pair; there may be more.
 constexpr std::size_t kUsualTouches = 4;
-/// More contacts than these are very many: of those beside each other, nearer than about this part
-/// of the smaller body, the nearest counts.
-constexpr std::size_t kMany = 500;
-constexpr double kBeside = 0.1;
 
 auto features_of(const Touch& touch) {
   return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
@@ -228,9 +220,9 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,
                                  const std::vector<Contact>& contacts) {
   const FacingBodies facing(world, bodies, poses);
-  if (contacts.size() > kMany) {
+  if (contacts.size() > kVeryManyContacts) {
     std::vector<Touch> few = touches_among_many(facing, bodies, margin, contacts,
-                                                kBeside * smaller_reach(world, bodies));
+                                                kNeighbourhood * smaller_reach(world, bodies));
     if (!few.empty()) {
       return few;
     }
@@ -264,7 +256,7 @@ Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, cons
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
   close_features(A, B, margin + world_.distances.band, workspace_, contacts_,
-                 kBeside * smaller_reach(world_, bodies));
+                 kNeighbourhood * smaller_reach(world_, bodies));
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }

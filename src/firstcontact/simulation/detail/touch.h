@@ -7,12 +7,15 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
+
+struct World;
 
 /// A point at which two bodies are near each other.
 struct Touch {

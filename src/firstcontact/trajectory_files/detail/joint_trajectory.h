@@ -5,9 +5,12 @@
 
 #include <string>
 
-#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/json_reader.h>
+
+namespace firstcontact {
+class RobotModel;
+}
 
 namespace firstcontact::detail {
 

@@ -8,8 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+class RobotModel;
+}
 
 namespace firstcontact::detail {
 

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+class RobotModel;
+}
 
 namespace firstcontact::detail {
 

@@ -6,8 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/robot/robot_model.h>
 #include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+class RobotModel;
+}
 
 namespace firstcontact::detail {
 

@@ -7,7 +7,7 @@
 
 #include <firstcontact/math/interval_vector.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/record/run.h>
+#include <firstcontact/record/run_step.h>
 
 namespace firstcontact::detail {
 

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include <firstcontact/scene/scene.h>
+
 namespace firstcontact::detail {
 namespace {
 

@@ -11,9 +11,14 @@
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/record/run.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/record/run_step.h>
 #include <firstcontact/verification/detail/box_tree.h>
 #include <firstcontact/verification/detail/piece_motion.h>
+
+namespace firstcontact {
+struct Scene;
+}
 
 namespace firstcontact::detail {
 

@@ -1,18 +1,16 @@
 /// @file
-/// Reads captured motion from Acclaim's files: a skeleton (ASF) and its motion (AMC).
+/// Reads the skeleton of a captured motion from Acclaim's files: ASF.
 
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
 #include <firstcontact/robot_files/motion_capture.h>
 
 namespace firstcontact {
@@ -48,21 +46,5 @@ struct AsfOptions {
 [[nodiscard]] FIRSTCONTACT_API AsfSkeleton parse_asf(std::string_view text,
                                                      const std::string& source,
                                                      const AsfOptions& options = {});
-
-/// Reads an AMC file: the numbers of its frames, and in each a line for every bone that turns.
-///
-/// @param frame_time  [s]  > 0; the file does not say it
-/// @throws ParseError  as read_asf: an unknown bone, one missing or there twice, frames that do not
-///                     count up by one
-/// @throws std::invalid_argument if the frame time is out of its range
-[[nodiscard]] FIRSTCONTACT_API MotionCapture read_amc(const std::filesystem::path& path,
-                                                      const AsfSkeleton& skeleton,
-                                                      double frame_time = 1.0 / 120.0);
-
-/// @param source  names the text in errors
-[[nodiscard]] FIRSTCONTACT_API MotionCapture parse_amc(std::string_view text,
-                                                       const std::string& source,
-                                                       const AsfSkeleton& skeleton,
-                                                       double frame_time = 1.0 / 120.0);
 
 }  // namespace firstcontact

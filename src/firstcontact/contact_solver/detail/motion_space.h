@@ -1,0 +1,21 @@
+/// @file
+/// Contact problems in the space of velocities: multipliers and Newton steps.
+
+#pragma once
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/contact_rows.h>
+
+namespace firstcontact::detail {
+
+/// Minimises the kinetic distance from the free velocities with an augmented Lagrangian: rounds of
+/// multipliers, each solved by Newton's steps on sparse factorisations. As in the interior point,
+/// mu |u_t| is what it was after the round before. Takes no sweeps, and no loss where masses differ
+/// greatly.
+///
+/// @param rows        of the problem
+/// @param projection  where to start from; afterwards nearer to the laws, if it changed
+void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
+                             const ProjectionOptions& options, Projection& projection);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,95 @@
+/// @file
+/// Two bodies at one instant of a search, with the boxes that are placed there.
+
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include <firstcontact/motion/relative_state.h>
+#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/query/detail/search_tuning.h>
+
+namespace firstcontact::detail {
+
+/// The instant that a search looks at. Boxes are placed anew only where that gains something; pairs
+/// of triangles do without them.
+class PairInstant {
+ public:
+  PairInstant(const MovingPair& pair, double tie_window)
+      : pair_(pair),
+        tie_window_(tie_window),
+        window_(search_tuning(pair.motion().follows_joints()).boxes_window * pair.unit() /
+                std::max(pair.speed_bound(), 1e-300)),
+        frame_(pair.box_frame()) {}
+
+  [[nodiscard]] double t() const { return t_; }
+  [[nodiscard]] const RelativeState& state() const { return state_; }
+  [[nodiscard]] double error() const { return error_; }  ///< [m]  Of a gap of the two bodies.
+  [[nodiscard]] const BoxFrame& frame() const { return frame_; }
+
+  /// Until then, a group loses little by the boxes that were placed here.
+  [[nodiscard]] double latest_of_second() const { return t_ + kWindowsOfSecond * window_; }
+
+  /// Places both bodies.
+  void move_to(double t) {
+    if (t == t_) {
+      return;
+    }
+    t_ = t;
+    state_ = pair_.motion().state(t);
+    error_ = pair_.gap_error(state_);
+  }
+
+  /// Places boxes at t, or a little before.
+  ///
+  /// @param threshold  [m]  closer is contact
+  void place_boxes(double t, double threshold, double horizon) {
+    if (!serves(t)) {
+      move_to(t);
+    }
+    if (frame_t_ != t_) {
+      frame_t_ = t_;
+      served_ = 0;
+      pair_.place(state_, threshold + error_, frame_);
+    }
+    frame_.horizon = round_up(horizon - t_);
+  }
+
+  /// Another group was bounded in these boxes.
+  void count_served() { ++served_; }
+
+  /// Boxes are placed anew, as another threshold holds.
+  void forget_boxes() { frame_t_ = std::numeric_limits<double>::quiet_NaN(); }
+
+ private:
+  /// A group that is bounded along with another one may be due so many times later as a group alone
+  /// after the bodies were placed: it loses little by that, and saves more.
+  static constexpr double kWindowsOfSecond = 8.0;
+
+  /// Groups that are bounded by one placement of the boxes before it is asked for a newer one, of
+  /// links, whose boxes are placed for longer than others. Where very many pairs come near at once,
+  /// what an older one loses would open all of them.
+  static constexpr std::uint64_t kManyAtOnce = 16;
+
+  /// Whether boxes as they are placed may be bounded for a group that is proven until t.
+  [[nodiscard]] bool serves(double t) const {
+    const bool is_old = served_ >= kManyAtOnce && pair_.motion().follows_joints();
+    const double window = is_old ? std::min(tie_window_, window_) : window_;
+    return t_ <= t && t < t_ + window;
+  }
+
+  const MovingPair& pair_;
+  double tie_window_;
+  double window_;
+  double t_ = std::numeric_limits<double>::quiet_NaN();  // Of the next two.
+  RelativeState state_;
+  double error_ = 0.0;
+  double frame_t_ = std::numeric_limits<double>::quiet_NaN();
+  BoxFrame frame_;
+  std::uint64_t served_ = 0;  // Groups that were bounded in it.
+};
+
+}  // namespace firstcontact::detail

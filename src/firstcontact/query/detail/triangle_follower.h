@@ -1,0 +1,44 @@
+/// @file
+/// Follows two triangles of a search through time, to their contact or to its end.
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/query/detail/search_state.h>
+#include <firstcontact/query/detail/workspace_data.h>
+
+namespace firstcontact::detail {
+
+/// Advances pairs of triangles of a search by certified steps.
+class TriangleFollower {
+ public:
+  explicit TriangleFollower(SearchState& search) : search_(search) {}
+
+  /// Advances a pair of triangles until it is in contact, leaves the step, or another pair is due.
+  void follow(TriangleEntry entry);
+
+  /// The longest certificate of the direction between the closest points and of the direction that
+  /// the features define, which stays accurate when the points nearly coincide; should both fail,
+  /// of any normal and any product of edges.
+  ///
+  /// @param t  where the triangles are placed
+  [[nodiscard]] double step(const TriangleEntry& entry, const TrianglePair& triangles,
+                            const ClosestFeatures& closest, double t) const;
+
+ private:
+  /// Follows a pair of triangles to its contact or to the end, from t on, in double-double. False
+  /// where that does not decide either.
+  [[nodiscard]] bool decide_precisely(const TriangleEntry& entry, double t);
+
+  /// [m]  Of the sum of margin and radii.
+  [[nodiscard]] double threshold_rounding() const;
+
+  [[nodiscard]] double step_along(const TriangleEntry& entry, const TrianglePair& triangles,
+                                  const ClosestFeatures& closest, const Eigen::Vector3d& n) const;
+
+  SearchState& search_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,164 @@
+/// @file
+/// The numbers that a simulation's behaviour depends on, each with its unit and its consequence.
+/// Bounds of rounding stand where they are derived.
+
+#pragma once
+
+#include <cstddef>
+
+namespace firstcontact::detail {
+
+// What a scene leaves open.
+
+/// [kg/m^3]  Density of free bodies without mass and density: that of water.
+inline constexpr double kDefaultDensity = 1000.0;
+/// [-]  The contact distance, by the radius of the smallest free body. Smaller: bodies rest nearer
+/// to each other, and steps take longer.
+inline constexpr double kContactDistanceOfRadius = 1e-3;
+
+// Distances between bodies, by the contact distance (ContactDistances).
+
+/// [-]  A contact is found at 1 to 1 + this. Smaller: first contacts take more steps.
+inline constexpr double kToleranceOfDistance = 0.25;
+/// [-]  Impacts act on pairs within it; bodies rest between 1 and this.
+inline constexpr double kTouchingOfDistance = 1.5;
+/// [-]  Constraints act on pairs within it. Larger: problems have more contacts.
+inline constexpr double kBandOfDistance = 2.0;
+/// [-]  Pairs below it are pushed apart. Nearer to 1: more plans push.
+inline constexpr double kPushedOfDistance = 0.9;
+/// [-]  Bodies come to rest so many tolerances beyond 1, before a contact would be found: the way
+/// there is straight and that of a point is not.
+inline constexpr double kRestOfTolerance = 1.5;
+/// [-]  A pair that is nearer than 1 is held to this share of its gap...
+inline constexpr double kHeldShare = 0.5;
+/// [-]  ... and one nearer than this is jammed, and held to that share: what cannot yield, as a
+/// body that is crushed, would halve its way to nothing.
+inline constexpr double kJammedOfDistance = 1e-3;
+inline constexpr double kHeldShareOfJammed = 0.99;
+
+// Touches of a pair, by the reach of the smaller body.
+
+/// [-]  Touches nearer to each other than this, with normals of this cosine, are one.
+inline constexpr double kSamePlace = 1e-3;
+inline constexpr double kSameNormal = 1.0 - 1e-5;
+/// [-]  A touch takes the impulse of one of the step before that is nearer than this.
+inline constexpr double kCloseBy = 0.01;
+/// [contacts]  A pair with more of them keeps the nearest one of each neighbourhood...
+inline constexpr std::size_t kVeryManyContacts = 500;
+/// [-]  ... which is about as wide as this.
+inline constexpr double kNeighbourhood = 0.1;
+/// [contacts]  A pair with more of them has only those recorded that press, as a nut on its thread
+/// with thousands.
+inline constexpr std::ptrdiff_t kManyRecordedOfPair = 100;
+
+// Impacts.
+
+/// [steps]  Impacts slower than what gravity adds in so many steps do not bounce: bodies come to
+/// rest.
+inline constexpr double kStepsWithoutBounce = 2.0;
+/// [-]  A contact ahead is slight, and becomes a constraint, if the bodies approach by less than
+/// this over the plan, by the radius of the smaller one, and would not bounce. Larger: fewer
+/// impacts, and more motion that is not straight.
+inline constexpr double kSlightApproach = 0.4;
+/// [impacts]  After so many in a row that let no more time pass than a stall, an island is jammed:
+/// the rest of the step is lost.
+inline constexpr std::size_t kMostStalls = 10;
+/// [-]  A stall, by the step.
+inline constexpr double kStallOfStep = 1e-9;
+
+// Plans of an island.
+
+/// [plans]  So often slight contacts of the motion ahead become constraints before bodies are moved
+/// until the first of them.
+inline constexpr int kRoundsOfSlight = 12;
+/// [-]  A plan that was stopped is followed by one of at least this part of its span.
+inline constexpr double kLeastShareOfPlan = 0.1;
+/// [-]  Links that turn fast and bodies that tumble make plans shorter, down to this part of the
+/// step.
+inline constexpr double kLeastShareOfFast = 0.01;
+/// [rad]  A body that tumbles is no farther than this from where it would be halfway through a
+/// plan, as it turns at a constant rate then: an impact in between finds it there, with another
+/// inertia.
+inline constexpr double kMostAstray = 0.01;
+/// [rad]  Links turn no farther in a plan: mass matrices are those of its end.
+inline constexpr double kMostTurnOfLinks = 0.1;
+/// [rounds]  Islands that meet are joined so many times one by one. Then those whose ways cross
+/// are, too: of bricks that fall together and come to rest row by row each row would meet the next
+/// one.
+inline constexpr int kExactRoundsOfIslands = 2;
+/// [-]  A touch ahead takes the place of what the same features say if that is as near as this, by
+/// the reach of the smaller body, with normals of this cosine.
+inline constexpr double kReplacedWithin = 0.1;
+inline constexpr double kReplacedNormal = 1.0 - 1e-3;
+/// [-]  Where plans are made again, bodies have so much room, of their reach and of their way,
+/// before all pairs are looked for anew.
+inline constexpr double kRoomOfReach = 0.03;
+inline constexpr double kRoomOfWay = 0.1;
+/// [-]  Where no plane keeps two hulls apart for a whole plan, planes for parts of it often do: it
+/// is halved so many times. A first contact takes as long as thirty planes.
+inline constexpr int kSplitsOfPlan = 3;
+
+// Pushing apart what is too near.
+
+/// [-]  A plan makes up for this part of what is missing to the contact distance...
+inline constexpr double kPush = 0.5;
+/// [-]  ... to this part of that distance; so much of it may be left by sweeps, of at most so many.
+inline constexpr double kPushTolerance = 1e-2;
+inline constexpr double kPushEnough = 0.3;
+inline constexpr int kPushSweeps = 50;
+/// [-]  So often contacts around what is too near are solved, in the mean of all, before all are
+/// swept.
+inline constexpr int kPushSweepsAround = 4;
+
+// Joints.
+
+/// [rad or m]  A coordinate this near to its limit, or beyond it, is stopped there.
+inline constexpr double kAtLimit = 1e-9;
+/// [rad or m]  A plan may lead so far beyond a limit. What pushes a link against its limit and
+/// yields as little has no solution together with it, and then neither law is kept.
+inline constexpr double kMostBeyondLimit = 1e-3;
+
+// How exactly contact problems are solved, by what gravity adds in a step.
+
+/// [-]  The residual of problems of few contacts.
+inline constexpr double kExactTolerance = 3e-7;
+/// [m/s]  No problem is solved more exactly than this.
+inline constexpr double kLeastTolerance = 1e-9;
+/// [-]  The residual of heaps, and of problems with very many contacts.
+inline constexpr double kHeapTolerance = 1e-3;
+/// [contacts, bodies]  An island with as many of both is a heap. One body on another may have as
+/// many contacts.
+inline constexpr std::size_t kHeapContacts = 120;
+inline constexpr std::size_t kHeapBodies = 20;
+/// [contacts]  A problem with so many is solved as a heap's, whatever its bodies.
+inline constexpr std::size_t kManyContactsOfIsland = 1000;
+/// [-]  So much sweeps of a heap may leave, after at most so many: where that brings bodies too
+/// near, the next plan holds them.
+inline constexpr double kHeapEnough = 0.3;
+inline constexpr int kHeapSweeps = 600;
+/// [bodies]  An island of so many, without robots, may leave [-] this part of the residual of its
+/// guesses, where that is beyond the last of these: that is a hit, as weight alone asks for what
+/// gravity adds.
+inline constexpr std::size_t kSeveralBodies = 6;
+inline constexpr double kPartOfHits = 1e-3;
+inline constexpr double kHitOfGravity = 2.0;
+/// [rounds]  Of the interior point, at most.
+inline constexpr int kRoundsOfMany = 2;
+/// [-]  In a plan that is like another but for some contacts, a change beyond this goes on to
+/// others; and so often each of all is solved, in the mean at most.
+inline constexpr double kAroundTolerance = 3e-2;
+inline constexpr int kAroundSweeps = 2;
+/// [-]  A residual beyond this means that a problem has no solution, or none that was found: its
+/// answer is shortened, so that it adds no energy.
+inline constexpr double kUnsolved = 1e-2;
+/// [-]  The same by the velocities, where there is no gravity: well above rounding.
+inline constexpr double kUnsolvedOfSpeed = 1e-9;
+
+// Sleep.
+
+/// [-]  The points of bodies at rest seem no faster than the lesser of these: of the exact
+/// tolerance, and of what gravity adds in a step. What gathers speed more slowly sleeps, too.
+inline constexpr double kRestOfExactTolerance = 100.0;
+inline constexpr double kRestOfGravity = 3e-5;
+
+}  // namespace firstcontact::detail

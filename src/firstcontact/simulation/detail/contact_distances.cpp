@@ -1,0 +1,15 @@
+#include <firstcontact/simulation/detail/contact_distances.h>
+
+#include <firstcontact/simulation/detail/constants.h>
+
+namespace firstcontact::detail {
+
+HeldDistance held_distance(const ContactDistances& distances, double pair_margin, double gap) {
+  if (gap > distances.least + distances.tolerance) {
+    return {pair_margin + distances.least, distances.tolerance};
+  }
+  const double share = gap > kJammedOfDistance * distances.least ? kHeldShare : kHeldShareOfJammed;
+  return {pair_margin + share * gap, 0.5 * (1.0 - share) * gap};
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,21 @@
+/// @file
+/// Records what the islands of a step did.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/record/run_step.h>
+
+namespace firstcontact::detail {
+
+struct IslandTrack;
+struct SimulationState;
+struct StepStart;
+struct World;
+
+/// Moves a simulation over a step, as far as all of its islands got, and records it.
+[[nodiscard]] RunStep record_step(const World& world, const StepStart& start,
+                                  const std::vector<IslandTrack>& tracks, SimulationState& state);
+
+}  // namespace firstcontact::detail

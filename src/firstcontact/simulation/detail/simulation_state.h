@@ -1,0 +1,25 @@
+/// @file
+/// What a simulation knows between two steps.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/record/run_step.h>
+#include <firstcontact/robot/mechanism.h>
+
+namespace firstcontact::detail {
+
+/// All that a step begins with, and that a recorded step has: a run that is resumed goes on alike.
+struct SimulationState {
+  std::vector<RigidState> states = {};  ///< Of each body.
+  std::vector<MechanismState> robots = {};
+  std::vector<bool> rests = {};           ///< Of each body: found at rest in the last step.
+  std::vector<RunContact> contacts = {};  ///< Of the last step, sorted.
+  double time = 0.0;                      ///< [s]
+  std::size_t count = 0;                  ///< Of steps.
+};
+
+}  // namespace firstcontact::detail

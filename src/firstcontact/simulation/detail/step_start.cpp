@@ -1,0 +1,15 @@
+#include <firstcontact/simulation/detail/step_start.h>
+
+#include <firstcontact/simulation/detail/world.h>
+
+namespace firstcontact::detail {
+
+Pose scripted_pose(const World& world, const StepStart& start, std::size_t body, double share) {
+  const SimBody& moved = world.bodies[body];
+  const Pose& X_WB = start.states[body].X_WB;
+  return moved.kind == BodyKind::scripted && share > 0.0
+             ? motion_of(moved, X_WB, start.scripted[body]).pose(share)
+             : X_WB;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,32 @@
+/// @file
+/// What a step of a simulation begins with.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/simulation/detail/move.h>
+
+namespace firstcontact::detail {
+
+struct World;
+
+/// What a step of a simulation begins with, for every body.
+struct StepStart {
+  double time = 0.0;                    ///< [s]  Since the simulation began.
+  double h = 0.0;                       ///< [s]  How long the step is to last.
+  std::vector<RigidState> states = {};  ///< Velocities of free bodies.
+  std::vector<Move> scripted = {};      ///< Over the step; zero but for scripted bodies.
+  std::vector<MechanismState> robots = {};
+  std::vector<bool> rests = {};  ///< Of every body: found at rest in the step before.
+};
+
+/// Where a scripted or fixed body is, a share of the step after its begin.
+[[nodiscard]] Pose scripted_pose(const World& world, const StepStart& start, std::size_t body,
+                                 double share);
+
+}  // namespace firstcontact::detail
