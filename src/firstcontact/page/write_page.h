@@ -45,8 +45,9 @@ struct PageRecord {
   std::string_view json;
 };
 
-/// Fills the viewer's page with another record, and what its bodies look like, as above; beside it
-/// stand the scene's warnings, files and counts of pairs, which a result has itself.
+/// Fills the viewer's page with another record, and with the looks of its bodies as above.
+///
+/// Beside it stand the scene's warnings, files and counts of pairs, which a result has itself.
 ///
 /// @throws std::invalid_argument if the template has no place for a record
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,

@@ -17,8 +17,9 @@
 
 namespace firstcontact {
 
-/// A part of a step in which a body's centre of mass moves on a line while the body turns about it
-/// at a constant rate: Motion::constant_rates with the centre of mass as pivot.
+/// A part of a step in which a body's centre of mass moves on a line while the body turns about it.
+///
+/// Both go at constant rates: Motion::constant_rates with the centre of mass as pivot.
 struct RunPiece {
   double to = 0.0;  ///< [s]  Its end, since the step began; it begins where the one before ended.
   Pose X_WB;        ///< Where it begins.
@@ -26,9 +27,10 @@ struct RunPiece {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  World axes.
 };
 
-/// A body at the end of a step, and how it got there. It is one of the scene, or behind them a
-/// piece of a link (LinksAsBodies). Bodies that rest at the scene's pose for the whole run have
-/// none.
+/// A body at the end of a step, and how it got there.
+///
+/// It is one of the scene, or behind them a piece of a link (LinksAsBodies). Bodies that rest at
+/// the scene's pose for the whole run have none.
 struct RunBody {
   std::size_t body = 0;
   std::vector<RunPiece> pieces = {};  ///< At least one, one after another; the last one ends with
@@ -60,7 +62,7 @@ struct RunContact {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body, in the step.
 };
 
-/// What an impact within a step did at one place.
+/// The effect of an impact within a step at one place.
 struct RunImpact {
   double at = 0.0;  ///< [s]  Since the step began.
   BodyPair bodies = {};
@@ -87,7 +89,7 @@ struct RunStep {
   std::vector<RunImpact> impacts = {};  ///< In the order of time.
 };
 
-/// What a run begins with.
+/// The beginning of a run: its scene, the version, the digest of its input, and its masses.
 struct RunHeader {
   Scene scene;  ///< With its simulation, resolved: `contact_distance` is given. Its text_digest is
                 ///< that of the text that was simulated.
