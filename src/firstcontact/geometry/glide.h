@@ -1,5 +1,5 @@
 /// @file
-/// The screw along which most of a surface glides on itself, such as the thread of a bolt.
+/// The screw along which most of a surface slides in itself, such as the thread of a bolt.
 
 #pragma once
 
@@ -14,8 +14,10 @@
 
 namespace firstcontact {
 
-/// A screw: turned by an angle about its axis and moved along it by pitch times the angle, the
-/// surface covers itself, but for its ends and its facets. A surface of revolution has pitch 0.
+/// A screw along which a surface covers itself, but for its ends and its facets.
+///
+/// The motion turns by an angle about the axis and moves along it by pitch times the angle. A
+/// surface of revolution has pitch 0.
 ///
 /// In the coordinates r (distance from the axis) and h = z - pitch angle nothing moves that is
 /// carried along the screw: the surface is a curve there, its profile.

@@ -26,17 +26,19 @@ class FIRSTCONTACT_API PairMotion {
   /// faster during the piece.
   [[nodiscard]] virtual double speed_bound(double radius_A, double radius_B) const = 0;
 
-  /// [-]  Boxes are not placed anew for less motion than this part of the shapes' size: a bound
-  /// from a little earlier loses only what is of second order in time. The more where a state is
-  /// dear.
+  /// [-]  The motion, as a part of the shapes' size, below which boxes are not placed anew.
+  ///
+  /// A bound from a little earlier loses only a part of second order in time. The number is larger
+  /// where a state is dear.
   [[nodiscard]] virtual double boxes_window() const { return 0x1p-9; }
 
   /// [-]  Boxes farther apart than this part of their sizes are bounded once more when they are
   /// due, nearer ones opened. The less the longer bodies stay beside each other.
   [[nodiscard]] virtual double far_boxes() const { return 0.15; }
 
-  /// [-]  Of two boxes one that is larger by this factor is opened alone, else both are. The more
-  /// where what comes near is seldom of one size.
+  /// [-]  The factor of two boxes' sizes from which the larger is opened alone; below it both are.
+  ///
+  /// The number is larger where boxes that come near are seldom of one size.
   [[nodiscard]] virtual double larger_boxes() const { return 1.5; }
 
   /// [m]  A's point C in the frame of the motions, where points are reported.

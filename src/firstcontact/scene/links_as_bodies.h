@@ -41,7 +41,7 @@ struct LinksAsBodies {
 ///         links to which a density is given are not closed
 [[nodiscard]] FIRSTCONTACT_API LinksAsBodies links_as_bodies(const LoadedScene& loaded);
 
-/// What the bodies of a scene are called then.
+/// The names of a scene's bodies, with the pieces of links that are bodies then.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::string> names_with_links(const Scene& scene);
 
 }  // namespace firstcontact

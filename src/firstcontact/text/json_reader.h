@@ -1,5 +1,5 @@
 /// @file
-/// Takes values out of a JSON tree, or says which place holds something else than expected.
+/// Takes values out of a JSON tree, or reports the place that holds something else than expected.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace firstcontact::detail {
 
-/// What an object may hold.
+/// The keys that an object may hold.
 struct KnownKeys {
   std::vector<std::string_view> keys;
   std::vector<std::string_view> later = {};  ///< In the format, but not in this version yet.

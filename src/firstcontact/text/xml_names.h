@@ -1,5 +1,6 @@
 /// @file
-/// What a reader of XML does with names: takes them, leaves them out, warns of them, refuses them.
+/// The rules of an XML reader for names: it takes them, leaves them out, warns of them, or refuses
+/// them.
 
 #pragma once
 
@@ -25,7 +26,7 @@ struct XmlNames {
   bool is_strict = false;  ///< All other names are refused: any could change what is read.
 };
 
-/// What an element may hold.
+/// The names that an element may hold.
 struct XmlContents {
   XmlNames attributes;
   XmlNames children;

@@ -1,5 +1,5 @@
 /// @file
-/// Takes values out of an XML tree, or says which element holds something else than expected.
+/// Takes values out of an XML tree, or reports the element that holds something else than expected.
 
 #pragma once
 
