@@ -1,5 +1,5 @@
 /// @file
-/// What does not change while a simulation runs, and what a step begins with.
+/// The data that do not change while a simulation runs, and those with which a step begins.
 
 #pragma once
 
@@ -30,9 +30,11 @@ struct ContactDistances {
         band(2.0 * contact_distance),
         pushed(0.9 * contact_distance) {}
 
-  /// [m]  How much nearer a pair may come before it rests: a little before a contact would be
-  /// found, for the way there is straight and that of a point is not. Where it is about to rest it
-  /// does, or every rounding of a gap would be a velocity.
+  /// [m]  The way by which a pair may still come nearer before it rests.
+  ///
+  /// It ends a little before a contact would be found, for the way there is straight and that of a
+  /// point is not. Where a pair is about to rest it does, or every rounding of a gap would be a
+  /// velocity.
   [[nodiscard]] double way_to_rest(double gap) const {
     return gap > touching ? gap - (least + 1.5 * tolerance) : 0.0;
   }
@@ -87,7 +89,7 @@ struct Move {
 [[nodiscard]] Eigen::AlignedBox3d swept_box(const SimBody& body, const Pose& X_WB,
                                             const Move& move);
 
-/// What a step of a simulation begins with, for every body.
+/// The state with which a step of a simulation begins, for every body.
 struct StepStart {
   double time = 0.0;                    ///< [s]  Since the simulation began.
   double h = 0.0;                       ///< [s]  How long the step is to last.
