@@ -30,8 +30,10 @@ struct Glide {
   Eigen::Vector3d p_BS = Eigen::Vector3d::Zero();  ///< [m]  Of the axis, from Hierarchy::centre.
   double pitch = 0.0;                              ///< [m/rad]
   double least_radius = 0.0;  ///< [m]  What matters is at least twice as far from the axis.
-  /// [-]  Units in the plane of r and h, across the straight parts of the profile. The first one is
-  /// along r, the second one along z, not h: they tell where the surface is that does not glide.
+  /// [-]  Units in the plane of r and h, across the straight parts of the profile.
+  ///
+  /// The first one is along r. The second one is along z, not h: they locate the surface that does
+  /// not slide in itself.
   std::array<Eigen::Vector2d, kDirections> directions;
 };
 

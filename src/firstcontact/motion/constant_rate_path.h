@@ -59,7 +59,7 @@ class FIRSTCONTACT_API ConstantRatePath {
 
   /// [m]  Bound of |exact - stored| for C, all roundings of the parameters included.
   [[nodiscard]] double position_error() const { return position_error_; }
-  /// [-]  The same for the rotation: times a point's distance from C.
+  /// [-]  Bound of |exact - stored| for the rotation: times a point's distance from C.
   [[nodiscard]] double rotation_error() const { return rotation_error_; }
 
   struct State {

@@ -1,5 +1,5 @@
 /// @file
-/// In-between motions: where a body is at every instant of the step.
+/// In-between motions: the place of a body at every instant of the step.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace firstcontact {
 
-/// How a motion runs between two neighbouring poses.
+/// The ways in which a motion runs between two neighbouring poses.
 enum class Between {
   constant_velocity,  ///< The body origin moves on a line, the body turns at a constant rate.
   screw,              ///< One rotation about, and one translation along, one axis.

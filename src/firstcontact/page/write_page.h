@@ -54,7 +54,7 @@ struct PageRecord {
                                                       const LoadedScene& loaded,
                                                       const PageRecord& record);
 
-/// Fills the viewer's page with a list of results, each of which it plays.
+/// A page of the viewer with a list of results, each of which it plays.
 ///
 /// A mesh that several results have stands in the page once. There is no gap over time: it would
 /// have to be sampled.
@@ -72,9 +72,11 @@ class FIRSTCONTACT_API ListPage {
   /// @param loaded  the scene of the result
   void add(std::string_view result, const LoadedScene& loaded);
 
-  /// [byte]  That the page will have, but for the viewer's own.
+  /// [byte]  The size that the page will have, without the viewer's own.
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  /// Fills the viewer's page with the list.
+  ///
   /// @throws std::invalid_argument if the template has no place for results
   [[nodiscard]] std::string write(std::string_view page_template) const;
 

@@ -64,7 +64,7 @@ class FIRSTCONTACT_API JointPath {
                               const std::optional<CoordinateSegment>& angle,
                               const std::vector<Slide>& slides, const PreciseTransform& X_EL);
 
-  /// The same joint at other coordinates: an angle if it has one, as many slides as it has.
+  /// Makes the same joint at other coordinates: an angle if it has one, as many slides as it has.
   [[nodiscard]] JointPath moved(const std::optional<CoordinateSegment>& angle,
                                 std::span<const CoordinateSegment> slides) const;
 

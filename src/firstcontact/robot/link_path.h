@@ -27,7 +27,7 @@ struct LinkPose {
   double position_error = 0.0;                     ///< [m]
 };
 
-/// Where a link is and how it moves: derivatives of its origin's place and of its rotation.
+/// The place and the motion of a link: derivatives of its origin's place and of its rotation.
 struct LinkState {
   LinkPose pose;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m per step]
@@ -143,6 +143,8 @@ class FIRSTCONTACT_API LinkScratch {
 /// The path of a link L in the frame F of an ancestor, over one smooth piece of time.
 class FIRSTCONTACT_API LinkPath {
  public:
+  /// Joins the paths of joints, from F to L.
+  ///
   /// @param joints  from F to L, none of them null; paths of other links share them
   LinkPath(double t_begin, double t_end, std::vector<std::shared_ptr<const JointPath>> joints);
 

@@ -64,6 +64,8 @@ struct MechanismMechanics {
 /// Algorithms", 2008, chapters 5 and 6). Joints that mimic others move along with them.
 class FIRSTCONTACT_API Mechanism {
  public:
+  /// Makes the mechanism of a robot.
+  ///
   /// @param model      every link whose motion nothing heavier shares has its inertia
   /// @param X_WR       of the root link; where a free base starts from
   /// @param free_base  the root link is held by nothing

@@ -65,6 +65,8 @@ struct RelativeLinkMotion {
 /// joints.
 class FIRSTCONTACT_API RobotMotion {
  public:
+  /// Gives a motion to each joint of a robot that moves, and to its base.
+  ///
   /// @param joints  the motion of every joint that moves, by name; mimic joints follow theirs
   /// @param base    of the root link in the world
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it

@@ -99,10 +99,10 @@ struct RobotCheckResult {
   double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
   double enclosure_error = 0.0;   ///< [m]  The greatest of these.
 
-  /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
-  /// free.
+  /// The index into `pairs` of the pair that decides `t`: the earliest, ties by their order. None
+  /// when free.
   std::optional<std::size_t> first;
-  /// Index into `pairs` of the one that comes closest, where that was asked.
+  /// The index into `pairs` of the pair that comes closest, where that was asked.
   std::optional<std::size_t> closest;
   /// Every tested pair where that was asked, else those that decide `t` and the closest one where
   /// that was asked; by the order of members.

@@ -19,7 +19,8 @@ namespace firstcontact {
 
 /// A mesh that lies in a file of its own.
 struct MeshFile {
-  /// As opened: relative to the working directory, or absolute; never to the scene's folder.
+  /// The path as opened: relative to the working directory, or absolute; never to the scene's
+  /// folder.
   std::filesystem::path path;
   double scale = 1.0;  ///< [-]  Multiplies every coordinate; > 0.
 };

@@ -43,10 +43,10 @@ struct SceneResult {
                                   ///<      infinite where no pair is tested.
   double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
 
-  /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
-  /// free.
+  /// The index into `pairs` of the pair that decides `t`: the earliest, ties by their order. None
+  /// when free.
   std::optional<std::size_t> first;
-  /// Index into `pairs` of the one that comes closest, where that was asked.
+  /// The index into `pairs` of the pair that comes closest, where that was asked.
   std::optional<std::size_t> closest;
   /// Every tested pair where that was asked, else those that decide `t`; by the order of bodies.
   std::vector<PairAnswer> pairs;

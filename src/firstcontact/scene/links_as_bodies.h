@@ -36,6 +36,8 @@ struct LinksAsBodies {
       {};  ///< Of each robot; links have the mass that a density gives.
 };
 
+/// Makes the pieces of links bodies of the scene.
+///
 /// @param loaded  with a simulation
 /// @throws std::invalid_argument  names the robot: it carries a body or has a tracking error, or
 ///         links to which a density is given are not closed

@@ -1,5 +1,5 @@
 /// @file
-/// "Is this trajectory of my robot free?" as a scene.
+/// The question "Is this trajectory of my robot free?" as a scene.
 
 #pragma once
 
