@@ -94,8 +94,9 @@ struct ProjectionOptions {
                          ///< is beyond `hit`; >= 0.
   double hit = 0.0;      ///< [m/s]  >= 0.
   double enough = 0.0;   ///< [m/s]  A residual that sweeps may leave where an interior point would
-                         ///< come next, and half of it where more of them hardly help (if that is
-                         ///< more than ten tolerances) or the guesses leave ten times it; >= 0.
+                         ///< come next; >= 0. Half of it where ten sweeps less than halve the
+                         ///< changes (and these are more than ten tolerances), or where the guesses
+                         ///< leave more than ten times it.
   int sweeps = 200;      ///< At most, of all contacts in contact space; > 0.
   int rounds = 12;       ///< At most, of the interior point; > 0.
 };

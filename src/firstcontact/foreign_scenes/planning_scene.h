@@ -52,7 +52,7 @@ struct PlanningScene {
 struct PlanningRequest {
   JointPositions start;
   JointPositions goal;                     ///< Joints that it does not name keep their start.
-  Pose base;                               ///< Of the robot, where the start says it.
+  Pose base;                               ///< Of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
 

@@ -28,7 +28,7 @@ namespace firstcontact {
 ///
 /// The body keeps its own motion before t_from. Then it is rigidly fixed to the link, with the pose
 /// relative to it frozen at t_from and rounded to doubles, which define the motion from then on.
-/// Or X_LB says where the link holds it from the start; then its own motion has no meaning. After
+/// Or X_LB is where the link holds it from the start; then its own motion has no meaning. After
 /// t_to it rests where it is, rounded alike.
 struct Attachment {
   std::size_t body = 0;

@@ -26,7 +26,7 @@ struct Body {
   std::string name;  ///< Unique in the scene, not empty.
   BodyShape shape;
   BodyMotion motion;
-  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else as its motion says.
+  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else by its motion.
   Surface surface = {};
 };
 

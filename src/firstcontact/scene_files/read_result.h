@@ -17,7 +17,7 @@ namespace firstcontact {
 /// The facts that a batch has to know of a result that is there already.
 struct ResultSummary {
   std::optional<Verdict> verdict;   ///< None where an error stands in place of one.
-  std::optional<std::size_t> line;  ///< Of the jobs, the first being 1; none where it says none.
+  std::optional<std::size_t> line;  ///< Of the jobs, the first being 1; none where it has none.
 };
 
 /// Reads the facts that a batch has to know of a result.

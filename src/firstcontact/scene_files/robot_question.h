@@ -19,7 +19,7 @@ namespace firstcontact {
 struct RobotQuestion {
   RobotFile robot;
   std::filesystem::path srdf = {};
-  Pose base = {};                         ///< Of the root link; a request says its own.
+  Pose base = {};                         ///< Of the root link; a request has its own.
   std::filesystem::path trajectory = {};  ///< As read_trajectory.
   std::filesystem::path request = {};     ///< Straight from its start to its goal.
   /// The states that give the start, the later ones prevail: see `state`. None beside a trajectory

@@ -21,7 +21,7 @@ struct KnownKeys {
 };
 
 /// Reads the values of one tree. Every function throws ParseError, "path:line: place: what was
-/// expected", where a value is not what its name says.
+/// expected", where a value is not of the kind that the function names.
 class JsonReader {
  public:
   /// @param root    outlives the reader; all values are inside of it
