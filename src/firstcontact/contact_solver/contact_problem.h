@@ -26,13 +26,16 @@ struct ContactPoint {
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< [-]  Rows: n_AB_W, two tangents; a
                                                         ///< rotation.
   double friction = 0.0;                                ///< [-]  Coulomb's coefficient; >= 0.
-  /// [m/s]  Least normal velocity: 0 of a resting contact, what Newton's law asks of an impact,
-  /// negative where the bodies still have a way to go.
+  /// [m/s]  The least normal velocity that a solution may have at the contact.
+  ///
+  /// It is 0 at a resting contact, that of Newton's law at an impact, and negative where the bodies
+  /// still have a way to go.
   double least_normal_velocity = 0.0;
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();  ///< [N s]  To start from.
 };
 
-/// That a body is a link: it moves by the coordinates of a mechanism, (v, w) = J times their rates.
+/// The role of a body as a link, which the coordinates of a mechanism move: (v, w) = J times their
+/// rates.
 struct MechanismLink {
   std::size_t mechanism = 0;
   Eigen::Matrix<double, 6, Eigen::Dynamic> J;
@@ -54,9 +57,10 @@ struct ContactMechanism {
   Eigen::VectorXd velocity;      ///< (n)  [rad/s or m/s]
 };
 
-/// What drives, brakes or stops one coordinate of a mechanism. Its impulse r makes the coordinate's
-/// velocity u meet u + compliance r = target, as far as its bounds let it: beyond the target r is
-/// the least, short of it the greatest.
+/// A motor, a brake or a stop that acts on one coordinate of a mechanism.
+///
+/// Its impulse r makes the coordinate's velocity u meet u + compliance r = target, as far as its
+/// bounds let it: beyond the target r is the least, short of it the greatest.
 struct JointDrive {
   std::size_t mechanism = 0;
   std::size_t coordinate = 0;
@@ -75,7 +79,7 @@ struct ContactProblem {
   std::vector<JointDrive> drives = {};
 };
 
-/// Where the problem is solved; the answer is the same.
+/// The space in which the problem is solved; the answer is the same.
 enum class ProjectionSpace {
   automatic,  ///< The cheaper one; motion where contact does not get there.
   contact,    ///< Unknown: the impulses. Block Gauss-Seidel, contact by contact, as the step
@@ -90,8 +94,9 @@ struct ProjectionOptions {
                          ///< is beyond `hit`; >= 0.
   double hit = 0.0;      ///< [m/s]  >= 0.
   double enough = 0.0;   ///< [m/s]  A residual that sweeps may leave where an interior point would
-                         ///< come next, and half of it where more of them hardly help (if that is
-                         ///< more than ten tolerances) or the guesses leave ten times it; >= 0.
+                         ///< come next; >= 0. Half of it where ten sweeps less than halve the
+                         ///< changes (and these are more than ten tolerances), or where the guesses
+                         ///< leave more than ten times it.
   int sweeps = 200;      ///< At most, of all contacts in contact space; > 0.
   int rounds = 12;       ///< At most, of the interior point; > 0.
 };
@@ -109,45 +114,50 @@ struct ContactSolution {
   int iterations = 0;                                ///< Sweeps and factorisations.
 };
 
-/// Projects velocities on what contacts allow, in the kinetic metric.
+/// Projects velocities onto those that contacts and friction allow, in the kinetic metric.
 ///
-/// Of all velocities v that meet u_n >= least_normal_velocity it finds the one nearest to the free
-/// one, |v - v_free| in the kinetic metric M (Gauss' principle of least constraint; Redon, Kheddar,
-/// Coquillart, "Gauss' least constraints principle and rigid body simulations", ICRA 2002). Its
-/// multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary to
-/// u_n - least_normal_velocity >= 0. With friction an impulse lies in Coulomb's cone |r_t| <= mu
-/// r_n, the round one; where it is on its side, u_t points against r_t, and where u_t is not
-/// 0, it is on its side. All contacts at once: impacts are simultaneous.
-///
-/// In contact space each contact is solved in turn, with all others held, until none
-/// changes, and after each sweep there and back goes on in the direction of the ones before (M.
-/// Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
-/// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in
-/// its dual, orthogonal (De Saxce, Feng, "The bipotential method", Mathematical and Computer
-/// Modelling 28 (1998)). In motion space the velocities minimise
-///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
-/// whose minimum gives the next r (method of multipliers): one equation for each degree of freedom,
-/// however many contacts there are, and no loss where masses differ greatly. From 120 contacts on
-/// (300 where there are two for each velocity), without drives, an interior point comes before it,
-/// in rounds: each solves the convex problem in which |u_t| is what the round before left, and
-/// sweeps contact space. Where a part is enough, the automatic choice takes what its rounds leave.
-/// Where there are 300 contacts and two for each velocity, it first solves a few alone, with all
-/// drives, joined by those that the answer closes fastest until none is left or these are no longer
-/// few.
+/// The result is the velocity v with u_n >= least_normal_velocity that is nearest to the free one:
+/// |v - v_free| is least in the kinetic metric M (Gauss' principle of least constraint; Redon,
+/// Kheddar, Coquillart, "Gauss' least constraints principle and rigid body simulations", ICRA
+/// 2002). Its multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary
+/// to u_n - least_normal_velocity >= 0. With friction an impulse lies in Coulomb's cone |r_t| <= mu
+/// r_n, the round one. Where it is on the side of the cone, u_t points against r_t; where u_t is
+/// not 0, it is on the side. All contacts count at once: impacts are simultaneous.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.
 ///
 /// The velocities are unique without friction, the impulses only without redundant contacts.
 ///
+/// Method in contact space: each contact is solved in turn, with all others held, until none
+/// changes. After each sweep there and back the method goes on in the direction of the sweeps
+/// before (M. Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
+/// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in
+/// its dual, orthogonal (De Saxce, Feng, "The bipotential method", Mathematical and Computer
+/// Modelling 28 (1998)).
+///
+/// Method in motion space: the velocities minimise
+///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
+/// whose minimum gives the next r (method of multipliers). There is one equation for each degree of
+/// freedom, however many contacts there are, and no loss where masses differ greatly.
+///
+/// Choice: from 120 contacts on (300 where there are two for each velocity), without drives, an
+/// interior point comes before motion space, in rounds. Each round solves the convex problem in
+/// which |u_t| is what the round before left, and sweeps contact space. Where a part is enough, the
+/// automatic choice takes what its rounds leave. Where there are 300 contacts and two for each
+/// velocity, it first solves a few alone, with all drives. The contacts that the answer closes
+/// fastest join them, until none is left or these are no longer few.
+///
 /// @throws std::invalid_argument if an option is outside its range.
 [[nodiscard]] FIRSTCONTACT_API ContactSolution
 project_on_contacts(const ContactProblem& problem, const ProjectionOptions& options = {});
 
-/// [m/s]  How far a solution is from the laws above: the greatest over contacts of
-/// |r - proj_K(r - rho (u' + mu |u_t| n))| / rho, with u' = u - least_normal_velocity n and rho the
-/// inverse of the contact's greatest response to an impulse (the largest of the diagonal); and over
-/// drives of the same, with the interval of their bounds as K. 0 exactly where all laws hold.
+/// [m/s]  Computes how far a solution is from the laws of project_on_contacts().
+///
+/// It is the greatest over contacts of |r - proj_K(r - rho (u' + mu |u_t| n))| / rho.
+/// There rho is the inverse of the contact's greatest response to an impulse (the largest of the
+/// diagonal), and u' = u - least_normal_velocity n. Drives count in the same way, with the interval
+/// of their bounds as K. It is 0 exactly where all laws hold.
 [[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
                                                        const ContactSolution& solution);
 

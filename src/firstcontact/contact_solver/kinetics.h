@@ -12,7 +12,7 @@
 
 namespace firstcontact {
 
-/// What resists motion. Locked axes are the world's.
+/// The mass and the rotational inertia of a body, and its locked axes, which are the world's.
 struct Inertia {
   double mass = 1.0;                                        ///< [kg]  > 0
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();           ///< [m]  Centre of mass.
@@ -21,15 +21,16 @@ struct Inertia {
   std::array<bool, 3> locked_rotation{};
 };
 
-/// Where a body is and how it moves.
+/// The pose and the velocity of a body.
 struct RigidState {
   Pose X_WB;
   Eigen::Vector3d v_WC = Eigen::Vector3d::Zero();  ///< [m/s]  Of the centre of mass.
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
-/// The inverse of the kinetic metric on velocities (v_WC, w_WB), world axes: what locked axes do
-/// not allow has inverse mass 0. All zero: a body that nothing moves.
+/// The inverse of the kinetic metric on velocities (v_WC, w_WB), in world axes.
+///
+/// Motion that locked axes do not allow has inverse mass 0. All zero: a body that nothing moves.
 struct InverseInertia {
   Eigen::Vector3d mass = Eigen::Vector3d::Zero();      ///< [1/kg]  Diagonal.
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();  ///< [1/(kg m^2)]
@@ -38,7 +39,7 @@ struct InverseInertia {
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d centre_of_mass(const Inertia& inertia,
                                                               const Pose& X_WB);  ///< [m]  p_WC
 
-/// [kg m^2]  About C, world axes.
+/// [kg m^2]  The rotational inertia about C, in world axes.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Matrix3d rotational_inertia(const Inertia& inertia,
                                                                   const Pose& X_WB);
 
@@ -48,34 +49,43 @@ struct InverseInertia {
 [[nodiscard]] FIRSTCONTACT_API double kinetic_energy(const Inertia& inertia,
                                                      const RigidState& state);  ///< [J]
 
-/// [rad/s]  An angular velocity after the body turned and took it along. As the body sees it it is
-/// what it was, and so is the kinetic energy; a difference of two of the same orientation changes
-/// the energy as it would there. Where axes are locked or all are principal ones, it stays what it
-/// is in the world.
+/// [rad/s]  The angular velocity of a body after a turn that carries the velocity along.
+///
+/// In the body's axes it is unchanged, and so is the kinetic energy. The difference of two
+/// velocities of the same orientation changes the energy as it would before the turn. Where axes
+/// are locked or all axes are principal ones, the velocity is unchanged in the world.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d turned_along(const Inertia& inertia,
                                                             const Eigen::Vector3d& w_WB,
                                                             const Eigen::Vector3d& rotation_vector);
 
-/// [rad/s^2]  How fast the angular velocity changes without torque, by gyroscopic moments alone,
-/// Euler's I dw/dt = (I w) x w; 0 where locked axes do not let it.
+/// [rad/s^2]  The rate at which the angular velocity changes without torque, by gyroscopic moments
+/// alone.
+///
+/// Euler's equation gives it, I dw/dt = (I w) x w. It is 0 where locked axes do not let the
+/// velocity change.
 [[nodiscard]] FIRSTCONTACT_API double tumbling_acceleration(const Inertia& inertia,
                                                             const RigidState& state);
 
-/// How a body turns over a time without contacts.
+/// The turn of a body over a time without contacts.
 struct FreeTurn {
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  Over the time.
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();             ///< [rad/s]  At its end.
 };
 
-/// Keeps the angular momentum and the energy to rounding, but for what the torque adds: follows the
-/// implicit midpoint rule for the angular velocity that the body sees, in sub-steps of at most 0.1
-/// rad (some thousands at most; a body that spins faster goes on about the same axis), and turns
-/// the body so that its momentum is what it was (the rule keeps its length; M. Austin, P.
-/// Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body systems", Journal of
-/// Computational Physics 107 (1993)). Where axes are locked, energy is of second order. The body
-/// gets from the first to the last orientation by one rotation at a constant rate, the one of those
-/// between the two that is nearest to the mean angular velocity. Where axes are locked it turns by
-/// that mean, which is about none of them.
+/// Computes how a body turns over a time without contacts.
+///
+/// The angular momentum and the energy are kept to rounding, but for what the torque adds. Where
+/// axes are locked, the error of the energy is of second order.
+///
+/// The body gets from the first to the last orientation by one rotation at a constant rate: of
+/// those between the two, the one nearest to the mean angular velocity. Where axes are locked it
+/// turns by that mean, which is about none of them.
+///
+/// Method: the implicit midpoint rule for the angular velocity in the body's axes, in sub-steps of
+/// at most 0.1 rad. The rule keeps the length of the momentum; a turn of the body keeps its
+/// direction (M. Austin, P. Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body
+/// systems", Journal of Computational Physics 107 (1993)). There are at most 4096 sub-steps: a body
+/// that spins faster goes on about the same axis.
 ///
 /// @param torque_W  [N m]  constant, about C
 /// @param dt        [s]

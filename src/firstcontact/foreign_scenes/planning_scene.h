@@ -18,9 +18,9 @@
 
 namespace firstcontact {
 
-/// Which pairs of names may touch: moveit_msgs/AllowedCollisionMatrix.
+/// The pairs of names that may touch: moveit_msgs/AllowedCollisionMatrix.
 struct AllowedCollisions {
-  /// Names of links and objects, first < second, with what the matrix says of them.
+  /// Names of links and objects, first < second, and whether the matrix allows them to touch.
   std::map<std::array<std::string, 2>, bool> entries;
   std::map<std::string, bool> defaults;  ///< Of names against all that no entry speaks of.
 
@@ -38,7 +38,7 @@ struct AttachedObject {
 
 /// The objects of moveit_msgs/PlanningScene around a robot, in its planning frame.
 struct PlanningScene {
-  /// At rest. Of an object of several parts "id/0", "id/1"; of one part "id".
+  /// The bodies, all at rest: "id" for an object of one part, "id/0", "id/1" for one of several.
   std::vector<Body> bodies;
   std::vector<std::string> object_ids;  ///< Of each body, the object that it is a part of.
   AllowedCollisions allowed;
@@ -48,11 +48,11 @@ struct PlanningScene {
   std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
 
-/// moveit_msgs/MotionPlanRequest, as far as it says from where to where.
+/// The start and the goal of a moveit_msgs/MotionPlanRequest.
 struct PlanningRequest {
   JointPositions start;
   JointPositions goal;                     ///< Joints that it does not name keep their start.
-  Pose base;                               ///< Of the robot, where the start says it.
+  Pose base;                               ///< Of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
 
@@ -70,6 +70,8 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningScene read_planning_scene(const std::filesystem::path& path,
                                                                  std::string_view frame);
 
+/// Parses the text of a planning scene, as read_planning_scene() reads it.
+///
 /// @param source  names the text in errors; meshes are relative to its folder
 [[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
     std::string_view text, const std::filesystem::path& source, std::string_view frame);
@@ -81,12 +83,16 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest
 read_planning_request(const std::filesystem::path& path, const RobotModel& robot);
 
+/// Parses the text of a request, as read_planning_request() reads it.
+///
 /// @param source  names the text in errors
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest parse_planning_request(
     std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
 
-/// From the start to the goal at constant rates, as fast as the velocity limits allow; in 1 s where
-/// there are none.
+/// Makes the motion from the start to the goal at constant rates, as fast as the velocity limits
+/// allow.
+///
+/// Where there are no limits it takes 1 s.
 ///
 /// @param turning  of continuous joints and the angles of planar ones; MoveIt takes the short way
 [[nodiscard]] FIRSTCONTACT_API Trajectory straight_motion(const RobotModel& robot,

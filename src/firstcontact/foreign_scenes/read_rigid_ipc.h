@@ -11,9 +11,10 @@
 
 namespace firstcontact {
 
-/// Reads a fixture of Rigid IPC (Z. Ferguson et al., "Intersection-free rigid body dynamics", ACM
-/// TOG 40(4), 2021): JSON with "rigid_body_problem". docs/rigid_ipc.md says what becomes of each
-/// of its keys.
+/// Reads a fixture of Rigid IPC, JSON with "rigid_body_problem", as a scene.
+///
+/// The format is that of Z. Ferguson et al., "Intersection-free rigid body dynamics", ACM TOG
+/// 40(4), 2021. docs/rigid_ipc.md states the use of each of its keys.
 ///
 /// Bodies are named by their mesh, "cube", or "cube-3" by their number in the file where a mesh
 /// occurs more than once. Bodies that do not move freely touch none of their like, nor do those of
@@ -24,6 +25,8 @@ namespace firstcontact {
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API Scene read_rigid_ipc(const std::filesystem::path& path);
 
+/// Parses the text of such a fixture, as read_rigid_ipc() reads it.
+///
 /// @param source  names the text in errors; meshes are looked for from its folder on
 [[nodiscard]] FIRSTCONTACT_API Scene parse_rigid_ipc(std::string_view text,
                                                      const std::filesystem::path& source);

@@ -13,7 +13,8 @@
 
 namespace firstcontact {
 
-/// What a deforming body is, and how it moves; the two belong together.
+/// A body whose vertices move: its deforming shape and the motion of its frame, which belong
+/// together.
 struct DeformingBody {
   Shape shape;  ///< Deforms about its centre.
   Motion X_WS;  ///< Carries the centre from the middle of the mesh at t = 0 to that at t = 1.

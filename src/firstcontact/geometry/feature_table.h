@@ -14,13 +14,15 @@ namespace firstcontact {
 
 class Shape;
 
-/// Features have numbers: vertices come first, then edges, then faces, each in the order of the
-/// mesh. Vertices and triangles are those of the hierarchy. What a triangle owns: the features that
-/// none before it has (Shape::own_features()).
+/// The features of a mesh of few triangles, each once and with a number.
+///
+/// Vertices come first, then edges, then faces, each in the order of the mesh. Vertices and
+/// triangles are those of the hierarchy. A triangle owns the features that none before it has
+/// (Shape::own_features()).
 struct FeatureTable {
-  /// A table is made of meshes of so many triangles at most.
+  /// The greatest number of triangles of a mesh that has a table.
   static constexpr std::size_t kMostTriangles = 16;
-  /// Of vertices, and of edges; a mesh of degenerate triangles may own as many.
+  /// The greatest number of vertices, and of edges; a mesh of degenerate triangles may own as many.
   static constexpr std::size_t kMost = 3 * kMostTriangles;
   static constexpr std::size_t kMostNumbers = 2 * kMost + kMostTriangles;
 
@@ -56,6 +58,8 @@ struct FeatureTable {
   std::size_t first_face = 0;  ///< Number.
 };
 
+/// Makes the feature table of a shape.
+///
 /// @param shape  of kMostTriangles at most
 [[nodiscard]] FIRSTCONTACT_API FeatureTable feature_table(const Shape& shape);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The screw along which most of a surface glides on itself, such as the thread of a bolt.
+/// The screw along which most of a surface slides in itself, such as the thread of a bolt.
 
 #pragma once
 
@@ -14,8 +14,10 @@
 
 namespace firstcontact {
 
-/// A screw: turned by an angle about its axis and moved along it by pitch times the angle, the
-/// surface covers itself, but for its ends and its facets. A surface of revolution has pitch 0.
+/// A screw along which a surface covers itself, but for its ends and its facets.
+///
+/// The motion turns by an angle about the axis and moves along it by pitch times the angle. A
+/// surface of revolution has pitch 0.
 ///
 /// In the coordinates r (distance from the axis) and h = z - pitch angle nothing moves that is
 /// carried along the screw: the surface is a curve there, its profile.
@@ -28,8 +30,10 @@ struct Glide {
   Eigen::Vector3d p_BS = Eigen::Vector3d::Zero();  ///< [m]  Of the axis, from Hierarchy::centre.
   double pitch = 0.0;                              ///< [m/rad]
   double least_radius = 0.0;  ///< [m]  What matters is at least twice as far from the axis.
-  /// [-]  Units in the plane of r and h, across the straight parts of the profile. The first one is
-  /// along r, the second one along z, not h: they tell where the surface is that does not glide.
+  /// [-]  Units in the plane of r and h, across the straight parts of the profile.
+  ///
+  /// The first one is along r. The second one is along z, not h: they locate the surface that does
+  /// not slide in itself.
   std::array<Eigen::Vector2d, kDirections> directions;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Bounds of a surface in the coordinates of a glide, at all times of a motion along it.
+/// Bounds of a surface in the coordinates of its screw, at all times of a motion along it.
 
 #pragma once
 
@@ -18,11 +18,12 @@
 
 namespace firstcontact {
 
-/// Four parts of a surface. Of each, the least and the greatest values of f = alpha r + beta h [m]
-/// along the directions (alpha, beta) of the glide, and of the angle [rad], as numbers that are
-/// bounds from above: in this order
+/// Bounds of four parts of a surface, as numbers that are bounds from above.
+///
+/// For each part they are the least and the greatest values of f = alpha r + beta h [m] along the
+/// directions (alpha, beta) of the Glide, and of the angle [rad], in this order:
 ///   -least f of each direction, -least angle, greatest f of each direction, greatest angle.
-/// Of a mirrored body, the halves are exchanged.
+/// For a mirrored body, the halves are exchanged.
 struct alignas(64) GlideNode {
   static constexpr std::size_t kParts = 4;
   static constexpr std::size_t kNumbers = 2 * (Glide::kDirections + 1);
@@ -34,29 +35,32 @@ struct alignas(64) GlideVertex {
   float most[GlideNode::kNumbers];
 };
 
-/// A rigid body seen from the screw S of a glide, by which its motion is taken back. From one pose
-/// to the other its points stay this near to lines that they follow in any way.
+/// A rigid body in the axes of the screw S of a `Glide`, by which its motion is taken back.
+///
+/// From one pose to the other its points stay within `stray` of lines that they follow in any way.
 struct GlidePath {
   std::array<Eigen::Matrix3d, 2> R_SB;
   std::array<Eigen::Vector3d, 2> p_SB;  ///< [m]  Of Hierarchy::centre.
   double stray = 0.0;                   ///< [m]
 };
 
-/// Bounds of the triangles in an order of their own, four of them to a node, four such nodes to the
-/// next one, and so on: part k of node n of a level is node 4 n + k of the level below it, or
-/// triangle 4 n + k. There are always as many levels as the largest mesh needs.
+/// Bounds of the triangles in an order of their own, as a tree with four children to a node.
+///
+/// Four triangles belong to a node, four such nodes to the next one, and so on: part k of node n of
+/// a level is node 4 n + k of the level below it, or triangle 4 n + k. There are always as many
+/// levels as the largest mesh needs.
 struct GlideBounds {
   static constexpr std::size_t kLevels = 14;
   std::array<std::vector<GlideNode>, kLevels> levels = {};
   double error = 0.0;  ///< [m]  Of sums of two bounds, which is not in them.
 
-  /// Of vertices, at both poses.
+  /// The radius, angle and height of vertices, at both poses.
   std::array<std::vector<float>, 2> radius = {};
   std::array<std::vector<float>, 2> angle = {};
   std::array<std::vector<float>, 2> height = {};
   std::vector<GlideVertex> of_vertices = {};
 
-  /// Nodes are enough for those who ask.
+  /// Frees the numbers of vertices, for callers that need only the nodes.
   void release_vertices() {
     radius = {};
     angle = {};
@@ -88,24 +92,24 @@ FIRSTCONTACT_API void bound_glide(const Glide& glide, const Hierarchy& hierarchy
                                   std::span<const std::uint32_t> order, const GlidePath& path,
                                   bool mirrored, GlideBounds& bounds);
 
-/// A surface that glides on itself, at rest in the axes of its screw.
+/// A surface that slides in itself along a screw, at rest in the axes of that screw.
 struct GlidingSurface {
   Glide glide;
   std::vector<std::uint32_t> order;  ///< Of the triangles, along the thread.
   GlideBounds bounds;
 };
 
-/// When two parts are near each other: no sum of their numbers is below these.
+/// The limits of two parts that are near each other: no sum of their numbers is below these.
 struct GlideLimits {
   alignas(64) std::array<float, GlideNode::kNumbers> least;
   alignas(64) std::array<float, GlideNode::kNumbers> turn;  ///< Once more around the axis adds it.
 };
 
-/// Lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each other.
+/// The lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each other.
 [[nodiscard]] FIRSTCONTACT_API unsigned near_by_glide(const GlideNode& a, const GlideNode& mirrored,
                                                       const GlideLimits& limits);
 
-/// [-]  No f along the direction changes faster where bounds hold.
+/// [-]  A bound of the slope of f along the direction, where bounds hold.
 [[nodiscard]] FIRSTCONTACT_API double slope_of(const Glide& glide, std::size_t direction);
 
 }  // namespace firstcontact

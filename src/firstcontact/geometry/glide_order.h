@@ -1,5 +1,5 @@
 /// @file
-/// The triangles of a surface that glides on itself, in an order in which neighbours are together.
+/// The triangles of a surface that slides in itself, in an order that keeps neighbours together.
 
 #pragma once
 

@@ -33,7 +33,7 @@ struct alignas(64) HierarchyNode {
   std::uint32_t node_base_and_used;  ///< Index of the first child node << 4 | mask of used slots.
   std::uint32_t triangle_base_and_leaf;  ///< First child triangle << 4 | mask of triangle slots.
 
-  /// [unit]
+  /// [unit]  The half extent of a box along one of its axes.
   [[nodiscard]] float half_extent(int axis, int slot) const {
     const auto code = static_cast<std::uint32_t>(extent[axis][slot]);
     return std::bit_cast<float>((code << kExtentShift) + kExtentOrigin);
@@ -72,9 +72,11 @@ struct Hierarchy {
   std::vector<std::uint32_t> vertex_index;              ///< Index in the mesh of each vertex.
   std::vector<std::uint32_t> triangle_index;            ///< Index in the mesh of each triangle.
 
-  /// Of a body that deforms: its boxes (same links, same axes) and vertices at t = 1, relative to
-  /// the centre there. In between, centres, extents and vertices change linearly. Empty where the
-  /// body is rigid.
+  /// The boxes (same links, same axes) of a body that deforms at t = 1; empty where the body is
+  /// rigid.
+  ///
+  /// These boxes and `vertices_to` are relative to the centre there. In between, centres, extents
+  /// and vertices change linearly.
   std::vector<HierarchyNode> nodes_to;
   std::vector<Eigen::Vector3d> vertices_to;  ///< [m]
   double deformation_speed = 0.0;  ///< [m per step]  No vertex is faster than this, as seen from
@@ -82,13 +84,14 @@ struct Hierarchy {
 
   [[nodiscard]] bool deforms() const { return !vertices_to.empty(); }
 
-  /// [m]  At t, relative to the centre; of a body that deforms within 2^-51 of the radius.
+  /// [m]  The place of a vertex at t, relative to the centre; within 2^-51 of the radius where the
+  /// body deforms.
   [[nodiscard]] Eigen::Vector3d vertex(std::uint32_t index, double t) const {
     return deforms() ? Eigen::Vector3d((1.0 - t) * vertices[index] + t * vertices_to[index])
                      : vertices[index];
   }
 
-  /// The boxes of a node at t; put into `scratch` where they change.
+  /// The boxes of a node at t; they are put into `scratch` where they change.
   ///
   /// An interpolated box holds its triangles: along an axis of the box, a vertex is no farther from
   /// the interpolated centre than the interpolation of its distances at both ends.

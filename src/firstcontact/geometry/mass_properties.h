@@ -10,16 +10,20 @@
 
 namespace firstcontact {
 
-/// Of a solid of density 1; times a density in kg/m^3 they are mass and moments.
+/// Volume, centre of mass and inertia of a solid of density 1.
+///
+/// Times a density in kg/m^3, volume and inertia are the mass and its moments.
 struct MassProperties {
   double volume = 0.0;                                ///< [m^3]  > 0
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< [m]  Centre of mass, in the body frame.
   Eigen::Matrix3d about_C = Eigen::Matrix3d::Zero();  ///< [m^5]  Inertia about it, body axes.
 };
 
-/// The integrals over the solid, exact but for rounding: of the polyhedron that the triangles
-/// enclose, whether or not the shape counts as solid; of a ball for a thickened point; of a capsule
-/// for a thickened edge. Vertices at the same place count as one.
+/// Computes the integrals over the solid that a shape encloses, exactly but for rounding.
+///
+/// The solid is the polyhedron that the triangles enclose, whether or not the shape counts as
+/// solid. For a thickened point it is a ball, for a thickened edge a capsule. Vertices at the same
+/// place count as one.
 ///
 /// Triangles may all face outwards or all inwards; those around a cavity face into it. What they
 /// wind around twice, as parts that overlap, counts twice. A radius around a closed mesh has no

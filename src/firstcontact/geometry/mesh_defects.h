@@ -1,5 +1,5 @@
 /// @file
-/// What is unusual about a mesh; none of it keeps a query from being right.
+/// The unusual features of a mesh; none of them keeps a query from being right.
 
 #pragma once
 
@@ -42,8 +42,9 @@ struct MeshDefects {
 /// @throws std::invalid_argument if an index is out of range
 [[nodiscard]] FIRSTCONTACT_API MeshDefects inspect(const Mesh& mesh);
 
-/// Why a mesh encloses no space (not closed, or its triangles do not agree on their inner side), as
-/// "12 open edges"; empty if it does.
+/// The reason why a mesh encloses no space, as "12 open edges"; empty if it encloses some.
+///
+/// A mesh encloses none where it is not closed, or its triangles do not agree on their inner side.
 ///
 /// @throws std::invalid_argument if an index is out of range
 [[nodiscard]] FIRSTCONTACT_API std::string why_not_solid(const Mesh& mesh);

@@ -27,8 +27,8 @@ inline constexpr std::array<const char*, 2> kFillingWords{"surface", "solid"};
 
 /// A union of simplices thickened by a radius, with its bounding-volume hierarchy.
 ///
-/// Of a solid every point belongs to it around which the triangles wind other than zero times:
-/// a cavity, bounded by triangles that face into it, is outside.
+/// Every point around which the triangles of a solid wind other than zero times belongs to it: a
+/// cavity, bounded by triangles that face into it, is outside.
 ///
 /// Immutable and cheap to copy: copies share their data, also between threads.
 class FIRSTCONTACT_API Shape {
@@ -44,11 +44,11 @@ class FIRSTCONTACT_API Shape {
   explicit Shape(Mesh mesh, double radius = 0.0, Filling filling = Filling::surface,
                  double enclosure_error = 0.0);
 
-  /// The same shape while its vertices move on lines, each with a velocity of its own, as seen from
-  /// a body frame that moves by `translation`: vertex i is at (1 - t) mesh().vertices[i] +
-  /// t (to[i] - translation) in that frame. move_vertices() chooses the translation.
+  /// Makes the same shape with vertices that move on lines, each with a velocity of its own.
   ///
-  /// What a solid contains follows its surface.
+  /// In a body frame that moves by `translation`, vertex i is at
+  ///   (1 - t) mesh().vertices[i] + t (to[i] - translation).
+  /// move_vertices() chooses the translation. The inside of a solid follows its surface.
   ///
   /// @param to           [m]  one for each vertex of the mesh, in world axes as the vertices are
   /// @param translation  [m]  of the body frame over the step; what all vertices have in common
@@ -59,14 +59,18 @@ class FIRSTCONTACT_API Shape {
                                 const Eigen::Vector3d& translation = Eigen::Vector3d::Zero()) const;
 
   [[nodiscard]] const Mesh& mesh() const;  ///< At t = 0.
-  /// [m]  As deforming() was given them; empty, and zero, where the shape does not deform.
+  /// [m]  The places of the vertices as deforming() was given them; empty where the shape does not
+  /// deform.
   [[nodiscard]] std::span<const Eigen::Vector3d> vertices_to() const;
+  /// [m]  The translation that deforming() was given; zero where the shape does not deform.
   [[nodiscard]] const Eigen::Vector3d& translation_to() const;
   [[nodiscard]] double radius() const;  ///< [m]
   [[nodiscard]] bool is_solid() const;
 
-  /// [m]  Where the triangles enclose a curved body from outside: no point of theirs is farther
-  /// from that body. 0 where the shape is what it says.
+  /// [m]  A bound of the distance of the triangles from a curved body that they enclose from
+  /// outside.
+  ///
+  /// No point of the triangles is farther from that body. 0 where the shape is exact.
   [[nodiscard]] double enclosure_error() const;
 
   /// One vertex of each set of triangles joined by shared vertices; indices into
@@ -84,25 +88,31 @@ class FIRSTCONTACT_API Shape {
 
   [[nodiscard]] const Hierarchy& hierarchy() const;
 
-  /// Of each triangle, in the order of the hierarchy, the features that none before it has, so that
-  /// each counts once: bit k its corner k, bit 3 + k its edge from there; all of a degenerate one
-  /// whose corners repeat. Found when they are first asked for.
+  /// The features of each triangle, in the order of the hierarchy, that none before it has.
+  ///
+  /// So each feature counts once: bit k of a triangle is its corner k, bit 3 + k its edge from
+  /// there. A degenerate triangle whose corners repeat has all of them. Computed when first needed.
   [[nodiscard]] std::span<const std::uint8_t> own_features() const;
 
-  /// The same features with all that pairing them needs, of a shape of few triangles
-  /// (FeatureTable::kMostTriangles). Made when it is first asked for.
+  /// The table of the same features with all that pairing them needs; computed when first needed.
+  ///
+  /// Only for a shape of few triangles (FeatureTable::kMostTriangles).
   [[nodiscard]] const FeatureTable& feature_table() const;
 
-  /// A box and a polytope around the triangles, found when they are first asked for. Of a shape
-  /// that does not deform.
+  /// A box and a polytope around the triangles of a shape that does not deform; computed when first
+  /// needed.
   [[nodiscard]] const ShapeBounds& bounds() const;
 
-  /// The screw along which the surface glides on itself, and its bounds there; null where there is
-  /// none. Found when it is first asked for. Of a shape that does not deform.
+  /// The screw along which the surface slides in itself, with its bounds there; null where there is
+  /// none.
+  ///
+  /// Only for a shape that does not deform. Computed when first needed.
   [[nodiscard]] const GlidingSurface* gliding() const;
 
-  /// A total order by content (up to hash collisions), so that queries can put two bodies in an
-  /// order of their own and answer alike for A and B swapped. Negative, zero or positive.
+  /// Compares two shapes by content: negative, zero or positive, a total order up to hash
+  /// collisions.
+  ///
+  /// With it queries put two bodies in an order of their own and answer alike for A and B swapped.
   [[nodiscard]] int compare(const Shape& other) const;
 
  private:

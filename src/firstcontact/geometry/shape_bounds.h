@@ -11,10 +11,10 @@ namespace firstcontact {
 
 struct Hierarchy;
 
-/// One point per row [m]: columns are what sums run along.
+/// Points, one per row [m]: sums run along the columns.
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Around all triangles, without the thickening; in the body frame.
+/// A box and a polytope around all triangles, without the thickening; in the body frame.
 struct ShapeBounds {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  Of the box.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< [-]  Of the box, one per row.
@@ -24,6 +24,8 @@ struct ShapeBounds {
   double error = 0.0;  ///< [m]  Of the corners: the hull has to be thickened by it.
 };
 
+/// Finds the bounds of a shape that does not deform.
+///
 /// The box is the smallest of those with the axes of the body frame and of the root's boxes. The
 /// corners are those of the convex hull where it has few, else those of the box.
 ///

@@ -20,7 +20,7 @@ class FIRSTCONTACT_API BodySet {
  public:
   explicit BodySet(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
 
-  /// Returns the body's number.
+  /// Adds a body and returns its number.
   std::size_t add(Shape shape, Motion X_WS);
   void set_shape(std::size_t body, Shape shape);   ///< @throws std::out_of_range
   void set_motion(std::size_t body, Motion X_WS);  ///< @throws std::out_of_range
@@ -28,11 +28,11 @@ class FIRSTCONTACT_API BodySet {
   [[nodiscard]] std::size_t size() const { return bodies_.size(); }
   [[nodiscard]] const Shape& shape(std::size_t body) const { return bodies_[body].shape; }
   [[nodiscard]] const Motion& motion(std::size_t body) const { return bodies_[body].X_WS; }
-  /// Refers to this set.
+  /// The shape and the motion of a body, as references into this set.
   [[nodiscard]] MovingShape moving_shape(std::size_t body) const {
     return {shape(body), motion(body)};
   }
-  /// Of the centre of the body's hierarchy, one for each piece of its motion.
+  /// The path of the centre of the body's hierarchy, one for each piece of its motion.
   [[nodiscard]] const std::vector<ConstantRatePath>& centre_path(std::size_t body) const {
     return bodies_[body].centre_path;
   }

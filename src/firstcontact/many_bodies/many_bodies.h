@@ -24,7 +24,7 @@ struct ManyBodiesOptions {
   std::function<void(double)> progress = {};
 };
 
-/// What one pair of bodies answered.
+/// The answer of one pair of bodies.
 struct PairAnswer {
   BodyPair bodies = {};
   double margin = 0.0;  ///< [m]
@@ -64,18 +64,21 @@ class FIRSTCONTACT_API ManyBodiesWorkspace {
 /// Finds the first contact of all pairs of bodies that the rules do not ignore.
 ///
 /// Before t every pair is farther apart than its margin: proven, as by first_contact() of two
-/// bodies, which answers for the pairs that balls around the bodies cannot prove free. The time is
-/// walked in intervals, halved where the bodies sweep over many others; within one, pairs come in
-/// the order of the times until which they are proven free, and the first contact found ends the
-/// search of those that cannot touch before it. The same on every run and for every number of
-/// threads. The budget holds for each pair.
+/// bodies. The result is the same on every run and for every number of threads. The budget holds
+/// for each pair.
+///
+/// Method: first_contact() of two bodies answers for the pairs that balls around the bodies cannot
+/// prove free. The time is walked in intervals, halved where the bodies sweep over many others.
+/// Within one, pairs come in the order of the times until which they are proven free. The first
+/// contact found ends the search of those that cannot touch before it.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range.
 [[nodiscard]] FIRSTCONTACT_API ManyBodiesResult first_contact(
     const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
 
-/// The answer of every pair that the rules do not ignore, over the whole step, by their order; each
-/// as if asked alone.
+/// Answers every pair that the rules do not ignore, over the whole step, in their order.
+///
+/// Each answer is as if that pair were queried alone.
 [[nodiscard]] FIRSTCONTACT_API std::vector<PairAnswer> answer_each_pair(
     const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which pairs of bodies are tested, and how far apart they have to stay.
+/// Rules for pairs of bodies: which of them are tested, and how far apart they have to stay.
 
 #pragma once
 
@@ -21,6 +21,8 @@ using BodyPair = std::array<std::size_t, 2>;
 /// Else its own margin holds; or the greatest that groups give it; or the general one.
 class FIRSTCONTACT_API PairRules {
  public:
+  /// Makes rules that ignore no pair.
+  ///
   /// @param margin  [m]  of every pair without another one; finite, >= 0
   /// @throws std::invalid_argument, as all functions here, on a margin outside its range, a pair of
   ///         a body with itself, or a group that does not exist
@@ -29,19 +31,20 @@ class FIRSTCONTACT_API PairRules {
   void ignore(const BodyPair& pair);
   void set_margin(const BodyPair& pair, double margin);  ///< [m]
 
-  /// A body may be in several groups. Returns the group's number.
+  /// Adds a group and returns its number. A body may be in several groups.
   std::size_t add_group(std::vector<std::size_t> bodies);
-  /// Every body of one with every body of the other; of a group with itself: all pairs inside it.
+  /// Ignores all pairs of a body of one group with a body of the other; of a group with itself, all
+  /// pairs in it.
   void ignore_groups(std::size_t group, std::size_t other);
   void set_group_margin(std::size_t group, std::size_t other, double margin);  ///< [m]
 
-  /// [m]  Nothing where the pair is not tested.
+  /// [m]  The margin of a pair; none where the pair is not tested.
   [[nodiscard]] std::optional<double> margin(const BodyPair& pair) const;
 
-  /// [m]  For each of n bodies: no pair that it is in has a greater margin.
+  /// [m]  A bound for each of n bodies: no pair that it is in has a greater margin.
   [[nodiscard]] std::vector<double> greatest_margins(std::size_t n) const;
 
-  /// [m]  No pair has a smaller one.
+  /// [m]  A lower bound of all margins: no pair has a smaller one.
   [[nodiscard]] double least_margin() const { return least_; }
 
  private:

@@ -20,7 +20,7 @@ inline std::int64_t cell_along(double coordinate, double edge) {
       std::fmin(std::fmax(std::floor(coordinate / edge), -kLast), kLast));
 }
 
-/// Of the integers that name a cell.
+/// The hash of the integers that name a cell.
 struct CellHash {
   template <std::size_t size>
   std::size_t operator()(const std::array<std::int64_t, size>& cell) const {

@@ -16,7 +16,7 @@
 
 namespace firstcontact {
 
-/// hi + lo with |lo| <= ulp(hi) / 2.
+/// A double-double: hi + lo with |lo| <= ulp(hi) / 2.
 struct DoubleDouble {
   double hi = 0.0;
   double lo = 0.0;

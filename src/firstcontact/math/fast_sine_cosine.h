@@ -12,8 +12,10 @@
 
 namespace firstcontact {
 
-/// Sine and cosine of two angles, each within 2^-51 of the exact value; inline, in the two lanes of
-/// one register, without branches that depend on an angle's quadrant.
+/// Computes sine and cosine of two angles, each within 2^-51 of the exact value.
+///
+/// The code is inline, in the two lanes of one register, without branches that depend on an angle's
+/// quadrant.
 ///
 /// Derivation, u = 2^-53: for |angle| <= 10^6 the multiple k of pi/2 is below 2^20, so that its
 /// product with the first 33 bits of pi/2 is exact, and the rest of pi/2 times k errs by less than

@@ -133,7 +133,7 @@ inline Interval hull(const Interval& a, const Interval& b) {
 /// The common part of two intervals that are not disjoint.
 FIRSTCONTACT_API Interval intersection(const Interval& a, const Interval& b);
 
-/// |x|
+/// The absolute values |x| of the members.
 FIRSTCONTACT_API Interval abs(const Interval& a);
 
 /// x^2, never negative.

@@ -1,6 +1,6 @@
 /// @file
-/// What a function's value and rate at one time prove about the time around it: where it stays
-/// positive, and where its only root lies.
+/// Proofs from a function's value and rate at one time: where it stays positive around it, and
+/// where its only root lies.
 ///
 /// Derivation: with |g''| <= K, g(t + y) lies between g + g' y - K y^2 / 2 and g + g' y + K y^2
 /// / 2. These one-sided parabolas take the place of interval Newton steps (R. E. Moore, R. B.
@@ -33,8 +33,10 @@ struct CurvatureBound {
   double curvature = 0.0;
 };
 
-/// The longest tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau], rounded down;
-/// infinity where the gap never closes; 0 where it is not open or anything is NaN.
+/// The longest time tau with gap - speed tau - half_acceleration tau^2 > 0 on [0, tau], rounded
+/// down.
+///
+/// It is infinity where the gap never closes; 0 where it is not open or anything is NaN.
 ///
 /// In the form 2 g / (m1 + sqrt(m1^2 + 4 m2 g)), which does not cancel for closing pairs and also
 /// holds for receding ones.
@@ -52,14 +54,16 @@ inline double time_to_close(double gap, double speed, double half_acceleration) 
   return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
 }
 
-/// For how long g provably stays positive.
+/// The time for which g provably stays positive.
 inline double time_positive(const ValueAndRate& g, const CurvatureBound& bound) {
   return time_to_close(g.value - bound.value_error, bound.rate_error - g.rate,
                        0.5 * bound.curvature);
 }
 
-/// Whether g provably stays positive for `duration`, or, where that is negative, has been for as
-/// long: a parabola that opens downwards is least at an end.
+/// Whether g provably stays positive for `duration`, or has been for as long where that is
+/// negative.
+///
+/// A parabola that opens downwards is least at an end.
 inline bool positive_for(const ValueAndRate& g, const CurvatureBound& bound, double duration) {
   const double length = std::abs(duration);
   const double clear = g.value - bound.value_error;
@@ -68,8 +72,10 @@ inline bool positive_for(const ValueAndRate& g, const CurvatureBound& bound, dou
   return clear > 0.0 && clear + way - loss > 0x1p-49 * (clear + std::abs(way) + loss);
 }
 
-/// Where `exists`: g has one root on [x - behind, x + ahead] and falls there throughout, and g > 0
-/// on [x - reach, x - behind).
+/// An interval around x with one root of g, where `exists`.
+///
+/// On [x - behind, x + ahead] g has one root and falls throughout. On [x - reach, x - behind) g is
+/// positive.
 struct IsolatedRoot {
   bool exists = false;
   double behind = 0.0;

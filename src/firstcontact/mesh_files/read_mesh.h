@@ -21,7 +21,7 @@ struct MeshReading {
 
 /// Reads a mesh in double precision and welds vertices of equal position (weld.h).
 ///
-/// The ending of the name says the format, in upper or lower case: obj, stl, ply, off, dae, glb,
+/// The ending of the name gives the format, in upper or lower case: obj, stl, ply, off, dae, glb,
 /// gltf. Coordinates are taken as metres, those of a dae in its unit. In dae, glb and gltf files
 /// the transforms of nodes act, morphs have the weights that the file states, and skins the pose of
 /// the nodes that are their joints. The up axis of a dae is not turned, but reported.
@@ -49,9 +49,10 @@ struct MeshReading {
 /// The mesh of read_mesh_file() alone.
 [[nodiscard]] FIRSTCONTACT_API Mesh read_mesh(const std::filesystem::path& path);
 
-/// Parses Wavefront OBJ text: `v` (with an optional weight of 1, or a colour), `f`, `l` and `p`
-/// with negative indices, comments and continued lines; a line of counts is passed over.
-/// Not welded; vertices keep the file's order.
+/// Parses Wavefront OBJ text; the mesh is not welded, and vertices keep the file's order.
+///
+/// It reads `v` (with an optional weight of 1, or a colour), `f`, `l` and `p` with negative
+/// indices, comments and continued lines. A line of counts is passed over.
 ///
 /// @param source  names the text in errors
 /// @throws ParseError  as read_mesh; also on free-form curves and surfaces
@@ -66,16 +67,18 @@ struct MeshReading {
 ///         blanks or zeros at its end; where the last `endsolid` is missing
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_stl(std::string_view data, const std::string& source);
 
-/// Parses PLY: ASCII, binary of either byte order, any order and type of properties. Needs the
-/// elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index); leaves out others, and
-/// faces without corners.
+/// Parses PLY: ASCII, binary of either byte order, any order and type of properties.
+///
+/// The elements `vertex` (x, y, z) and `face` (vertex_indices or vertex_index) are needed. Others
+/// are left out, and so are faces without corners.
 ///
 /// @throws ParseError  as read_mesh; also on triangle strips and range images, and where bytes are
 ///         left over
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_ply(std::string_view data, const std::string& source);
 
-/// Parses ASCII OFF, one vertex or face a line; of the variants (ST, C, N) the extra columns are
-/// left out, as are faces without corners.
+/// Parses ASCII OFF, one vertex or face a line.
+///
+/// The extra columns of the variants (ST, C, N) are left out, as are faces without corners.
 ///
 /// @throws ParseError  as read_mesh; also on 4OFF, nOFF and binary OFF
 [[nodiscard]] FIRSTCONTACT_API Mesh parse_off(std::string_view text, const std::string& source);

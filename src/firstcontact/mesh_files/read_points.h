@@ -25,9 +25,9 @@ struct PointReading {
 
 /// Reads the points of a cloud in double precision, as they are numbered in the file.
 ///
-/// The ending of the name says the format, in upper or lower case: ply, pcd or xyz. Coordinates are
-/// taken as metres; colours, normals and what else there is are passed over. The locale changes
-/// nothing. The file must not shrink while it is read.
+/// The ending of the name gives the format, in upper or lower case: ply, pcd or xyz. Coordinates
+/// are taken as metres; colours, normals and what else there is are passed over. The locale
+/// changes nothing. The file must not shrink while it is read.
 ///
 /// @throws ParseError  one line with path, place and what was expected: the file cannot be opened,
 ///         is malformed or cut off, has a coordinate that is not finite, or no point at all
@@ -61,8 +61,9 @@ struct PointReading {
 [[nodiscard]] FIRSTCONTACT_API std::vector<Eigen::Vector3d> parse_ply_points(
     std::string_view data, const std::string& source);
 
-/// Reads the heights of a map from text, a row a line, numbers between blanks, `#` for comments, as
-/// numpy.savetxt writes them; the first row is at y = 0.
+/// Reads the heights of a map from text, a row a line, as numpy.savetxt writes them.
+///
+/// Numbers stand between blanks, `#` begins a comment, and the first row is at y = 0.
 ///
 /// @param cell  [m]  as HeightMap::cell
 /// @throws ParseError  as read_points; also where rows differ in length, or are fewer than two

@@ -12,7 +12,8 @@
 
 namespace firstcontact {
 
-/// One piece of a motion: a pivot Q moves on a line, the body turns about Q at a constant rate:
+/// One piece of a motion: a pivot Q moves on a line, and the body turns about Q at a constant rate.
+///
 ///   p_WP(t) = p_WQ + (t - t_begin) velocity + Rot(axis, (t - t_begin) rate) R_WB (p_BP - p_BQ).
 /// Constant velocity, screw and rest are all of this form (Redon, Kheddar, Coquillart, "Fast
 /// continuous collision detection between rigid bodies", Computer Graphics Forum 21 (2002)).
@@ -58,7 +59,7 @@ class FIRSTCONTACT_API ConstantRatePath {
 
   /// [m]  Bound of |exact - stored| for C, all roundings of the parameters included.
   [[nodiscard]] double position_error() const { return position_error_; }
-  /// [-]  The same for the rotation: times a point's distance from C.
+  /// [-]  Bound of |exact - stored| for the rotation: times a point's distance from C.
   [[nodiscard]] double rotation_error() const { return rotation_error_; }
 
   struct State {

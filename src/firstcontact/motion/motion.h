@@ -1,5 +1,5 @@
 /// @file
-/// In-between motions: where a body is at every instant of the step.
+/// In-between motions: the place of a body at every instant of the step.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace firstcontact {
 
-/// How a motion runs between two neighbouring poses.
+/// The ways in which a motion runs between two neighbouring poses.
 enum class Between {
   constant_velocity,  ///< The body origin moves on a line, the body turns at a constant rate.
   screw,              ///< One rotation about, and one translation along, one axis.
@@ -47,6 +47,8 @@ class FIRSTCONTACT_API Motion {
   /// Rests at `pose`.
   static Motion fixed(const Pose& pose = {});
 
+  /// Moves the body origin on a line and turns the body at a constant rate.
+  ///
   /// T(t) = T(0) + t translation, R(t) = Rot(rotation_vector t) R(0).
   ///
   /// @param start            pose at t = 0
@@ -56,12 +58,12 @@ class FIRSTCONTACT_API Motion {
   static Motion constant_velocity(const Pose& start, const Eigen::Vector3d& translation,
                                   const Eigen::Vector3d& rotation_vector = Eigen::Vector3d::Zero());
 
-  /// The same between two poses, by the shortest rotation. For a half turn the axis is the one
-  /// whose first non-zero component is positive.
+  /// Moves between two poses at constant velocity, by the shortest rotation. For a half turn the
+  /// axis is the one whose first non-zero component is positive.
   static Motion constant_velocity(const Pose& from, const Pose& to);
 
-  /// Rotation by angle t about, and translation by (translation t) along, one axis,
-  /// applied to the start pose.
+  /// Rotates by angle t about, and translates by (translation t) along, one axis, from the start
+  /// pose.
   ///
   /// @param axis_point      [m]    a point on the axis, world frame
   /// @param axis_direction  [-]    any length but zero, world frame
@@ -70,7 +72,7 @@ class FIRSTCONTACT_API Motion {
   static Motion screw(const Pose& start, const Eigen::Vector3d& axis_point,
                       const Eigen::Vector3d& axis_direction, double angle, double translation);
 
-  /// The screw motion between two poses, by the shortest rotation.
+  /// Moves between two poses in a screw motion, by the shortest rotation.
   static Motion screw(const Pose& from, const Pose& to);
 
   /// Runs through `poses` at `times`; rests before the first and after the last.
@@ -79,29 +81,32 @@ class FIRSTCONTACT_API Motion {
   static Motion waypoints(std::span<const double> times, std::span<const Pose> poses,
                           Between between = Between::constant_velocity);
 
-  /// Piece after piece, each with its own translation of a pivot Q of the body and rotation about
-  /// it. What a simulator makes: Q is the centre of mass, and a piece begins at the rounded pose at
-  /// which the one before it ended.
+  /// Runs piece after piece, each with its own translation of a pivot Q of the body and rotation
+  /// about it.
+  ///
+  /// A simulator makes such motions: Q is the centre of mass, and a piece begins at the rounded
+  /// pose at which the one before it ended.
   ///
   /// @param pieces  at least one; their ends increase, the last one is 1
   /// @param p_BQ    [m]
   static Motion constant_rates(std::span<const ConstantRatePiece> pieces,
                                const Eigen::Vector3d& p_BQ = Eigen::Vector3d::Zero());
 
-  /// 0 = breaks[0] < ... < breaks[n] = 1: the ends of the n pieces.
+  /// The ends of the n pieces: 0 = breaks[0] < ... < breaks[n] = 1.
   [[nodiscard]] std::span<const double> breaks() const { return breaks_; }
 
-  /// The piece's path of body point C.
+  /// The path of body point C in one piece.
   ///
   /// @param piece  index in [0, breaks().size() - 1)
   /// @param p_BC   [m]  any point of the body, best the centre of its mesh
   [[nodiscard]] ConstantRatePath path(std::size_t piece, const Eigen::Vector3d& p_BC) const;
 
-  /// X_WB(t), rounded to doubles; t is clamped to [0, 1].
+  /// The pose X_WB(t), rounded to doubles; t is clamped to [0, 1].
   [[nodiscard]] Pose pose(double t) const;
 
-  /// A total order of motions by their defining numbers, so that queries can put two bodies in
-  /// an order of their own and answer alike for A and B swapped. Negative, zero or positive.
+  /// Compares two motions by their defining numbers: negative, zero or positive, a total order.
+  ///
+  /// With it queries put two bodies in an order of their own and answer alike for A and B swapped.
   [[nodiscard]] int compare(const Motion& other) const;
 
  private:

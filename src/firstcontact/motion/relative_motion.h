@@ -15,6 +15,8 @@ namespace firstcontact {
 /// double-double, so that large offsets common to both bodies cost no precision.
 class FIRSTCONTACT_API RelativeMotion {
  public:
+  /// Prepares the motion of B relative to A over the piece that their paths share.
+  ///
   /// @param resolution  [m]  levers are evaluated in double-double where doubles would not reach it
   RelativeMotion(const ConstantRatePath& A, const ConstantRatePath& B, double resolution);
 
@@ -23,7 +25,7 @@ class FIRSTCONTACT_API RelativeMotion {
   [[nodiscard]] const ConstantRatePath& A() const { return A_; }
   [[nodiscard]] const ConstantRatePath& B() const { return B_; }
 
-  /// [m per step]  Of B's pivot relative to A's, rounded.
+  /// [m per step]  The velocity of B's pivot relative to A's, rounded.
   [[nodiscard]] const Eigen::Vector3d& pivot_velocity() const { return velocity_; }
 
   /// [m]  Bound of the error of p_AB, beyond one rounding of its size.

@@ -35,18 +35,21 @@ struct GapRange {
   double near = 0.9;  ///< [-]  Nor one beyond this part of the way from the least to the distance.
 };
 
-/// Looks for a direction whose gap is nearly the distance, as far as that exceeds the least (E. G.
-/// Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the distance between
-/// complex objects in three-dimensional space", IEEE J. Robot. Autom. 4, 1988). Whatever the
-/// direction, its gap is what the points say.
+/// Looks for a direction whose gap is nearly the distance, as far as that exceeds the least.
+///
+/// Whatever the direction, its gap is that of the points.
+///
+/// Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A fast procedure for computing the
+/// distance between complex objects in three-dimensional space", IEEE J. Robot. Autom. 4, 1988.
 ///
 /// @param n  [-]  unit; where to begin
 [[nodiscard]] FIRSTCONTACT_API Separation separate(const PlacedPolytope& A, const PlacedPolytope& B,
                                                    const Eigen::Vector3d& n,
                                                    const GapRange& range = {});
 
-/// The same for A and B at three places each, of which those of the same index belong together: the
-/// gap is the least of theirs. One that has a single place keeps it.
+/// Looks for such a direction for A and B at three places each: the gap is the least of theirs.
+///
+/// Places of the same index belong together. A body with a single place keeps it.
 ///
 /// @param A, B  1 or 3 places of the same corners
 [[nodiscard]] FIRSTCONTACT_API Separation separate(std::span<const PlacedPolytope> A,

@@ -14,7 +14,7 @@ namespace firstcontact {
 
 using Edge = std::array<Eigen::Vector3d, 2>;  ///< [m]  End points; may coincide.
 
-/// When does edge ab of body A first cross edge cd of body B?
+/// Finds the first time at which edge ab of body A crosses edge cd of body B.
 ///
 /// As vertex_face_contact, with the coplanarity function f(t) = (c - a) . ((b - a) x (d - c)),
 /// whose two edges turn against each other; a root is a contact where the lines cross inside both

@@ -11,7 +11,7 @@
 
 namespace firstcontact {
 
-/// How an elementary test ends.
+/// The outcome of an elementary test.
 enum class ElementaryVerdict {
   free,        ///< Proven: the features do not meet in the window.
   contact,     ///< They meet in [t_lower, t_upper], where their coplanarity function has one root.
@@ -23,11 +23,13 @@ struct ElementaryContact {
   ElementaryVerdict verdict = ElementaryVerdict::degenerate;
   /// [-]  The features provably do not meet in the window before this time.
   double t_lower = 0.0;
-  /// [-]  For `contact` the end of the isolating interval, else equal to t_lower.
+  /// [-]  The end of the isolating interval for `contact`, else equal to t_lower.
   double t_upper = 0.0;
-  /// For `contact`: proven that the features meet in [t_lower, t_upper], by a change of sign of the
-  /// coplanarity function and a point inside both features. Otherwise they touch there up to
-  /// rounding: on a feature's border, along an edge, or at an end of the window.
+  /// Whether it is proven that the features meet in [t_lower, t_upper], for `contact`.
+  ///
+  /// The proof is a change of sign of the coplanarity function and a point inside both features.
+  /// Otherwise they touch there up to rounding: on a feature's border, along an edge, or at an end
+  /// of the window.
   bool existence_proven = false;
   int steps = 0;  ///< Evaluations of the motion.
 };

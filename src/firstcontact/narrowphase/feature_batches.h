@@ -113,8 +113,9 @@ struct CornerFeet {
   }
 };
 
-/// Just what feature_pairs_within() finds of each of these corners, to the last bit; the lanes
-/// `within` are those that it looks at, some of them beyond the band by rounding.
+/// Finds for each of these corners just what feature_pairs_within() finds, to the last bit.
+///
+/// The lanes `within` are those that it looks at, some of them beyond the band by rounding.
 ///
 /// @param band  [m]
 /// @param size  [m]  no coordinate is greater

@@ -41,7 +41,7 @@ struct LinearContact {
   int steps = 0;
 };
 
-/// When do a vertex and a face first come within the margin?
+/// Finds the first time at which a vertex and a face come within the margin.
 ///
 /// Along a fixed direction n the distance of every corner of one feature from every corner of the
 /// other is linear in t: it is positive up to the earliest of its zeros, and so the features are
@@ -55,14 +55,15 @@ struct LinearContact {
 /// advancement (B. Mirtich, 1996) with the exact bound that linear motion allows.
 ///
 /// Holds in the arithmetic as executed, also far from the origin: only differences of coordinates
-/// are rounded. Where doubles cannot tell, the question is asked again in double-double
-/// (precise_linear_contact.h): a gap of 1e-18 of the size is told from none.
+/// are rounded. Where doubles cannot decide, the test is repeated in double-double
+/// (precise_linear_contact.h): a gap of 1e-18 of the size is distinguished from none.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range
 [[nodiscard]] FIRSTCONTACT_API LinearContact linear_vertex_face_contact(
     const LinearPoint& vertex, const LinearFace& face, const LinearContactOptions& options = {});
 
-/// When do two edges first come within the margin? As linear_vertex_face_contact.
+/// Finds the first time at which two edges come within the margin, as linear_vertex_face_contact()
+/// does.
 [[nodiscard]] FIRSTCONTACT_API LinearContact linear_edge_edge_contact(
     const LinearEdge& A, const LinearEdge& B, const LinearContactOptions& options = {});
 

@@ -1,5 +1,5 @@
 /// @file
-/// How fast products of vectors that turn with two bodies can change.
+/// Bounds of how fast products of vectors that turn with two bodies can change.
 
 #pragma once
 
@@ -19,6 +19,8 @@ struct AxialParts {
   double across = 0.0;
 };
 
+/// Divides a vector into its parts along and across an axis.
+///
 /// @param axis  [-]  unit
 inline AxialParts axial_parts(const Eigen::Vector3d& v, const Eigen::Vector3d& axis) {
   const double along = axis.dot(v);
@@ -40,6 +42,8 @@ class Oscillation {
  public:
   Oscillation() = default;
 
+  /// Prepares bounds for two axes and rates.
+  ///
   /// @param axis_A, axis_B  [-]  unit up to rounding
   /// @param rate_A, rate_B  [rad per step]  >= 0
   Oscillation(const Eigen::Vector3d& axis_A, double rate_A, const Eigen::Vector3d& axis_B,
@@ -71,7 +75,7 @@ class Oscillation {
     return axes_sine_ * (order.B * U.along * V.across + order.A * U.across * V.along) +
            order.dot * U.across * V.across;
   }
-  /// The same of the length of that of U x V.
+  /// Bound of the length of the k-th derivative of U x V, up to the rounding of a few operations.
   [[nodiscard]] double cross_derivative(std::size_t k, const AxialParts& U,
                                         const AxialParts& V) const {
     const Order& order = orders_[k - 1];

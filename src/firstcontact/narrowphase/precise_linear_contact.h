@@ -37,8 +37,10 @@ enum class PreciseLinearVerdict { free, contact, unresolved };
 struct PreciseLinearContact {
   PreciseLinearVerdict verdict = PreciseLinearVerdict::unresolved;
   double t = 0.0;  ///< [-]  Proven: no contact before; 1 when free.
-  /// [m]  At t the features are within threshold + this: larger than asked where the next double
-  /// after t would be too late, or double-doubles cannot resolve it either.
+  /// [m]  The tolerance that holds: at t the features are within threshold + this.
+  ///
+  /// It is larger than the one asked for where the next double after t would be too late, or
+  /// double-doubles cannot resolve it either.
   double tolerance_used = 0.0;
   int steps = 0;
 };

@@ -12,15 +12,18 @@
 
 namespace firstcontact {
 
-/// The direction that the closest features define, of any length and either sign: the normal of a
-/// face, the product of two edges, for an edge and a corner the part of p_B - p_A across the edge,
-/// for two corners p_B - p_A. Other than p_B - p_A it stays accurate when the points nearly
-/// coincide.
+/// The direction that the closest features define, of any length and either sign.
+///
+/// It is the normal of a face, or the product of two edges. For an edge and a corner it is the part
+/// of p_B - p_A across the edge, for two corners p_B - p_A. Other than p_B - p_A it stays accurate
+/// when the points nearly coincide.
 [[nodiscard]] FIRSTCONTACT_API Eigen::Vector3d separating_direction(const TrianglePair& pair,
                                                                     const ClosestFeatures& closest);
 
-/// Calls use(n) for both face normals, the nine products of edges and, for coplanar triangles, the
-/// six normals of edges within their face; each of any length, zero where degenerate.
+/// Calls use(n) for each normal of a plane that may separate two triangles.
+///
+/// These are both face normals, the nine products of edges and, for coplanar triangles, the six
+/// normals of edges within their face. Each has any length, zero where degenerate.
 template <class Use>
 void for_each_plane_normal(const TrianglePair& pair, const Use& use) {
   const auto edge = [](const Triangle& T, int k) { return Eigen::Vector3d(T[(k + 1) % 3] - T[k]); };

@@ -23,8 +23,9 @@ struct TriangleFeature {
   friend bool operator==(const TriangleFeature&, const TriangleFeature&) = default;
 };
 
-/// A point of each triangle, and the features in whose interiors they lie. Which constraint is
-/// active decides the class, never a tolerance.
+/// A point of each triangle, and the features in whose interiors they lie.
+///
+/// The active constraint decides the class, never a tolerance.
 struct ClosestFeatures {
   double distance = 0.0;  ///< [m]  |p_B - p_A|, up to rounding; 0 where the triangles pierce.
   Eigen::Vector3d p_A = Eigen::Vector3d::Zero();
@@ -33,9 +34,11 @@ struct ClosestFeatures {
   TriangleFeature feature_B;
 };
 
-/// Closest points of two triangles. They always lie on the triangles, so that `distance` is an
-/// upper bound of the true distance up to a few units in the last place of the coordinates,
-/// whatever the shape of the triangles: needles, points, parallel, coplanar and piercing ones.
+/// Finds the closest points of two triangles.
+///
+/// They always lie on the triangles, so that `distance` is an upper bound of the true distance up
+/// to a few units in the last place of the coordinates, whatever the shape of the triangles:
+/// needles, points, parallel, coplanar and piercing ones.
 ///
 /// Least over the nine pairs of edges and the six projections of a corner into a face; a pair that
 /// none of these decides pierces, which is tested by itself. Coordinates and sizes between 1e-70
@@ -48,8 +51,9 @@ struct FeaturePairs {
   std::size_t count = 0;
 };
 
-/// All elementary pairs within `band` [m], each with the features in whose interiors its closest
-/// points lie; of those with the same features the nearest.
+/// Finds all elementary pairs within `band` [m]; of those with the same features the nearest.
+///
+/// Each has the features in whose interiors its closest points lie.
 ///
 /// @param features_A,features_B  which corners (bits 0 to 2) and edges (bits 3 to 5) are asked; all
 ///                               faces are

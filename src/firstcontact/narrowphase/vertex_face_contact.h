@@ -11,7 +11,7 @@
 
 namespace firstcontact {
 
-/// When does vertex p of body B first lie on a face abc of body A?
+/// Finds the first time at which vertex p of body B lies on a face abc of body A.
 ///
 /// The coplanarity function f(t) = (p - a) . ((b - a) x (c - a)) is seen from A, where the face
 /// stands still. A bound K of |f''| (oscillation.h) puts f between two parabolas; where these fall

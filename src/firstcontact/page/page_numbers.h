@@ -24,10 +24,10 @@ class FIRSTCONTACT_API PageNumbers {
   /// @param size  [byte]  of the number, up to 8: the lowest ones
   void add(std::uint64_t number, int size);
 
-  /// [byte]
+  /// [byte]  The size of all numbers together.
   [[nodiscard]] std::size_t size() const { return bytes_.size(); }
 
-  /// All of them as base64 (RFC 4648, section 4).
+  /// All numbers as base64 (RFC 4648, section 4).
   [[nodiscard]] std::string base64() const;
 
  private:

@@ -46,15 +46,16 @@ struct PageRecord {
   std::string_view json;
 };
 
-/// Fills the viewer's page with another record, and what its bodies look like, as above; beside it
-/// stand the scene's warnings, files and counts of pairs, which a result has itself.
+/// Fills the viewer's page with another record, and with the looks of its bodies as above.
+///
+/// Beside it stand the scene's warnings, files and counts of pairs, which a result has itself.
 ///
 /// @throws std::invalid_argument if the template has no place for a record
 [[nodiscard]] FIRSTCONTACT_API std::string write_page(std::string_view page_template,
                                                       const LoadedScene& loaded,
                                                       const PageRecord& record);
 
-/// Fills the viewer's page with a list of results, each of which it plays.
+/// A page of the viewer with a list of results, each of which it plays.
 ///
 /// A mesh that several results have stands in the page once. There is no gap over time: it would
 /// have to be sampled.
@@ -72,9 +73,11 @@ class FIRSTCONTACT_API ListPage {
   /// @param loaded  the scene of the result
   void add(std::string_view result, const LoadedScene& loaded);
 
-  /// [byte]  That the page will have, but for the viewer's own.
+  /// [byte]  The size that the page will have, without the viewer's own.
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  /// Fills the viewer's page with the list.
+  ///
   /// @throws std::invalid_argument if the template has no place for results
   [[nodiscard]] std::string write(std::string_view page_template) const;
 

@@ -10,14 +10,16 @@
 
 namespace firstcontact {
 
-/// Every feature pair of A(t) and B(t) within `band`, sorted by features, each once: the contact
-/// state of first_contact() at a time of the caller's choice. Replaces what `contacts` held.
+/// Finds every feature pair of A(t) and B(t) within `band`, sorted by features, each once.
+///
+/// It is the contact state of first_contact() at a time of the caller's choice. Replaces what
+/// `contacts` held.
 ///
 /// Complete but for pairs whose distance differs from the band by less than the rounding error.
 /// Only surfaces count: what lies inside a solid without being near its surface is not listed.
 ///
-/// Surfaces that glide on each other, as a thread in its nut, may have very many; who needs but a
-/// few of them, and the nearest, says so.
+/// Surfaces that slide in each other, as a thread in its nut, may have very many pairs. A caller
+/// that needs only a few of them, and the nearest, sets `beside`.
 ///
 /// @param t     [-]  in [0, 1]
 /// @param band  [m]  finite, >= 0; radii are included in distances

@@ -13,7 +13,7 @@ struct ClosestApproachOptions {
 };
 
 struct ClosestApproachResult {
-  /// [m]  Attained at t; an upper bound of the least distance over the step.
+  /// [m]  The distance that is attained at t; an upper bound of the least distance over the step.
   double distance = std::numeric_limits<double>::infinity();
   double lower_bound = 0.0;                        ///< [m]  Proven for all t in [0, 1].
   double t = 0.0;                                  ///< [-]  A time where `distance` is attained.
@@ -24,7 +24,8 @@ struct ClosestApproachResult {
   WorkCount work;
 };
 
-/// Least distance of A and B over the step, to the tolerance, with a time where it is attained.
+/// Finds the least distance of A and B over the step, to the tolerance, with a time where it is
+/// attained.
 ///
 /// Where they touch, that is the time of their first contact, with a distance of at most the
 /// tolerance. Else the distance is found by sampling and descent, and `lower_bound` is proven by

@@ -42,7 +42,7 @@ struct Contact {
   double normal_velocity = 0.0;
 };
 
-/// How many feature pairs are within the contact band, those included that are not listed.
+/// The number of feature pairs within the contact band, those included that are not listed.
 struct ContactCount {
   std::uint64_t at_least = 0;
   bool is_exact = false;  ///< Not where only the first was asked for, or counting ended early.
@@ -54,7 +54,7 @@ struct ContactCount {
   }
 };
 
-/// The same contact with the roles of A and B exchanged.
+/// Exchanges the roles of A and B in a contact.
 inline void swap_bodies(Contact& contact) {
   std::swap(contact.feature_A, contact.feature_B);
   std::swap(contact.p_WA, contact.p_WB);

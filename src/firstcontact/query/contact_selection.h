@@ -1,5 +1,5 @@
 /// @file
-/// Of very many contacts the nearest, and some of every region: what a list with a limit keeps.
+/// The nearest of very many contacts, and some of every region, for a list with a limit.
 
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace firstcontact {
 
-/// What a contact is known by, and what contacts are chosen by.
+/// The features of a contact, which name it, and the numbers by which contacts are chosen.
 struct ContactRank {
   std::array<std::uint64_t, 2> features = {};       ///< A number for the feature of each body.
   double distance = 0.0;                            ///< [m]
@@ -81,7 +81,7 @@ class ContactSelection {
     }
   }
 
-  /// What is kept, in no order of meaning. Nothing may be added afterwards.
+  /// The contacts that are kept, in no order of meaning. Nothing may be added afterwards.
   [[nodiscard]] std::vector<Item> take() {
     std::vector<Entry> spread;
     for (auto& [cell, entry] : cells_) {
@@ -112,8 +112,9 @@ class ContactSelection {
 
   static constexpr std::size_t kFewHeld = 64;
   static constexpr double kFinest = 0x1p-30;  // [m]  The least edge of cubes.
-  /// Makes the numbers of cubes positive, so that all are in one of the largest, and cubes of some
-  /// size hold the origin, about which bodies like to be.
+  /// A shift that makes the numbers of cubes positive, so that all are in one of the largest.
+  ///
+  /// Cubes of some size then hold the origin, which bodies are often near.
   static constexpr std::int64_t kShift = 0x15555555555555;
 
   static bool by_rank(const Entry& x, const Entry& y) { return x.rank < y.rank; }

@@ -15,7 +15,7 @@ struct DistanceResult {
   WorkCount work;
 };
 
-/// Distance of A(t) and B(t). `distance - lower_bound` is at most the rounding error.
+/// Finds the distance of A(t) and B(t). `distance - lower_bound` is at most the rounding error.
 ///
 /// @param t  [-]  in [0, 1]
 /// @throws std::invalid_argument if t is outside its range.

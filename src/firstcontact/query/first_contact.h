@@ -25,7 +25,7 @@ struct MovingShape {
   const Motion& X_WS;
 };
 
-/// When to stop early with what is proven so far.
+/// The limits of work at which a search ends with what is proven so far.
 struct WorkBudget {
   std::uint64_t steps =
       std::numeric_limits<std::uint64_t>::max();  ///< Node groups + feature steps.
@@ -36,16 +36,17 @@ struct WorkBudget {
 
 enum class StartContacts {
   report,  ///< A start within margin + tolerance is `contact_at_start`.
-  /// Two bodies that start there, but apart, are held to half of their start distance d0 (to
-  /// rounding) in place of the margin: d(t) > d0 / 2 before a contact, which is within margin +
-  /// tolerance as ever. That holds for all features of both bodies, whichever started near. So
-  /// sliding, rolling and leaving go on however the surfaces are cut into triangles, and as d0 > 0
-  /// nothing passes through anything. Parts that started farther apart than the margin are held to
-  /// d0 / 2, too. A start at distance 0 is `contact_at_start`.
+  /// A start there, but apart, holds the two bodies to half of their start distance d0.
+  ///
+  /// The half, to rounding, takes the place of the margin: d(t) > d0 / 2 before a contact. A
+  /// contact is within margin + tolerance as ever. That holds for all features of both bodies,
+  /// whichever started near: parts that started farther apart than the margin are held to d0 / 2,
+  /// too. So sliding, rolling and leaving go on however the surfaces are cut into triangles. As d0
+  /// is above 0, nothing passes through anything. A start at distance 0 is `contact_at_start`.
   keep_half,
 };
 
-/// Which feature pairs within the band at t are listed of two bodies.
+/// The choice of the feature pairs of two bodies, within the band at t, that are listed.
 struct ContactState {
   enum class Kind { none, first, nearest, all };
 
@@ -58,11 +59,12 @@ struct ContactState {
   static const ContactState first;  ///< The feature pair that decided.
   static const ContactState all;    ///< Every one, however many there are.
 
-  /// All as long as there are no more than `most`. Else the nearest, and some of every region: half
-  /// of them, at most, are the nearest of each cube of a grid around the bodies, whose cubes are as
-  /// small as this number allows; the others are the nearest of all (ContactSelection). Where there
-  /// are very many, more than 262,144 and `most`, those far from being the nearest are neither
-  /// counted nor chosen any more beyond that number.
+  /// Lists all as long as there are no more than `most`, else the nearest and some of every region.
+  ///
+  /// Half of those listed, at most, are the nearest of each cube of a grid around the bodies, whose
+  /// cubes are as small as this number allows. The others are the nearest of all
+  /// (ContactSelection). Where there are more than 262,144 and `most`, those far from being the
+  /// nearest are neither counted nor chosen any more beyond that number.
   ///
   /// @param most  >= 1
   static constexpr ContactState nearest(std::size_t most = kUsual) { return {Kind::nearest, most}; }
@@ -92,7 +94,7 @@ enum class Verdict {
 
 enum class UndecidedReason { none, work, deadline, memory, precision, cancelled };
 
-/// The word of result files: "contact_at_start".
+/// The word of a verdict in result files, such as "contact_at_start".
 [[nodiscard]] FIRSTCONTACT_API const char* to_string(Verdict verdict);
 [[nodiscard]] FIRSTCONTACT_API const char* to_string(UndecidedReason reason);
 
@@ -121,10 +123,12 @@ struct FirstContactResult {
 /// Finds the first contact of A and B during the step.
 ///
 /// Safe to act on whatever the verdict: before t the shapes are farther apart than the margin.
-/// Holds for the exact motions that the input defines, in the arithmetic as executed (docs/
-/// algorithm.md has the proof). Symmetric in A and B, and the same on every run.
+/// Holds for the exact motions that the input defines, in the arithmetic as executed
+/// (docs/algorithm.md has the proof). Symmetric in A and B, and the same on every run.
+///
 /// A body inside a solid one at t = 0 is `contact_at_start`, its contact the pair of a vertex that
 /// lies inside and a face of the solid, at distance 0. Nothing gets inside later without contact.
+///
 /// Thread-safe: the shapes and motions are only read; each thread brings its own workspace.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range.
@@ -132,7 +136,8 @@ struct FirstContactResult {
 first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,
               const FirstContactOptions& options = {});
 
-/// The same, reusing the memory of `result`: with a warm workspace and result nothing is allocated.
+/// Finds the first contact in the memory of `result`: with a warm workspace and result nothing is
+/// allocated.
 FIRSTCONTACT_API void first_contact(const MovingShape& A, const MovingShape& B,
                                     Workspace& workspace, const FirstContactOptions& options,
                                     FirstContactResult& result);

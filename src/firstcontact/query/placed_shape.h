@@ -20,7 +20,7 @@ class FIRSTCONTACT_API PlacedShape {
   [[nodiscard]] const Pose& pose() const { return pose_; }  ///< X_WS
   [[nodiscard]] const Motion& motion() const { return motion_; }
 
-  /// Of the centre of the shape's hierarchy.
+  /// The path of the centre of the shape's hierarchy.
   [[nodiscard]] const ConstantRatePath& path() const { return path_; }
 
  private:

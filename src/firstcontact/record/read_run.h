@@ -31,7 +31,7 @@ class FIRSTCONTACT_API RunReader {
 
   [[nodiscard]] const RunHeader& header() const { return header_; }
 
-  /// The next step; none at the end of the run.
+  /// Reads the next step; none at the end of the run.
   ///
   /// @throws ParseError if a line is no step, or the stream cannot be read
   [[nodiscard]] std::optional<RunStep> next();
@@ -40,8 +40,9 @@ class FIRSTCONTACT_API RunReader {
   /// next() has returned none.
   [[nodiscard]] bool is_cut_off() const { return cut_off_; }
 
-  /// [byte]  Where the last whole line that was read ends. A run that was cut off is one that
-  /// can go on when its file is cut to this size.
+  /// [byte]  The end of the last whole line that was read.
+  ///
+  /// A run that was cut off is one that can go on when its file is cut to this size.
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:

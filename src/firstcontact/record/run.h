@@ -14,7 +14,7 @@
 
 namespace firstcontact {
 
-/// What a run begins with.
+/// The beginning of a run: its scene, the version, the digest of its input, and its masses.
 struct RunHeader {
   Scene scene;  ///< With its simulation, resolved: `contact_distance` is given. Its text_digest is
                 ///< that of the text that was simulated.

@@ -14,8 +14,9 @@
 
 namespace firstcontact {
 
-/// A part of a step in which a body's centre of mass moves on a line while the body turns about it
-/// at a constant rate: Motion::constant_rates with the centre of mass as pivot.
+/// A part of a step in which a body's centre of mass moves on a line while the body turns about it.
+///
+/// Both go at constant rates: Motion::constant_rates with the centre of mass as pivot.
 struct RunPiece {
   double to = 0.0;  ///< [s]  Its end, since the step began; it begins where the one before ended.
   Pose X_WB;        ///< Where it begins.
@@ -57,7 +58,7 @@ struct RunContact {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body, in the step.
 };
 
-/// What an impact within a step did at one place.
+/// The effect of an impact within a step at one place.
 struct RunImpact {
   double at = 0.0;  ///< [s]  Since the step began.
   BodyPair bodies = {};

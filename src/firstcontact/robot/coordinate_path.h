@@ -1,5 +1,5 @@
 /// @file
-/// How one joint coordinate runs over the step: polynomials in time.
+/// The path of one joint coordinate over the step: polynomials in time.
 
 #pragma once
 
@@ -42,12 +42,14 @@ struct FIRSTCONTACT_API CoordinateSegment {
     double acceleration = 0.0;  ///< [per step^2]
     double jerk = 0.0;          ///< [per step^3]
   };
-  /// Derivation: with b_j the coefficients about the window's middle and r its half width, the
-  /// k-th derivative is at most the sum over j >= k of j! / (j - k)! |b_j| r^(j - k), which exceeds
-  /// its greatest size by terms of r only.
+  /// Bounds the derivatives over a window of the piece.
+  ///
+  /// Derivation: with b_j the coefficients about the window's middle and r its half width, the k-th
+  /// derivative is at most the sum over j >= k of j! / (j - k)! |b_j| r^(j - k). This exceeds its
+  /// greatest size by terms of r only.
   [[nodiscard]] Bounds bounds(double t_from, double t_to) const;
 
-  /// [rad or m]  No value of the piece is greater in size.
+  /// [rad or m]  A bound of the size of every value of the piece.
   [[nodiscard]] double size_bound() const;
 
   /// The coordinate of a joint that mimics this one: multiplier q + offset.
@@ -58,11 +60,13 @@ struct FIRSTCONTACT_API CoordinateSegment {
   [[nodiscard]] State precise_state(double t) const;
 };
 
-/// Which way a continuous joint turns from one position to the next.
+/// The way in which a continuous joint turns from one position to the next.
 enum class Turning {
   as_given,  ///< Through all angles between the two numbers.
-  /// By at most half a turn: positions count up to whole turns, which are taken off the path from
-  /// there on, so that it does not jump. Half a turn, as doubles have it, goes as given.
+  /// The way of at most half a turn.
+  ///
+  /// Positions count up to whole turns, which are taken off the path from there on, so that it does
+  /// not jump. Half a turn, as doubles have it, goes as given.
   shortest,
 };
 
@@ -84,18 +88,18 @@ class FIRSTCONTACT_API CoordinatePath {
   /// @param position  [rad or m]
   static CoordinatePath constant(double position);
 
-  /// At constant rates between the positions.
+  /// Runs at constant rates between the positions.
   static CoordinatePath linear(std::span<const double> times, std::span<const double> positions,
                                Turning turning = Turning::as_given);
 
-  /// Cubics that have the given velocities too.
+  /// Runs on cubics that have the given velocities too.
   ///
   /// @param velocities  [rad or m per step]
   static CoordinatePath cubic(std::span<const double> times, std::span<const double> positions,
                               std::span<const double> velocities,
                               Turning turning = Turning::as_given);
 
-  /// Quintics that have the given velocities and accelerations too.
+  /// Runs on quintics that have the given velocities and accelerations too.
   ///
   /// @param accelerations  [rad or m per step^2]
   static CoordinatePath quintic(std::span<const double> times, std::span<const double> positions,
@@ -103,15 +107,16 @@ class FIRSTCONTACT_API CoordinatePath {
                                 std::span<const double> accelerations,
                                 Turning turning = Turning::as_given);
 
-  /// Given polynomials: piece k runs from times[k] to times[k + 1] with
-  ///   q(t) = sum over j of coefficients[k][j] (t - times[k])^j,
-  /// of degree 7 at most. Where pieces do not meet, the coordinate would jump: refused beyond 1e-6.
+  /// Runs on given polynomials of degree 7 at most: piece k from times[k] to times[k + 1].
+  ///
+  ///   q(t) = sum over j of coefficients[k][j] (t - times[k])^j
+  /// Where pieces do not meet, the coordinate would jump: refused beyond 1e-6.
   ///
   /// @param coefficients  [rad or m per step^j]
   static CoordinatePath polynomials(std::span<const double> times,
                                     std::span<const std::vector<double>> coefficients);
 
-  /// In order, without gaps, from 0 to 1.
+  /// The pieces in order, without gaps, from 0 to 1.
   [[nodiscard]] std::span<const CoordinateSegment> segments() const { return segments_; }
   [[nodiscard]] Turning turning() const { return turning_; }
 

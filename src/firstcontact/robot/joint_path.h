@@ -1,5 +1,5 @@
 /// @file
-/// How a link moves against its parent over one smooth piece of time.
+/// The motion of a link against its parent over one smooth piece of time.
 
 #pragma once
 
@@ -46,8 +46,10 @@ struct JointBounds {
   CoordinateSegment::Bounds pivot;  ///< [m per step ...]
 };
 
-/// X_PL(t) of one smooth piece: X_PJ, then slides along fixed directions, then a turn about a fixed
-/// axis, then a fixed transform; or X_PJ, then a piece of a Motion.
+/// The transform X_PL(t) of a joint over one smooth piece of time.
+///
+/// It is X_PJ, then slides along fixed directions, then a turn about a fixed axis, then a fixed
+/// transform; or X_PJ, then a piece of a Motion.
 class FIRSTCONTACT_API JointPath {
  public:
   struct Slide {
@@ -55,36 +57,36 @@ class FIRSTCONTACT_API JointPath {
     CoordinateSegment coordinate;   ///< [m]
   };
 
-  /// X_PL = X_PJ (slides) (turn) X_EL.
+  /// Makes a joint of slides and a turn: X_PL = X_PJ (slides) (turn) X_EL.
   ///
   /// @param axis  [-]  unit, in J; of no meaning without an angle
   static JointPath polynomial(const PreciseTransform& X_PJ, const DoubleDoubleVector3& axis,
                               const std::optional<CoordinateSegment>& angle,
                               const std::vector<Slide>& slides, const PreciseTransform& X_EL);
 
-  /// The same joint at other coordinates: an angle if it has one, as many slides as it has.
+  /// Makes the same joint at other coordinates: an angle if it has one, as many slides as it has.
   [[nodiscard]] JointPath moved(const std::optional<CoordinateSegment>& angle,
                                 std::span<const CoordinateSegment> slides) const;
 
-  /// As one piece of a motion of the child's origin says.
+  /// Makes a joint whose child's origin moves by one piece of a motion.
   static JointPath of_motion(const PreciseTransform& X_PJ, const ConstantRatePath& X_JL);
 
-  /// X_PL, always.
+  /// Makes a joint that does not move: X_PL, always.
   static JointPath rigid(const PreciseTransform& X_PL);
 
-  /// Of a free body, whose parent's frame is J: the path of its origin. Else null.
+  /// The path of the origin of a free body, whose parent's frame is J; null for any other joint.
   [[nodiscard]] const ConstantRatePath* free_body() const;
 
   /// [m]  A place in P near the joint's pivot, rounded.
   [[nodiscard]] const Eigen::Vector3d& anchor() const { return anchor_; }
 
-  /// Unlike that of any other path but its copies.
+  /// A number that no other path has but copies of this one.
   [[nodiscard]] std::uint64_t id() const { return id_; }
 
   [[nodiscard]] JointState state(double t) const;
   [[nodiscard]] JointBounds bounds(double t_from, double t_to) const;
 
-  /// Its state where that never changes, else null.
+  /// The state of a joint that never changes; null for any other.
   [[nodiscard]] const JointState* rest() const { return rest_ ? &*rest_ : nullptr; }
 
   /// Whether it turns about one axis, else about any through the child's origin.

@@ -1,5 +1,5 @@
 /// @file
-/// Where a robot's motion leaves the limits of its joints.
+/// A report of the times at which a robot's motion leaves the limits of its joints.
 
 #pragma once
 
@@ -26,16 +26,18 @@ struct LimitViolation {
   double limit = 0.0;     ///< As the model has it.
   double excess = 0.0;    ///< The greatest way beyond the limit, to the tolerance.
   double t_excess = 0.0;  ///< [-]  Where it is attained.
-  /// In order, at least one: outside of them the coordinate is proven to exceed the limit by no
-  /// more than the tolerance; in each there is a time at which it exceeds the limit.
+  /// The windows of time with the violation, in order, at least one.
+  ///
+  /// Outside of them the coordinate is proven to exceed the limit by no more than the tolerance. In
+  /// each there is a time at which it exceeds the limit.
   std::vector<TimeWindow> intervals;
 };
 
-/// All limits that a motion leaves by more than a tolerance, in order of the joints.
+/// Finds all limits that a motion leaves by more than a tolerance, in order of the joints.
 ///
-/// Joints of one coordinate have limits, those that mimic others included. A velocity limit of 0,
-/// as many files have it who do not know one, counts as none. Proven for the exact
-/// polynomials that the input defines: nothing is sampled.
+/// Joints of one coordinate have limits, those that mimic others included. A velocity limit of 0
+/// counts as none, as many files have it for an unknown one. Proven for the exact polynomials that
+/// the input defines: nothing is sampled.
 ///
 /// @param duration   [s]  of the step; > 0
 /// @param tolerance  [rad or m; per s]  > 0

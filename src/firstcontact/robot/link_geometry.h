@@ -1,5 +1,5 @@
 /// @file
-/// What a link looks like, or is made of for collisions.
+/// The geometry of a link, for its looks or for collisions.
 
 #pragma once
 
@@ -21,23 +21,24 @@ struct MeshGeometry {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< [-]  Of each axis; not 0. < 0 mirrors.
 };
 
-/// Sizes of 0 make what is left: a rectangle, a segment or a point, which touch as well.
+/// A box; sizes of 0 leave a rectangle, a segment or a point, which touch as well.
 struct BoxGeometry {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]  >= 0.
 };
 
-/// A point where the radius is 0.
+/// A ball; a point where the radius is 0.
 struct SphereGeometry {
   double radius = 0.0;  ///< [m]  >= 0.
 };
 
-/// About z. A disc where the length is 0, a segment where the radius is, a point where both are.
+/// A cylinder about z; a disc where the length is 0, a segment where the radius is, a point where
+/// both are.
 struct CylinderGeometry {
   double radius = 0.0;  ///< [m]  >= 0.
   double length = 0.0;  ///< [m]  >= 0.
 };
 
-/// About z.
+/// A capsule about z.
 struct CapsuleGeometry {
   double radius = 0.0;  ///< [m]  >= 0.
   double length = 0.0;  ///< [m]  >= 0.  Of the segment, without the caps.

@@ -1,6 +1,6 @@
 /// @file
-/// How a link moves in the frame of an ancestor: its pose, and rigorous bounds of its motion along
-/// a direction.
+/// The motion of a link in the frame of an ancestor: its pose, and rigorous bounds of its motion
+/// along a direction.
 
 #pragma once
 
@@ -27,7 +27,7 @@ struct LinkPose {
   double position_error = 0.0;                     ///< [m]
 };
 
-/// Where a link is and how it moves: derivatives of its origin's place and of its rotation.
+/// The place and the motion of a link: derivatives of its origin's place and of its rotation.
 struct LinkState {
   LinkPose pose;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< [m per step]
@@ -51,8 +51,9 @@ struct LinkPart {
   [[nodiscard]] double reach() const { return (half_extents.norm() + radius) * (1.0 + 0x1p-50); }
 };
 
-/// What holds for every point of a part from the window's time t on: in a time tau it gains along
-/// n no more than  speed tau + acceleration tau^2 / 2.
+/// A bound of the way that any point of a part gains along n from the window's time t on.
+///
+/// In a time tau it is at most  speed tau + acceleration tau^2 / 2.
 struct DirectedBound {
   double speed = 0.0;         ///< [m per step]
   double acceleration = 0.0;  ///< [m per step^2]  Of one sign or the other.
@@ -70,8 +71,9 @@ class FIRSTCONTACT_API LinkWindow {
   /// every time of the window.
   [[nodiscard]] const CoordinateSegment::Bounds& bounds() const { return bounds_; }
 
-  /// [per metre]  A point of the link at a distance r from the part exceeds these bounds by r times
-  /// these at most.
+  /// [per metre]  The growth of the bounds with the distance from the part.
+  ///
+  /// A point of the link at a distance r from the part exceeds the bounds by r times these at most.
   [[nodiscard]] const CoordinateSegment::Bounds& per_metre() const { return per_metre_; }
 
   /// The displacement along n, from t to t_to().
@@ -86,11 +88,13 @@ class FIRSTCONTACT_API LinkWindow {
   /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
   [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n) const;
 
-  /// The same from t back to t_from(): what holds for the motion in reverse.
+  /// A bound of the displacement along n from t back to t_from(): it holds for the motion in
+  /// reverse.
   [[nodiscard]] DirectedBound displacement_back(const LinkPart& part,
                                                 const Eigen::Vector3d& n) const;
 
-  /// [m per step]  The velocity of every point of the part along n, at every time of the window.
+  /// [m per step]  A bound of the velocity along n of every point of the part, at every time of
+  /// the window.
   [[nodiscard]] double speed_bound(const LinkPart& part, const Eigen::Vector3d& n) const;
 
  private:
@@ -139,6 +143,8 @@ class FIRSTCONTACT_API LinkScratch {
 /// The path of a link L in the frame F of an ancestor, over one smooth piece of time.
 class FIRSTCONTACT_API LinkPath {
  public:
+  /// Joins the paths of joints, from F to L.
+  ///
   /// @param joints  from F to L, none of them null; paths of other links share them
   LinkPath(double t_begin, double t_end, std::vector<std::shared_ptr<const JointPath>> joints);
 
@@ -148,20 +154,21 @@ class FIRSTCONTACT_API LinkPath {
   /// The path of a frame that is fixed in L.
   [[nodiscard]] LinkPath then(const PreciseTransform& X_LG) const;
 
-  /// The same with that transform as a joint that does not move, to be shared.
+  /// The path of a frame that is fixed in L, with a joint that does not move and can be shared.
   [[nodiscard]] LinkPath then(std::shared_ptr<const JointPath> X_LG) const;
 
-  /// X_FL(t).
+  /// The pose X_FL(t).
   ///
   /// @param p_FO  [m]  positions are taken from here on, in double-double as far as the first joint
   [[nodiscard]] LinkPose pose(double t, const DoubleDoubleVector3& p_FO = {}) const;
 
-  /// The same, with the link's derivatives.
+  /// The pose X_FL(t) with the link's derivatives.
   [[nodiscard]] LinkState state(double t, LinkScratch& scratch,
                                 const DoubleDoubleVector3& p_FO = {}) const;
 
-  /// A place F O near which the links of a robot are, the same for all that share a first joint:
-  /// where positions are best taken from.
+  /// The place p_FO from which positions are best taken: the links of a robot are near it.
+  ///
+  /// It is the same for all links that share a first joint.
   [[nodiscard]] DoubleDoubleVector3 anchor() const;
 
   /// The path, where it is that of a free body; else null.
@@ -191,8 +198,10 @@ class FIRSTCONTACT_API LinkPath {
   [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const LinkPart& part,
                                   LinkScratch& scratch, const DoubleDoubleVector3& p_FO = {}) const;
 
-  /// [m]  No point of the part is farther from its place, at any time of [t_from, t_to], where each
-  /// joint is within an error of its path.
+  /// [m]  A bound of how far the part's points are from their places, with every joint within an
+  /// error of its path.
+  ///
+  /// It holds at any time of [t_from, t_to].
   ///
   /// Derivation: let e bound how far the part's points are from their places as seen from a child.
   /// With the joint at its path they are as far as seen from the parent. An error of the angle

@@ -15,13 +15,14 @@
 
 namespace firstcontact {
 
-/// Where a mechanism is and how it moves.
+/// The positions and the velocities of a mechanism.
 struct MechanismState {
   Eigen::VectorXd positions;   ///< (position_count)  [rad or m]  Of poses: p, then q as w, x, y, z.
   Eigen::VectorXd velocities;  ///< (size)  [rad/s or m/s]  Of poses: v, then w; in J's axes.
 };
 
-/// Where the numbers of a joint stand. A joint that mimics another has none of its own.
+/// The places of a joint's numbers in a MechanismState. A joint that mimics another has none of its
+/// own.
 struct MechanismJoint {
   std::size_t joint = 0;      ///< Of the model; its number of joints: the free base.
   Eigen::Index position = 0;  ///< The first of its positions,
@@ -44,7 +45,7 @@ struct MechanismInstant {
   std::vector<Pose> X_WL;                               ///< Of each link.
   std::vector<Spatial> velocity;                        ///< Of each link.
   std::vector<Spatial> bias;  ///< [per s^2]  Of each link: its acceleration at constant rates.
-  /// (6, size)  Of each link: velocity = J times the rates.
+  /// (6, size)  The Jacobian of each link: velocity = J times the rates.
   std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> J;
 };
 
@@ -63,6 +64,8 @@ struct MechanismMechanics {
 /// Algorithms", 2008, chapters 5 and 6). Joints that mimic others move along with them.
 class FIRSTCONTACT_API Mechanism {
  public:
+  /// Makes the mechanism of a robot.
+  ///
   /// @param model      every link whose motion nothing heavier shares has its inertia
   /// @param X_WR       of the root link; where a free base starts from
   /// @param free_base  the root link is held by nothing
@@ -73,10 +76,10 @@ class FIRSTCONTACT_API Mechanism {
   [[nodiscard]] const RobotModel& model() const { return model_; }
   [[nodiscard]] Eigen::Index size() const { return size_; }  ///< Number of velocities.
   [[nodiscard]] Eigen::Index position_count() const { return position_count_; }
-  /// All that have numbers, in their order; the free base first.
+  /// All joints that have numbers, in their order; the free base first.
   [[nodiscard]] const std::vector<MechanismJoint>& joints() const { return blocks_; }
 
-  /// All coordinates 0, all poses the identity, the free base where it starts from.
+  /// The state with all coordinates 0, all poses the identity, the free base where it starts from.
   [[nodiscard]] MechanismState rest() const;
 
   /// Positions after a displacement (size) [rad or m]: rotation vectors turn from the left.
@@ -89,25 +92,28 @@ class FIRSTCONTACT_API Mechanism {
 
   [[nodiscard]] MechanismInstant at(const MechanismState& state) const;
 
-  /// (size, size)
+  /// The mass matrix M(q), (size, size).
   [[nodiscard]] Eigen::MatrixXd mass_matrix(const MechanismInstant& instant) const;
 
-  /// (size)  [N m or N]
+  /// The forces along the coordinates that keep all rates constant, (size)  [N m or N].
   ///
   /// @param gravity  [m/s^2]
   [[nodiscard]] Eigen::VectorXd bias_forces(const MechanismInstant& instant,
                                             const Eigen::Vector3d& gravity) const;
 
-  /// Where gravity and inertia alone take it: Runge and Kutta's rule of fourth order in sub-steps
-  /// (of second order for poses).
+  /// The state after a time in which gravity and inertia alone act.
+  ///
+  /// Method: Runge and Kutta's rule of fourth order in sub-steps (of second order for poses).
   ///
   /// @param dt  [s]
   [[nodiscard]] MechanismState after_free_motion(const MechanismState& state,
                                                  const Eigen::Vector3d& gravity, double dt) const;
 
   /// The velocities at other positions, nearby, with which every link goes on as it does in the
-  /// state: they keep the kinetic energy and, as nearly as joints let them, each link's momentum
-  /// and angular momentum about its centre (least squares in the kinetic metric; to first order the
+  /// state.
+  ///
+  /// They keep the kinetic energy. As nearly as joints let them, they keep each link's momentum and
+  /// angular momentum about its centre (least squares in the kinetic metric; to first order the
   /// parallel transport of that metric). Where a link carries one that is far out or turns against
   /// it, the same numbers at other positions are another motion.
   [[nodiscard]] Eigen::VectorXd carried(const MechanismState& state,
@@ -117,7 +123,7 @@ class FIRSTCONTACT_API Mechanism {
                                              const Eigen::Vector3d& gravity) const;
 
  private:
-  /// How a joint takes part: by numbers of its own, or as a multiple of another's.
+  /// The part of a joint in the motion: numbers of its own, or a multiple of another's.
   struct Part {
     std::size_t block = kFixed;
     double multiplier = 1.0;

@@ -17,13 +17,14 @@
 
 namespace firstcontact {
 
-/// What of a link resists motion, as its maker says; some say what no body has.
+/// The mass and the inertia of a link as its maker states them; no body need have them.
 struct LinkInertia {
   double mass = 0.0;                                    ///< [kg]
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();       ///< [m]  Centre of mass.
   Eigen::Matrix3d about_C_L = Eigen::Matrix3d::Zero();  ///< [kg m^2]  Axes of L; symmetric.
-  /// What is wrong with how its file says it, with place; may be empty. Nothing that moves as it is
-  /// told minds; simulations refuse it.
+  /// The defect of the values in their file, with its place; may be empty.
+  ///
+  /// Motions that are given do not depend on these values; simulations refuse the link.
   std::string defect = {};
 };
 
@@ -42,8 +43,9 @@ struct DisabledPair {
   std::string reason;  ///< May be empty.
 };
 
-/// How a child link may move against its parent. J is the joint frame, fixed in the parent; at
-/// zero coordinates the child's frame is J.
+/// The ways in which a child link may move against its parent.
+///
+/// J is the joint frame, fixed in the parent; at zero coordinates the child's frame is J.
 enum class JointType {
   fixed,
   revolute,    ///< Turns about the axis by its coordinate, within limits.
@@ -55,12 +57,9 @@ enum class JointType {
   ball,        ///< Turns about its centre: a pose without translation.
 };
 
-/// Its words in files and in Python, in this order.
-inline constexpr std::array<const char*, 8> kJointTypeWords{
-    "fixed", "revolute", "continuous", "prismatic", "screw", "planar", "floating", "ball"};
-
-/// What the maker allows; nothing where nothing is said. Units per coordinate: rad, or m for
-/// prismatic joints; of a screw they belong to the angle.
+/// The limits that the maker of a joint allows; none where none is given.
+///
+/// Units per coordinate: rad, or m for prismatic joints; those of a screw belong to the angle.
 struct JointLimits {
   std::optional<double> lower = {};     ///< [rad or m]
   std::optional<double> upper = {};     ///< [rad or m]
@@ -68,14 +67,14 @@ struct JointLimits {
   std::optional<double> effort = {};    ///< [N m or N]  >= 0.
 };
 
-/// The coordinate is multiplier times that of another joint, plus offset.
+/// A coordinate that follows another joint's: multiplier times that one, plus offset.
 struct Mimic {
   std::string joint;
   double multiplier = 1.0;  ///< [-]
   double offset = 0.0;      ///< [rad or m]
 };
 
-/// Connects a child link to its parent. X_PL(q) = X_PJ X_JL(q).
+/// A connection of a child link to its parent. X_PL(q) = X_PJ X_JL(q).
 struct Joint {
   std::string name = {};
   JointType type = JointType::fixed;
@@ -90,32 +89,33 @@ struct Joint {
   double friction = 0.0;            ///< [N m or N]  >= 0; Coulomb's, of the joint itself.
 };
 
-/// How many numbers say where the joint is; 0 for floating and ball joints, which take a pose.
+/// The number of coordinates of a joint; 0 for floating and ball joints, which take a pose.
 FIRSTCONTACT_API std::size_t coordinate_count(JointType type);
 
-/// The word of URDF; `screw` and `ball` for those that it does not know.
+/// The word of URDF for a type; `screw` and `ball` for those that URDF does not know.
 FIRSTCONTACT_API const char* to_string(JointType type);
 
-/// What a RobotModel is made of. Order is free: a joint may come before its links.
+/// The plain data of a RobotModel. Order is free: a joint may come before its links.
 struct RobotDescription {
   std::string name = {};
   std::vector<Link> links = {};
   std::vector<Joint> joints = {};
 };
 
-/// What is wrong with a description, and where.
+/// A defect of a description, and its place.
 struct RobotDefect {
   std::string message;
   std::optional<std::size_t> joint;  ///< Index into joints.
   std::optional<std::size_t> link;   ///< Index into links.
 };
 
-/// The reasons why the description is no tree of links: unknown or doubled names, second parents,
-/// loops, second roots; and joints whose numbers make no sense. Empty if it is sound. What only
-/// follows from other defects is left out.
+/// Finds the reasons why a description is no sound tree of links; empty if it is sound.
+///
+/// They are unknown or doubled names, second parents, loops, second roots, and joints whose numbers
+/// make no sense. A defect that only follows from other defects is left out.
 FIRSTCONTACT_API std::vector<RobotDefect> find_defects(const RobotDescription& description);
 
-/// The first of find_defects(). None if the description is sound.
+/// Finds the first of find_defects(); none if the description is sound.
 FIRSTCONTACT_API std::optional<RobotDefect> find_defect(const RobotDescription& description);
 
 }  // namespace firstcontact

@@ -27,7 +27,9 @@ struct JointFrame;
 /// Immutable and cheap to copy: copies share their data, also between threads.
 class FIRSTCONTACT_API RobotModel {
  public:
-  /// @throws std::invalid_argument  what find_defect says
+  /// Makes the model of a description.
+  ///
+  /// @throws std::invalid_argument  with the message of find_defect()
   explicit RobotModel(RobotDescription description);
 
   [[nodiscard]] const std::string& name() const;
@@ -40,22 +42,22 @@ class FIRSTCONTACT_API RobotModel {
 
   [[nodiscard]] std::size_t parent_link(std::size_t joint) const;
   [[nodiscard]] std::size_t child_link(std::size_t joint) const;
-  /// None for the root.
+  /// The joint that moves a link against its parent; none for the root.
   [[nodiscard]] std::optional<std::size_t> parent_joint(std::size_t link) const;
 
-  /// Whether one joint connects the two.
+  /// Whether one joint connects the two links.
   [[nodiscard]] bool are_adjacent(std::size_t link, std::size_t other) const;
 
   /// The link nearest to the root, or itself, from which only fixed joints lead to this one.
   [[nodiscard]] std::size_t rigid_root(std::size_t link) const;
 
-  /// X_RL, with R the frame of rigid_root(link).
+  /// The transform X_RL, with R the frame of rigid_root(link).
   [[nodiscard]] const PreciseTransform& from_rigid_root(std::size_t link) const;
 
-  /// Of a joint: what all motions of the robot share.
+  /// The frame of a joint, which all motions of the robot share.
   [[nodiscard]] const detail::JointFrame& frame(std::size_t joint) const;
 
-  /// X_RL as a joint that does not move; null where the two are one.
+  /// The transform X_RL as a joint that does not move; null where the two are one.
   [[nodiscard]] const std::shared_ptr<const JointPath>& tail(std::size_t link) const;
 
   /// The joints from a link down to one that hangs on it, in that order; empty if they are one.

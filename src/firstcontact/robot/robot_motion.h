@@ -26,8 +26,9 @@ namespace firstcontact {
 /// directions are those of J, turned by the shortest rotation that takes z to the joint's axis.
 using PlanarPath = std::array<CoordinatePath, 3>;
 
-/// How one joint moves: a coordinate; three of a planar joint; or X_JL(t) of a floating or ball
-/// joint, whose translation stays zero in a ball joint.
+/// The motion of one joint: one coordinate, three of a planar joint, or a Motion X_JL(t).
+///
+/// The last is that of a floating or ball joint; its translation stays zero in a ball joint.
 using JointMotion = std::variant<CoordinatePath, PlanarPath, Motion>;
 
 /// The path of a link in the frame F of an ancestor, piece by piece. Immutable.
@@ -35,13 +36,13 @@ class FIRSTCONTACT_API LinkMotion {
  public:
   explicit LinkMotion(std::vector<LinkPath> pieces);
 
-  /// Of a free body in the world: questions about a robot and its surroundings have both alike.
+  /// The motion of a free body in the world, so that queries treat bodies and links alike.
   explicit LinkMotion(const Motion& X_WB);
 
   /// The motion of a frame that is fixed in the link, as that of a geometry: X_LG.
   [[nodiscard]] LinkMotion then(const PreciseTransform& X_LG) const;
 
-  /// In order, without gaps, from 0 to 1.
+  /// The pieces in order, without gaps, from 0 to 1.
   [[nodiscard]] std::span<const LinkPath> pieces() const { return pieces_; }
 
   /// The piece that contains t, the earlier one at a break.
@@ -51,16 +52,21 @@ class FIRSTCONTACT_API LinkMotion {
   std::vector<LinkPath> pieces_;
 };
 
-/// Two links in the frame of their last common ancestor: what they share has cancelled.
+/// The motions of two links in the frame of their last common ancestor: what they share has
+/// cancelled.
 struct RelativeLinkMotion {
   LinkMotion A;
   LinkMotion B;
 };
 
-/// X_WL(t) of every link L of a robot, t in [0, 1]. Immutable and cheap to copy: copies share their
-/// data, and the paths of links share those of joints.
+/// The motion X_WL(t) of every link L of a robot, t in [0, 1].
+///
+/// Immutable and cheap to copy: copies share their data, and the paths of links share those of
+/// joints.
 class FIRSTCONTACT_API RobotMotion {
  public:
+  /// Gives a motion to each joint of a robot that moves, and to its base.
+  ///
   /// @param joints  the motion of every joint that moves, by name; mimic joints follow theirs
   /// @param base    of the root link in the world
   /// @throws std::invalid_argument  names the joint: it has no motion, or one of another type; it
@@ -71,25 +77,28 @@ class FIRSTCONTACT_API RobotMotion {
 
   [[nodiscard]] const RobotModel& model() const { return model_; }
 
-  /// In the world.
+  /// The motion of a link in the world.
   [[nodiscard]] LinkMotion link(std::size_t link) const;
 
-  /// In the frame of a link on which it hangs, or of itself.
+  /// The motion of a link in the frame of a link on which it hangs, or of itself.
   [[nodiscard]] LinkMotion link(std::size_t ancestor, std::size_t link) const;
 
   [[nodiscard]] RelativeLinkMotion relative(std::size_t A, std::size_t B) const;
 
-  /// Of a link, in the world: the piece that holds t, the earlier one at a break. Costs as much as
-  /// the chain of joints is long.
+  /// The path of a link in the world, in the piece that holds t, the earlier one at a break.
+  ///
+  /// Its cost grows with the length of the chain of joints.
   [[nodiscard]] LinkPath path(std::size_t link, double t) const;
 
-  /// The same in the frame of a link on which it hangs, or of itself.
+  /// The path of a link in the frame of a link on which it hangs, or of itself, in that piece.
   [[nodiscard]] LinkPath path(std::size_t ancestor, std::size_t link, double t) const;
 
-  /// Of a joint, in the piece that holds t, the earlier one at a break: from the link that moves
-  /// before it. Null for one that is fixed. Valid as long as this.
+  /// The path of a joint in the piece that holds t, the earlier one at a break; null for a fixed
+  /// joint.
+  ///
+  /// It starts at the link that moves before the joint. Valid as long as this.
   [[nodiscard]] const JointPath* joint_path(std::size_t joint, double t) const;
-  /// The same of the base, in the world.
+  /// The path of the base in the world, in the piece that holds t, the earlier one at a break.
   [[nodiscard]] const JointPath& base_path(double t) const;
 
   /// All times at which a piece of a joint's path, or of the base's, ends; 0 and 1 included.
@@ -99,7 +108,7 @@ class FIRSTCONTACT_API RobotMotion {
   /// for other joints.
   [[nodiscard]] std::vector<CoordinateSegment> coordinate(std::size_t joint) const;
 
-  /// What was given for a joint; nothing of joints that are fixed or mimic others.
+  /// The motion that was given for a joint; none for joints that are fixed or mimic others.
   [[nodiscard]] std::optional<JointMotion> given(std::size_t joint) const;
 
   [[nodiscard]] const Motion& base() const;

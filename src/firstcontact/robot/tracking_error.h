@@ -1,5 +1,5 @@
 /// @file
-/// How well a robot follows its nominal motion.
+/// The accuracy with which a robot follows its nominal motion.
 
 #pragma once
 
@@ -9,7 +9,7 @@ namespace firstcontact {
 
 struct Joint;
 
-/// How far a joint may be from its nominal motion at any time.
+/// The most by which a joint may be off its nominal motion, at any time.
 struct TrackingError {
   double angle = 0.0;     ///< [rad]  Of a joint that turns; >= 0.
   double distance = 0.0;  ///< [m]  Of a joint that slides; >= 0.

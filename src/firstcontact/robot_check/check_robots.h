@@ -47,10 +47,10 @@ struct RobotContact {
 
 /// A stretch of time that may be in contact: outside of its intervals a pair is proven free.
 ///
-/// At `enter` the pair is within threshold + tolerance, and proven free before, back to the `leave`
-/// of the interval before. Of `leave` it is claimed that the pair was within threshold + tolerance
-/// at some time in [leave - resolution, leave]. Gaps in which the pair comes apart for less than
-/// twice the resolution may be counted to the interval around them.
+/// At `enter` the pair is within threshold + tolerance. It is proven free before, back to the
+/// `leave` of the interval before. The claim of `leave` is that the pair was within threshold +
+/// tolerance at some time in [leave - resolution, leave]. Gaps in which the pair comes apart for
+/// less than twice the resolution may be counted to the interval around them.
 struct ContactInterval {
   double enter = 0.0;  ///< [-]
   double leave = 1.0;  ///< [-]
@@ -58,8 +58,10 @@ struct ContactInterval {
   UndecidedReason reason = UndecidedReason::none;
 };
 
-/// The least distance of a pair over all times at which it is tested, without padding, margin and
-/// tracking errors. Where a pair touches: at the time of a contact that need not be its first.
+/// The least distance of a pair over all times at which it is tested.
+///
+/// Padding, margin and tracking errors do not count. Where a pair touches, it is at the time of a
+/// contact that need not be its first.
 struct LeastClearance {
   double lower_bound = 0.0;  ///< [m]  Proven for all times; distance - lower_bound <= tolerance.
   double distance = std::numeric_limits<double>::infinity();  ///< [m]  Attained at t.
@@ -68,7 +70,7 @@ struct LeastClearance {
   std::optional<Contact> closest = {};             ///< The closest feature pair at t, in the world.
 };
 
-/// What one pair of members answered.
+/// The answer of one pair of members.
 struct RobotPairAnswer {
   BodyPair members = {};
   /// [m]  Margin, both paddings, and the effect of the tracking errors about t: closer than this
@@ -97,10 +99,10 @@ struct RobotCheckResult {
   double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
   double enclosure_error = 0.0;   ///< [m]  The greatest of these.
 
-  /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
-  /// free.
+  /// The index into `pairs` of the pair that decides `t`: the earliest, ties by their order. None
+  /// when free.
   std::optional<std::size_t> first;
-  /// Index into `pairs` of the one that comes closest, where that was asked.
+  /// The index into `pairs` of the pair that comes closest, where that was asked.
   std::optional<std::size_t> closest;
   /// Every tested pair where that was asked, else those that decide `t` and the closest one where
   /// that was asked; by the order of members.
@@ -112,16 +114,19 @@ struct RobotCheckResult {
 ///
 /// Before t every pair is farther apart than its threshold: proven for the exact motions that the
 /// input defines, and for all that stay within the tracking errors. At a contact the nominal
-/// motion's distance is no more than threshold + tolerance. The step is walked piece by piece of
-/// the trajectories, several at once, and left at the first contact. The same on every run and for
-/// every number of threads, as long as neither the deadline nor the stop token ends it.
+/// motion's distance is no more than threshold + tolerance. The same on every run and for every
+/// number of threads, as long as neither the deadline nor the stop token ends it.
+///
+/// Method: the step is walked piece by piece of the trajectories, several at once, and left at the
+/// first contact.
 ///
 /// @throws std::invalid_argument if an option is outside its documented range
 [[nodiscard]] FIRSTCONTACT_API RobotCheckResult check_robots(const RobotScene& scene,
                                                              const RobotCheckOptions& options = {});
 
-/// A scene made ready for many checks, one after the other, as a planner asks them: what all of
-/// them share is done once.
+/// A scene prepared for many checks, one after the other, as a planner makes them.
+///
+/// The work that all of them share is done once.
 class FIRSTCONTACT_API RobotChecker {
  public:
   explicit RobotChecker(RobotScene scene);
@@ -131,10 +136,10 @@ class FIRSTCONTACT_API RobotChecker {
 
   [[nodiscard]] const RobotScene& scene() const;
 
-  /// As RobotScene::set_motion.
+  /// Sets another motion of a robot, as RobotScene::set_motion() does.
   void set_motion(std::size_t robot, RobotMotion motion);
 
-  /// As check_robots. Not for two threads at a time: it reuses its memory.
+  /// Checks the scene as check_robots() does. Not for two threads at a time: it reuses its memory.
   [[nodiscard]] RobotCheckResult check(const RobotCheckOptions& options = {});
 
  private:

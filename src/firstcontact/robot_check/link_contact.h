@@ -13,15 +13,17 @@
 
 namespace firstcontact {
 
-/// A shape S and its motion X_FS(t) in a frame that both bodies of a question share: the world, or
-/// the last common ancestor of two links.
+/// A shape S and its motion X_FS(t) in a frame that both bodies of a question share.
+///
+/// The frame is the world, or the last common ancestor of two links.
 struct MovingLink {
   const Shape& shape;
   const LinkMotion& X_FS;
 };
 
-/// Finds the first contact of A and B during the step, with the promises of `first_contact` of two
-/// moving shapes; contacts are in the frame F.
+/// Finds the first contact of A and B during the step; contacts are in the frame F.
+///
+/// The promises are those of `first_contact` of two moving shapes.
 ///
 /// The search is that of docs/algorithm.md, over windows of time in which no point's path bends by
 /// more than about half of itself (LinkPairMotion). The same for A and B swapped, up to the swap.
@@ -33,17 +35,18 @@ FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Wo
 first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
               const FirstContactOptions& options = {});
 
-/// The same in a part of the step; before it the shapes are proven free. The motions may have only
-/// the pieces that the part lies in. When free, `t` is its end.
+/// Finds the first contact in a part of the step; before it the shapes are proven free.
+///
+/// The motions may have only the pieces that the part lies in. When free, `t` is its end.
 FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B,
                                     const TimeWindow& window, Workspace& workspace,
                                     const FirstContactOptions& options, FirstContactResult& result);
 
-/// As distance() of two moving shapes, in the frame F.
+/// Finds the distance at a time as distance() of two moving shapes does, in the frame F.
 [[nodiscard]] FIRSTCONTACT_API DistanceResult distance(const MovingLink& A, const MovingLink& B,
                                                        double t, Workspace& workspace);
 
-/// As closest_approach() of two moving shapes, in the frame F.
+/// Finds the closest approach as closest_approach() of two moving shapes does, in the frame F.
 [[nodiscard]] FIRSTCONTACT_API ClosestApproachResult
 closest_approach(const MovingLink& A, const MovingLink& B, Workspace& workspace,
                  const ClosestApproachOptions& options = {});

@@ -1,5 +1,5 @@
 /// @file
-/// Robots and bodies that move together over the step: what a check of robots is asked about.
+/// Robots and bodies that move together over the step: the input of a check of robots.
 
 #pragma once
 
@@ -29,7 +29,7 @@ struct DisabledPair;
 ///
 /// The body keeps its own motion before t_from. Then it is rigidly fixed to the link, with the pose
 /// relative to it frozen at t_from and rounded to doubles, which define the motion from then on.
-/// Or X_LB says where the link holds it from the start; then its own motion has no meaning. After
+/// Or X_LB is where the link holds it from the start; then its own motion has no meaning. After
 /// t_to it rests where it is, rounded alike.
 struct Attachment {
   std::size_t body = 0;
@@ -54,7 +54,7 @@ struct RobotLink {
   friend bool operator==(const RobotLink&, const RobotLink&) = default;
 };
 
-/// How a body moves over a part of the step: as given, carried by a link, or at rest.
+/// The motion of a body over a part of the step: as given, carried by a link, or at rest.
 struct BodyStretch {
   struct Given {};
   struct Carried {
@@ -85,21 +85,24 @@ class FIRSTCONTACT_API RobotScene {
  public:
   explicit RobotScene(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
 
-  /// Returns the body's number as a member. Shapes that deform are refused.
+  /// Adds a body and returns its number as a member. Shapes that deform are refused.
   std::size_t add_body(std::string name, Shape shape, Motion X_WB = Motion::fixed());
 
-  /// Returns the robot's number, from 0; its link k is the member first_member(robot) + k. Every
-  /// collision geometry of the model must have its shape (LoadShapes).
+  /// Adds a robot and returns its number, from 0.
+  ///
+  /// Its link k is the member first_member(robot) + k. Every collision geometry of the model must
+  /// have its shape (LoadShapes).
   ///
   /// @param disabled  pairs of links that are not tested, as an SRDF has them
   std::size_t add_robot(std::string name, RobotMotion motion,
                         std::span<const DisabledPair> disabled = {});
 
-  /// Another motion of the same robot; all else stays as it is said. Of bodies that it carries the
-  /// places are taken anew.
+  /// Sets another motion of the same robot.
+  ///
+  /// All else stays as it is. The places of bodies that the robot carries are taken anew.
   void set_motion(std::size_t robot, RobotMotion motion);
 
-  /// A body may be attached several times, one after the other.
+  /// Attaches a body to a link. A body may be attached several times, one after the other.
   void attach(Attachment attachment);
 
   /// Thickens a member by a ball: adds to the margin of every pair that it is in.
@@ -107,10 +110,12 @@ class FIRSTCONTACT_API RobotScene {
   /// @param padding  [m]  >= 0
   void set_padding(std::size_t member, double padding);
 
-  /// What is proven free then is so for every motion of the robot whose coordinates stay within the
-  /// errors of the nominal ones: the error's effect on a link adds to the margins of its pairs. Of
-  /// a floating or ball joint the error is one of the child's frame: its angle, and the way of its
-  /// origin. Mimic joints follow theirs, errors included.
+  /// Sets the tracking error of a joint: its effect on a link adds to the margins of the link's
+  /// pairs.
+  ///
+  /// A proof of freedom then holds for every motion of the robot whose coordinates stay within the
+  /// errors of the nominal ones. The error of a floating or ball joint is one of the child's frame:
+  /// its angle, and the way of its origin. Mimic joints follow theirs, errors included.
   void set_tracking_error(std::size_t robot, std::string_view joint, const TrackingError& error);
 
   [[nodiscard]] PairRules& rules() { return rules_; }  ///< By members.
@@ -123,15 +128,15 @@ class FIRSTCONTACT_API RobotScene {
     return members_[member].geometries;
   }
   [[nodiscard]] double padding(std::size_t member) const { return members_[member].padding; }
-  /// None for a body.
+  /// The robot and the link that a member is; none for a body.
   [[nodiscard]] std::optional<RobotLink> robot_link(std::size_t member) const {
     return members_[member].link;
   }
-  /// Whether it is a body that never moves.
+  /// Whether a member is a body that never moves.
   [[nodiscard]] bool rests(std::size_t member) const { return members_[member].rests; }
-  /// Of a body; it holds before the body is attached for the first time.
+  /// The motion that a body was given; it holds before the body is attached for the first time.
   [[nodiscard]] const Motion& body_motion(std::size_t member) const;
-  /// Of a body, in order, without gaps, from 0 to 1.
+  /// The stretches of a body in order, without gaps, from 0 to 1.
   [[nodiscard]] std::span<const BodyStretch> stretches(std::size_t member) const;
 
   [[nodiscard]] std::size_t robot_count() const { return robots_.size(); }
@@ -144,23 +149,27 @@ class FIRSTCONTACT_API RobotScene {
   [[nodiscard]] std::size_t first_member(std::size_t robot) const {
     return robots_[robot].first_member;
   }
-  /// One for each joint of the model; a mimic joint has that of its own times its multiplier.
+  /// The tracking errors of a robot, one for each joint of the model.
+  ///
+  /// A mimic joint has the error of the joint that it follows times its multiplier.
   [[nodiscard]] std::vector<TrackingError> tracking_errors(std::size_t robot) const;
 
-  /// In order of body, then of time.
+  /// All attachments, in order of body, then of time.
   [[nodiscard]] std::span<const Attachment> attachments() const { return attachments_; }
 
   /// [m]  The margin of a pair with both paddings, without tracking errors; none where it is never
   /// tested. A pair with an attached body has one, though it may not be tested all the time.
   [[nodiscard]] std::optional<double> margin(const BodyPair& members) const;
 
-  /// What all checks of the scene share. Of a body: the pieces of its own motion. Of a link: where
-  /// each of its geometries is on the link that moves it, its rigid_root().
+  /// The paths that all checks of the scene share.
+  ///
+  /// A body has the pieces of its own motion. A link has the place of each of its geometries on the
+  /// link that moves it, its rigid_root().
   [[nodiscard]] std::span<const std::shared_ptr<const JointPath>> paths(std::size_t member) const {
     return members_[member].paths;
   }
 
-  /// X_WM(t), rounded to doubles; t is clamped to [0, 1].
+  /// The pose X_WM(t), rounded to doubles; t is clamped to [0, 1].
   [[nodiscard]] Pose pose(std::size_t member, double t) const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Which links touch where the robot rests: pairs that are best left out of a check.
+/// Links that touch where the robot rests: pairs that are best left out of a check.
 
 #pragma once
 
@@ -19,13 +19,16 @@ struct LinkPairIndex {
   friend bool operator==(const LinkPairIndex&, const LinkPairIndex&) = default;
 };
 
-/// The robot at rest in its default configuration: every coordinate 0, or the limit next to it;
-/// floating and ball joints at the identity.
+/// Makes the motion of a robot at rest in its default configuration.
+///
+/// Every coordinate is 0, or the limit next to it; floating and ball joints are at the identity.
 [[nodiscard]] FIRSTCONTACT_API RobotMotion at_rest(const RobotModel& model);
 
-/// All pairs of links whose collision geometries are no farther than `margin` apart at t = 0, in
-/// order of their indices, those of adjacent links included. Solids touch what is inside of them.
-/// Poses are rounded to doubles first: pairs within 1e-12 of the robot's size may go either way.
+/// Finds all pairs of links whose collision geometries are no farther than `margin` apart at t = 0.
+///
+/// They are in order of their indices, those of adjacent links included. Solids touch what is
+/// inside of them. Poses are rounded to doubles first: pairs within 1e-12 of the robot's size may
+/// go either way.
 ///
 /// @param motion  of a robot whose collision shapes are there (LoadShapes)
 /// @param margin  [m]  >= 0

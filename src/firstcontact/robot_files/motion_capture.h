@@ -29,7 +29,7 @@ struct Bone {
 /// One captured pose.
 struct CaptureFrame {
   Eigen::Vector3d root_position = Eigen::Vector3d::Zero();  ///< [m]  In the capture's frame C.
-  /// Of each bone, from its zero rotation; of the root, in C.
+  /// The rotation of each bone from its zero rotation; that of the root in C.
   std::vector<Eigen::Quaterniond> rotations;
 };
 
@@ -41,25 +41,28 @@ struct MotionCapture {
   std::vector<CaptureFrame> frames;
 };
 
-/// How thick a figure is: each bone is a capsule from its origin to each of its ends, a bone
-/// without ends is a sphere.
+/// The thickness of a figure: a bone is a capsule from its origin to each end, one without ends a
+/// sphere.
 struct FigureOptions {
   double slenderness = 0.25;      ///< [-]  Radius by length.
   double least_radius = 0.02;     ///< [m]
   double greatest_radius = 0.09;  ///< [m]
 };
 
-/// A robot whose links are the bones, by name, with capsules and spheres as collision geometry, and
-/// whose joints are balls, named as the bone that they carry.
+/// Makes a robot whose links are the bones of a figure and whose joints are balls.
+///
+/// Links have the names of bones, and capsules and spheres as collision geometry. A joint has the
+/// name of the bone that it carries.
 ///
 /// @throws std::invalid_argument  no bone, a doubled name, a bone that hangs on none before it, an
 ///                                option out of its range
 [[nodiscard]] FIRSTCONTACT_API RobotModel make_figure(const MotionCapture& capture,
                                                       const FigureOptions& options = {});
 
-/// The motion from one frame to a later one, over the step t in [0, 1]: between neighbours, every
-/// bone turns against its parent at a constant angular velocity by the shortest rotation, and the
-/// root's origin goes at a constant velocity.
+/// Makes the motion of a figure from one frame to a later one, over the step t in [0, 1].
+///
+/// Between neighbouring frames every bone turns against its parent at a constant angular velocity
+/// by the shortest rotation. The root's origin goes at a constant velocity.
 ///
 /// @param figure  as make_figure made it from the same bones
 /// @param X_WC    places the capture in the world; captures are often y-up

@@ -15,11 +15,12 @@
 
 namespace firstcontact {
 
-/// What an ASF file says.
+/// The contents of an ASF file.
 struct AsfSkeleton {
   MotionCapture figure;  ///< Without frames and frame time.
-  /// Of each bone, the axes (0, 1, 2 for x, y, z) of the turns that a frame gives, in their order;
-  /// of the root 0 ... 2 for positions, 3 ... 5 for turns.
+  /// The axes of the turns of each bone (0, 1, 2 for x, y, z), in the order of a frame's numbers.
+  ///
+  /// The root has 0 ... 2 for positions, 3 ... 5 for turns.
   std::vector<std::vector<std::size_t>> channels;
   double unit_length = 1.0;  ///< [m]  Of one unit of length in the files.
   bool degrees = true;
@@ -27,14 +28,18 @@ struct AsfSkeleton {
 };
 
 struct AsfOptions {
-  /// [m]  What the file's unit `length` counts in: a number l there means that a coordinate of x is
-  /// x / l of these. Inches, as of the motion capture laboratory of Carnegie Mellon University.
+  /// [m]  The length in which the file's unit `length` counts; an inch by default.
+  ///
+  /// A number l there means that a coordinate of x is x / l of these. Inches are those of the
+  /// motion capture laboratory of Carnegie Mellon University.
   double unit_length = 0.0254;
 };
 
-/// Reads an ASF file. A bone's axis says how its own frame is turned at zero; its turns about x, y
-/// and z are those of its own frame, in the order of `dof`, the first one innermost. Bones without
-/// `dof` are rigid in their parents. Limits and masses are passed over.
+/// Reads an ASF file.
+///
+/// A bone's axis gives the turn of its own frame at zero. Its turns about x, y and z are those of
+/// its own frame, in the order of `dof`, the first one innermost. Bones without `dof` are rigid in
+/// their parents. Limits and masses are passed over.
 ///
 /// @throws ParseError  one line with path, line and what was expected: an axis order other than
 ///         XYZ, a dof other than rx, ry, rz, a bone that is not in the hierarchy, ...
@@ -42,6 +47,8 @@ struct AsfOptions {
 [[nodiscard]] FIRSTCONTACT_API AsfSkeleton read_asf(const std::filesystem::path& path,
                                                     const AsfOptions& options = {});
 
+/// Parses the text of an ASF file, as read_asf() reads it.
+///
 /// @param source  names the text in errors
 [[nodiscard]] FIRSTCONTACT_API AsfSkeleton parse_asf(std::string_view text,
                                                      const std::string& source,

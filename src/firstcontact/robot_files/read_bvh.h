@@ -27,6 +27,8 @@ struct BvhOptions {
 [[nodiscard]] FIRSTCONTACT_API MotionCapture read_bvh(const std::filesystem::path& path,
                                                       const BvhOptions& options = {});
 
+/// Parses the text of a BVH file, as read_bvh() reads it.
+///
 /// @param source  names the text in errors
 [[nodiscard]] FIRSTCONTACT_API MotionCapture parse_bvh(std::string_view text,
                                                        const std::string& source,

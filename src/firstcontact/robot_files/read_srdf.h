@@ -1,5 +1,5 @@
 /// @file
-/// Reads what a robot's maker says about it beside its geometry: SRDF.
+/// Reads SRDF: the groups, states, end effectors and disabled pairs of a robot.
 
 #pragma once
 
@@ -41,6 +41,7 @@ struct EndEffector {
   std::size_t parent_link = 0;
 };
 
+/// The contents of an SRDF file.
 struct RobotSemantics {
   std::string robot;
   std::vector<DisabledPair> disabled;  ///< In order of the indices, each pair once.
@@ -48,9 +49,11 @@ struct RobotSemantics {
   std::vector<GroupState> states;
   std::vector<EndEffector> end_effectors;
 
-  /// What became of the file. Elements that name what the robot does not have, or has fixed, as
-  /// files shared by variants of a robot do, are counted in one warning for each kind. They have no
-  /// effect: none can hide a contact.
+  /// The report on the file.
+  ///
+  /// Elements that name what the robot does not have, or has fixed, are counted in one warning for
+  /// each kind; files shared by variants of a robot hold such elements. They have no effect: none
+  /// can hide a contact.
   FileReport report;
   std::vector<std::string> warnings;  ///< Those of the report.
 
@@ -71,6 +74,8 @@ struct RobotSemantics {
                                                         const RobotModel& robot,
                                                         const ReadingOptions& options = {});
 
+/// Parses the text of an SRDF file, as read_srdf() reads it.
+///
 /// @param source  names the text in errors
 [[nodiscard]] FIRSTCONTACT_API RobotSemantics parse_srdf(std::string_view text,
                                                          const std::string& source,

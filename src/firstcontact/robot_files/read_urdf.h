@@ -15,14 +15,14 @@
 
 namespace firstcontact {
 
-/// Which shapes are made while reading; the others stay descriptions.
+/// The shapes that are made while reading; the others stay descriptions.
 enum class LoadShapes {
   none,
   collision,  ///< Of what can touch.
   all,
 };
 
-/// What of a robot can touch.
+/// The geometry of a robot that can touch.
 enum class RobotSurface {
   collision,
   visual,
@@ -42,7 +42,7 @@ struct UrdfOptions {
   ReadingOptions reading = {};
 };
 
-/// A robot and what became of its files.
+/// A robot and the reports on its files.
 struct RobotReading {
   RobotModel model;
   std::vector<FileReport> files;  ///< The URDF, then its meshes in the order of their first use.
@@ -53,7 +53,7 @@ struct RobotReading {
 /// Beyond URDF 1.2: joints of type `screw` (with an attribute `pitch` [m/rad] of the joint) and
 /// `ball` or `spherical`, and Drake's `<drake:capsule>` and `<drake:mimic>`.
 ///
-/// What says nothing of contacts is left out by name: looks, settings of simulators and
+/// Elements that do not matter for contacts are left out by name: looks, settings of simulators and
 /// controllers, sensors, elements and attributes with a prefix, an `<inertial>` that is wrong
 /// (LinkInertia::defect). A name that is not known is an error where it is near a known one, holds
 /// or places geometry, or is xacro's; elsewhere it is a warning. docs/robot_files.md has the table.
@@ -65,6 +65,8 @@ struct RobotReading {
 [[nodiscard]] FIRSTCONTACT_API RobotReading read_robot(const std::filesystem::path& path,
                                                        const UrdfOptions& options = {});
 
+/// Parses the text of a URDF file, as read_robot() reads it.
+///
 /// @param source  names the text in errors; mesh paths are relative to its folder
 [[nodiscard]] FIRSTCONTACT_API RobotReading parse_robot(std::string_view text,
                                                         const std::filesystem::path& source,

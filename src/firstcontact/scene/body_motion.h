@@ -1,5 +1,5 @@
 /// @file
-/// How a body moves, as a scene says it.
+/// The motions that a scene can give to a body.
 
 #pragma once
 
@@ -14,18 +14,19 @@
 
 namespace firstcontact {
 
+/// A body at rest.
 struct FixedMotion {
   Pose pose;
 };
 
-/// Over the whole duration of the scene.
+/// A motion at constant velocity over the whole duration of the scene.
 struct ConstantVelocityMotion {
   Pose from;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();      ///< [m]    world frame
   Eigen::Vector3d rotation_vector = Eigen::Vector3d::Zero();  ///< [rad]  world frame
 };
 
-/// Over the whole duration of the scene.
+/// A rotation about one axis and a translation along it, over the whole duration of the scene.
 struct ScrewMotion {
   Pose from;
   Eigen::Vector3d axis_point = Eigen::Vector3d::Zero();       ///< [m]  world frame
@@ -34,22 +35,23 @@ struct ScrewMotion {
   double translation = 0.0;                                   ///< [m]  along the axis
 };
 
-/// From one pose to another over the whole duration of the scene, by the shortest rotation.
+/// A motion from one pose to another over the whole duration of the scene, by the shortest
+/// rotation.
 struct TwoPoseMotion {
   Pose from;
   Pose to;
   Between between = Between::constant_velocity;
 };
 
-/// At rest before the first and after the last time.
+/// A motion through poses at times, at rest before the first and after the last time.
 struct WaypointMotion {
   std::vector<double> times;  ///< [s]  >= 0, strictly increasing, as many as poses
   std::vector<Pose> poses;
   Between between = Between::constant_velocity;
 };
 
-/// Every vertex of a mesh moves on a line over the whole duration of the scene, from its
-/// coordinates.
+/// A motion of every vertex of a mesh on a line, from its coordinates, over the whole duration of
+/// the scene.
 struct VertexMotion {
   std::vector<Eigen::Vector3d> to;  ///< [m]  World frame; as many as the mesh has vertices.
 };
@@ -57,7 +59,7 @@ struct VertexMotion {
 using BodyMotion = std::variant<FixedMotion, ConstantVelocityMotion, ScrewMotion, TwoPoseMotion,
                                 WaypointMotion, VertexMotion>;
 
-/// Whether it takes the whole duration of the scene, however long that is, to run.
+/// Whether a motion takes the whole duration of the scene, however long that is, to run.
 [[nodiscard]] FIRSTCONTACT_API bool spans_duration(const BodyMotion& motion);
 
 /// The certified motion of a body's frame over the scene, t = time / duration in [0, 1]. Where

@@ -1,5 +1,5 @@
 /// @file
-/// What a body is made of, as a scene says it.
+/// The shapes that a scene can give to a body.
 
 #pragma once
 
@@ -18,67 +18,70 @@ namespace firstcontact {
 
 /// A mesh that lies in a file of its own.
 struct MeshFile {
-  /// As opened: relative to the working directory, or absolute; never to the scene's folder.
+  /// The path as opened: relative to the working directory, or absolute; never to the scene's
+  /// folder.
   std::filesystem::path path;
   double scale = 1.0;  ///< [-]  Multiplies every coordinate; > 0.
 };
 
-/// make_sphere
+/// A sphere, with the parameters of make_sphere().
 struct SphereShape {
   double radius = 0.0;  ///< [m]
 };
 
-/// make_capsule
+/// A capsule, with the parameters of make_capsule().
 struct CapsuleShape {
   double radius = 0.0;  ///< [m]
   double length = 0.0;  ///< [m]  Of the segment along z, without the caps.
 };
 
-/// make_box
+/// A box, with the parameters of make_box().
 struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< [m]
 };
 
-/// make_cylinder
+/// A cylinder, with the parameters of make_cylinder().
 struct CylinderShape {
   double radius = 0.0;                    ///< [m]
   double length = 0.0;                    ///< [m]  Along z.
   std::optional<double> enclosure_error;  ///< [m]
 };
 
-/// make_cone
+/// A cone, with the parameters of make_cone().
 struct ConeShape {
   double radius = 0.0;                    ///< [m]  Of the base.
   double length = 0.0;                    ///< [m]  Along z, from base to tip.
   std::optional<double> enclosure_error;  ///< [m]
 };
 
-/// make_convex_hull
+/// The convex hull of points or of a mesh in a file, as make_convex_hull() makes it.
 struct ConvexHullShape {
   std::variant<MeshFile, std::vector<Eigen::Vector3d>> of;  ///< [m]
 };
 
-/// make_point_cloud of a file
+/// A point cloud in a file of its own, as make_point_cloud() makes it.
 struct PointFile {
   std::filesystem::path path;  ///< As MeshFile::path.
   double scale = 1.0;          ///< [-]  Multiplies every coordinate; > 0.
 };
 
-/// make_point_cloud
+/// A point cloud of given points, as make_point_cloud() makes it.
 struct PointCloud {
   std::vector<Eigen::Vector3d> points;  ///< [m]
 };
 
-/// make_height_map of a file
+/// A height map in a file of its own, as make_height_map() makes it.
 struct HeightFile {
   std::filesystem::path path;                      ///< As MeshFile::path.
   Eigen::Vector2d cell = Eigen::Vector2d::Ones();  ///< [m]
 };
 
-/// What a body is made of, in the body frame.
+/// The shape of a body, in the body frame.
 struct BodyShape {
+  /// The source of the shape.
+  ///
   /// A Mesh holds what its scene writes inline, not welded. A Shape is ready, with a radius and a
-  /// filling of its own; no file says so, it is written as its mesh.
+  /// filling of its own; no file holds one, and it is written as its mesh.
   std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
                ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
       source;

@@ -18,14 +18,18 @@ namespace firstcontact {
 
 struct CheckOptions {
   bool all_pairs = false;  ///< The answer of every pair over the whole step.
-  /// The closest approach. Of bodies so too, with that of each pair. Of scenes with robots that of
-  /// all pairs, and of each only with all_pairs or all_contacts_in_time.
+  /// The closest approach.
+  ///
+  /// In scenes of bodies: also the answer of every pair over the whole step, with the closest
+  /// approach of each. In scenes with robots: that of all pairs, and of each only with all_pairs or
+  /// all_contacts_in_time.
   bool closest = false;
-  /// So too, with every interval of contact of each; of scenes with robots.
+  /// The answer of every pair over the whole step, with every interval of contact; for scenes with
+  /// robots.
   bool all_contacts_in_time = false;
   int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
   std::stop_token stop = {};  ///< Ends the check with what is proven so far.
-  /// As ManyBodiesOptions::progress.
+  /// Called with the part that is done, as ManyBodiesOptions::progress.
   std::function<void(double done)> progress = {};
 };
 
@@ -39,10 +43,10 @@ struct SceneResult {
                                   ///<      infinite where no pair is tested.
   double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
 
-  /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
-  /// free.
+  /// The index into `pairs` of the pair that decides `t`: the earliest, ties by their order. None
+  /// when free.
   std::optional<std::size_t> first;
-  /// Index into `pairs` of the one that comes closest, where that was asked.
+  /// The index into `pairs` of the pair that comes closest, where that was asked.
   std::optional<std::size_t> closest;
   /// Every tested pair where that was asked, else those that decide `t`; by the order of bodies.
   std::vector<PairAnswer> pairs;
@@ -52,7 +56,7 @@ struct SceneResult {
   std::optional<RobotCheckResult> robots = {};
 };
 
-/// [m]  What is proven of a pair's distance before its `t`.
+/// [m]  The proven lower bound of a pair's distance before its `t`.
 [[nodiscard]] FIRSTCONTACT_API double proven_clearance(const RobotPairAnswer& pair);
 
 /// Answers a scene by the first contact of its bodies and robots, or by that of every pair over the
@@ -67,8 +71,8 @@ struct SceneResult {
                                                        ManyBodiesWorkspace& workspace,
                                                        const CheckOptions& options = {});
 
-/// What a user should know of the answer: what loading warns of, that no pair is tested, and that
-/// free bodies rest in it.
+/// The warnings that an answer needs: those of loading, that no pair is tested, that free bodies
+/// rest in it.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::string> check_warnings(const LoadedScene& loaded);
 
 }  // namespace firstcontact

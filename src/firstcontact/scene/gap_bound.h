@@ -21,11 +21,12 @@ struct GapPoint {
   double distance = 0.0;  ///< [m]
 };
 
-/// [m per step]  No distance of two bodies of the set changes faster: the sum of the two greatest
-/// speeds of any of their points.
+/// [m per step]  A bound of the rate at which any distance of two bodies of the set changes.
+///
+/// It is the sum of the two greatest speeds of any of their points.
 [[nodiscard]] FIRSTCONTACT_API double greatest_gap_rate(const BodySet& bodies);
 
-/// Proven: the gap of the scene is at no time below this polyline.
+/// Bounds the gap of the scene by a polyline: proven, at no time is the gap below it.
 ///
 /// Around each sample the gap is at least its lower bound less the greatest rate times the time
 /// between (a Lipschitz bound), and before the result's t at least its clearance. Samples that

@@ -36,12 +36,14 @@ struct LinksAsBodies {
       {};  ///< Of each robot; links have the mass that a density gives.
 };
 
+/// Makes the pieces of links bodies of the scene.
+///
 /// @param loaded  with a simulation
 /// @throws std::invalid_argument  names the robot: it carries a body or has a tracking error, or
 ///         links to which a density is given are not closed
 [[nodiscard]] FIRSTCONTACT_API LinksAsBodies links_as_bodies(const LoadedScene& loaded);
 
-/// What the bodies of a scene are called then.
+/// The names of a scene's bodies, with the pieces of links that are bodies then.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::string> names_with_links(const Scene& scene);
 
 }  // namespace firstcontact

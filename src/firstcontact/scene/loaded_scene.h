@@ -26,7 +26,7 @@ struct SceneLimits {
   std::vector<LimitViolation> violations;
 };
 
-/// "arm: joint "elbow" leaves its upper limit of 2 rad by 0.1 rad at 1.5 s".
+/// Describes a violation: "arm: joint "elbow" leaves its upper limit of 2 rad by 0.1 rad at 1.5 s".
 ///
 /// @param duration  [s]  of the scene
 [[nodiscard]] FIRSTCONTACT_API std::string describe(const SceneRobot& robot,
@@ -38,7 +38,7 @@ struct LoadedScene {
   Scene scene;
   BodySet bodies;  ///< In the scene's order; t = time / duration. Empty where there are robots.
   std::string input_digest;  ///< SHA-256 over the digests of the scene's text and its files.
-  /// Of a scene with robots; its members are numbered as those of the scene.
+  /// The bodies and robots of a scene with robots; members are numbered as those of the scene.
   std::shared_ptr<const RobotScene> robots = {};
   std::vector<SceneLimits> limits = {};    ///< Of robots that leave any.
   std::vector<std::string> warnings = {};  ///< What a user should know; limits among it.
@@ -46,7 +46,7 @@ struct LoadedScene {
   PairCounts pair_counts = {};             ///< Of a check; see also LinksAsBodies.
 };
 
-/// What `--strict` asks for.
+/// Refuses a scene in which a robot leaves a limit, as `--strict` does.
 ///
 /// @throws std::invalid_argument  names the first limit that a robot leaves, where one does
 FIRSTCONTACT_API void require_within_limits(const LoadedScene& loaded);

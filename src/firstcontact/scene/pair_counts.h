@@ -1,5 +1,5 @@
 /// @file
-/// Which pairs of a scene an answer is about: how many are looked at, and which are not.
+/// The pairs of a scene that an answer is about: how many are looked at, and which are not.
 
 #pragma once
 
@@ -15,8 +15,10 @@ namespace firstcontact {
 
 struct LoadedScene;
 
-/// Why a pair is not looked at. The first five are what a scene and its robots say: the pair is
-/// ignored. The others come of the kind of question: the pair is left out.
+/// The reason why a pair is not looked at.
+///
+/// The first five come from the scene and its robots: the pair is ignored. The others come from the
+/// kind of question: the pair is left out.
 enum class WhyUntested {
   joined_links,        ///< Links of one robot that a joint or fixed joints connect.
   srdf,                ///< The robot's SRDF disables the pair.
@@ -38,8 +40,10 @@ struct UntestedPairs {
   std::vector<std::array<std::string, 2>> first = {};  ///< Names of the first few.
 };
 
-/// What can touch are the bodies and those links of robots that have geometry. Of n of them there
-/// are n (n - 1) / 2 pairs: each is tested, or is among the untested ones of one reason.
+/// The counts of the pairs of a scene: each is tested, or is among the untested ones of one reason.
+///
+/// Members here are the bodies and those links of robots that have geometry.
+/// There are n (n - 1) / 2 pairs of n members.
 struct PairCounts {
   std::size_t members = 0;  ///< What can touch.
   std::size_t tested = 0;
@@ -52,24 +56,27 @@ struct PairCounts {
 /// Whether pairs of this kind are ignored, or else left out.
 [[nodiscard]] FIRSTCONTACT_API bool is_ignored(WhyUntested why);
 
-/// Counts the pairs that a check of the scene tests. Takes O(n + rules), and O(m n) where m links
-/// of robots are among the n members.
+/// Counts the pairs that a check of the scene tests.
+///
+/// Takes O(n + rules), and O(m n) where m links of robots are among the n members.
 [[nodiscard]] FIRSTCONTACT_API PairCounts count_checked_pairs(const LoadedScene& loaded);
 
-/// Counts the pairs that a simulation of the scene holds apart and that verify_run() proves: those
-/// with a free body or a link of a robot with dynamics. As count_checked_pairs.
+/// Counts the pairs that a simulation of the scene holds apart and that verify_run() proves.
+///
+/// They are those with a free body or a link of a robot with dynamics. The cost is that of
+/// count_checked_pairs().
 [[nodiscard]] FIRSTCONTACT_API PairCounts count_simulated_pairs(const LoadedScene& loaded);
 
-/// "3 pairs", "no pair"
+/// A number of pairs in words: "3 pairs", "no pair".
 [[nodiscard]] FIRSTCONTACT_API std::string pairs_text(std::size_t count);
 
-/// "2 by the scene's rules: a and b, a and c"
+/// Describes untested pairs: "2 by the scene's rules: a and b, a and c".
 [[nodiscard]] FIRSTCONTACT_API std::string describe(const UntestedPairs& pairs);
 
-/// What to warn of where no pair is tested; empty where any is.
+/// The warning where no pair is tested; empty where any is.
 [[nodiscard]] FIRSTCONTACT_API std::string no_pair_warning(const PairCounts& counts);
 
-/// The word of result files, such as "both_scripted".
+/// The word of a reason in result files, such as "both_scripted".
 [[nodiscard]] FIRSTCONTACT_API const char* word(WhyUntested why);
 
 }  // namespace firstcontact

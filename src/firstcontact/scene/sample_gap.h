@@ -23,7 +23,7 @@ struct GapSample {
   bool contact = false;      ///< A pair is no farther apart than its margin.
 };
 
-/// The gap at each of the times. Proves nothing about the times between them.
+/// Samples the gap at each of the times. Proves nothing about the times between them.
 ///
 /// @param times  [-]  each in [0, 1]
 /// @param stop   ends the sampling early, with fewer samples
@@ -33,10 +33,11 @@ struct GapSample {
                                                                  Workspace& workspace,
                                                                  const std::stop_token& stop = {});
 
-/// `count` times from 0 to 1 at equal distances; at least 2.
+/// Makes `count` times from 0 to 1 at equal distances; at least 2.
 [[nodiscard]] FIRSTCONTACT_API std::vector<double> even_times(std::size_t count);
 
-/// The times at which a program would look that tests `rate` times a second, from the start on.
+/// Makes the times at which a program would test that tests `rate` times a second, from the start
+/// on.
 ///
 /// @param rate      [1/s]  > 0
 /// @param duration  [s]    > 0

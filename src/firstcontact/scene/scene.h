@@ -26,12 +26,15 @@ struct Body {
   std::string name;  ///< Unique in the scene, not empty.
   BodyShape shape;
   BodyMotion motion;
-  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else as its motion says.
+  std::optional<FreeBody> free = {};  ///< In a simulation it moves freely; else by its motion.
   Surface surface = {};
 };
 
-/// What can touch is a member of the scene, numbered in this order: its bodies, then the links of
-/// its first robot, of its second, and so on. Rules for pairs go by members.
+/// The margin of one pair of members.
+///
+/// A member of the scene is anything that can touch. Members are numbered in this order: its
+/// bodies, then the links of its first robot, of its second, and so on. Rules for pairs go by
+/// members.
 struct PairMargin {
   BodyPair bodies;
   double margin = 0.0;  ///< [m]  In place of the scene's margin; >= 0.
@@ -42,7 +45,7 @@ struct BodyGroup {
   std::vector<std::size_t> bodies;  ///< Members.
 };
 
-/// Two groups by their index: every body of one with every body of the other; one group twice: all
+/// Two groups by their index: every body of one with every body of the other. One group twice: all
 /// pairs inside it.
 using GroupPair = std::array<std::size_t, 2>;
 
@@ -51,7 +54,7 @@ struct GroupMargin {
   double margin = 0.0;  ///< [m]  In place of the scene's margin; >= 0.
 };
 
-/// What is asked; the same words as in FirstContactOptions.
+/// The options of a query about the scene, in the words of FirstContactOptions.
 struct SceneOptions {
   double tolerance = 1e-6;  ///< [m]  > 0
   double margin = 0.0;      ///< [m]  >= 0

@@ -1,5 +1,5 @@
 /// @file
-/// A robot of a scene, as the scene says it.
+/// A robot of a scene, with its files, its motion and what it carries.
 
 #pragma once
 
@@ -37,11 +37,12 @@ struct SceneAttachment {
   double from_time = 0.0;                     ///< [s]
   std::optional<double> to_time = {};         ///< [s]  The end of the scene where there is none.
   std::vector<std::size_t> touch_links = {};  ///< Of the robot.
-  /// In the link, from the start on: from_time is 0. As it is at from_time where there is none.
+  /// The body's pose in the link from the start on, with from_time 0; without it, as it is at
+  /// from_time.
   std::optional<Pose> pose = {};
 };
 
-/// A robot, read and resolved. What is not said of a link or joint is 0.
+/// A robot, read and resolved. A value that is not given for a link or joint is 0.
 struct SceneRobot {
   std::string name;  ///< Unique in the scene, bodies and groups included; not empty.
   RobotFile file;
@@ -54,7 +55,7 @@ struct SceneRobot {
   std::vector<SceneAttachment> attached = {};
   std::map<std::size_t, double> padding = {};                ///< [m]  By link; >= 0.
   std::map<std::size_t, TrackingError> tracking_error = {};  ///< By joint.
-  /// In a simulation it moves under forces; else as its trajectory says.
+  /// The dynamics of the robot in a simulation; without them it follows its trajectory.
   std::optional<RobotDynamics> dynamics = {};
   std::string srdf_digest = {};  ///< SHA-256 of the SRDF; may be empty.
 };
@@ -78,7 +79,7 @@ struct SceneRobot {
 /// @param error  [rad or m]
 [[nodiscard]] FIRSTCONTACT_API TrackingError joint_error(const Joint& joint, double error);
 
-/// The same of every joint that moves by itself.
+/// The errors of all joints that move by themselves, each as joint_error() gives it.
 [[nodiscard]] FIRSTCONTACT_API std::map<std::size_t, TrackingError> joint_errors(
     const RobotModel& model, double error);
 

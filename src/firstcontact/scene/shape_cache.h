@@ -38,19 +38,23 @@ struct CachedRobot {
   std::shared_ptr<const std::vector<FileReport>> files = {};  ///< As RobotReading::files.
 };
 
-/// Makes each shape once, with its hierarchy, but for what a scene writes inline. A file that
-/// changes after it was loaded is not read again. Thread-safe: whoever asks for a shape that
-/// another thread is making waits for it; different shapes are made side by side.
+/// A cache that makes each shape once, with its hierarchy, but for what a scene writes inline.
+///
+/// A file that changes after it was loaded is not read again. Thread-safe: a thread that needs a
+/// shape that another thread is making waits for it; different shapes are made side by side.
 class FIRSTCONTACT_API ShapeCache {
  public:
-  /// The shape that a scene describes. Coordinates of files are scaled in double precision;
-  /// certificates hold for the rounded products.
+  /// Makes or finds the shape that a scene describes.
+  ///
+  /// Coordinates of files are scaled in double precision; certificates hold for the rounded
+  /// products.
   ///
   /// @throws ParseError as read_mesh, and where no shape can be made of what was read;
   ///         std::invalid_argument if a number is out of its range, or an inline solid not closed
   CachedShape load(const BodyShape& shape, const ReadingOptions& options = {});
 
-  /// A robot of a file, whose collision geometries are those of the surface that was asked for.
+  /// Reads or finds a robot of a file, whose collision geometries are those of the surface that was
+  /// asked for.
   ///
   /// @throws ParseError as read_urdf, and where the surface has no geometry at all
   CachedRobot load(const RobotFile& file, const ReadingOptions& options = {});
@@ -81,7 +85,7 @@ class FIRSTCONTACT_API ShapeCache {
   std::mutex mutex_;  // Of the maps; their entries stay where they are.
   std::map<Key, Entry> shapes_;
   std::map<RobotKey, RobotEntry> robots_;
-  /// By the place of the shape's hierarchy; of shapes that the cache holds.
+  /// The answers by the place of the shape's hierarchy; of shapes that the cache holds.
   std::map<const Hierarchy*, bool> encloses_space_;
 };
 

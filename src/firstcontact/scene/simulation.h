@@ -1,5 +1,5 @@
 /// @file
-/// What a scene says beyond motion, for its bodies to move under forces.
+/// The part of a scene, beyond motion, that lets its bodies move under forces.
 
 #pragma once
 
@@ -24,8 +24,10 @@ struct TimedForce {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m] World axes.
 };
 
-/// A body that forces and contacts move. Its motion in the scene is fixed: the pose that it starts
-/// from. Of density and mass at most one is given; with neither the density is 1000 kg/m^3.
+/// A body that forces and contacts move.
+///
+/// Its motion in the scene is fixed: the pose that it starts from. At most one of density and mass
+/// is given; with neither the density is 1000 kg/m^3.
 struct FreeBody {
   std::optional<double> density;                  ///< [kg/m^3]  > 0; of the solid it encloses.
   std::optional<double> mass;                     ///< [kg]  > 0
@@ -39,18 +41,19 @@ struct FreeBody {
   std::vector<TimedForce> forces;
 };
 
-/// How a surface meets others; the scene's where nothing is said.
+/// The friction and the restitution of a surface; those of the scene where none is given.
 struct Surface {
   std::optional<double> friction;     ///< [-]  Coulomb's coefficient, >= 0.
   std::optional<double> restitution;  ///< [-]  Newton's, in [0, 1].
 };
 
+/// A number at a time.
 struct TimedNumber {
   double time = 0.0;  ///< [s]
   double number = 0.0;
 };
 
-/// What drives a joint, at most with its effort.
+/// A motor that drives a joint, at most with its effort.
 struct JointMotor {
   enum class Kind {
     position,  ///< Towards a position; a spring and a damper where a stiffness is given.
@@ -58,8 +61,10 @@ struct JointMotor {
     torque,    ///< By a torque, or a force along a slide.
   };
   Kind kind = Kind::position;
-  /// [rad, rad/s, N m; or m, m/s, N]  Linear between its times, which increase, constant before and
-  /// after. Empty for positions: those of the robot's trajectory.
+  /// [rad, rad/s, N m; or m, m/s, N]  The target over time; empty for the positions of the robot's
+  /// trajectory.
+  ///
+  /// It is linear between its times, which increase, and constant before and after.
   std::vector<TimedNumber> target = {};
   std::optional<double> stiffness = {};  ///< [N m/rad or N/m]  > 0; none: there within a step.
   double damping = 0.0;                  ///< [N m s/rad or N s/m]  >= 0; with a stiffness.
@@ -77,22 +82,25 @@ struct RobotDynamics {
   Surface surface = {};                ///< Of all links.
 };
 
-/// Of one pair of bodies, in place of what their surfaces give.
+/// The surface of one pair of bodies, in place of what their surfaces give.
 struct PairSurface {
   BodyPair bodies;
   Surface surface;
 };
 
-/// How a scene is simulated. A pair of bodies has the geometric mean of their frictions and the
-/// greater of their restitutions.
+/// The settings of a simulation.
+///
+/// A pair of bodies has the geometric mean of their frictions and the greater of their
+/// restitutions.
 struct Simulation {
   double duration = 1.0;                        ///< [s]  > 0
   double step = 1.0 / 240.0;                    ///< [s]  > 0
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]
   double friction = 0.5;                        ///< [-]  >= 0
   double restitution = 0.0;                     ///< [-]  In [0, 1].
-  /// [m]  > 0  Bodies that touch rest at this distance to one and a half of it; by default 1e-3 of
-  /// the radius of the smallest free body.
+  /// [m]  > 0  The distance at which bodies that touch rest, up to one and a half of it.
+  ///
+  /// The default is 1e-3 of the radius of the smallest free body.
   std::optional<double> contact_distance;
   std::size_t events = 1000;  ///< > 0  In a step; past them the step ends early.
   std::vector<PairSurface> pairs;

@@ -1,5 +1,5 @@
 /// @file
-/// What a robot is told to do, in seconds, and the joint motions over a scene that follow from it.
+/// The trajectory of a robot, in seconds, and the joint motions over a scene that follow from it.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace firstcontact {
 
-/// Where the joints are at one time. Numbers are in the order of the trajectory's joint names.
+/// The state of the joints at one time. Numbers are in the order of the trajectory's joint names.
 struct TrajectoryPoint {
   double time = 0.0;                       ///< [s]
   std::vector<double> positions = {};      ///< [rad or m]
@@ -25,15 +25,17 @@ struct TrajectoryPoint {
   std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  So too; not without velocities.
 };
 
-/// Positions at times; between them linear, cubic where there are velocities, quintic where there
-/// are accelerations too. The robot rests before the first time and after the last.
+/// Positions at times: linear between them, cubic with velocities, quintic with accelerations too.
+///
+/// The robot rests before the first time and after the last.
 ///
 /// A planar joint has three names: NAME/x, NAME/y [m], NAME/theta [rad].
 struct Trajectory {
   std::vector<std::string> joint_names;  ///< Each once.
   std::vector<TrajectoryPoint> points;  ///< At least one. Times >= 0, strictly increasing; all have
                                         ///< velocities (accelerations), or none has.
-  /// Of continuous joints and the angles of planar ones between the points; see takes_short_way.
+  /// The way of continuous joints and of angles of planar ones between points; see
+  /// takes_short_way().
   Turning turning = Turning::as_given;
   std::vector<std::string> warnings = {};  ///< What a user should know of the file that was read.
 };
@@ -49,38 +51,40 @@ struct JointCoordinate {
   friend auto operator<=>(const JointCoordinate&, const JointCoordinate&) = default;
 };
 
-/// The coordinate that a trajectory calls `name`.
+/// Finds the coordinate that a trajectory calls `name`.
 ///
 /// @throws std::invalid_argument if the robot has none of this name (with the nearest that it has),
 ///         or it cannot follow a trajectory: fixed, floating and ball joints
 [[nodiscard]] FIRSTCONTACT_API JointCoordinate find_coordinate(const RobotModel& robot,
                                                                std::string_view name);
 
-/// The same; none where find_coordinate throws.
+/// Finds the coordinate that a trajectory calls `name`; none where find_coordinate() throws.
 [[nodiscard]] FIRSTCONTACT_API std::optional<JointCoordinate> known_coordinate(
     const RobotModel& robot, std::string_view name);
 
-/// What trajectories call a coordinate.
+/// The name of a coordinate in trajectories.
 [[nodiscard]] FIRSTCONTACT_API std::string coordinate_name(const RobotModel& robot,
                                                            const JointCoordinate& coordinate);
 
-/// Whether a position of this name says nothing, as the joint is fixed.
+/// Whether a position of this name has no effect, as the joint is fixed.
 [[nodiscard]] FIRSTCONTACT_API bool names_fixed_joint(const RobotModel& robot,
                                                       std::string_view name);
 
-/// Whether a coordinate goes the short way where a trajectory asks for Turning::shortest, as MoveIt
-/// interpolates: a continuous joint, or the angle of a planar one. Not where a joint mimics it and
-/// shows whole turns, sliding or by a multiplier that is no integer: its positions at the points
-/// hold for the way as given alone.
+/// Whether a coordinate goes the short way where a trajectory has Turning::shortest, as MoveIt
+/// interpolates.
+///
+/// A continuous joint does, and the angle of a planar one. It does not where a joint mimics it and
+/// shows whole turns, sliding or by a multiplier that is no integer: the positions of that joint at
+/// the points hold for the way as given alone.
 [[nodiscard]] FIRSTCONTACT_API bool takes_short_way(const RobotModel& robot,
                                                     const JointCoordinate& coordinate);
 
-/// Where a coordinate is that nothing else is said of: at 0, or at its limit next to it.
+/// The position of a coordinate that nothing else states: 0, or the limit next to it.
 ///
 /// @returns  [rad or m]
 [[nodiscard]] FIRSTCONTACT_API double default_position(const Joint& joint);
 
-/// Which way a continuous joint, or the angle of a planar one, went along a trajectory.
+/// The way that a continuous joint, or the angle of a planar one, went along a trajectory.
 struct JointTurn {
   std::string joint;  ///< As trajectories name the coordinate.
   double from = 0.0;  ///< [rad]  The numbers of the first and the last point.
@@ -91,19 +95,21 @@ struct JointTurn {
   bool differs = false;
 };
 
-/// Of all such joints that the trajectory names and that move, in its order.
+/// The turns of all such joints that the trajectory names and that move, in its order.
 ///
 /// @throws std::invalid_argument if the robot does not have a joint
 [[nodiscard]] FIRSTCONTACT_API std::vector<JointTurn> joint_turns(const RobotModel& robot,
                                                                   const Trajectory& trajectory);
 
-/// "long" or "short".
+/// The word of a way to turn: "long" or "short".
 [[nodiscard]] FIRSTCONTACT_API const char* to_string(Turning turning);
 
+/// The way to turn that a word names.
+///
 /// @throws std::invalid_argument  names both words
 [[nodiscard]] FIRSTCONTACT_API Turning turning_of(std::string_view word);
 
-/// The joint motions of a robot over a scene, and what nobody said.
+/// The joint motions of a robot over a scene, and the coordinates at default positions.
 struct TrajectoryMotion {
   std::map<std::string, JointMotion> joints;  ///< As RobotMotion takes them.
   /// The coordinates that neither the trajectory nor the given positions name; they rest at their
@@ -111,12 +117,14 @@ struct TrajectoryMotion {
   std::vector<std::string> at_default;
 };
 
-/// Joint motions over step time t = time / duration. Quotients of times, and velocities and
-/// accelerations per step, are rounded to doubles; certificates hold for the rounded numbers.
+/// Makes joint motions over step time t = time / duration.
 ///
-/// Coordinates that the trajectory does not name rest: at `held`, else at default_position. A joint
-/// that mimics another may be named as long as it says the same, to 1e-6 (what six digits leave);
-/// it follows the other exactly. Floating and ball joints rest at the identity.
+/// Quotients of times, and velocities and accelerations per step, are rounded to doubles;
+/// certificates hold for the rounded numbers.
+///
+/// Coordinates that the trajectory does not name rest: at `held`, else at default_position(). A
+/// joint that mimics another may be named as long as its positions agree, to 1e-6 (what six digits
+/// leave); it follows the other exactly. Floating and ball joints rest at the identity.
 ///
 /// @param held      where coordinates rest that the trajectory does not name
 /// @param duration  [s]  > 0, at least the last time

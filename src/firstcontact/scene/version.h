@@ -1,5 +1,5 @@
 /// @file
-/// Which version of the library this is.
+/// The version of the library.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace firstcontact {
 
-/// "major.minor.patch"
+/// The version of the library: "major.minor.patch".
 [[nodiscard]] FIRSTCONTACT_API const char* version();
 
 }  // namespace firstcontact

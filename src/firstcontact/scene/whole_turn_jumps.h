@@ -38,9 +38,10 @@ struct WholeTurnJump {
 [[nodiscard]] FIRSTCONTACT_API std::vector<WholeTurnJump> whole_turn_jumps(
     const RobotModel& robot, const Trajectory& trajectory);
 
-/// The trajectory with whole turns added to its angles, rounded to doubles, so that no step between
-/// neighbouring points is of more than half a turn. Of the joints that wrap, and of joints that
-/// turn and mimic others.
+/// Adds whole turns to angles of a trajectory, so that no step between points exceeds half a turn.
+///
+/// The sums are rounded to doubles. The angles are those of the joints that wrap, and of joints
+/// that turn and mimic others.
 ///
 /// @throws std::invalid_argument if the robot does not have a joint
 [[nodiscard]] FIRSTCONTACT_API Trajectory unwrapped(const RobotModel& robot, Trajectory trajectory);

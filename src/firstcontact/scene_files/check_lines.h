@@ -28,7 +28,7 @@ struct CheckLinesOptions {
   std::function<void(SceneOptions&)> adjust = {};
 };
 
-/// What became of one line.
+/// The outcome of one line.
 struct LineAnswer {
   std::size_t line = 0;            ///< The number of the line.
   std::string text;                ///< The result, or an error in its place, as one line of JSON.

@@ -1,5 +1,5 @@
 /// @file
-/// Reads back what a result says.
+/// Reads back the contents of a result.
 
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace firstcontact {
 
-/// What a batch has to know of a result that is there already.
+/// The facts that a batch has to know of a result that is there already.
 struct ResultSummary {
   std::optional<Verdict> verdict;   ///< None where an error stands in place of one.
-  std::optional<std::size_t> line;  ///< Of the jobs, the first being 1; none where it says none.
+  std::optional<std::size_t> line;  ///< Of the jobs, the first being 1; none where it has none.
 };
 
-/// Reads what a batch has to know of a result.
+/// Reads the facts that a batch has to know of a result.
 ///
 /// @param result  one JSON object, as write_result and write_error write it
 /// @param source  the file that it is from, named in errors
@@ -30,7 +30,7 @@ struct ResultSummary {
                                                           const std::filesystem::path& source,
                                                           std::size_t line = 1);
 
-/// A result as far as a page that plays it has to know it.
+/// The facts that a page has to know of a result that it plays.
 struct StoredResult {
   Scene scene;             ///< Its paths are as they were opened, not relative to the result's.
   double t = 0.0;          ///< [-]  Before this the scene is proven free.

@@ -28,7 +28,8 @@ class FIRSTCONTACT_API SceneLines {
   /// @throws ParseError if the file cannot be read
   [[nodiscard]] std::optional<SceneLine> next();
 
-  /// Of all lines up to here, in hexadecimal: each line's SHA-256 begins with the one before.
+  /// The digest of all lines up to here, in hexadecimal: each line's SHA-256 begins with the one
+  /// before.
   [[nodiscard]] const std::string& digest() const { return digest_; }
 
  private:

@@ -19,7 +19,7 @@ namespace firstcontact {
 struct LoadedScene;
 struct SceneResult;
 
-/// What sampling at a rate would have seen, to set beside the proven answer.
+/// The outcome of sampling at a rate, to set beside the proven answer.
 struct SamplingReport {
   double rate = 0.0;  ///< [1/s]
   std::size_t samples = 0;
@@ -27,7 +27,7 @@ struct SamplingReport {
   std::optional<GapSample> least;  ///< The sample of the least distance, the first of equals.
 };
 
-/// Counts what samples at `rate` [1/s] saw.
+/// Counts the contacts among samples at `rate` [1/s], and finds the least distance.
 [[nodiscard]] FIRSTCONTACT_API SamplingReport report_sampling(double rate,
                                                               std::span<const GapSample> samples);
 
@@ -37,14 +37,15 @@ struct WriteResultOptions {
   std::optional<SamplingReport> sampling;
 };
 
-/// The result as one JSON object on one line, without a line feed. Times in seconds stand beside
-/// normalised ones, normal velocities are in m/s; what is infinite or undefined is null. The same
-/// answer gives the same text, but for `work`.
+/// Writes the result as one JSON object on one line, without a line feed.
+///
+/// Times in seconds stand beside normalised ones, normal velocities are in m/s. An infinite or
+/// undefined number is null. The same answer gives the same text, but for `work`.
 [[nodiscard]] FIRSTCONTACT_API std::string write_result(const LoadedScene& loaded,
                                                         const SceneResult& result,
                                                         const WriteResultOptions& options = {});
 
-/// What stands in place of a result where a scene could not be answered.
+/// Writes the record that stands in place of a result where a scene could not be answered.
 ///
 /// @param id       of the scene, empty if it is not known
 /// @param file     that was read
@@ -55,7 +56,7 @@ struct WriteResultOptions {
     std::string_view id, std::string_view file, std::optional<std::size_t> line,
     std::string_view message, UndecidedReason reason = UndecidedReason::none);
 
-/// The words of the result file.
+/// The word of the result file for a value.
 [[nodiscard]] FIRSTCONTACT_API const char* word(Verdict verdict);
 [[nodiscard]] FIRSTCONTACT_API const char* word(UndecidedReason reason);
 [[nodiscard]] FIRSTCONTACT_API const char* word(FeatureType type);

@@ -11,8 +11,10 @@ namespace firstcontact {
 
 struct Scene;
 
-/// The resolved scene as one JSON object on one line: poses as position and quaternion, every
-/// default written out, inline meshes embedded, mesh files by their path as opened.
+/// Writes the resolved scene as one JSON object on one line.
+///
+/// Poses are written as position and quaternion, with every default. Inline meshes are embedded,
+/// mesh files named by their path as opened.
 ///
 /// Numbers are the shortest that read back to the same double, so that parse_scene with a source
 /// in the working directory gives the same scene bit for bit (but for its text digest).

@@ -17,37 +17,41 @@ namespace firstcontact {
 
 struct LoadedScene;
 
-/// Advances a scene step by step.
+/// A simulation of a scene, advanced step by step.
 ///
 /// Within a step the in-between motion of every body is known, and every pair is proven apart over
-/// all of it: free velocities, Gauss' principle at the contacts, first contact over all pairs,
-/// everything placed there, the impact projected, and on with the rest of the step. Bodies that
-/// cannot influence each other within a step advance apart. When a step's events are spent, it ends
-/// at the last time proven free: time is lost, never a distance. The same on every run
-/// on one kind of processor.
+/// all of it. When a step's events are spent, it ends at the last time proven free: time is lost,
+/// never a distance. The same on every run on one kind of processor.
 ///
-/// Motion between contacts is exact in free flight under constant forces (but for turning, which
-/// is of second order in the step); contacts make it of first order.
+/// Motion between contacts is exact in free flight under constant forces (but for turning, which is
+/// of second order in the step); contacts make it of first order.
+///
+/// Method: free velocities, Gauss' principle at the contacts, first contact over all pairs,
+/// everything placed there, the impact projected, and on with the rest of the step. Bodies that
+/// cannot influence each other within a step advance apart.
 class FIRSTCONTACT_API Simulator {
  public:
+  /// Prepares the simulation of a scene.
+  ///
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
   /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
   ///         bodies meet at the start (names them), a body's mass cannot be found, or a robot
-  ///         cannot be simulated (says why)
+  ///         cannot be simulated (gives the reason)
   explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
   [[nodiscard]] const RunHeader& header() const;
-  /// With the links of robots as bodies, the warnings of reading, and the counts of the pairs that
-  /// are held apart.
+  /// The scene with links of robots as bodies, the warnings of reading, and the counts of pairs
+  /// held apart.
   [[nodiscard]] const LoadedScene& loaded() const;
   [[nodiscard]] double time() const;             ///< [s]  Simulated so far.
   [[nodiscard]] std::size_t step_count() const;  ///< Steps taken.
 
-  /// Of every body of the scene, then of the pieces of links (LinksAsBodies); of fixed and scripted
-  /// ones velocities are those of the last step.
+  /// The states of every body of the scene, then of the pieces of links (LinksAsBodies).
+  ///
+  /// The velocities of fixed and scripted bodies are those of the last step.
   [[nodiscard]] const std::vector<RigidState>& states() const;
 
   /// Moves a free body elsewhere, or gives it other velocities.
@@ -56,7 +60,7 @@ class FIRSTCONTACT_API Simulator {
   ///         quaternion is zero, or the body would meet another one: then nothing is changed
   void set_state(std::size_t body, const RigidState& state);
 
-  /// Of every robot that has dynamics.
+  /// The states of all robots that have dynamics.
   [[nodiscard]] const std::vector<MechanismState>& robot_states() const;
 
   /// Puts a robot elsewhere, or gives it other velocities.
@@ -66,8 +70,9 @@ class FIRSTCONTACT_API Simulator {
   ///         a quaternion is zero, or a link would meet a body: then nothing is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
-  /// Goes on after a step of a run with the same header, on the same kind of processor bit for bit
-  /// as the run did.
+  /// Goes on after a step of a run with the same header.
+  ///
+  /// On the same kind of processor it goes on bit for bit as the run did.
   ///
   /// @throws std::invalid_argument if the step is not of such a run
   void resume(const RunStep& step);

@@ -1,5 +1,5 @@
 /// @file
-/// What became of a file that was read: what was taken, what was left out and why.
+/// The report on a file that was read: what was taken, what was left out and why.
 
 #pragma once
 
@@ -9,14 +9,14 @@
 
 namespace firstcontact {
 
-/// How strict readers are.
+/// The strictness of readers.
 struct ReadingOptions {
-  /// A name that a reader does not know, and that could hold or place geometry, becomes a warning.
-  /// By default it is an error.
+  /// Makes a warning of an unknown name that could hold or place geometry. By default it is an
+  /// error.
   bool lenient = false;
 };
 
-/// How many things of one kind a file holds.
+/// The number of things of one kind in a file.
 struct FileContent {
   std::string what;  ///< In the plural: "triangles".
   std::size_t count = 0;

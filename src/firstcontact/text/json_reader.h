@@ -1,5 +1,5 @@
 /// @file
-/// Takes values out of a JSON tree, or says which place holds something else than expected.
+/// Takes values out of a JSON tree, or reports the place that holds something else than expected.
 
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace firstcontact::detail {
 
-/// What an object may hold.
+/// The keys that an object may hold.
 struct KnownKeys {
   std::vector<std::string_view> keys;
   std::vector<std::string_view> later = {};  ///< In the format, but not in this version yet.
 };
 
 /// Reads the values of one tree. Every function throws ParseError, "path:line: place: what was
-/// expected", where a value is not what its name says.
+/// expected", where a value is not of the kind that the function names.
 class JsonReader {
  public:
   /// @param root    outlives the reader; all values are inside of it

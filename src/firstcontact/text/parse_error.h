@@ -1,5 +1,5 @@
 /// @file
-/// What every reader throws when a file is not what it should be.
+/// The error that every reader throws when a file is not what it should be.
 
 #pragma once
 

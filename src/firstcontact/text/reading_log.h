@@ -45,8 +45,9 @@ class FIRSTCONTACT_API ReadingLog {
   /// An error that does not keep the reader from going on: finish() reports all of them at once.
   void add_error(const ParseError& error);
 
-  /// What could hold or place geometry and is not understood: an error, or a warning where the
-  /// options are lenient.
+  /// Adds an error for a part that could hold or place geometry and is not understood.
+  ///
+  /// Where the options are lenient it is a warning.
   ///
   /// @param cause  as of warn()
   void refuse(const ParseError& error, std::string_view cause = {});

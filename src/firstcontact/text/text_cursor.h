@@ -25,7 +25,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
   return text;
 }
 
-/// What differs between the text formats.
+/// The syntax in which text formats differ.
 struct TextSyntax {
   bool comments = false;      ///< '#' to the end of the line.
   bool continuation = false;  ///< A backslash at its end joins the next line.

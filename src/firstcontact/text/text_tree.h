@@ -11,13 +11,13 @@
 
 namespace firstcontact::detail {
 
-/// ".yaml" of "A.YAML".
+/// The extension of a file in lower case: ".yaml" of "A.YAML".
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-/// Of JSON or YAML.
+/// Whether an extension is one of JSON or YAML.
 [[nodiscard]] bool is_tree_extension(std::string_view extension);
 
-/// JSON where the extension is .json, else YAML.
+/// Parses a text as JSON where the extension is .json, else as YAML.
 ///
 /// @throws ParseError
 [[nodiscard]] JsonValue parse_tree(std::string_view text, const std::filesystem::path& source);

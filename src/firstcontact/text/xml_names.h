@@ -1,5 +1,6 @@
 /// @file
-/// What a reader of XML does with names: takes them, leaves them out, warns of them, refuses them.
+/// The rules of an XML reader for names: it takes them, leaves them out, warns of them, or refuses
+/// them.
 
 #pragma once
 
@@ -25,7 +26,7 @@ struct XmlNames {
   bool is_strict = false;  ///< All other names are refused: any could change what is read.
 };
 
-/// What an element may hold.
+/// The names that an element may hold.
 struct XmlContents {
   XmlNames attributes;
   XmlNames children;
@@ -38,10 +39,12 @@ struct TellingNames {
   std::vector<std::string_view> in_place;    ///< Right inside of what is read: "origin".
 };
 
-/// Looks through the names inside of elements. In order: what is read or harmless is known. What
-/// xacro would replace is refused, and a name like one that is read. A name with a prefix belongs
-/// to another program, and is left out unless it tells of geometry. What tells of geometry is
-/// refused, and what holds such things; the rest gets a warning.
+/// The check of the names inside of elements.
+///
+/// In order: a name that is read or harmless is known. A name that xacro would replace is refused,
+/// and so is one like a name that is read. A name with a prefix belongs to another program, and is
+/// left out unless it is one of geometry. A name of geometry is refused, and so is an element that
+/// holds such things; the rest gets a warning.
 class XmlNameCheck {
  public:
   /// All three outlive the check.

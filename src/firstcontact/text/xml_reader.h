@@ -1,5 +1,5 @@
 /// @file
-/// Takes values out of an XML tree, or says which element holds something else than expected.
+/// Takes values out of an XML tree, or reports the element that holds something else than expected.
 
 #pragma once
 
@@ -41,7 +41,8 @@ class XmlText {
 [[nodiscard]] std::string shown(const XmlElement& element);
 
 /// A parsed document. Every function throws ParseError, "path:line: <element>: what was expected",
-/// where something is not what its name says. Numbers are read exactly, whatever the locale.
+/// where something is not of the kind that the function names. Numbers are read exactly, whatever
+/// the locale.
 class XmlReader {
  public:
   /// @param source  names the text in errors

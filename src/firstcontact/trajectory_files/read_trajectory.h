@@ -30,7 +30,9 @@ namespace firstcontact {
 [[nodiscard]] FIRSTCONTACT_API Trajectory read_trajectory(const std::filesystem::path& path,
                                                           const RobotModel& robot);
 
-/// @param source  names the text in errors; its extension says the format
+/// Parses the text of a trajectory, as read_trajectory() reads it.
+///
+/// @param source  names the text in errors; its extension gives the format
 [[nodiscard]] FIRSTCONTACT_API Trajectory parse_trajectory(std::string_view text,
                                                            const std::filesystem::path& source,
                                                            const RobotModel& robot);

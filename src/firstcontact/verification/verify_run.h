@@ -33,7 +33,8 @@ inline constexpr std::array<const char*, 4> kRunVerdictWords{"proven", "closer",
                                                              "not_proven"};
 
 struct VerifyRunOptions {
-  /// [m]  > 0  So far a scripted body may be from where its motion in the scene puts it.
+  /// [m]  > 0  The distance that a scripted body may be from where its motion in the scene puts
+  /// it.
   double scripted_tolerance = 1e-6;
   std::size_t work = 20'000'000;  ///< Tests of two boxes or triangles for one pair and one step.
   int threads = 0;                ///< At most; 0 for one on each core. The answer is the same.
@@ -59,23 +60,28 @@ struct RunVerification {
   std::optional<RunMoment> closest;     ///< Where bodies come about as close as that.
   std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
-  /// [m]  The greatest of a scripted body at the end of a piece; steps that lost time count, but
-  /// may be off by more than the tolerance.
+  /// [m]  The greatest deviation of a scripted body from its motion in the scene at the end of a
+  /// piece.
+  ///
+  /// Steps that lost time count, but may be off by more than the tolerance.
   double scripted_deviation = 0.0;
-  /// What the proof is about: pairs of which one is free, links of robots counted as such.
+  /// The pairs that the proof is about: those of which one is free, links of robots counted as
+  /// such.
   PairCounts pair_counts = {};
   std::vector<std::string> warnings = {};  ///< Of reading the scene's files.
 };
 
 /// Proves a run, with other code than that which simulates.
 ///
-/// For each step and each two bodies that may touch, one of them free, one moving, the whole step
-/// is covered by windows of time in each of which every two triangles are shown to be apart along
-/// some direction; windows are halved until they are. What is proven is of the exact motions that
-/// the recorded doubles define, all roundings of the proof included. A promise counts as kept when
-/// the distance is proven to be above 0 and above the promise less 2^-20 of it and less twice the
-/// rounding. From the end of a piece to the begin of the next a pose may differ by 2^-44 of what
-/// it holds, which the proof covers. That no body begins inside a solid is tested at the start.
+/// The proof is about the exact motions that the recorded doubles define, all roundings of the
+/// proof included. It covers all of each step, for each two bodies that may touch, one of them
+/// free, one moving. A promise counts as kept when the distance is proven to be above 0 and above
+/// the promise less 2^-20 of it and less twice the rounding. From the end of a piece to the begin
+/// of the next a pose may differ by 2^-44 of what it holds, which the proof covers. The start is
+/// tested for bodies that begin inside a solid.
+///
+/// Method: windows of time cover the step. In each of them every two triangles are shown to be
+/// apart along some direction; windows are halved until they are.
 ///
 /// @param next  the steps, one after another; none at the end
 /// @throws std::invalid_argument if an option is out of its range, or the scene has robots or

@@ -13,8 +13,9 @@
 
 namespace firstcontact::detail {
 
-/// A symmetric, positive definite matrix of 6 x 6 blocks and its factor L L^T, in which the
-/// inverses of the blocks on the diagonal stand for them.
+/// The factor L L^T of a symmetric, positive definite matrix of 6 x 6 blocks.
+///
+/// The inverses of the blocks on the diagonal stand for them.
 class BlockCholesky {
  public:
   using Block = Eigen::Matrix<double, 6, 6>;

@@ -19,7 +19,7 @@ class BlockPattern {
   /// @param pairs  of those that have a block between them, each as often as one likes; i = i too
   BlockPattern(std::size_t count, const std::vector<std::array<std::size_t, 2>>& pairs);
 
-  /// Of the block between i and j.
+  /// The place of the block between i and j.
   struct Place {
     std::size_t index = 0;
     bool is_turned = false;  ///< It is the one of row j and column i.

@@ -18,7 +18,7 @@
 
 namespace firstcontact::detail {
 
-/// Of a vector of 512 bits.
+/// The number of lanes of a vector of 512 bits.
 template <class Number>
 constexpr std::size_t kLanes = 64 / sizeof(Number);
 
@@ -43,8 +43,9 @@ struct alignas(64) ContactBatch {
   Lanes<Number> greatest = {};                   ///< Of the diagonal of W.
 };
 
-/// Pairs of bodies, one in each lane, that share no moving body, with up to so many contacts each:
-/// their bodies are loaded but once for all of them.
+/// Pairs of bodies, one in each lane, that share no moving body, with up to so many contacts each.
+///
+/// Their bodies are loaded once for all of these contacts.
 template <class Number>
 struct PairBatch {
   using Place = std::conditional_t<sizeof(Number) == 4, std::int32_t, std::int64_t>;
@@ -70,8 +71,9 @@ float sweep_batches(const std::vector<PairBatch<float>>& pairs,
                     const std::vector<ContactBatch<float>>& batches, bool backwards,
                     float* impulses, float* sliding, float* x);
 
-/// What numbers of batches are multiples of: single precision has no room for the squares of very
-/// small impulses.
+/// The units of which the numbers of batches are multiples.
+///
+/// Single precision has no room for the squares of very small impulses.
 struct BatchUnits {
   double velocity = 1.0;  ///< [m/s]
   double response = 1.0;  ///< [1/kg]
@@ -100,7 +102,7 @@ class ContactBatches {
 
   [[nodiscard]] std::size_t batch_count() const { return batches_.size(); }
 
-  /// Of squared lengths of the state: those of impulses, by what they change.
+  /// The weights of squared lengths of the state: those of impulses, by their changes of velocity.
   [[nodiscard]] State weights() const;
   [[nodiscard]] State state_of(const Projection& projection) const;
   /// @returns [m/s]  the greatest change of a velocity

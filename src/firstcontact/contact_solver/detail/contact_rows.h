@@ -30,7 +30,7 @@ struct VelocityLayout {
   Eigen::Index size = 0;
 };
 
-/// What one of the two bodies adds to a contact: u_s = J V, and impulses change V by M^-1 J^T.
+/// The part of one of the two bodies in a contact: u_s = J V, and impulses change V by M^-1 J^T.
 struct RowSide {
   using Jacobian = Eigen::Matrix<double, 3, 6>;
   using Response = Eigen::Matrix<double, 6, 3>;
@@ -136,7 +136,8 @@ struct Impulses {
   std::vector<double> drives;             // [N m s or N s]
 };
 
-/// [m/s]  As contact_residual(), of one contact; not finite where that could not be told.
+/// [m/s]  The residual of one contact as in contact_residual(); not finite where it cannot be
+/// computed.
 [[nodiscard]] double residual_of(const ContactRow& row, const Eigen::Vector3d& impulse,
                                  const Eigen::VectorXd& V);
 
@@ -144,7 +145,7 @@ struct Impulses {
 [[nodiscard]] double greatest_residual(const ContactRows& rows, const Impulses& impulses,
                                        const Eigen::VectorXd& V);
 
-/// What a solver starts from and leaves behind: velocities that belong to the impulses.
+/// The start and the result of a solver: velocities that belong to the impulses.
 struct Projection {
   Eigen::VectorXd velocities = {};
   Impulses impulses = {};

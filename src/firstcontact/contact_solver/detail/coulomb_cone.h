@@ -30,8 +30,10 @@ class ContactResponse {
   /// [1/kg]  Of the diagonal; 0: an impulse moves nothing.
   [[nodiscard]] double greatest() const { return greatest_; }
 
-  /// The impulse by itself: r in K with u = u_free + W r, such that 0 <= r_n complementary to
-  /// u_n >= 0, and either u_t = 0 or u_t points against r_t on the side of K. All turned.
+  /// Solves one contact by itself: r in K with u = u_free + W r.
+  ///
+  /// 0 <= r_n is complementary to u_n >= 0, and either u_t = 0 or u_t points against r_t on the
+  /// side of K. All numbers are turned.
   ///
   /// Where the contact slides, r_t = -(A + alpha I)^-1 c with c the tangential velocity that is
   /// left when u_n = 0, and alpha > 0 the root of |r_t| = mu r_n.

@@ -29,14 +29,14 @@ class KineticCoordinates {
   [[nodiscard]] const BlockRows<3>& contacts() const { return contacts_; }
   [[nodiscard]] const BlockRows<1>& drives() const { return drives_; }
 
-  /// What impulses do: x with V(x) = V_free + M^-1 J^T r.
+  /// The displacement x by impulses: V(x) = V_free + M^-1 J^T r.
   [[nodiscard]] Eigen::VectorXd moved_by(const Impulses& impulses) const;
 
   /// For all matrices I + G^T D G.
   [[nodiscard]] BlockCholesky factorisation();
 
  private:
-  /// What moves by itself.
+  /// A body or a mechanism that moves by itself.
   struct Part {
     Eigen::Index in_V;
     Eigen::Index in_x;

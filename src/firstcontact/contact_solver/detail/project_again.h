@@ -10,11 +10,12 @@
 
 namespace firstcontact::detail {
 
-/// Solves a problem again, near its contacts that changed or are new: these are solved anew, and in
-/// turn those of which the bodies then move otherwise by more than the tolerance, until there are
-/// none or `options.sweeps` times as many were solved as there are contacts. What is far from them
-/// keeps its velocity to the last bit, and costs next to nothing. Velocities belong to the
-/// impulses, as those before did.
+/// Solves a problem again near its contacts that changed or are new.
+///
+/// These contacts are solved anew. In turn, so are those whose bodies then move otherwise by more
+/// than the tolerance, until there are none or `options.sweeps` times as many were solved as there
+/// are contacts. Bodies far from them keep their velocity to the last bit, and cost next to
+/// nothing. Velocities belong to the impulses, as those before did.
 ///
 /// @param problem  without mechanisms and drives; its guesses are the impulses of the solution
 ///                 before

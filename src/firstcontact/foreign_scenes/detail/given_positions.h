@@ -17,17 +17,20 @@ struct GivenPositions {
   std::vector<std::string> warnings;
 };
 
-/// What words say: states of the SRDF, or NAME=POSITION. Later states prevail; a joint is named
-/// once.
+/// The positions that words give: states of the SRDF, or NAME=POSITION.
+///
+/// Later states prevail; a joint is named once.
 ///
 /// @param what  whose positions these are, for errors and warnings
 /// @throws std::invalid_argument if the robot has no such state or joint
 [[nodiscard]] GivenPositions positions_of(const std::vector<std::string>& texts,
                                           const std::string& what, const SceneRobot& robot);
 
-/// What the robot_state of a planning scene says of joints that the robot's trajectory does not
-/// name. Joints that mimic others are left out, as are, with a warning, joints that the robot does
-/// not have.
+/// The positions in a planning scene's robot_state of joints that the robot's trajectory does not
+/// name.
+///
+/// Joints that mimic others are left out, as are, with a warning, joints that the robot does not
+/// have.
 ///
 /// @param source  names the file in warnings
 [[nodiscard]] GivenPositions positions_at_rest(const JointPositions& state,

@@ -31,10 +31,10 @@ class PlanningObjects {
   /// fixed_frame_transforms: frames that objects may be in.
   void add_frames(const JsonValue& transforms);
 
-  /// moveit_msgs/CollisionObject.
+  /// Adds the bodies of a moveit_msgs/CollisionObject.
   void add_object(const JsonValue& value, PlanningScene& scene);
 
-  /// moveit_msgs/AttachedCollisionObject.
+  /// Adds the parts of a moveit_msgs/AttachedCollisionObject.
   void add_attached(const JsonValue& value, PlanningScene& scene);
 
   /// Objects and frames with a pose whose quaternion is zero.

@@ -31,8 +31,8 @@ struct RigidIpcBody {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();               ///< [N]
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();              ///< [N m]  World axes.
   double moves_until = std::numeric_limits<double>::infinity();  ///< [s]  Of a kinematic body.
-  /// Of a kinematic body at the end of each of the first steps: of its centre of mass and
-  /// principal axes.
+  /// The poses of a kinematic body's centre of mass and principal axes, at the end of each of the
+  /// first steps.
   std::vector<Pose> poses;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Names the bodies of a fixture of Rigid IPC, and says which of them may not touch.
+/// Names the bodies of a fixture of Rigid IPC, and determines which of them may not touch.
 
 #pragma once
 
@@ -21,9 +21,11 @@ struct RigidIpcOrigin {
   double group = -1.0;  ///< Negative: a group of its own.
 };
 
-/// Gives the scene's bodies names that are unique, and the scene groups of those that do not touch
-/// each other: bodies that are not free, with all of the groups that these are in; and the others
-/// by their groups.
+/// Gives the scene's bodies unique names, and the scene groups of bodies that do not touch each
+/// other.
+///
+/// Bodies that are not free are of one scene group, with all of the groups that these are in. The
+/// others keep their groups.
 ///
 /// @param origins  of each body of the scene
 void name_and_group(const std::vector<RigidIpcOrigin>& origins, Scene& scene);

@@ -28,7 +28,7 @@ class RigidIpcMeshes {
   /// @throws ParseError that says where it looked
   [[nodiscard]] std::filesystem::path find(const JsonValue& name, const JsonReader& read) const;
 
-  /// Welded. A file of vertices alone is a cloud of points.
+  /// Loads a mesh, welded. A file of vertices alone is a cloud of points.
   ///
   /// @throws ParseError
   const Mesh& load(const std::filesystem::path& path);
@@ -36,7 +36,7 @@ class RigidIpcMeshes {
   /// SHA-256 of what was read, a line for each file.
   [[nodiscard]] std::string digests() const;
 
-  /// What was read.
+  /// The files that were read.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
  private:

@@ -73,7 +73,7 @@ class OverlapTree {
   };
   void build(std::size_t begin, std::size_t end);
 
-  /// Of one item with items [begin, end).
+  /// Calls use for the overlaps of one item with items [begin, end).
   template <class Use>
   void use_overlaps(const Item& item, std::size_t begin, std::size_t end, const Use& use) const {
     for (std::size_t i = begin; i < end; ++i) {

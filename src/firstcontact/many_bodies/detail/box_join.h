@@ -14,8 +14,10 @@
 
 namespace firstcontact::detail {
 
-/// A tree over the boxes, halved at the median centre along the longest side, joined with itself:
-/// O(n log n + pairs) for boxes that overlap few others, whatever their sizes.
+/// A tree over boxes, joined with itself to find the boxes that overlap.
+///
+/// It is halved at the median centre along the longest side: O(n log n + pairs) for boxes that
+/// overlap few others, whatever their sizes.
 class BoxJoin {
  public:
   /// Appends the overlapping pairs, touching ones included, in an order that depends on the boxes

@@ -16,9 +16,11 @@
 
 namespace firstcontact::detail {
 
-/// Looks joints up by the sid that a skin has for them: below the <skeleton>s of its instance, then
-/// in the whole scene; where there is no such sid, by id and by name, as some writers do. Nodes
-/// nearer to the roots are found first.
+/// Finds joints by the sid that a skin has for them.
+///
+/// The search is below the <skeleton>s of its instance, then in the whole scene. Where there is no
+/// such sid, it is by id and by name, as some writers do. Nodes nearer to the roots are found
+/// first.
 class DaeJointFinder {
  public:
   DaeJointFinder(const DaeDocument& document, const DaeScene& scene, DaeBudget& budget)

@@ -17,9 +17,10 @@ namespace firstcontact::detail {
 [[nodiscard]] const XmlElement& dae_morph_base(const DaeDocument& document,
                                                const XmlElement& morph);
 
-/// The positions of the base geometry, morphed: b (1 - sum of w_i) + sum of w_i t_i where the
-/// method is NORMALIZED, b + sum of w_i t_i where it is RELATIVE. Targets of weight 0 are not
-/// looked at.
+/// Reads the positions of the base geometry, morphed by its targets.
+///
+/// They are b (1 - sum of w_i) + sum of w_i t_i where the method is NORMALIZED, b + sum of w_i t_i
+/// where it is RELATIVE. Targets of weight 0 are not looked at.
 ///
 /// Source: "COLLADA – Digital Asset Schema Release 1.4.1", <morph>.
 ///

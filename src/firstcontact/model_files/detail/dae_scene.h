@@ -33,6 +33,8 @@ struct DaeNode {
 /// The scene that <scene> instances, in metres, with the axes of the file.
 class DaeScene {
  public:
+  /// Reads the scene of a document.
+  ///
   /// @throws ParseError  no scene, a node inside of itself, an element that is not known, and as
   ///         read_dae_transform()
   DaeScene(const DaeDocument& document, DaeBudget& budget);

@@ -26,7 +26,7 @@ enum class GltfNumber : std::uint16_t {
   float32 = 5126
 };
 
-/// [byte]
+/// [byte]  The size of a number of this type.
 [[nodiscard]] std::size_t size_of(GltfNumber type);
 
 /// Rows of numbers in bytes, little-endian.
@@ -36,8 +36,10 @@ struct GltfRows {
   GltfNumber type = GltfNumber::float32;
   bool normalized = false;  ///< Integers stand for shares of the greatest one.
 
-  /// A number as a double: exact for floats and plain integers, the quotient c / 127, c / 255,
-  /// c / 32767 or c / 65535 rounded once (and not below -1) for normalised ones.
+  /// A number as a double: exact for floats and plain integers.
+  ///
+  /// A normalised one is the quotient c / 127, c / 255, c / 32767 or c / 65535, rounded once (and
+  /// not below -1).
   [[nodiscard]] double at(std::size_t row, std::size_t column) const;
 };
 
@@ -84,7 +86,7 @@ class GltfAccessor {
   Sparse sparse_;
 };
 
-/// What an accessor has to be in its place.
+/// The properties that an accessor must have in its place.
 struct GltfExpected {
   std::string_view type;  ///< "VEC3"
   bool floats = true;     ///< Whether floats are right.

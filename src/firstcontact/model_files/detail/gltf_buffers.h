@@ -22,8 +22,10 @@ struct GltfBufferView {
   std::optional<std::size_t> stride;  ///< [byte]  Between elements; where missing, they are packed.
 };
 
-/// The buffers of a document: read when something first asks for them, so that a file which only
-/// looks need may be missing. Files are mapped, not copied.
+/// The buffers of a document, each read at its first use, so that one that only looks need may be
+/// missing.
+///
+/// Files are mapped, not copied.
 class GltfBuffers {
  public:
   /// @param document  outlives this
@@ -32,9 +34,11 @@ class GltfBuffers {
   GltfBuffers(const GltfDocument& document, std::filesystem::path source,
               std::optional<std::string_view> binary);
 
+  /// Finds the bytes of a view.
+  ///
   /// @param value  an index of bufferViews
   /// @throws ParseError  an index out of range, a file that cannot be opened, an absolute URI, a
-  ///         buffer shorter than it says, a view past the end of its buffer, compressed bytes
+  ///         buffer shorter than it states, a view past the end of its buffer, compressed bytes
   [[nodiscard]] GltfBufferView view(const JsonValue& value);
 
   /// [byte]  All that was read for the document by now, beside the document itself.

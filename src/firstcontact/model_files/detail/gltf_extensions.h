@@ -1,5 +1,5 @@
 /// @file
-/// What this reader makes of the extensions of glTF, by their names.
+/// The meaning of the extensions of glTF for this reader, by their names.
 
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace firstcontact::detail {
 
-/// What an extension may do to a body.
+/// The effect that an extension may have on a body.
 enum class GltfMeaning {
   understood,  ///< It is read.
   harmless,    ///< It can make no contact and move none: it is left out.

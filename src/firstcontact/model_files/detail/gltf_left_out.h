@@ -1,5 +1,5 @@
 /// @file
-/// What a glTF document holds beside geometry.
+/// The parts of a glTF document beside geometry.
 
 #pragma once
 

@@ -21,8 +21,10 @@ struct GltfNodes {
   std::vector<std::size_t> scene;
 };
 
-/// Places the nodes, and chooses the scene: the one that the document names as default, the first
-/// where it names none, all trees of nodes where it has no scenes at all.
+/// Places the nodes, and chooses the scene.
+///
+/// The scene is the one that the document names as default, the first where it names none, or all
+/// trees of nodes where it has no scenes at all.
 ///
 /// Maps are multiplied in double precision along each path from the root: a product's entries are
 /// rounded. Neither depth nor number of nodes has a limit. A node with a mesh that is outside of
@@ -32,7 +34,7 @@ struct GltfNodes {
 ///         a parent, an index out of range
 [[nodiscard]] GltfNodes place_nodes(const GltfDocument& document);
 
-/// "nodes[7]"
+/// The place of a node in the document: "nodes[7]".
 [[nodiscard]] std::string place_of_node(std::size_t node);
 
 }  // namespace firstcontact::detail

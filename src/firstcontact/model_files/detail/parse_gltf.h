@@ -13,9 +13,11 @@
 namespace firstcontact::detail {
 
 struct GltfLimits {
-  /// Vertices and triangles that a document may place beyond twice the number of its bytes, by
-  /// placing meshes again and again; a vertex counts once for each morph target and each set of
-  /// joints, too. Without a limit a small file could fill any memory.
+  /// The most vertices and triangles that a document may place beyond twice the number of its
+  /// bytes.
+  ///
+  /// A document can place meshes again and again. A vertex counts once for each morph target and
+  /// each set of joints, too. Without a limit a small file could fill any memory.
   std::size_t most_placed = std::size_t{1} << 26;
 };
 

@@ -1,6 +1,7 @@
 /// @file
-/// What decides the distance of two triangles, all at once on vector units: nine pairs of edges,
-/// and six corners over the other triangle's face.
+/// The pairs of features that decide the distance of two triangles, all at once on vector units.
+///
+/// They are nine pairs of edges, and six corners over the other triangle's face.
 
 #pragma once
 
@@ -37,8 +38,9 @@ struct ElementaryPairs {
   Edges edges;
   std::array<Corners, 2> corners;  // A's over B's face, B's over A's
 
-  /// Where the least square is, up to 2^-47 of it: among those of edges, or 12 + k and 16 + k for
-  /// corner k of A and of B.
+  /// The index of the least square, up to 2^-47 of it.
+  ///
+  /// It is one among those of edges, or 12 + k and 16 + k for corner k of A and of B.
   int nearest;
 };
 

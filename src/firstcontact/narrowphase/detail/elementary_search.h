@@ -28,8 +28,10 @@ struct Gaps {
   std::array<ValueAndRate, N> corners;
   CurvatureBound bounds;
 
-  /// Of all of them. time_positive() forth and back, without branches and with one root for both:
-  /// that of the greater speed. NaN takes the safe side.
+  /// The times of all pairs: time_positive() forth and back, without branches and with one root for
+  /// both.
+  ///
+  /// The root is that of the greater speed. NaN takes the safe side.
   [[nodiscard]] OpenTimes open_times() const {
     constexpr double kLeast = 0x1p-1000;  // Keeps 0 / 0 away.
     OpenTimes open{std::numeric_limits<double>::infinity(),
@@ -91,7 +93,7 @@ class ElementarySearch {
 
   /// [-]  Where the gap leads as far, f would rarely lead farther.
   static constexpr double kFar = 1.0 / 32.0;
-  /// [-]  What is not yet proven is looked at from its middle where it is wider.
+  /// [-]  The width from which a part that is not yet proven is looked at from its middle.
   static constexpr double kWide = 1.0 / 8.0;
   /// Steps that are to gain more than the tolerance together.
   static constexpr int kPatience = 64;
@@ -130,8 +132,9 @@ class ElementarySearch {
     return ahead_count_ > 0 ? ahead_[ahead_count_ - 1].begin : t_end_;
   }
 
-  /// Proves what it can on both sides of the middle between t_ and `end`: a gap there leads twice
-  /// as far as one at t_, and the features are more likely near.
+  /// Proves as much as possible on both sides of the middle between t_ and `end`.
+  ///
+  /// A gap there leads twice as far as one at t_, and the features are more likely near.
   void look_ahead(double end) {
     const double x = 0.5 * (t_ + end);
     move_to(x);

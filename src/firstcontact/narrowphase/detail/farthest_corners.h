@@ -16,9 +16,10 @@ namespace firstcontact::detail {
 /// As many directions are looked along at once: corners are read but once.
 inline constexpr std::size_t kDirections = 3;
 
-/// For each direction, the row whose product with it is greatest but for rounding; the first if
-/// there are several, or if it is not a number. Several corners at a time, by what the processor
-/// can do.
+/// Finds for each direction the row whose product with it is greatest but for rounding.
+///
+/// It is the first if there are several, or if the product is not a number. Several corners are
+/// taken at a time, as many as the processor can.
 ///
 /// @param corners     one at least
 /// @param directions  1 or kDirections, in the corners' axes

@@ -52,8 +52,10 @@ struct ClosestOnEdges {
   hn::Vec<D> t;       // Where on B's.
 };
 
-/// Edges of A against edges of B. One parameter comes from the normal equations, then each is made
-/// the best for the other, which also mends what near-parallel edges lose.
+/// Finds the closest points of edges of A and edges of B.
+///
+/// One parameter comes from the normal equations. Then each is made the best for the other, which
+/// also mends the loss of near-parallel edges.
 template <class D>
 HWY_INLINE ClosestOnEdges<D> closest_on_edges(D d, const EdgeLanes<D>& A, const EdgeLanes<D>& B) {
   using V = hn::Vec<D>;

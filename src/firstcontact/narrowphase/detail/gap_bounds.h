@@ -17,7 +17,7 @@ namespace firstcontact::detail {
 /// Outweighs the roundings of the few operations in a bound.
 inline constexpr double kUp = 1.0 + 0x1p-40;
 
-/// What holds throughout the piece for all points of two features.
+/// The bounds that hold throughout the piece for all points of two features.
 class GapBounds {
  public:
   /// @param reach_A, reach_B    [m]  of the features' points from the paths' points
@@ -38,8 +38,10 @@ class GapBounds {
     acceleration_B_ = w_B * w_B * circle_B;
   }
 
-  /// For the gap times |d| along a direction d that stands still in the world: a point at rho from
-  /// its axis u has the acceleration -w^2 rho, and |d . rho| <= |d x u| |rho|.
+  /// The bound for the gap times |d| along a direction d that stands still in the world.
+  ///
+  /// Derivation: a point at rho from its axis u has the acceleration -w^2 rho, and
+  /// |d . rho| <= |d x u| |rho|.
   ///
   /// @param axis_B  as seen from A now
   [[nodiscard]] CurvatureBound along(const Eigen::Vector3d& d,

@@ -54,7 +54,7 @@ struct SeenVector {
   }
 };
 
-/// What A sees, whose z axis turns at the rate w: p' = rate - w z x p.
+/// The rate of a vector in A, whose z axis turns at the rate w: p' = rate - w z x p.
 inline Eigen::Vector3d relative_rate(const SeenVector::State& p, double w) {
   return {p.rate.x() + w * p.value.y(), p.rate.y() - w * p.value.x(), p.rate.z()};
 }

@@ -38,9 +38,10 @@ struct MovingCorners {
   }
 };
 
-/// For how long the features stay farther apart than `threshold` along n(tau) = n + tau n', by the
-/// better of two rates n': zero, and the one that keeps n across the edges of the closest features.
-/// advance_deforming() has the derivation.
+/// The time for which the features stay farther apart than `threshold` along n(tau) = n + tau n'.
+///
+/// It is by the better of two rates n': zero, and the one that keeps n across the edges of the
+/// closest features. advance_deforming() has the derivation.
 ///
 /// @param threshold  [m]  the error of positions included
 /// @param n          [-]  unit up to rounding, from A towards B

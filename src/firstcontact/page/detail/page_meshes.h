@@ -21,8 +21,10 @@ class PageMeshes {
   /// @param mesh  lives as long as this
   [[nodiscard]] std::size_t add(const Mesh& mesh);
 
-  /// Of a piece of a link, the same for the same file at the same scale. Reads the file if it is
-  /// neither known nor loaded.
+  /// Adds the mesh of a piece of a link and returns its number, the same for the same file and
+  /// scale.
+  ///
+  /// Reads the file if it is neither known nor loaded.
   ///
   /// @throws as make_shape
   [[nodiscard]] std::size_t add(const LinkGeometry& geometry);

@@ -1,5 +1,5 @@
 /// @file
-/// What a page needs to draw robots and to move them.
+/// The data with which a page draws robots and moves them.
 
 #pragma once
 

@@ -14,13 +14,14 @@
 
 namespace firstcontact::detail {
 
-/// Of each link by name, of each of its visuals in order: red, green and blue, each in [0, 1].
+/// The colours of each link's visuals, in order, by the link's name: red, green and blue in [0, 1].
 using UrdfColors = std::map<std::string, std::vector<std::optional<Eigen::Vector3d>>>;
 
-/// Colours decide nothing: what is no colour is left out, whatever is wrong with it.
+/// Parses the colours of a URDF. They decide nothing: a faulty colour is left out, whatever its
+/// fault.
 [[nodiscard]] UrdfColors parse_urdf_colors(std::string_view text);
 
-/// As parse_urdf_colors(); of a file that cannot be read there are none.
+/// Reads the colours as parse_urdf_colors() does; none of a file that cannot be read.
 [[nodiscard]] UrdfColors read_urdf_colors(const std::filesystem::path& path);
 
 }  // namespace firstcontact::detail

@@ -55,9 +55,11 @@ struct PolygonCut {
 [[nodiscard]] Eigen::Vector3d newell_normal(std::span<const Eigen::Vector3d> vertices,
                                             std::span<const std::uint32_t> corners);
 
-/// How thick the corners of a ring are along its normal [m]: two ways to cut it are no farther
-/// apart along the normal, and those of a quadrilateral so far. What rounding can account for is
-/// subtracted.
+/// [m]  The thickness of a ring's corners along its normal, less than what rounding can account
+/// for.
+///
+/// Two ways to cut the ring are no farther apart along the normal, and those of a quadrilateral so
+/// far.
 [[nodiscard]] double deviation_from_plane(std::span<const Eigen::Vector3d> vertices,
                                           std::span<const std::uint32_t> corners,
                                           const Eigen::Vector3d& normal);

@@ -21,7 +21,7 @@ namespace firstcontact::detail {
 /// A mesh in the making. Indices are checked at the end, as faces may stand before vertices.
 class MeshBuilder {
  public:
-  /// What the places of polygons in the file count.
+  /// The unit in which places of polygons in the file count.
   enum class Place { line, byte };
 
   explicit MeshBuilder(Place places = Place::line) : places_(places) {}
@@ -131,7 +131,7 @@ class MeshBuilder {
     std::uint32_t holes = 0;
   };
 
-  /// What finish() finds in the polygons.
+  /// The findings of finish() about the polygons.
   struct Account;
 
   void note_polygon();

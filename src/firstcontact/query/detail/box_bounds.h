@@ -33,7 +33,7 @@ struct BoxFrame {
   float deformation[2];       ///< At least the speed of their vertices, as their bodies see them.
 };
 
-/// Of lane 4 i + j, for box i of A's node and box j of B's.
+/// The bounds of lane 4 i + j, for box i of A's node and box j of B's.
 struct BoxBounds {
   /// [-]  Provably farther apart than the threshold for this long, to the horizon at most.
   alignas(64) float time[16];
@@ -57,10 +57,11 @@ void bound_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyN
                  BoxBounds& bounds, const HierarchyNode& other_a, const HierarchyNode& other_b,
                  BoxBounds& other_bounds);
 
-/// The same of bodies that deform, with each node as it is at t = 0 and at t = 1; of a body that
-/// does not, the same node twice.
+/// Bounds the boxes of bodies that deform, with each node as it is at t = 0 and at t = 1.
 ///
-/// Boxes grow and move as docs/algorithm.md, section 10, says.
+/// A body that does not deform has the same node twice.
+///
+/// Boxes grow and move as in docs/algorithm.md, section 10.
 void bound_deforming_boxes(const BoxFrame& frame, const HierarchyNode& a, const HierarchyNode& a_to,
                            const HierarchyNode& b, const HierarchyNode& b_to, BoxBounds& bounds);
 

@@ -20,7 +20,7 @@ struct NodeBoxes {
 
 inline NodeBoxes root(const Hierarchy& hierarchy) { return {0, hierarchy.nodes[0].used()}; }
 
-/// What box `slot` of a node holds; or that box alone, where it is kept.
+/// The boxes inside box `slot` of a node; or that box alone, where it is kept.
 inline NodeBoxes opened(const Hierarchy& hierarchy, std::uint32_t node, int slot, bool keep) {
   if (keep) {
     return {node, 1u << slot};
@@ -46,8 +46,9 @@ struct BoxPair {
   NodeBoxes B;
 };
 
-/// What is in one lane: the two triangles; or what opening finds in the boxes, only in the larger
-/// one where their sizes differ much.
+/// The contents of one lane: the two triangles, or the boxes that opening finds.
+///
+/// Where the sizes of two boxes differ much, only the larger one is opened.
 inline BoxPair open_lane(const MovingPair& pair, std::uint32_t node_a, std::uint32_t node_b,
                          int lane, bool larger_a, bool larger_b) {
   const HierarchyNode& a = pair.A().nodes[node_a];

@@ -20,7 +20,7 @@ namespace firstcontact::detail {
 /// A feature as a number, in the order of types and indices.
 [[nodiscard]] std::uint64_t number_of(const Feature& feature);
 
-/// What a pair of features is chosen by.
+/// The rank by which a pair of features is chosen.
 [[nodiscard]] ContactRank rank_of(const ClosePair& pair);
 
 /// Takes pairs as they are found, some of them more than once. As long as there are few, all are

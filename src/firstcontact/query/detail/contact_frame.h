@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// What contacts are reported relative to.
+/// The shapes and the frame relative to which contacts are reported.
 struct ContactFrame {
   const Shape& A;
   const Shape& B;

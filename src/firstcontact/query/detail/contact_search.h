@@ -12,7 +12,7 @@
 
 namespace firstcontact::detail {
 
-/// What the search of one piece found.
+/// The result of the search of one piece.
 struct PieceResult {
   double t = 0.0;          ///< Proven: no contact of the piece before t.
   bool contact = false;    ///< At t some pair is within the band.

@@ -19,9 +19,11 @@ namespace firstcontact::detail {
                                    std::uint32_t triangle_A, std::uint32_t triangle_B,
                                    const ClosestFeatures& closest);
 
-/// Appends the feature pairs within `band` [m] (radii included) of the pairs of triangles that the
-/// last search opened, sorted, each once: all of them, or `most` that ContactSelection chooses.
-/// Returns how many there are.
+/// Appends the feature pairs within `band` [m] (radii included), sorted, each once; returns their
+/// number.
+///
+/// They are those of the pairs of triangles that the last search opened: all of them, or `most`
+/// that ContactSelection chooses.
 ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::size_t most,
                                  WorkspaceData& workspace, std::vector<Contact>& contacts);
 

@@ -12,7 +12,7 @@
 
 namespace firstcontact::detail {
 
-/// What is known of a point and a solid.
+/// The relation of a point to a solid, as far as it is known.
 enum class Inside { no, yes, unsure };
 
 /// Whether the triangles of a surface wind around a point other than zero times.

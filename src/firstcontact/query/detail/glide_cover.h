@@ -1,5 +1,6 @@
 /// @file
-/// Pairs of triangles that stay apart because their surfaces glide, as a nut on its bolt.
+/// Pairs of triangles that stay apart because their surfaces slide along a screw, as a nut on its
+/// bolt.
 
 #pragma once
 
@@ -13,8 +14,9 @@
 
 namespace firstcontact::detail {
 
-/// Two bodies that glide on themselves, of which one, the carrier, does not turn, while the other
-/// moves nearly along its screw.
+/// The proof for two bodies with screw surfaces, of which one, the carrier, does not turn.
+///
+/// The other one moves nearly along its screw.
 ///
 /// Derivation: seen from the carrier, with S(a) the screw turned by a, let x(t) be the way of a
 /// point of the other body and y(t) = S(-a(t)) x(t), a(t) linear in time. S moves distances along,
@@ -30,7 +32,7 @@ namespace firstcontact::detail {
 ///   |y''| <= w_s |s across z| + |w_d| w |p| + w_s |u|.
 class GlideCover {
  public:
-  /// None where the bodies are not such.
+  /// Makes the proof of two such bodies; none for any others.
   static std::optional<GlideCover> of(const MovingPair& pair, const Shape& A, const Shape& B,
                                       double t);
 

@@ -10,8 +10,9 @@
 
 namespace firstcontact::detail {
 
-/// A lane with the time for which its boxes are proven apart, in one number that sorts by the time:
-/// the code of the float, its last four bits the lane.
+/// A lane with the time for which its boxes are proven apart, in one number that sorts by time.
+///
+/// The number is the code of the float, its last four bits the lane.
 class LaneTime {
  public:
   static constexpr std::int32_t kNone = std::numeric_limits<std::int32_t>::max();

@@ -76,9 +76,10 @@ class MovingPair {
   [[nodiscard]] TrianglePair rates(const RelativeState& state, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B) const;
 
-  /// [-]  For how long two boxes are provably farther apart than the threshold, by the directions
-  /// of the centre line and of each box's axes; of a triangle's box, only the triangle counts. The
-  /// first direction that lasts for `enough` is not improved on.
+  /// [-]  The time for which two boxes are provably farther apart than the threshold.
+  ///
+  /// The directions are those of the centre line and of each box's axes. A triangle's box counts as
+  /// its triangle only. The first direction that lasts for `enough` is not improved on.
   ///
   /// Of a body that deforms, the boxes grow. Derivation: were the body not to turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
@@ -100,14 +101,14 @@ class MovingPair {
 
   [[nodiscard]] bool deforms() const { return A_.deforms() || B_.deforms(); }
 
-  /// bound_boxes(), or its like for bodies that deform, by what the frame says.
+  /// Bounds boxes by bound_boxes(), or its like for bodies that deform, as the frame has it.
   void bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b,
              BoxBounds& bounds) const;
-  /// Of two pairs of nodes in less than twice the time.
+  /// Bounds the boxes of two pairs of nodes in less than twice the time.
   void bound(const BoxFrame& frame, std::uint32_t node_a, std::uint32_t node_b, BoxBounds& bounds,
              std::uint32_t other_a, std::uint32_t other_b, BoxBounds& other_bounds) const;
 
-  /// What the kernel needs that is the same at all times.
+  /// The part of the kernel's input that is the same at all times.
   [[nodiscard]] BoxFrame box_frame() const;
   /// Sets the rest of it for one instant, but for the horizon.
   ///

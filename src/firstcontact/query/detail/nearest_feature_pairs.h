@@ -24,8 +24,10 @@ struct FoundFeatures {
   std::size_t triangle_B;
 };
 
-/// Of each pair of features the nearest points that were found, of those as near the ones of the
-/// first triangles in the meshes, and of these the first found.
+/// The nearest points that were found of each pair of features.
+///
+/// Among those as near, they are the ones of the first triangles in the meshes, and among these the
+/// first found.
 class NearestFeaturePairs {
  public:
   NearestFeaturePairs(const ContactFrame& frame, const FeatureTable& A, const FeatureTable& B,

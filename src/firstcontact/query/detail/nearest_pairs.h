@@ -1,5 +1,5 @@
 /// @file
-/// Of very many pairs of triangles that are close, the nearest ones of each neighbourhood.
+/// The nearest pairs of each neighbourhood, out of very many pairs of triangles that are close.
 
 #pragma once
 
@@ -10,8 +10,10 @@
 
 namespace firstcontact::detail {
 
-/// Keeps of some pairs those within `reach` of which fewer than three nearer ones have their place
-/// in the same cube and face a like way. The nearest of all is among them.
+/// Keeps those pairs within `reach` that are among the three nearest of their cube and direction.
+///
+/// A pair is kept if fewer than three nearer ones have their place in the same cube and face a like
+/// way. The nearest of all is among them.
 ///
 /// @param edge  [m]  of the cubes, which are fixed in A's frame up to rotation
 void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,

@@ -11,7 +11,9 @@ namespace firstcontact::detail {
 /// @throws std::invalid_argument if an option is outside its documented range
 void validate(const FirstContactOptions& options);
 
-/// As first_contact(), which asks for the whole step; when free, `t` is the window's end.
+/// Finds the first contact in a window, as first_contact() does over the whole step.
+///
+/// When free, `t` is the window's end.
 void first_contact_within(const MovingShape& A, const MovingShape& B, const TimeWindow& window,
                           Workspace& workspace, const FirstContactOptions& options,
                           FirstContactResult& result);

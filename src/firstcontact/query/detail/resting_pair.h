@@ -10,8 +10,9 @@
 
 namespace firstcontact::detail {
 
-/// What ConstantRatePair says of two bodies at rest, to the last bit, for less. Refers to the
-/// paths.
+/// The motion of two bodies at rest, at less cost than ConstantRatePair and equal to the last bit.
+///
+/// Refers to the paths.
 class RestingPair final : public PairMotion {
  public:
   /// @param A,B  that neither turn nor move

@@ -1,5 +1,5 @@
 /// @file
-/// What a workspace holds.
+/// The contents of a workspace.
 
 #pragma once
 
@@ -72,7 +72,7 @@ struct ClosePair {
   ClosestFeatures closest;
 };
 
-/// What pairs of features are sorted by: their features as numbers, the nearest one first.
+/// The key by which pairs of features are sorted: features as numbers, the nearest pair first.
 struct CloseKey {
   std::uint64_t feature_A = 0;
   std::uint64_t feature_B = 0;

@@ -44,8 +44,9 @@ class ChainBounds {
 
   [[nodiscard]] CoordinateSegment::Bounds bounds() const { return {v_ * kUp, a_ * kUp, j_ * kUp}; }
 
-  /// [per metre]  At most what is added for each metre by which the part reaches farther: rho is a
-  /// concave function of the reach, and with it are all the bounds.
+  /// [per metre]  The most that is added for each metre by which the part reaches farther.
+  ///
+  /// rho is a concave function of the reach, and with it are all the bounds.
   [[nodiscard]] CoordinateSegment::Bounds per_metre() const {
     return {more_.rate * kUp, more_.acceleration * kUp, more_.jerk * kUp};
   }
@@ -54,7 +55,7 @@ class ChainBounds {
   /// Sums and products of up to some hundred joints' bounds.
   static constexpr double kUp = 1.0 + 0x1p-40;
 
-  /// Of (x, y), rounded up: std::hypot takes a multiple of the time.
+  /// The length of (x, y), rounded up: std::hypot takes a multiple of the time.
   static double length_of(double x, double y) {
     constexpr double kUnderflow = 1e-290;
     const double square = x * x + y * y;

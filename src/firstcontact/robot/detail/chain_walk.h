@@ -24,15 +24,18 @@ namespace firstcontact::detail {
 /// A few rounded operations on vectors of three.
 inline constexpr double kChainRounding = 0x1p-49;
 
-/// One joint's rotation, its product with those before it, and what hangs on it: 24 2^-53 for each
-/// of three columns, 9 2^-53 for the product.
+/// The error of one joint's rotation, its product with those before it, and the vectors that hang
+/// on it.
+///
+/// It is 24 2^-53 for each of three columns, 9 2^-53 for the product.
 inline constexpr double kRotationStep = 0x1p-47;
 
 /// At least the length, without a square root: errors need not be tight.
 inline double rough_size(const Eigen::Vector3d& v) { return v.lpNorm<1>(); }
 
-/// Newton-Euler's recursion from F outwards: place and derivatives of the last link reached, and
-/// the sums of the sizes of all that enters them, from which the errors follow.
+/// Newton-Euler's recursion from F outwards: place and derivatives of the last link reached.
+///
+/// With them go the sums of the sizes of all that enters them, from which the errors follow.
 ///
 /// Derivation of the errors: vectors r of the chain are within e |r|, e the error of the last
 /// rotation, the greatest; rates of joints within d, summed over the joints; axes like vectors.
@@ -147,8 +150,9 @@ using Joints = std::span<const std::shared_ptr<const JointPath>>;
 /// Walks along some joints at t, without memory.
 [[nodiscard]] ChainWalk walk_along(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
-/// Remembers the last walks: the links of a robot share the joints before them, and pairs of them
-/// the times at which they are asked about.
+/// A memory of the last walks.
+///
+/// The links of a robot share the joints before them, and pairs of them the times of queries.
 class ChainMemory {
  public:
   struct Node {
@@ -175,7 +179,7 @@ class ChainMemory {
   /// Valid until the next call.
   [[nodiscard]] Walked walk(Joints joints, double t, const DoubleDoubleVector3& p_FO);
 
-  /// Of the joint that leads to a node of the walk.
+  /// The bounds of the joint that leads to a node of the walk.
   [[nodiscard]] static const JointBounds& bounds(const Node& node, const JointPath& joint,
                                                  double t_from, double t_to);
 

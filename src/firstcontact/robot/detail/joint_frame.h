@@ -1,5 +1,5 @@
 /// @file
-/// What of a joint's path is the same for every motion of the robot.
+/// The part of a joint's path that is the same for every motion of the robot.
 
 #pragma once
 

@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// What a candidate answers over its window.
+/// The answer of a candidate over its window.
 struct PartAnswer {
   FirstContactResult first;            ///< When free, `t` is 1.
   std::vector<RobotContact> contacts;  ///< At first.t.

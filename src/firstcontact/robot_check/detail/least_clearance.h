@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// Of each piece of time, a ball around each part throughout it.
+/// The balls around each part throughout each piece of time.
 using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 
 /// The least distance of a tested pair over all pieces in which it is tested.

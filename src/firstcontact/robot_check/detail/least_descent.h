@@ -10,7 +10,7 @@
 
 namespace firstcontact::detail {
 
-/// [-]  Of the tolerance: room for the rounding of differences.
+/// [-]  The part of the tolerance that leaves room for the rounding of differences.
 inline constexpr double kPartOfTolerance = 0.999;
 
 /// Lowers a distance that is known already, of these parts or of others.
@@ -26,8 +26,10 @@ class LeastDescent {
   /// Whether it is less than the best distance; if so, it is the best now.
   bool improve(PartSearch& search, double t);
 
-  /// Goes down from a time of the window: along the distance of the two triangles that are closest
-  /// there, which costs little to know, as long as that leads on.
+  /// Goes down from a time of the window, along the distance of the two triangles that are closest
+  /// there.
+  ///
+  /// That distance costs little to know. The descent goes on as long as it leads on.
   void descend(PartSearch& search, const TimeWindow& window, double t);
 
   /// Proves that the two are farther apart than the best distance less the tolerance, or finds a

@@ -62,7 +62,7 @@ class PartSearch {
 
  private:
   [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
-  /// Of the candidate's frame at t.
+  /// The pose of the candidate's frame at t.
   [[nodiscard]] LinkPose frame_at(double t) const;
   [[nodiscard]] RobotContact placed(const Contact& contact, const LinkPose& X_WF) const;
 

@@ -47,7 +47,7 @@ struct PartPath {
   [[nodiscard]] double tracking_bound(const LinkPart& ball, const TimeWindow& window) const;
 };
 
-/// What a part is fixed to over a piece of time: a link, or its own path in the world.
+/// The seat of a part over a piece of time: a link, or its own path in the world.
 struct PartSeat {
   std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
   const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
@@ -100,8 +100,9 @@ class RobotTimeline {
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;
 
  private:
-  /// What a part is fixed to until t_end: a link, as the root of those that are fixed to each
-  /// other; or the world, in which it follows pieces of its own.
+  /// The seat of a part until t_end: a link, as the root of those that are fixed to each other.
+  ///
+  /// Or it is the world, in which the part follows pieces of its own.
   struct Seat {
     double t_end = 1.0;
     std::optional<RobotLink> link;

@@ -22,8 +22,10 @@ struct PartPlace {
   double error = 0.0;                                ///< [m]  Of any point's place.
 };
 
-/// A part throughout a window: for every point there is a parabola over the window, with that
-/// point's places in `controls` for control points, from which it is never farther than `error`.
+/// A part throughout a window: its points are never farther than `error` from parabolas.
+///
+/// The parabola of a point over the window has that point's places in `controls` for control
+/// points.
 struct SweptPart {
   const Part* part = nullptr;
   std::array<PartPlace, 3> controls = {};  ///< The first and the last are places of the part.
@@ -45,7 +47,7 @@ struct PartMount {
   /// @param X_LS  rests
   PartMount(const Part& part, TreeCourse& course, std::size_t node, const JointPath& X_LS);
 
-  /// Of a part that is a node of its own.
+  /// Mounts a part that is a node of its own.
   PartMount(const Part& part, TreeCourse& course);
 };
 

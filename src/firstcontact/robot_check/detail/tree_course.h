@@ -49,8 +49,10 @@ class TreeCourse {
   /// Whether it does not move in the world.
   [[nodiscard]] bool rests(std::size_t node) const { return joints_[node].rests; }
 
-  /// Bounds over the piece of the derivatives of every point of a ball that is fixed in a node, as
-  /// seen from one that carries it, or the world. The derivation is that of LinkPath::window().
+  /// Bounds the derivatives of every point of a ball that is fixed in a node, over the piece.
+  ///
+  /// They are as seen from a node that carries it, or the world. The derivation is that of
+  /// LinkPath::window().
   [[nodiscard]] CoordinateSegment::Bounds bounds(std::size_t node, const Eigen::Vector3d& p_LC,
                                                  double reach, std::size_t frame);
 

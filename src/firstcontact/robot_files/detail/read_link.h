@@ -65,7 +65,7 @@ class LinkReader {
   std::vector<FileReport> mesh_files_;
 };
 
-/// What an <inertial> says. What is wrong with it is its defect, and is told in the log.
+/// Reads an <inertial>. Wrong values become its defect, and are reported in the log.
 [[nodiscard]] LinkInertia read_inertia(const XmlElement& link, const XmlElement& inertial,
                                        const UrdfContext& context);
 

@@ -7,7 +7,7 @@
 
 namespace firstcontact::detail {
 
-/// What each element may hold.
+/// The names that each element may hold.
 struct SrdfNames {
   XmlContents robot;
   XmlContents pair;  ///< Disabled and enabled collisions.

@@ -1,5 +1,5 @@
 /// @file
-/// What the readers of a URDF's elements share.
+/// The context that the readers of a URDF's elements share.
 
 #pragma once
 
@@ -31,12 +31,14 @@ struct UrdfContext {
   /// @throws ParseError
   [[nodiscard]] Pose origin(const XmlElement& element) const;
 
-  /// Of an element or attribute that places nothing where urdfdom reads it: warns where the pose is
-  /// the identity, and refuses it where the author may have meant something.
+  /// Passes over an element or attribute that places nothing where urdfdom reads it.
+  ///
+  /// Warns where the pose is the identity, and refuses it where the author may have meant
+  /// something.
   void pass_over_pose(const XmlElement& element, const char* what, const Pose& pose) const;
 };
 
-/// The pose that an <origin> says.
+/// The pose of an <origin>.
 ///
 /// @throws ParseError
 [[nodiscard]] Pose pose_of(const XmlElement& origin, const XmlReader& xml);

@@ -12,8 +12,9 @@ struct LoadedScene;
 
 namespace firstcontact::detail {
 
-/// Adds a report to the files of a scene, and what it warns of to the warnings; a file or a warning
-/// that the scene has already counts once.
+/// Adds a report to the files of a scene, and its warnings to the scene's warnings.
+///
+/// A file or a warning that the scene has already counts once.
 void add_report(const FileReport& report, LoadedScene& scene);
 
 /// Adds those of the scene's text.

@@ -11,7 +11,7 @@ namespace firstcontact::detail {
 /// By members.
 [[nodiscard]] PairRules rules_of(const Scene& scene);
 
-/// Loads the meshes of bodies and robots, sets their motions, and says what of them is unusual.
+/// Loads the meshes of bodies and robots, sets their motions, and reports what is unusual.
 ///
 /// @throws as load_scene
 [[nodiscard]] LoadedScene load_robots(Scene scene, ShapeCache& cache);

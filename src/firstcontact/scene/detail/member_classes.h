@@ -26,8 +26,9 @@ enum class MemberKind : std::uint8_t { moved, scripted, rests, cannot_touch };
   return static_cast<std::uint64_t>(pair[0]) << 32 | static_cast<std::uint64_t>(pair[1]);
 }
 
-/// Members of one kind that are in the same groups: the rules for groups say the same of them, so
-/// that pairs are counted without looking at each.
+/// Members of one kind that are in the same groups, and for which rules for groups are the same.
+///
+/// So pairs are counted without looking at each.
 class MemberClasses {
  public:
   /// @param kinds  of each member

@@ -1,5 +1,5 @@
 /// @file
-/// What the names in a scene's rules for pairs mean.
+/// The meaning of the names in a scene's rules for pairs.
 
 #pragma once
 

@@ -9,8 +9,10 @@
 
 namespace firstcontact::detail {
 
-/// Of density 1: each triangle has the mass of its area; where no triangle has three corners each
-/// edge that of its length; where there is none each point one.
+/// Mass and inertia of a thin body of density 1.
+///
+/// Each triangle has the mass of its area. Where no triangle has three corners, each edge has that
+/// of its length; where there is no edge, each point has 1.
 struct ThinMass {
   double mass = 0.0;                                  ///< [m^2, m or 1]
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();     ///< [m]  Centre of mass.

@@ -20,7 +20,7 @@ class ContactArray {
   /// @param duration  [s]  of the step; velocities are written in m/s
   explicit ContactArray(double duration) : duration_(duration) {}
 
-  /// Of the pair whose contacts are added next.
+  /// Sets the names of the pair whose contacts are added next.
   ///
   /// @param names  a JSON array of two strings
   void set_names(const JsonValue& names);

@@ -12,9 +12,9 @@ struct Scene;
 
 namespace firstcontact::detail {
 
-/// Reads "robots" into a scene that has its bodies, and in its options whether it is lenient: reads
-/// their URDF and SRDF and trajectories, but
-/// no meshes.
+/// Reads "robots" into a scene that has its bodies and whose options state whether it is lenient.
+///
+/// It reads their URDF and SRDF and trajectories, but no meshes.
 ///
 /// @throws ParseError
 void read_robots(const JsonValue& value, const SceneFolders& folders, Scene& scene,

@@ -9,7 +9,9 @@
 
 namespace firstcontact::detail {
 
-/// One of `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
+/// Reads one of the shapes that a body can have.
+///
+/// They are `mesh` (a file, which must exist) with `scale`, `vertices` with `triangles`, `sphere`,
 /// `capsule`, `box`, `cylinder`, `cone`, `convex_hull` (of a mesh or vertices), `points` (a file or
 /// inline) with `scale`, `heightmap`; with `radius` and `solid` where they may stand.
 ///

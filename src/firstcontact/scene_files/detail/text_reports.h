@@ -1,5 +1,5 @@
 /// @file
-/// What became of files of text that a scene is put together of.
+/// Reports on files of text that a scene is put together of.
 
 #pragma once
 
@@ -14,7 +14,7 @@ struct Trajectory;
 
 namespace firstcontact::detail {
 
-/// Of a scene or planning scene whose bodies another scene takes.
+/// The report on a scene or planning scene whose bodies another scene takes.
 ///
 /// @param bodies  how many
 [[nodiscard]] FileReport surroundings_report(const std::filesystem::path& file, const char* format,

@@ -1,5 +1,5 @@
 /// @file
-/// Writes what a simulation is told.
+/// Writes the settings of a simulation.
 
 #pragma once
 

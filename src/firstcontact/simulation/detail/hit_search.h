@@ -30,15 +30,17 @@ struct Hit {
   std::vector<TouchAhead> ahead = {};
 };
 
-/// Asks the motions of plans for first contacts. Of plans after the first one only pairs are asked
-/// of which a body moves otherwise than in the plan before.
+/// The search for first contacts in the motions of plans.
+///
+/// In plans after the first one, only those pairs are searched of which a body moves otherwise than
+/// in the plan before.
 class HitSearch {
  public:
   /// @param span  [s]  of the plans
   HitSearch(IslandState& state, double span, Workspace& workspace)
       : state_(state), span_(span), workspace_(workspace) {}
 
-  /// Asks all pairs that the plan may bring near each other.
+  /// Searches all pairs that the plan may bring near each other.
   [[nodiscard]] std::vector<Hit> find(const Plan& plan);
 
   /// [m]  No pair comes closer in the plan that was asked last, until its first hit.

@@ -29,11 +29,13 @@ struct TouchAhead {
   double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
 };
 
-/// What the bodies do over its span: the rest of the step, or less.
+/// The motions of the bodies over the plan's span: the rest of the step, or less.
 struct Plan {
   std::vector<Move> moves = {};  ///< Of each member.
-  /// Velocities of each member, angular ones as its body sees them, told in its axes of now: so
-  /// that what contacts do to its energy now is what they do to it at the end.
+  /// The velocities of each member at the end.
+  ///
+  /// Angular ones have the coordinates that they have in the body's axes at the end, but in its
+  /// axes of now. So contacts do to its energy now what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
   double residual = 0.0;  ///< [m/s]
@@ -51,7 +53,7 @@ class IslandPlanner {
   /// Starts from the impulses of the plan before.
   [[nodiscard]] Plan plan();
 
-  /// What the last plan holds apart, with its impulses.
+  /// The pairs that the last plan holds apart, with its impulses.
   [[nodiscard]] std::vector<Touch> touches() const;
 
   /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
@@ -93,8 +95,9 @@ class IslandPlanner {
   std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.
 };
 
-/// [s]  Too short a time, of a step of h, for anything to be done in it: who looks at the motion
-/// could not divide it.
+/// [s]  A time, of a step of h, that is too short for anything to be done in it.
+///
+/// A search of the motion could not divide it.
 inline double stall(double h) { return kStallOfStep * h; }
 
 }  // namespace firstcontact::detail

@@ -1,5 +1,5 @@
 /// @file
-/// What the contacts of an island make of velocities, in plans and at impacts.
+/// The response of velocities to the contacts of an island, in plans and at impacts.
 
 #pragma once
 

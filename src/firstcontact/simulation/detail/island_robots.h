@@ -56,7 +56,10 @@ class IslandRobots {
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
 
-  /// [s]  Of a plan: in it, mass matrices and Jacobians hardly change. Infinite at rest.
+  /// [s]  The longest span of a plan: in it no link turns by more than 0.1 rad at its speed of
+  /// now.
+  ///
+  /// So mass matrices and Jacobians change little in it. Infinite where nothing turns.
   [[nodiscard]] double longest_span() const;
 
   /// How a member that is a piece of a link takes part in a contact problem; velocities are those
@@ -98,7 +101,7 @@ class IslandRobots {
   /// Adds displacements of coordinates, in order of robots.
   void displace(const std::vector<Eigen::VectorXd>& by, std::vector<RobotPlan>& plans) const;
 
-  /// What leads the members that are pieces of links to where a plan has them.
+  /// Sets the moves that lead the members that are pieces of links to where a plan has them.
   void set_moves(const std::vector<RobotPlan>& plans, const std::vector<RigidState>& states,
                  double span, std::vector<Move>& moves) const;
 

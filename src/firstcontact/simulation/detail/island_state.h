@@ -26,7 +26,7 @@
 
 namespace firstcontact::detail {
 
-/// What the islands of a step share.
+/// The data that the islands of a step share.
 struct StepContext {
   const World& world;
   const StepStart& start;
@@ -63,8 +63,11 @@ struct IslandState {
   /// @param before  sorted touches whose impulses go to those found
   void find_manifolds(const std::vector<Touch>& before, Workspace& workspace);
 
-  /// Calls use(pair, margin) for pairs of a member and any other body of the island or around it
-  /// whose boxes are as near as `reach` [m] beyond their margin.
+  /// Calls use(pair, margin) for pairs of a member and any other body whose boxes are near each
+  /// other.
+  ///
+  /// The other body is one of the island or around it. The boxes are as near as `reach` [m] beyond
+  /// their margin.
   ///
   /// @param boxes  of each member, over its motion
   /// @param share  of the step, for which bodies around the island move

@@ -41,7 +41,7 @@ struct RobotPiece {
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
-  /// Of a body that is not free, or a piece of a link, only p_BC, its pivot.
+  /// The inertia of a free body; of another, or of a piece of a link, only p_BC, its pivot.
   Inertia inertia = {};
   std::optional<RobotPiece> piece = {};
   double reach = 0.0;              ///< [m]  From C to the farthest point of the thickened surface.
@@ -55,8 +55,9 @@ struct SimBody {
 /// @throws std::invalid_argument  names the body whose mass cannot be found, and the mend
 [[nodiscard]] std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked);
 
-/// [m]  What the scene says, or 1e-3 of the radius of the smallest free body; where there are links
-/// only, of the smallest of them.
+/// [m]  The contact distance of the scene, or 1e-3 of the radius of the smallest free body.
+///
+/// Where there are links only, the radius is that of the smallest of them.
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
 

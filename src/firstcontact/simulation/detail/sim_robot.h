@@ -20,7 +20,7 @@ struct LoadedScene;
 
 namespace firstcontact::detail {
 
-/// What acts on one coordinate, besides gravity, inertia and contacts.
+/// The law of one coordinate, besides gravity, inertia and contacts.
 struct JointLaw {
   Eigen::Index position = 0;  ///< Of the mechanism's positions,
   Eigen::Index velocity = 0;  ///< and velocities.
@@ -44,8 +44,10 @@ struct SimRobot {
   [[nodiscard]] std::size_t motor_count() const;
   [[nodiscard]] std::size_t rigid_motor_count() const;
 
-  /// The drives of a span of time, by Euler's implicit rule: its end decides how far springs reach,
-  /// how fast dampers move, and where limits stop. Those of motors come first.
+  /// The drives of a span of time, by Euler's implicit rule; those of motors come first.
+  ///
+  /// The end of the span decides how far springs reach, how fast dampers move, and where limits
+  /// stop.
   ///
   /// @param origin     positions from which the velocities u at the end lead to origin + span u
   /// @param mechanism  its number in the contact problem
@@ -55,7 +57,7 @@ struct SimRobot {
                                                const Eigen::VectorXd& origin, std::size_t mechanism,
                                                double from, double span) const;
 
-  /// What keeps displacements [rad or m] in place of velocities within limits.
+  /// The stops that keep displacements [rad or m] in place of velocities within limits.
   [[nodiscard]] std::vector<JointDrive> stops(const MechanismState& state,
                                               std::size_t mechanism_number) const;
 

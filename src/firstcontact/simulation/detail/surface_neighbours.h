@@ -15,9 +15,11 @@
 
 namespace firstcontact::detail {
 
-/// Tells contacts at which a surface bulges towards the other body from those at which a
-/// neighbouring feature is nearer: a corner that slides over a flat edge between two triangles
-/// touches none but the one below it.
+/// Separates contacts at which a surface bulges towards the other body from those with a nearer
+/// neighbour.
+///
+/// A neighbour is a feature next to that of the contact: a corner that slides over a flat edge
+/// between two triangles touches none but the one below it.
 class SurfaceNeighbours {
  public:
   /// @param slack  [m]  >= 0  By so much may a neighbour reach farther: all corners of a face that

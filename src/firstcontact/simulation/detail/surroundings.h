@@ -1,5 +1,5 @@
 /// @file
-/// What free bodies meet that moves as the scene says, or not at all.
+/// The bodies around free ones, which move as the scene has it, or not at all.
 
 #pragma once
 

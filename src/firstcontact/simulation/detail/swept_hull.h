@@ -1,6 +1,8 @@
 /// @file
-/// The convex hull of a body over a move: of many pairs that slide or rest on each other a plane
-/// that goes with one of them tells that they stay apart.
+/// The convex hull of a body over a move.
+///
+/// For many pairs that slide or rest on each other, a plane that goes with one of them proves that
+/// they stay apart.
 
 #pragma once
 
@@ -37,8 +39,10 @@ struct SweptHull {
   double thickness;                     ///< [m]  Around the hull.
 };
 
-/// A normal, in the world at the begin, of a plane that moves with A and tells that B stays farther
-/// from it than a distance [m] over the same part of their moves. Nothing says nothing.
+/// The normal, in the world at the begin, of a plane that moves with A and that B stays away from.
+///
+/// B stays farther from the plane than a distance [m] over the same part of their moves. Without a
+/// normal nothing is known of the pair.
 ///
 /// Derivation: of a point of B let x be its place from C of A; its velocity is at most V + w_B r_B,
 /// its acceleration w_B^2 r_B, its jerk w_B^3 r_B, with V the relative speed of the centres. Seen

@@ -65,9 +65,10 @@ class ManifoldFinder {
 /// Whether the bodies, or else the features, of one touch come before those of the other.
 [[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
 
-/// Gives the manifold the impulses of what touched before: each goes to the touch of the same
-/// features or, as these change with every rounding where edges lie on edges, to the nearest one
-/// close by.
+/// Gives the manifold the impulses of the touches before.
+///
+/// Each goes to the touch of the same features or, as these change with every rounding where edges
+/// lie on edges, to the nearest one close by.
 ///
 /// @param before  sorted
 /// @param size    [m]  of the smaller body

@@ -1,5 +1,5 @@
 /// @file
-/// What does not change while a simulation runs.
+/// The data that do not change while a simulation runs, and those with which a step begins.
 
 #pragma once
 

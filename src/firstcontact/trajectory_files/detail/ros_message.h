@@ -22,7 +22,7 @@ namespace firstcontact::detail {
                                               const std::vector<std::string_view>& keys,
                                               std::string_view own);
 
-/// The value of a key where there is one that says something: not null, no empty list.
+/// The value of a key where it is there and filled: not null, no empty list.
 [[nodiscard]] const JsonValue* find_filled(const JsonValue& object, std::string_view key);
 
 /// [x, y, z] or {x: , y: , z: }.

@@ -1,5 +1,5 @@
 /// @file
-/// What the columns of a trajectory's table are, by their names.
+/// The meaning of the columns of a trajectory's table, by their names.
 
 #pragma once
 
@@ -16,7 +16,7 @@ class RobotModel;
 
 namespace firstcontact::detail {
 
-/// What the numbers of a column are.
+/// The meaning of the numbers of a column.
 struct TableColumn {
   enum class Kind {
     time,     ///< [s]
@@ -40,10 +40,11 @@ struct TableColumns {
 /// as "time [s]"; or "__time", "time_from_start".
 [[nodiscard]] bool is_time_column(std::string_view name);
 
-/// Knows the columns: the time; positions by the joint's name, which may have its unit or
-/// ".position" after it; NAME.velocity, NAME.acceleration, NAME.effort, also with '/' in place of
-/// the point and then with a topic before the joint; an unnamed first column, which counts the
-/// rows.
+/// Finds the meaning of columns by their names.
+///
+/// They are the time; positions by the joint's name, which may have its unit or ".position" after
+/// it; NAME.velocity, NAME.acceleration, NAME.effort, also with '/' in place of the point and then
+/// with a topic before the joint; an unnamed first column, which counts the rows.
 ///
 /// @throws std::invalid_argument  names the column, and what was expected in its place
 [[nodiscard]] TableColumns table_columns(const std::vector<std::string>& names,

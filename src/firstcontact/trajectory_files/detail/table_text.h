@@ -32,7 +32,7 @@ class TableNumbers {
   /// @param allows_commas  as decimal marks: they do not separate columns
   explicit TableNumbers(bool allows_commas) : allows_commas_(allows_commas) {}
 
-  /// None where the field is no finite number, or has another decimal mark than those before.
+  /// Reads a field; none if it is no finite number, or has another decimal mark than those before.
   [[nodiscard]] std::optional<double> read(std::string_view field);
 
   /// The decimal mark seen first; none as long as there was none.
@@ -50,17 +50,18 @@ struct TableHeader {
   std::vector<std::string> fields;
 };
 
-/// Finds the header: the first line that is no comment, if it names a time; else, where '#' or '%'
-/// stands before it as before comments, the last of the lines before. Separators are tried in the
-/// order comma, semicolon, tab, blanks; "sep=;" in the first line, as spreadsheets know it,
-/// decides.
+/// Finds the header: the first line that is no comment, if it names a time.
+///
+/// Else, where '#' or '%' stands before it as before comments, it is the last of the lines before.
+/// Separators are tried in the order comma, semicolon, tab, blanks; "sep=;" in the first line, as
+/// spreadsheets know it, decides.
 ///
 /// @param is_time  whether a field is the name of the time column
 /// @returns  none where no line names a time
 [[nodiscard]] std::optional<TableHeader> find_header(
     const std::vector<TableLine>& lines, const std::function<bool(std::string_view)>& is_time);
 
-/// Whether the line says nothing: '#' or '%' stands before it.
+/// Whether the line is a comment: '#' or '%' stands before it.
 [[nodiscard]] bool is_comment(const TableLine& line);
 
 /// Whether it is "sep=;".

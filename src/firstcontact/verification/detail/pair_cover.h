@@ -1,6 +1,8 @@
 /// @file
-/// The verifier's proof for one pair of bodies and one step: a cover of the whole step by windows
-/// of time, in each of which every two triangles are separated along some direction.
+/// The verifier's proof for one pair of bodies and one step.
+///
+/// It covers the whole step by windows of time, in each of which every two triangles are separated
+/// along some direction.
 
 #pragma once
 
@@ -40,8 +42,9 @@ struct CoverResult {
   double time = 0.0;  ///< [s]  Where it is closer than promised, or could not be proven.
 };
 
-/// Proves that the bodies stay apart by what was promised, but for 2^-20 of it and twice the
-/// rounding of the proof, and at any rate apart. Times are of the pieces.
+/// Proves that the bodies stay apart, by the promise less 2^-20 of it and less twice the rounding.
+///
+/// They stay apart at any rate. Times are of the pieces.
 [[nodiscard]] CoverResult cover_pair(const CoverBody& A, const CoverBody& B,
                                      const CoverOptions& options);
 

@@ -21,8 +21,9 @@ struct BodyInstant {
   double turn_error = 0.0;  ///< [-]  Of R: times a point's distance from the pivot.
 };
 
-/// A piece from its begin to its end, for the exact motion that its doubles define: the pivot moves
-/// on a line, the body turns about it at a constant rate.
+/// The exact motion of a piece from its begin to its end, as its doubles define it.
+///
+/// The pivot moves on a line, and the body turns about it at a constant rate.
 class PieceMotion {
  public:
   /// @param from  [s]  where the piece begins, < piece.to

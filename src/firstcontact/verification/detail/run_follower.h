@@ -1,5 +1,5 @@
 /// @file
-/// Follows a run from step to step, and tells where its record does not hang together.
+/// Follows a run from step to step, and reports where its record does not hang together.
 
 #pragma once
 
