@@ -57,6 +57,10 @@ enum class JointType {
   ball,        ///< Turns about its centre: a pose without translation.
 };
 
+/// The words of joint types in files and in Python, in this order.
+inline constexpr std::array<const char*, 8> kJointTypeWords{
+    "fixed", "revolute", "continuous", "prismatic", "screw", "planar", "floating", "ball"};
+
 /// The limits that the maker of a joint allows; none where none is given.
 ///
 /// Units per coordinate: rad, or m for prismatic joints; those of a screw belong to the angle.
