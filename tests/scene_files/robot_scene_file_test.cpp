@@ -122,10 +122,9 @@ TEST_F(RobotSceneFile, CarriesAttachedBodies) {
 
 TEST_F(RobotSceneFile, FindsEveryContactInTime) {
   const SceneResult result = check(load(parse(with_ball(kMove))), {.all_contacts_in_time = true});
-  ASSERT_TRUE(result.robots);
   double enter = 4.0;
   double leave = 0.0;
-  for (const RobotPairAnswer& pair : result.robots->pairs) {
+  for (const PairAnswer& pair : result.pairs) {
     for (const ContactInterval& interval : pair.intervals) {
       enter = std::min(enter, interval.enter * 4.0);
       leave = std::max(leave, interval.leave * 4.0);
@@ -293,7 +292,7 @@ world: {collision_objects: [{id: wall, primitives: [{type: sphere, dimensions: [
   const LoadedScene loaded = load(scene);
   const SceneResult result = check(loaded);
   EXPECT_EQ(result.verdict, Verdict::contact);
-  const RobotPairAnswer& first = result.robots->pairs[*result.robots->first];
+  const PairAnswer& first = result.pairs[*result.first];
   EXPECT_EQ(loaded.robots->name(first.members[0]) + loaded.robots->name(first.members[1]),
             "wallrod/1");
   EXPECT_FALSE(loaded.robots->margin({1, 2}));  // The parts of the rod.

@@ -60,57 +60,125 @@ WorkCount work_from(const py::tuple& state) {
           .steps = state[2].cast<std::uint64_t>()};
 }
 
-py::tuple state_of(const ClosestApproachResult& result) {
-  return py::make_tuple(result.distance, result.lower_bound, result.t, result.reason,
-                        result.tolerance_used, result.enclosure_error,
-                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
-                        state_of(result.work));
+py::tuple state_of(const ContactCount& count) {
+  return py::make_tuple(count.at_least, count.is_exact);
 }
 
-std::optional<Contact> optional_contact_from(const py::object& state) {
-  return state.is_none() ? std::nullopt : std::optional(contact_from(state));
+ContactCount contact_count_from(const py::tuple& state) {
+  return {state[0].cast<std::uint64_t>(), state[1].cast<bool>()};
 }
 
-ClosestApproachResult closest_approach_result_from(const py::tuple& state) {
+py::tuple state_of(const ClosestApproach& found);
+py::tuple state_of(const ContactInterval& interval);
+using python::state_of;
+
+/// Of a value that may be missing.
+template <typename T>
+py::object state_or_none(const std::optional<T>& value) {
+  return value ? py::object(state_of(*value)) : py::none();
+}
+
+template <typename T>
+std::optional<T> value_or_none(const py::object& state, T (*from)(const py::tuple&)) {
+  return state.is_none() ? std::nullopt : std::optional(from(state));
+}
+
+/// Of several values, in order.
+template <typename T>
+py::tuple states_of(const std::vector<T>& values) {
+  py::tuple states(values.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    states[k] = state_of(values[k]);
+  }
+  return states;
+}
+
+template <typename T>
+std::vector<T> all_from(const py::handle& states, T (*from)(const py::tuple&)) {
+  std::vector<T> values;
+  for (const py::handle state : states) {
+    values.push_back(from(state.cast<py::tuple>()));
+  }
+  return values;
+}
+
+py::tuple state_of_outcome(const Outcome& outcome) {
+  return py::make_tuple(outcome.verdict, outcome.reason, outcome.t, outcome.t_upper,
+                        outcome.clearance, outcome.tolerance_used, outcome.enclosure_error);
+}
+
+Outcome outcome_from(const py::tuple& state) {
+  return {.verdict = state[0].cast<Verdict>(),
+          .reason = state[1].cast<UndecidedReason>(),
+          .t = state[2].cast<double>(),
+          .t_upper = state[3].cast<std::optional<double>>(),
+          .clearance = state[4].cast<double>(),
+          .tolerance_used = state[5].cast<double>(),
+          .enclosure_error = state[6].cast<double>()};
+}
+
+py::tuple state_of(const ClosestApproach& found) {
+  return py::make_tuple(found.distance, found.lower_bound, found.t, found.reason,
+                        state_or_none(found.closest));
+}
+
+ClosestApproach closest_approach_from(const py::tuple& state) {
   return {.distance = state[0].cast<double>(),
           .lower_bound = state[1].cast<double>(),
           .t = state[2].cast<double>(),
           .reason = state[3].cast<UndecidedReason>(),
-          .tolerance_used = state[4].cast<double>(),
-          .enclosure_error = state[5].cast<double>(),
-          .closest = optional_contact_from(state[6]),
-          .work = work_from(state[7])};
+          .closest = value_or_none<Contact>(state[4], &contact_from)};
+}
+
+py::tuple state_of(const ClosestApproachResult& result) {
+  return py::make_tuple(state_of(static_cast<const ClosestApproach&>(result)),
+                        result.tolerance_used, result.enclosure_error, state_of(result.work));
+}
+
+ClosestApproachResult closest_approach_result_from(const py::tuple& state) {
+  ClosestApproachResult result;
+  static_cast<ClosestApproach&>(result) = closest_approach_from(state[0]);
+  result.tolerance_used = state[1].cast<double>();
+  result.enclosure_error = state[2].cast<double>();
+  result.work = work_from(state[3]);
+  return result;
+}
+
+py::tuple state_of(const ContactInterval& interval) {
+  return py::make_tuple(interval.enter, interval.leave, interval.reason);
+}
+
+ContactInterval interval_from(const py::tuple& state) {
+  return {.enter = state[0].cast<double>(),
+          .leave = state[1].cast<double>(),
+          .reason = state[2].cast<UndecidedReason>()};
+}
+
+py::tuple state_of(const FirstContactResult& result) {
+  return py::make_tuple(state_of_outcome(result), states_of(result.contacts),
+                        state_of(result.contact_count), state_of(result.work));
+}
+
+FirstContactResult first_contact_result_from(const py::tuple& state) {
+  FirstContactResult result;
+  static_cast<Outcome&>(result) = outcome_from(state[0]);
+  result.contacts = all_from<Contact>(state[1], &contact_from);
+  result.contact_count = contact_count_from(state[2]);
+  result.work = work_from(state[3]);
+  return result;
 }
 
 py::tuple state_of(const DistanceResult& result) {
   return py::make_tuple(result.distance, result.lower_bound, result.enclosure_error,
-                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
-                        state_of(result.work));
+                        state_or_none(result.closest), state_of(result.work));
 }
 
 DistanceResult distance_result_from(const py::tuple& state) {
   return {.distance = state[0].cast<double>(),
           .lower_bound = state[1].cast<double>(),
           .enclosure_error = state[2].cast<double>(),
-          .closest = optional_contact_from(state[3]),
+          .closest = value_or_none<Contact>(state[3], &contact_from),
           .work = work_from(state[4])};
-}
-
-py::tuple state_of(const ManyBodiesResult& result) {
-  py::list first;
-  for (const PairAnswer& answer : result.first) {
-    first.append(python::state_of(answer));
-  }
-  return py::make_tuple(outcome_of(result), py::tuple(first), state_of(result.work));
-}
-
-ManyBodiesResult many_bodies_result_from(const py::tuple& state) {
-  auto result = with_outcome<ManyBodiesResult>(state[0]);
-  for (const py::handle answer : state[1]) {
-    result.first.push_back(pair_answer_from(answer.cast<py::tuple>()));
-  }
-  result.work = work_from(state[2]);
-  return result;
 }
 
 /// Defines pickling by a state.
@@ -188,23 +256,31 @@ void bind_contact(py::module_& m) {
   add_pickling<WorkCount>(work, &state_of, &work_from);
 }
 
+/// Defines what every answer begins with.
+template <typename T, typename... Options>
+void add_outcome(py::class_<T, Options...>& type, const char* t, const char* clearance,
+                 const char* tolerance_used, const char* enclosure_error) {
+  type.def_readonly("verdict", &T::verdict)
+      .def_readonly("reason", &T::reason, "Why it is undecided.")
+      .def_readonly("t", &T::t, t)
+      .def_readonly("t_upper", &T::t_upper,
+                    "[-] For `contact` t; for `undecided` a later time that is proven to be in "
+                    "contact, if one is known.")
+      .def_readonly("clearance", &T::clearance, clearance)
+      .def_readonly("tolerance_used", &T::tolerance_used, tolerance_used)
+      .def_readonly("enclosure_error", &T::enclosure_error, enclosure_error)
+      .def_readonly("work", &T::work);
+}
+
 void bind_pair_results(py::module_& m) {
   using Result = FirstContactResult;
   py::class_<Result> first(m, "FirstContactResult", "First contact of two moving shapes.");
-  first.def_readonly("verdict", &Result::verdict)
-      .def_readonly("reason", &Result::reason, "Why it is undecided.")
-      .def_readonly(
-          "t", &Result::t,
-          "[-] Before it the shapes are farther apart than the margin: proven. 1 when free.")
-      .def_readonly("t_upper", &Result::t_upper,
-                    "[-] For `contact` t; for `undecided` a later time that is proven to be in "
-                    "contact, if one is known.")
-      .def_readonly("clearance", &Result::clearance,
-                    "[m] Proven lower bound of the distance before t.")
-      .def_readonly("tolerance_used", &Result::tolerance_used,
-                    "[m] Holds in place of the asked one; larger only if doubles need it.")
-      .def_readonly("enclosure_error", &Result::enclosure_error,
-                    "[m] Of both shapes: adds to the tolerance of a contact.")
+  add_outcome(first,
+              "[-] Before it the shapes are farther apart than the margin: proven. 1 when free.",
+              "[m] Proven lower bound of the distance before t.",
+              "[m] Holds in place of the asked one; larger only if doubles need it.",
+              "[m] Of both shapes: adds to the tolerance of a contact.");
+  first
       .def_property_readonly(
           "contacts", [](const Result& result) { return contact_tuple(result.contacts); },
           "At t, sorted by features; those that were asked for.")
@@ -216,26 +292,31 @@ void bind_pair_results(py::module_& m) {
           [](const Result& result) { return result.contact_count.is_exact; },
           "Not where only the first was asked for, or counting ended early: then there may be "
           "more.")
-      .def_readonly("work", &Result::work)
       .def("__repr__", [](const Result& result) {
-        return "<FirstContactResult: " + verdict_text(result.verdict, result.reason, result.t) +
-               ">";
+        return "<FirstContactResult: " + verdict_text(result) + ">";
       });
-  add_pickling<Result>(first, &python::state_of, &first_contact_result_from);
+  add_pickling<Result>(first, &state_of, &first_contact_result_from);
 
-  using Closest = ClosestApproachResult;
-  py::class_<Closest> closest(m, "ClosestApproachResult",
-                              "Closest approach of two moving shapes over the step.");
-  closest
-      .def_readonly("distance", &Closest::distance,
+  py::class_<ClosestApproach> approach(m, "ClosestApproach",
+                                       "Where two shapes are closest over the step.");
+  approach
+      .def_readonly("distance", &ClosestApproach::distance,
                     "[m] Attained at t; an upper bound of the least distance over the step.")
-      .def_readonly("lower_bound", &Closest::lower_bound, "[m] Proven for all t in [0, 1].")
-      .def_readonly("t", &Closest::t, "[-] A time where `distance` is attained.")
-      .def_readonly("reason", &Closest::reason, "Not `none`: the budget ended the search.")
-      .def_readonly("tolerance_used", &Closest::tolerance_used, "[m]")
+      .def_readonly("lower_bound", &ClosestApproach::lower_bound, "[m] Proven for all t in [0, 1].")
+      .def_readonly("t", &ClosestApproach::t, "[-] A time where `distance` is attained.")
+      .def_readonly("reason", &ClosestApproach::reason, "Not `none`: the budget ended the search.")
+      .def_readonly("closest", &ClosestApproach::closest, "The closest feature pair at t, or None.")
+      .def("__repr__", [](const ClosestApproach& found) {
+        return "<ClosestApproach: " + number_text(found.distance) +
+               " m at t = " + number_text(found.t) + ">";
+      });
+  add_pickling<ClosestApproach>(approach, &state_of, &closest_approach_from);
+  using Closest = ClosestApproachResult;
+  py::class_<Closest, ClosestApproach> closest(
+      m, "ClosestApproachResult", "Closest approach of two moving shapes over the step.");
+  closest.def_readonly("tolerance_used", &Closest::tolerance_used, "[m]")
       .def_readonly("enclosure_error", &Closest::enclosure_error,
                     "[m] Of both shapes: the bodies may be farther apart by this.")
-      .def_readonly("closest", &Closest::closest, "The closest feature pair at t, or None.")
       .def_readonly("work", &Closest::work)
       .def("__repr__", [](const Closest& result) {
         return "<ClosestApproachResult: " + number_text(result.distance) +
@@ -261,44 +342,39 @@ void bind_pair_results(py::module_& m) {
 }
 
 void bind_set_results(py::module_& m) {
-  py::class_<PairAnswer> answer(m, "PairAnswer", "What one pair of bodies answered.");
+  py::class_<PairAnswer, FirstContactResult> answer(
+      m, "PairAnswer", "What one pair of bodies answered: its first contact, and what was asked.");
   answer
       .def_property_readonly(
-          "bodies", [](const PairAnswer& a) { return py::make_tuple(a.bodies[0], a.bodies[1]); },
+          "members", [](const PairAnswer& a) { return py::make_tuple(a.members[0], a.members[1]); },
           "Their numbers, the smaller first.")
-      .def_readonly("margin", &PairAnswer::margin, "[m]")
-      .def_readonly("first_contact", &PairAnswer::first_contact)
-      .def_readonly("closest_approach", &PairAnswer::closest_approach,
-                    "None where it was not asked.")
+      .def_readonly("margin", &PairAnswer::margin, "[m] Closer than this counts as contact.")
+      .def_property_readonly(
+          "intervals", [](const PairAnswer& a) { return states_of(a.intervals); },
+          "Of contact, in order: tuples of enter, leave and reason; where "
+          "all_contacts_in_time was asked.")
+      .def_readonly("closest", &PairAnswer::closest,
+                    "A ClosestApproach; None where it was not asked.")
       .def("__repr__", [](const PairAnswer& a) {
-        return "<PairAnswer of " + std::to_string(a.bodies[0]) + " and " +
-               std::to_string(a.bodies[1]) + ": " +
-               verdict_text(a.first_contact.verdict, a.first_contact.reason, a.first_contact.t) +
-               ">";
+        return "<PairAnswer of " + std::to_string(a.members[0]) + " and " +
+               std::to_string(a.members[1]) + ": " + verdict_text(a) + ">";
       });
   add_pickling<PairAnswer>(answer, &python::state_of, &pair_answer_from);
 
-  using Result = ManyBodiesResult;
-  py::class_<Result> many(m, "ManyBodiesResult", "The first contact of a set of bodies.");
-  many.def_readonly("verdict", &Result::verdict)
-      .def_readonly("reason", &Result::reason, "Why it is undecided.")
-      .def_readonly("t", &Result::t, "[-] No pair is in contact before it: proven. 1 when free.")
-      .def_readonly("t_upper", &Result::t_upper,
-                    "[-] A time that is proven to be in contact, if one is known.")
-      .def_readonly("clearance", &Result::clearance,
-                    "[m] Proven lower bound of every pair's distance up to t; infinite where there "
-                    "are no pairs.")
-      .def_readonly("tolerance_used", &Result::tolerance_used,
-                    "[m] The greatest of the pairs that were searched.")
-      .def_readonly("enclosure_error", &Result::enclosure_error, "[m] The greatest of these.")
+  py::class_<SceneResult> result(m, "SceneResult", "The first contact of a set of bodies.");
+  add_outcome(result, "[-] No pair is in contact before it: proven. 1 when free.",
+              "[m] Proven lower bound of every pair's distance up to t; infinite where there are "
+              "no pairs.",
+              "[m] The greatest of the pairs that were searched.", "[m] The greatest of these.");
+  result
+      .def_readonly("first", &SceneResult::first,
+                    "The index in pairs of the one that decides t; None when free.")
       .def_property_readonly(
-          "first", [](const Result& result) { return py::tuple(py::cast(result.first)); },
-          "The pairs that decide t, by their order; none when free.")
-      .def_readonly("work", &Result::work)
-      .def("__repr__", [](const Result& result) {
-        return "<ManyBodiesResult: " + verdict_text(result.verdict, result.reason, result.t) + ">";
-      });
-  add_pickling<Result>(many, &state_of, &many_bodies_result_from);
+          "pairs", [](const SceneResult& r) { return py::tuple(py::cast(r.pairs)); },
+          "PairAnswers of the pairs that decide t, by their order; none when free.")
+      .def("__repr__",
+           [](const SceneResult& r) { return "<SceneResult: " + verdict_text(r) + ">"; });
+  add_pickling<SceneResult>(result, &python::state_of, &scene_result_from);
 }
 
 // Questions
@@ -458,21 +534,24 @@ rules, the budget holds for each pair.)");
       [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
          StartContacts start_contacts, ContactState contacts, double contact_band,
          std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
-         const py::object& progress, OrNone<std::stop_source> stop, bool closest) {
+         const py::object& progress, OrNone<std::stop_source> stop, bool closest,
+         bool all_contacts_in_time) {
         ManyBodiesOptions options =
             set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
         options.threads = threads;
         options.closest = closest;
+        options.all_contacts_in_time = all_contacts_in_time;
         return ask_set(
             {bodies, workspace, options, progress, stop},
             [](const BodySet& set, ManyBodiesWorkspace& scratch, const ManyBodiesOptions& asked) {
               return answer_each_pair(set, scratch, asked);
             });
       },
-      py::arg("closest") = false,
+      py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
       R"(The answer of every pair that the rules do not ignore, over the whole step, by their order.
 
-closest: also the closest approach of each. progress: called with the part that is done. The rest as
+closest: also the closest approach of each. all_contacts_in_time: also from when to when each is in
+contact. progress: called with the part that is done. The rest as
 of first_contact.)");
 }
 
@@ -664,23 +743,23 @@ py::tuple contact_tuple(const std::vector<Contact>& contacts) {
   return tuple;
 }
 
-std::string verdict_text(Verdict verdict, UndecidedReason reason, double t) {
-  std::string text = word(verdict);
-  if (verdict == Verdict::undecided) {
-    text += std::string(" (") + word(reason) + "), free until";
-  } else if (verdict == Verdict::contact) {
+std::string verdict_text(const Outcome& outcome) {
+  std::string text = word(outcome.verdict);
+  if (outcome.verdict == Verdict::undecided) {
+    text += std::string(" (") + word(outcome.reason) + "), free until";
+  } else if (outcome.verdict == Verdict::contact) {
     text += " at";
   } else {
     return text;
   }
-  return text + " t = " + number_text(t);
+  return text + " t = " + number_text(outcome.t);
 }
 
 py::tuple state_of(const Contact& contact) {
   return py::make_tuple(state_of(contact.feature_A), state_of(contact.feature_B),
                         plain(contact.p_WA), plain(contact.p_WB),
                         contact.n_AB_W ? py::object(plain(*contact.n_AB_W)) : py::none(),
-                        contact.distance, contact.normal_velocity);
+                        contact.distance, contact.normal_velocity, contact.geometries);
 }
 
 Contact contact_from(const py::tuple& state) {
@@ -694,51 +773,38 @@ Contact contact_from(const py::tuple& state) {
   }
   contact.distance = state[5].cast<double>();
   contact.normal_velocity = state[6].cast<double>();
+  contact.geometries = state[7].cast<std::array<std::size_t, 2>>();
   return contact;
 }
 
-py::tuple state_of(const ContactCount& count) {
-  return py::make_tuple(count.at_least, count.is_exact);
-}
-
-ContactCount contact_count_from(const py::tuple& state) {
-  return {state[0].cast<std::uint64_t>(), state[1].cast<bool>()};
-}
-
-py::tuple state_of(const FirstContactResult& result) {
-  py::tuple contacts(result.contacts.size());
-  for (std::size_t k = 0; k < result.contacts.size(); ++k) {
-    contacts[k] = state_of(result.contacts[k]);
-  }
-  return py::make_tuple(outcome_of(result), contacts, state_of(result.contact_count),
-                        state_of(result.work));
-}
-
-FirstContactResult first_contact_result_from(const py::tuple& state) {
-  auto result = with_outcome<FirstContactResult>(state[0]);
-  for (const py::handle contact : state[1]) {
-    result.contacts.push_back(contact_from(contact.cast<py::tuple>()));
-  }
-  result.contact_count = contact_count_from(state[2]);
-  result.work = work_from(state[3]);
-  return result;
-}
-
 py::tuple state_of(const PairAnswer& answer) {
-  return py::make_tuple(
-      answer.bodies[0], answer.bodies[1], answer.margin, state_of(answer.first_contact),
-      answer.closest_approach ? py::object(state_of(*answer.closest_approach)) : py::none());
+  return py::make_tuple(state_of(static_cast<const FirstContactResult&>(answer)), answer.members,
+                        answer.margin, states_of(answer.intervals), state_or_none(answer.closest));
 }
 
 PairAnswer pair_answer_from(const py::tuple& state) {
-  PairAnswer answer{.bodies = {state[0].cast<std::size_t>(), state[1].cast<std::size_t>()},
-                    .margin = state[2].cast<double>(),
-                    .first_contact = first_contact_result_from(state[3]),
-                    .closest_approach = {}};
-  if (!state[4].is_none()) {
-    answer.closest_approach = closest_approach_result_from(state[4]);
-  }
+  PairAnswer answer;
+  static_cast<FirstContactResult&>(answer) = first_contact_result_from(state[0]);
+  answer.members = state[1].cast<BodyPair>();
+  answer.margin = state[2].cast<double>();
+  answer.intervals = all_from<ContactInterval>(state[3], &interval_from);
+  answer.closest = value_or_none<ClosestApproach>(state[4], &closest_approach_from);
   return answer;
+}
+
+py::tuple state_of(const SceneResult& result) {
+  return py::make_tuple(state_of_outcome(result), result.first, result.closest,
+                        states_of(result.pairs), state_of(result.work));
+}
+
+SceneResult scene_result_from(const py::tuple& state) {
+  SceneResult result;
+  static_cast<Outcome&>(result) = outcome_from(state[0]);
+  result.first = state[1].cast<std::optional<std::size_t>>();
+  result.closest = state[2].cast<std::optional<std::size_t>>();
+  result.pairs = all_from<PairAnswer>(state[3], &pair_answer_from);
+  result.work = work_from(state[4]);
+  return result;
 }
 
 void bind_query(py::module_& m) {

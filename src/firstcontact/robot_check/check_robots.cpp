@@ -9,20 +9,20 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/many_bodies/detail/contact_intervals.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/robot_check/detail/candidates.h>
-#include <firstcontact/robot_check/detail/contact_intervals.h>
 #include <firstcontact/robot_check/detail/least_clearance.h>
 #include <firstcontact/robot_check/detail/least_of_all.h>
 #include <firstcontact/robot_check/detail/pair_contacts.h>
+#include <firstcontact/robot_check/detail/part_answer.h>
 #include <firstcontact/robot_check/detail/part_search.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::is_contact;
 using detail::PartAnswer;
 using detail::PartCandidate;
 using detail::PartSearch;
@@ -73,12 +73,12 @@ class RobotCheck {
     }
   }
 
-  RobotCheckResult run() {
+  SceneResult run() {
     walk();
-    if (options_.least_clearance && asks_each_pair()) {
-      find_least_clearances();
-    } else if (options_.least_clearance) {
-      find_least_of_all();
+    if (options_.closest && asks_each_pair()) {
+      find_closest_of_each();
+    } else if (options_.closest) {
+      find_closest_of_all();
     }
     report(1.0);
     return result();
@@ -86,7 +86,7 @@ class RobotCheck {
 
  private:
   [[nodiscard]] bool asks_each_pair() const {
-    return options_.all_pairs || options_.all_contact_intervals;
+    return options_.all_pairs || options_.all_contacts_in_time;
   }
 
   /// Takes the pieces one after the other, as far as they matter.
@@ -105,11 +105,11 @@ class RobotCheck {
     }
   }
 
-  [[nodiscard]] RobotPairAnswer free_answer(std::size_t pair) const {
+  [[nodiscard]] PairAnswer free_answer(std::size_t pair) const {
     const detail::TestedPair& tested = timeline_.pairs()[pair];
-    RobotPairAnswer answer;
+    PairAnswer answer;
     answer.members = tested.members;
-    answer.threshold = tested.margin;
+    answer.margin = tested.margin;
     answer.verdict = Verdict::free;
     answer.t = 1.0;
     answer.tolerance_used = options_.tolerance;
@@ -118,7 +118,7 @@ class RobotCheck {
 
   /// That of a tested pair, by index: free until something else is found. Most pairs never need
   /// one.
-  RobotPairAnswer& answer_of(std::size_t pair) {
+  PairAnswer& answer_of(std::size_t pair) {
     std::size_t& place = place_of_[pair];
     if (place == kNone) {
       place = pairs_.size();
@@ -159,7 +159,7 @@ class RobotCheck {
     std::function<bool(std::size_t)> wanted;
     if (only_) {
       wanted = [&](std::size_t pair) { return pair == *only_; };
-    } else if (asks_each_pair() && !options_.all_contact_intervals) {
+    } else if (asks_each_pair() && !options_.all_contacts_in_time) {
       wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
     }
     std::vector<std::vector<PartCandidate>> found(last - first);
@@ -195,7 +195,7 @@ class RobotCheck {
 
   PartAnswer ask(const PartCandidate& candidate, double end) {
     PartSearch search(timeline_, candidate, options_, workspaces_.local());
-    if (options_.all_contact_intervals) {
+    if (options_.all_contacts_in_time) {
       return contact_intervals_of(search, candidate, options_.time_resolution);
     }
     return first_contact_of(search, candidate, end, is_tested_anew(candidate));
@@ -210,31 +210,25 @@ class RobotCheck {
 
   /// A contact holds for the pair even beside an undecided search: nothing touches before it.
   void take(const PartCandidate& candidate, PartAnswer&& answer) {
-    RobotPairAnswer& pair = answer_of(candidate.pair);
-    FirstContactResult& found = answer.first;
-    pair.steps += answer.steps;
-    pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
-    pair.enclosure_error = std::max(pair.enclosure_error, found.enclosure_error);
+    PairAnswer& pair = answer_of(candidate.pair);
+    const FirstContactResult& found = answer.first;
+    detail::PairContacts& contacts = contacts_[place_of_[candidate.pair]];
+    pair.work += answer.work;
     pair.intervals.insert(pair.intervals.end(), answer.intervals.begin(), answer.intervals.end());
-    if (found.t_upper) {
-      pair.t_upper = std::min(pair.t_upper.value_or(1.0), *found.t_upper);
+    const bool decides = decides_before(found, pair);
+    const bool adds = !decides && found.t == pair.t && is_contact(found.verdict);
+    merge(found, pair);
+    if (decides) {
+      pair.margin = candidate.threshold;
+      pair.contact_count = found.contact_count;
+      contacts.clear();
+      contacts.add(found.contacts);
+    } else if (adds) {
+      pair.contact_count += found.contact_count;
+      contacts.add(found.contacts);
     }
     if (found.verdict == Verdict::free) {
       return;
-    }
-    const bool is_earlier = pair.verdict == Verdict::free || found.t < pair.t;
-    const bool says_more = found.t == pair.t && is_contact(found.verdict);
-    if (is_earlier || (says_more && !is_contact(pair.verdict))) {
-      pair.verdict = found.verdict;
-      pair.reason = found.reason;
-      pair.t = found.t;
-      pair.threshold = candidate.threshold;
-      pair.contact_count = found.contact_count;
-      contacts_[place_of_[candidate.pair]].clear();
-      contacts_[place_of_[candidate.pair]].add(answer.contacts);
-    } else if (says_more) {
-      pair.contact_count += found.contact_count;
-      contacts_[place_of_[candidate.pair]].add(answer.contacts);
     }
     if (!earliest_ || pair.t < first_) {
       earliest_ = {candidate, found.t};
@@ -249,13 +243,13 @@ class RobotCheck {
       return;
     }
     answer_all();
-    for (RobotPairAnswer& pair : pairs_) {
+    for (PairAnswer& pair : pairs_) {
       give_up(pair, t, reason);
     }
     first_ = std::min(first_, t);
   }
 
-  static void give_up(RobotPairAnswer& pair, double t, UndecidedReason reason) {
+  static void give_up(PairAnswer& pair, double t, UndecidedReason reason) {
     pair.intervals.push_back({t, 1.0, reason});
     if (pair.verdict == Verdict::free) {
       pair.verdict = Verdict::undecided;
@@ -264,7 +258,7 @@ class RobotCheck {
     }
   }
 
-  void find_least_clearances() {
+  void find_closest_of_each() {
     detail::BallsOfPieces balls(timeline_.piece_count());
     const auto spent = [&] { return detail::spent(options_.budget); };
     for_each(balls.size(), [&](std::size_t piece) {
@@ -280,98 +274,74 @@ class RobotCheck {
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
       const UndecidedReason reason = spent();
-      answer_of(k).least_clearance =
+      answer_of(k).closest =
           reason == UndecidedReason::none
               ? least_clearance_of(timeline_, balls, k, options_, workspaces_.local())
-              : LeastClearance{.reason = reason};
+              : ClosestApproach{.reason = reason};
     });
   }
 
-  void find_least_of_all() {
+  void find_closest_of_all() {
     const auto found =
         detail::least_of_all(timeline_, candidates_, earliest_, options_, workspaces_);
     if (!found) {
       return;
     }
-    const RobotPairAnswer& pair = answer_of(found->pair);
+    const PairAnswer& pair = answer_of(found->pair);
     const bool decides = pair.verdict != Verdict::free && pair.t == first_;
     if (first_ < 1.0 && !decides && detail::spent(options_.budget) == UndecidedReason::none) {
       answer_whole_step(found->pair);
     }
-    answer_of(found->pair).least_clearance = found->least;
+    answer_of(found->pair).closest = found->least;
     least_of_all_ = found->least.lower_bound;
   }
 
   /// Of a pair that was searched no longer than until another one's contact.
   void answer_whole_step(std::size_t pair) {
-    RobotPairAnswer& answer = answer_of(pair);
-    const std::uint64_t steps = answer.steps;
+    PairAnswer& answer = answer_of(pair);
+    const WorkCount work = answer.work;
     answer = free_answer(pair);
-    answer.steps = steps;
+    answer.work = work;
     contacts_[place_of_[pair]].clear();
     only_ = pair;
     walk();
     only_.reset();
   }
 
-  RobotCheckResult result() {
-    RobotCheckResult result;
-    result.verdict = Verdict::free;
-    result.clearance = std::numeric_limits<double>::infinity();
-    result.t = timeline_.pairs().empty() ? 1.0 : first_;
+  SceneResult result() {
+    SceneResult result;
+    static_cast<Outcome&>(result) = outcome_of_no_pair(options_.tolerance);
     if (pairs_.size() < timeline_.pairs().size()) {
       result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
     }
-    result.tolerance_used = options_.tolerance;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       pairs_[k].contacts = contacts_[k].take();
     }
-    std::sort(pairs_.begin(), pairs_.end(), [](const RobotPairAnswer& x, const RobotPairAnswer& y) {
-      return x.members < y.members;
-    });
-    for (RobotPairAnswer& pair : pairs_) {
-      pair.intervals = options_.all_contact_intervals
-                           ? detail::joined(std::move(pair.intervals), options_.time_resolution)
-                           : std::vector<ContactInterval>();
-      gather(pair, result);
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const PairAnswer& x, const PairAnswer& y) { return x.members < y.members; });
+    for (PairAnswer& pair : pairs_) {
+      finish(pair);
+      merge(pair, result);
+      result.work += pair.work;
+    }
+    for (PairAnswer& pair : pairs_) {
       const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
-      if (asks_each_pair() || decides || pair.least_clearance) {
+      if (asks_each_pair() || decides || pair.closest) {
         result.pairs.push_back(std::move(pair));
       }
     }
-    take_verdict(result);
+    result.first = deciding_pair(result.pairs);
+    result.closest = closest_pair(result.pairs);
     result.clearance = std::max(result.clearance, least_of_all_);
     return result;
   }
 
-  static void gather(const RobotPairAnswer& pair, RobotCheckResult& result) {
-    const double least = pair.least_clearance ? pair.least_clearance->lower_bound : 0.0;
-    const double kept = pair.t > 0.0 ? pair.threshold : 0.0;
-    result.clearance = std::min(result.clearance, std::max(kept, least));
-    result.tolerance_used = std::max(result.tolerance_used, pair.tolerance_used);
-    result.enclosure_error = std::max(result.enclosure_error, pair.enclosure_error);
-    result.steps += pair.steps;
-    if (pair.t_upper) {
-      result.t_upper = std::min(result.t_upper.value_or(1.0), *pair.t_upper);
-    }
-  }
-
-  static void take_verdict(RobotCheckResult& result) {
-    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
-      const RobotPairAnswer& pair = result.pairs[k];
-      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
-      if (decides && (!result.first || (is_contact(pair.verdict) && !is_contact(result.verdict)))) {
-        result.first = k;
-        result.verdict = pair.verdict;
-        result.reason = pair.reason;
-      }
-      const auto distance = [&](std::size_t index) {
-        return result.pairs[index].least_clearance->distance;
-      };
-      if (pair.least_clearance && (!result.closest || distance(k) < distance(*result.closest))) {
-        result.closest = k;
-      }
-    }
+  void finish(PairAnswer& pair) const {
+    pair.intervals = options_.all_contacts_in_time
+                         ? detail::joined(std::move(pair.intervals), options_.time_resolution)
+                         : std::vector<ContactInterval>();
+    pair.clearance =
+        std::max(pair.t > 0.0 ? pair.margin : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
   }
 
   const detail::RobotTimeline& timeline_;
@@ -379,7 +349,7 @@ class RobotCheck {
   detail::LinkWorkspaces& workspaces_;
   const RobotCheckOptions& options_;
   std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
-  std::vector<RobotPairAnswer> pairs_;
+  std::vector<PairAnswer> pairs_;
   std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
   double first_ = 1.0;                          // Before it all pairs are proven free.
   std::optional<detail::KnownNear> earliest_;   // The search that found it.
@@ -387,7 +357,7 @@ class RobotCheck {
   std::optional<std::size_t> only_;             // The only pair that is asked about now.
 };
 
-RobotCheckResult check(Prepared& scene, const RobotCheckOptions& options) {
+SceneResult check(Prepared& scene, const RobotCheckOptions& options) {
   validate(options);
   return RobotCheck(scene, options).run();
 }
@@ -418,12 +388,12 @@ void RobotChecker::set_motion(std::size_t robot, RobotMotion motion) {
   data_->prepared.timeline.follow_motions();
 }
 
-RobotCheckResult RobotChecker::check(const RobotCheckOptions& options) {
+SceneResult RobotChecker::check(const RobotCheckOptions& options) {
   const FloatEnvironmentGuard guard;
   return firstcontact::check(data_->prepared, options);
 }
 
-RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
+SceneResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
   const FloatEnvironmentGuard guard;
   Prepared prepared(scene);
   return check(prepared, options);

@@ -87,18 +87,13 @@ bool PartSearch::is_inside(double t) {
   return (A_.is_solid() || B_.is_solid()) && distance(t) == 0.0;
 }
 
-bool PartSearch::touch(double t, double tolerance_used) {
-  return !(distance(t) > candidate_.threshold + tolerance_used);
-}
-
-RobotContact PartSearch::in_world(const Contact& contact, double t) const {
+Contact PartSearch::in_world(const Contact& contact, double t) const {
   return placed(contact, frame_at(t));
 }
 
-std::vector<RobotContact> PartSearch::in_world(const std::vector<Contact>& contacts,
-                                               double t) const {
+std::vector<Contact> PartSearch::in_world(const std::vector<Contact>& contacts, double t) const {
   const LinkPose X_WF = frame_at(t);
-  std::vector<RobotContact> all;
+  std::vector<Contact> all;
   all.reserve(contacts.size());
   for (const Contact& contact : contacts) {
     all.push_back(placed(contact, X_WF));
@@ -114,15 +109,15 @@ LinkPose PartSearch::frame_at(double t) const {
   return motion.path(paths_.frame->link, t).pose(t);
 }
 
-RobotContact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
+Contact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
   const auto parts = timeline_.parts();
   const auto& [a, b] = candidate_.parts;
-  RobotContact placed{
-      {parts[a].member, parts[b].member}, {parts[a].geometry, parts[b].geometry}, contact};
-  placed.contact.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
-  placed.contact.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
+  Contact placed = contact;
+  placed.geometries = {parts[a].geometry, parts[b].geometry};
+  placed.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
+  placed.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
   if (contact.n_AB_W) {
-    placed.contact.n_AB_W = X_WF.R_FL * *contact.n_AB_W;
+    placed.n_AB_W = X_WF.R_FL * *contact.n_AB_W;
   }
   return placed;
 }
