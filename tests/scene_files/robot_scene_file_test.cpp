@@ -170,9 +170,21 @@ TEST_F(RobotSceneFile, SaysWhatIsWrong) {
             "s.json:1: robots: expected at least one body or robot, got none");
 }
 
-TEST_F(RobotSceneFile, RefusesOptionsThatRobotsDoNotHave) {
-  const LoadedScene loaded = load(parse(with_ball(kMove, R"(, "options": {"contact_band": 1})")));
-  EXPECT_THROW((void)check(loaded), std::invalid_argument);
+TEST_F(RobotSceneFile, RefusesToKeepHalfWithinTrackingErrors) {
+  const std::string options = R"(, "options": {"start_contacts": "keep_half"})";
+  EXPECT_EQ(check(load(parse(with_ball(kMove, options)))).verdict, Verdict::contact);
+  const LoadedScene loose =
+      load(parse(with_ball(std::string(kMove) + R"(, "tracking_error": 0.02)", options)));
+  EXPECT_THROW((void)check(loose), std::invalid_argument);
+}
+
+TEST_F(RobotSceneFile, ListsFeaturesWithinTheBand) {
+  const auto count = [&](const std::string& options) {
+    return check(load(parse(with_ball(kMove, options)))).pairs.at(0).contact_count.at_least;
+  };
+  // The tip is a ball at the end of the bar: one feature pair, and no more within a small band.
+  EXPECT_EQ(count(R"(, "options": {"contact_band": 1e-3})"), count(""));
+  EXPECT_GE(count(R"(, "options": {"contact_band": 1})"), 1u);
 }
 
 TEST_F(RobotSceneFile, IsPutTogetherFromAQuestion) {

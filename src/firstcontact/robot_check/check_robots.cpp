@@ -1,6 +1,7 @@
 #include <firstcontact/robot_check/check_robots.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,6 +17,7 @@
 #include <firstcontact/robot_check/detail/least_clearance.h>
 #include <firstcontact/robot_check/detail/least_of_all.h>
 #include <firstcontact/robot_check/detail/pair_contacts.h>
+#include <firstcontact/robot_check/detail/pair_holds.h>
 #include <firstcontact/robot_check/detail/part_answer.h>
 #include <firstcontact/robot_check/detail/part_search.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
@@ -49,6 +51,8 @@ void validate(const RobotCheckOptions& options) {
           "time_resolution must be in (0, 1]");
   require(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
           "contacts must be nearest(1) or more");
+  require(options.contact_band >= 0.0 && std::isfinite(options.contact_band),
+          "contact_band must be finite and >= 0");
 }
 
 /// All that checks of a scene share.
@@ -74,6 +78,9 @@ class RobotCheck {
   }
 
   SceneResult run() {
+    if (options_.start_contacts == StartContacts::keep_half) {
+      find_holds();
+    }
     walk();
     if (options_.closest && asks_each_pair()) {
       find_closest_of_each();
@@ -87,6 +94,27 @@ class RobotCheck {
  private:
   [[nodiscard]] bool asks_each_pair() const {
     return options_.all_pairs || options_.all_contacts_in_time;
+  }
+
+  void find_holds() {
+    require(!timeline_.has_tracking_errors(),
+            "start_contacts: keep_half is not for robots with tracking errors, within which they "
+            "may start in contact");
+    holds_.emplace(timeline_, options_, workspaces_);
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      give_up_without_hold(pair);
+    }
+  }
+
+  /// Nothing is known of a pair whose start the budget did not let see.
+  void give_up_without_hold(std::size_t pair) {
+    for (const detail::HeldStretch& stretch : holds_->stretches(pair)) {
+      if (stretch.hold.stopped != UndecidedReason::none) {
+        const double t = timeline_.piece(stretch.first_piece).begin;
+        give_up(answer_of(pair), t, stretch.hold.stopped);
+        first_ = std::min(first_, t);
+      }
+    }
   }
 
   /// Takes the pieces one after the other, as far as they matter.
@@ -124,6 +152,7 @@ class RobotCheck {
       place = pairs_.size();
       pairs_.push_back(free_answer(pair));
       contacts_.emplace_back(most_contacts());
+      deciding_parts_.emplace_back();
     }
     return pairs_[place];
   }
@@ -162,11 +191,17 @@ class RobotCheck {
     } else if (asks_each_pair() && !options_.all_contacts_in_time) {
       wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
     }
+    const std::span<const double> held = holds_ ? holds_->greatest() : std::span<const double>();
     std::vector<std::vector<PartCandidate>> found(last - first);
-    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
+    for_each(found.size(),
+             [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted, held); });
     std::vector<PartCandidate> all;
     for (const std::vector<PartCandidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
+    }
+    if (holds_) {
+      std::for_each(all.begin(), all.end(),
+                    [&](PartCandidate& candidate) { holds_->apply(candidate); });
     }
     return all;
   }
@@ -223,9 +258,11 @@ class RobotCheck {
       pair.contact_count = found.contact_count;
       contacts.clear();
       contacts.add(found.contacts);
+      deciding_parts_[place_of_[candidate.pair]] = {candidate.parts};
     } else if (adds) {
       pair.contact_count += found.contact_count;
       contacts.add(found.contacts);
+      deciding_parts_[place_of_[candidate.pair]].push_back(candidate.parts);
     }
     if (found.verdict == Verdict::free) {
       return;
@@ -303,6 +340,9 @@ class RobotCheck {
     answer = free_answer(pair);
     answer.work = work;
     contacts_[place_of_[pair]].clear();
+    if (holds_) {
+      give_up_without_hold(pair);
+    }
     only_ = pair;
     walk();
     only_.reset();
@@ -311,16 +351,18 @@ class RobotCheck {
   SceneResult result() {
     SceneResult result;
     static_cast<Outcome&>(result) = outcome_of_no_pair(options_.tolerance);
-    if (pairs_.size() < timeline_.pairs().size()) {
-      result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
-    }
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      pairs_[k].contacts = contacts_[k].take();
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      if (place_of_[pair] != kNone) {
+        finish(pair);
+      } else if (holds_) {
+        result.clearance = std::min(result.clearance, holds_->least(pair));
+      } else {
+        result.clearance = timeline_.least_margin();  // Of those without an answer, all free.
+      }
     }
     std::sort(pairs_.begin(), pairs_.end(),
               [](const PairAnswer& x, const PairAnswer& y) { return x.members < y.members; });
-    for (PairAnswer& pair : pairs_) {
-      finish(pair);
+    for (const PairAnswer& pair : pairs_) {
       merge(pair, result);
       result.work += pair.work;
     }
@@ -336,12 +378,46 @@ class RobotCheck {
     return result;
   }
 
-  void finish(PairAnswer& pair) const {
+  void finish(std::size_t index) {
+    const std::size_t place = place_of_[index];
+    PairAnswer& pair = pairs_[place];
+    if (options_.contact_band > 0.0 && is_contact(pair.verdict)) {
+      list_band(index);
+    }
+    pair.contacts = contacts_[place].take();
     pair.intervals = options_.all_contacts_in_time
                          ? detail::joined(std::move(pair.intervals), options_.time_resolution)
                          : std::vector<ContactInterval>();
+    const double proven = holds_ ? holds_->least(index) : pair.margin;
     pair.clearance =
-        std::max(pair.t > 0.0 ? pair.margin : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
+        std::max(pair.t > 0.0 ? proven : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
+    if (holds_) {
+      for (const detail::HeldStretch& stretch : holds_->stretches(index)) {
+        pair.work += stretch.work;
+      }
+    }
+  }
+
+  /// The features within the band of those parts that do not decide; of the others they are listed.
+  void list_band(std::size_t index) {
+    const std::size_t place = place_of_[index];
+    PairAnswer& pair = pairs_[place];
+    const std::vector<std::array<std::size_t, 2>>& known = deciding_parts_[place];
+    const double band = pair.margin + pair.tolerance_used + options_.contact_band;
+    for (const std::array<std::size_t, 2>& parts : detail::parts_of(timeline_, index)) {
+      if (std::find(known.begin(), known.end(), parts) != known.end()) {
+        continue;
+      }
+      const PartCandidate candidate{
+          .window = {pair.t, pair.t}, .pair = index, .parts = parts, .threshold = pair.margin};
+      PartSearch search(timeline_, candidate, options_, workspaces_.local());
+      const FirstContactResult found = search.features_within(pair.t, band);
+      pair.work += found.work;
+      if (found.verdict != Verdict::free) {
+        pair.contact_count += found.contact_count;
+        contacts_[place].add(search.in_world(found.contacts, pair.t));
+      }
+    }
   }
 
   const detail::RobotTimeline& timeline_;
@@ -351,10 +427,12 @@ class RobotCheck {
   std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
   std::vector<PairAnswer> pairs_;
   std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
-  double first_ = 1.0;                          // Before it all pairs are proven free.
-  std::optional<detail::KnownNear> earliest_;   // The search that found it.
-  double least_of_all_ = 0.0;                   // [m]  Of all pairs, where that was asked.
-  std::optional<std::size_t> only_;             // The only pair that is asked about now.
+  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_parts_;  // That these are of.
+  std::optional<detail::PairHolds> holds_;                               // For keep_half.
+  double first_ = 1.0;                         // Before it all pairs are proven free.
+  std::optional<detail::KnownNear> earliest_;  // The search that found it.
+  double least_of_all_ = 0.0;                  // [m]  Of all pairs, where that was asked.
+  std::optional<std::size_t> only_;            // The only pair that is asked about now.
 };
 
 SceneResult check(Prepared& scene, const RobotCheckOptions& options) {

@@ -16,9 +16,15 @@ namespace firstcontact {
 
 struct RobotCheckOptions {
   double tolerance = 1e-6;  ///< [m]  A reported contact is no farther than margin + tolerance.
+  /// Whether a start within margin + tolerance is the answer. For keep_half a pair of members
+  /// starts where it begins to be tested: at 0, or where a body is put down. The start distance d0
+  /// is the least of all their geometries there. Not for robots with tracking errors: within these
+  /// they may start in contact.
+  StartContacts start_contacts = StartContacts::report;
   ContactState contacts = ContactState::nearest();  ///< Which are listed of a pair of members.
-  WorkBudget budget = {};  ///< Steps and memory are those of one pair in one piece of time.
-  int threads = 0;         ///< At most; 0 for one on each core. Answers do not depend on it.
+  double contact_band = 0.0;  ///< [m]  Lists features within margin + tolerance + band; >= 0.
+  WorkBudget budget = {};     ///< Steps and memory are those of one pair in one piece of time.
+  int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
 
   bool all_pairs = false;             ///< The answer of every tested pair over the whole step.
   bool all_contacts_in_time = false;  ///< So too, with every interval of contact of each.
@@ -44,7 +50,8 @@ struct RobotCheckOptions {
 /// Method: the step is walked piece by piece of the trajectories, several at once, and left at the
 /// first contact.
 ///
-/// @throws std::invalid_argument if an option is outside its documented range
+/// @throws std::invalid_argument if an option is outside its documented range, or not for this
+/// scene
 [[nodiscard]] FIRSTCONTACT_API SceneResult check_robots(const RobotScene& scene,
                                                         const RobotCheckOptions& options = {});
 

@@ -76,18 +76,12 @@ SceneResult check_bodies(const LoadedScene& loaded, ManyBodiesWorkspace& workspa
   return result;
 }
 
-void require_for_robots(const SceneOptions& asked) {
-  if (asked.start_contacts != StartContacts::report || asked.contact_band > 0.0) {
-    throw std::invalid_argument(
-        "options: start_contacts and contact_band are not for scenes with robots");
-  }
-}
-
 SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& options) {
   const SceneOptions& asked = loaded.scene.options;
-  require_for_robots(asked);
   return check_robots(*loaded.robots, {.tolerance = asked.tolerance,
+                                       .start_contacts = asked.start_contacts,
                                        .contacts = asked.contacts,
+                                       .contact_band = asked.contact_band,
                                        .budget = budget_of(loaded.scene, options),
                                        .threads = options.threads,
                                        .all_pairs = options.all_pairs,

@@ -45,10 +45,36 @@ FirstContactResult PartSearch::ask(const TimeWindow& window, FirstContactOptions
   return result;
 }
 
+FirstContactOptions PartSearch::options_of_candidate() const {
+  return {.margin = candidate_.threshold,
+          .tolerance = options_.tolerance,
+          .contacts = options_.contacts,
+          .contact_band = options_.contact_band,
+          .budget = options_.budget};
+}
+
 FirstContactResult PartSearch::first_contact(const TimeWindow& window) {
-  return ask(window, {.margin = candidate_.threshold,
-                      .tolerance = options_.tolerance,
-                      .contacts = options_.contacts});
+  FirstContactResult result;
+  if (candidate_.hold) {
+    detail::first_contact_held({A_, X_FA_}, {B_, X_FB_}, window, *candidate_.hold, workspace_,
+                               options_of_candidate(), result);
+  } else {
+    detail::first_contact({A_, X_FA_}, {B_, X_FB_}, window, workspace_, options_of_candidate(),
+                          result);
+  }
+  return result;
+}
+
+StartGap PartSearch::start_gap(WorkCount& work) {
+  return detail::start_gap({A_, X_FA_}, {B_, X_FB_}, candidate_.window.begin, workspace_,
+                           options_of_candidate(), work);
+}
+
+FirstContactResult PartSearch::features_within(double t, double distance) {
+  const double tolerance = std::min(options_.tolerance, 0.5 * distance);
+  return ask(
+      {t, t},
+      {.margin = distance - tolerance, .tolerance = tolerance, .contacts = options_.contacts});
 }
 
 FirstContactResult PartSearch::first_contact(const TimeWindow& window, double margin,

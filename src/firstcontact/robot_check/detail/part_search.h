@@ -24,12 +24,20 @@ class PartSearch {
              const RobotCheckOptions& options, LinkWorkspace& workspace);
 
   /// First contact in a window, before which the two are proven free and not inside of each other;
-  /// when free, `t` is its end. With the candidate's threshold and the tolerance of the options.
+  /// when free, `t` is its end. With the candidate's threshold or hold and the tolerance of the
+  /// options.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
 
   /// The same with others, and without contacts.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
                                                  double tolerance);
+
+  /// How far apart the two are at the begin of the window, as far as keep_half has to know it.
+  [[nodiscard]] StartGap start_gap(WorkCount& work);
+
+  /// The features that are no farther apart than a distance at a time of the piece, as a contact;
+  /// free where there are none.
+  [[nodiscard]] FirstContactResult features_within(double t, double distance);
 
   /// At a time of the piece, with the closest features in the candidate's frame.
   [[nodiscard]] DistanceResult nearest(double t);
@@ -54,6 +62,7 @@ class PartSearch {
 
  private:
   [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
+  [[nodiscard]] FirstContactOptions options_of_candidate() const;
   /// The pose of the candidate's frame at t.
   [[nodiscard]] LinkPose frame_at(double t) const;
   [[nodiscard]] Contact placed(const Contact& contact, const LinkPose& X_WF) const;
