@@ -130,6 +130,9 @@ struct FirstShape {
 /// @throws std::invalid_argument unless > 0
 std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<double> seconds);
 
+/// Binds contacts and the results of queries.
+void bind_query_results(pybind11::module_& m);
+
 /// States for pickling.
 pybind11::tuple state_of(const Contact& contact);
 Contact contact_from(const pybind11::tuple& state);
