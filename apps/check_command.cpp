@@ -289,7 +289,7 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
                    "At most so many; 0, the default, for one on each core. The answer is the same")
       ->check(CLI::Range(0, 1024));
   command->add_flag("--all-contacts-in-time", question.all_contacts_in_time,
-                    "Also from when to when each pair is in contact (scenes with robots)");
+                    "Also from when to when each pair is in contact");
   command->add_flag("--strict", question.strict, "A robot beyond its joint limits is an error");
   add_robot_options(*command, arguments->robot);
   command->footer(kFooter);

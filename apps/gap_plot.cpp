@@ -55,10 +55,7 @@ double greatest_distance(const std::vector<GapSample>& curve) {
 
 /// [m]  Over the whole step; 0 where the closest approach was not asked for.
 double least_proven(const SceneResult& result) {
-  if (result.robots && result.robots->closest) {
-    return result.robots->pairs[*result.robots->closest].least_clearance->lower_bound;
-  }
-  return result.closest ? result.pairs[*result.closest].closest_approach->lower_bound : 0.0;
+  return result.closest ? result.pairs[*result.closest].closest->lower_bound : 0.0;
 }
 
 class Plot {

@@ -8,7 +8,6 @@
 
 #include "contact_text.h"
 #include "file_text.h"
-#include "print_robot_answer.h"
 #include "quantity_text.h"
 #include "terminal_text.h"
 
@@ -25,23 +24,24 @@ class Description {
 
   std::string write(std::string_view title, bool all_pairs) {
     print("{}: {}\n", visible(title), describe_verdict(answer_));
-    if (result_.robots) {
-      return text_ + describe_robots(answer_, all_pairs);
-    }
     if (result_.first) {
-      line("bodies", names(result_.pairs[*result_.first].bodies));
+      line("bodies", names(result_.pairs[*result_.first].members));
     }
     contacts();
     if (std::isfinite(result_.clearance) && result_.clearance > 0.0) {
       line("clearance", fmt::format("more than {}{}", lower_bound_text(result_.clearance),
                                     result_.verdict == Verdict::free ? "" : " before"));
     }
+    turns();
     closest();
     if (result_.tolerance_used > scene_.options.tolerance) {
       line("tolerance", length_text(result_.tolerance_used) + ": f64 resolves no less here");
     }
     enclosure();
-    sampling();
+    if (const std::string text = describe_sampling(answer_); !text.empty()) {
+      line("sampling", text);
+    }
+    intervals();
     if (all_pairs) {
       pairs();
     }
@@ -61,17 +61,29 @@ class Description {
     print("  {:<10} {}\n", label, visible(value));
   }
 
-  [[nodiscard]] std::string name(std::size_t body) const {
-    return visible(scene_.bodies[body].name);
+  [[nodiscard]] std::string name(std::size_t member) const {
+    return visible(member_name(scene_, member));
   }
 
-  [[nodiscard]] std::string names(const BodyPair& bodies) const {
-    return name(bodies[0]) + " and " + name(bodies[1]);
+  [[nodiscard]] std::string names(const BodyPair& members) const {
+    return name(members[0]) + " and " + name(members[1]);
   }
 
-  void contact(const BodyPair& bodies, const Contact& found) {
-    print("    {}: {}; {}: {}\n", name(bodies[0]), feature_text(found.feature_A), name(bodies[1]),
-          feature_text(found.feature_B));
+  [[nodiscard]] std::string seconds(double t) const { return time_text(t * scene_.duration); }
+
+  /// "arm/tip: triangle 7", and of which geometry where a link has several.
+  [[nodiscard]] std::string place(std::size_t member, const Feature& feature,
+                                  std::size_t geometry) const {
+    const std::string text = name(member) + ": " + feature_text(feature);
+    const auto& robots = answer_.loaded.robots;
+    return robots && robots->geometries(member).size() > 1
+               ? text + fmt::format(" of geometry {}", geometry)
+               : text;
+  }
+
+  void contact(const BodyPair& members, const Contact& found) {
+    print("    {}; {}\n", place(members[0], found.feature_A, found.geometries[0]),
+          place(members[1], found.feature_B, found.geometries[1]));
     print("      {}\n", contact_text(found, scene_.duration));
   }
 
@@ -80,9 +92,9 @@ class Description {
     std::size_t count = 0;
     ContactCount all{0, true};
     for (const PairAnswer& pair : result_.pairs) {
-      if (result_.first && pair.first_contact.t == result_.t) {
-        count += pair.first_contact.contacts.size();
-        all += pair.first_contact.contact_count;
+      if (result_.first && pair.t == result_.t) {
+        count += pair.contacts.size();
+        all += pair.contact_count;
       }
     }
     if (count == 0) {
@@ -91,9 +103,9 @@ class Description {
     line("contacts", contact_count_text(all, count));
     std::size_t left = std::min(count, kMostContacts);
     for (const PairAnswer& pair : result_.pairs) {
-      for (const Contact& found : pair.first_contact.contacts) {
-        if (left > 0 && pair.first_contact.t == result_.t) {
-          contact(pair.bodies, found);
+      for (const Contact& found : pair.contacts) {
+        if (left > 0 && pair.t == result_.t) {
+          contact(pair.members, found);
           --left;
         }
       }
@@ -103,12 +115,26 @@ class Description {
     }
   }
 
-  /// Of the pair that decides.
+  /// Of the pair that decides, or else of all.
   void enclosure() {
     const double error =
-        result_.first ? result_.pairs[*result_.first].first_contact.enclosure_error : 0.0;
+        result_.first ? result_.pairs[*result_.first].enclosure_error : result_.enclosure_error;
     if (error > 0.0) {
-      line("enclosure", "curved bodies stand out by up to " + length_text(error));
+      line("enclosure", "curved surfaces stand out by up to " + length_text(error));
+    }
+  }
+
+  /// Of continuous joints, whose numbers leave it open which way they go.
+  void turns() {
+    for (const SceneRobot& robot : scene_.robots) {
+      for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {
+        const bool is_short = turn.turning == Turning::shortest;
+        const std::string way = !turn.differs ? ""
+                                : is_short    ? ", the short way"
+                                              : ", the long way, as the numbers say";
+        line("turn", fmt::format("{}/{} by {:.6g} rad{}, from {:.6g} to {:.6g} rad", robot.name,
+                                 turn.joint, turn.turned, way, turn.from, turn.to));
+      }
     }
   }
 
@@ -117,9 +143,9 @@ class Description {
       return;
     }
     const PairAnswer& pair = result_.pairs[*result_.closest];
-    const ClosestApproachResult& found = *pair.closest_approach;
-    std::string text = fmt::format("{} at t = {:.6g}: {}", length_text(found.distance), found.t,
-                                   names(pair.bodies));
+    const ClosestApproach& found = *pair.closest;
+    std::string text = fmt::format("{} at {}: {}", length_text(found.distance), seconds(found.t),
+                                   names(pair.members));
     if (found.closest) {
       text += fmt::format(", between {} and {} m", point_text(found.closest->p_WA),
                           point_text(found.closest->p_WB));
@@ -130,20 +156,28 @@ class Description {
     line("closest", text);
   }
 
-  void sampling() {
-    if (const std::string text = describe_sampling(answer_); !text.empty()) {
-      line("sampling", text);
+  void intervals() {
+    for (const PairAnswer& pair : result_.pairs) {
+      for (const ContactInterval& interval : pair.intervals) {
+        line("contact", fmt::format("from {} to {}: {}{}", seconds(interval.enter),
+                                    seconds(interval.leave), names(pair.members),
+                                    interval.reason == UndecidedReason::none
+                                        ? ""
+                                        : fmt::format(" (not searched to its end: {})",
+                                                      word(interval.reason))));
+      }
     }
   }
 
   void pairs() {
     line("pairs", std::to_string(result_.pairs.size()));
     for (const PairAnswer& pair : result_.pairs) {
-      const FirstContactResult& found = pair.first_contact;
-      print("    {:<30} {:<16} t = {:.9g}", names(pair.bodies), word(found.verdict), found.t);
-      if (pair.closest_approach) {
-        print(", closest {} at t = {:.6g}", length_text(pair.closest_approach->distance),
-              pair.closest_approach->t);
+      print("    {:<40} {:<16}", names(pair.members), word(pair.verdict));
+      if (pair.verdict != Verdict::free) {
+        print(" {}", seconds(pair.t));
+      }
+      if (pair.closest) {
+        print(" closest {} at {}", length_text(pair.closest->distance), seconds(pair.closest->t));
       }
       print("\n");
     }
@@ -208,12 +242,12 @@ std::string describe_sampling(const SceneAnswer& answer) {
     return "";
   }
   const SamplingReport& seen = *answer.sampling;
-  const Verdict verdict = answer.result.verdict;
-  const bool touches = verdict == Verdict::contact || verdict == Verdict::contact_at_start;
   return fmt::format("{:g} times a second: {} of {} samples in contact, least gap {} at {}{}",
                      seen.rate, seen.in_contact, seen.samples, length_text(seen.least->distance),
                      time_text(seen.least->t * answer.loaded.scene.duration),
-                     touches && seen.in_contact == 0 ? ": sampling misses this contact" : "");
+                     is_contact(answer.result.verdict) && seen.in_contact == 0
+                         ? ": sampling misses this contact"
+                         : "");
 }
 
 }  // namespace firstcontact::app

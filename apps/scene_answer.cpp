@@ -17,29 +17,19 @@ namespace firstcontact::app {
 namespace {
 
 CheckOptions check_options(const LoadedScene& loaded, const Question& question) {
-  const std::vector<Body>& bodies = loaded.scene.bodies;
-  const bool each_pair =
-      question.all_pairs || question.all_contacts_in_time || (question.closest && !loaded.robots);
-  const auto tell = [&loaded, &bodies, &question, each_pair](double done) {
-    if (loaded.robots) {
-      question.doing(each_pair
-                         ? fmt::format("{}: {:.0f} % of the pairs", loaded.scene.id, 100.0 * done)
-                         : fmt::format("{}: free until {:.4f} s of {:.4f} s", loaded.scene.id,
-                                       done * loaded.scene.duration, loaded.scene.duration));
-    } else if (bodies.size() == 2) {
-      question.doing(bodies[0].name + " and " + bodies[1].name);
-    } else if (each_pair) {
-      question.doing(fmt::format("{} bodies: {:.0f} % of the pairs", bodies.size(), 100.0 * done));
-    } else {
-      question.doing(fmt::format("{} bodies: free until t = {:.4f}", bodies.size(), done));
-    }
+  CheckOptions options{.all_pairs = question.all_pairs,
+                       .closest = question.closest,
+                       .all_contacts_in_time = question.all_contacts_in_time,
+                       .threads = question.threads,
+                       .stop = question.stop,
+                       .progress = {}};
+  options.progress = [&loaded, &question, each = answers_each_pair(loaded, options)](double done) {
+    const double duration = loaded.scene.duration;
+    question.doing(each ? fmt::format("{}: {:.0f} % of the pairs", loaded.scene.id, 100.0 * done)
+                        : fmt::format("{}: free until {:.4f} s of {:.4f} s", loaded.scene.id,
+                                      done * duration, duration));
   };
-  return {.all_pairs = question.all_pairs,
-          .closest = question.closest,
-          .all_contacts_in_time = question.all_contacts_in_time,
-          .threads = question.threads,
-          .stop = question.stop,
-          .progress = tell};
+  return options;
 }
 
 }  // namespace

@@ -59,11 +59,11 @@ BodySet free_set(const Shape& shape, std::vector<PlainMotion>& motions) {
   ManyBodiesOptions options;
   options.pair.contacts = ContactState::none;
   double parking = -10.0;
-  for (ManyBodiesResult found = first_contact(bodies, workspace, options);
+  for (SceneResult found = first_contact(bodies, workspace, options);
        found.verdict != Verdict::free; found = first_contact(bodies, workspace, options)) {
-    for (const PairAnswer& pair : found.first) {
-      motions[pair.bodies[1]] = {.position = {parking, -10.0, -10.0}};
-      bodies.set_motion(pair.bodies[1], motions[pair.bodies[1]].motion());
+    for (const PairAnswer& pair : found.pairs) {
+      motions[pair.members[1]] = {.position = {parking, -10.0, -10.0}};
+      bodies.set_motion(pair.members[1], motions[pair.members[1]].motion());
       parking -= 3.0;
     }
   }
@@ -101,7 +101,7 @@ json measure(const Shape& shape, const std::vector<PlainMotion>& motions, const 
              const char* scene) {
   std::fprintf(stderr, "  %zu bodies, %s ...\n", bodies.size(), scene);
   ManyBodiesWorkspace workspace;
-  ManyBodiesResult result;
+  SceneResult result;
   const auto with_threads = [&](int threads) {
     ManyBodiesOptions options;
     options.threads = threads;

@@ -71,7 +71,7 @@ class Cell {
 
   [[nodiscard]] const RobotModel& model() const { return model_; }
 
-  RobotCheckResult check(const StraightMotion& motion) {
+  SceneResult check(const StraightMotion& motion) {
     checker_.set_motion(0, motion.of(model_));
     return checker_.check({.contacts = ContactState::first, .threads = 1});
   }
@@ -179,13 +179,13 @@ struct Times {
 class Tally {
  public:
   void take(Cell& cell, const StraightMotion& motion) {
-    RobotCheckResult found;
+    SceneResult found;
     const double ours = best_of([&] { found = cell.check(motion); });
     const bool is_free = found.verdict == Verdict::free;
     const bool is_far = is_free && cell.is_far(motion);
     undecided_ += found.verdict == Verdict::undecided ? 1 : 0;
     ours_.add(ours, is_free, is_far);
-    steps_.push_back(static_cast<double>(found.steps));
+    steps_.push_back(static_cast<double>(found.work.total()));
     for (std::size_t k = 0; k < std::size(kPlannersSteps); ++k) {
       Peer& peer = peers_[k];
       std::optional<double> hit;
@@ -429,7 +429,7 @@ json avatar(bool quick) {
   int contacts = 0;
   const std::size_t frames = quick ? 50 : walk.frames.size();
   for (std::size_t frame = 0; frame + 1 < frames; ++frame) {
-    RobotCheckResult found;
+    SceneResult found;
     times.push_back(best_of([&] {
       checker.set_motion(0, capture_motion(figure, walk, frame, frame + 1, upright));
       found = checker.check({.contacts = ContactState::first, .threads = 1});
@@ -476,7 +476,7 @@ json hand(int links) {
   RobotChecker checker(std::move(scene));
   const StraightMotion sway{Configuration(model.joints().size(), -0.05),
                             Configuration(model.joints().size(), 0.05)};
-  RobotCheckResult found;
+  SceneResult found;
   const double time = best_of([&] {
     checker.set_motion(0, sway.of(model));
     found = checker.check({.contacts = ContactState::first, .threads = 1});
@@ -560,7 +560,7 @@ json ties(bool quick) {
       RobotChecker checker(std::move(scene));
       for (const double end : {0.1, 0.07}) {
         const StraightMotion down{{0.5, 0.0}, {end, turn}};
-        RobotCheckResult found;
+        SceneResult found;
         const double time = best_of([&] {
           checker.set_motion(0, down.of(model));
           found = checker.check({.contacts = ContactState::first, .threads = 1});
@@ -570,7 +570,7 @@ json ties(bool quick) {
                        {"turn_rad", turn},
                        {"end", end},
                        {"time_us", time},
-                       {"steps", found.steps},
+                       {"steps", found.work.total()},
                        {"contact", found.verdict == Verdict::contact}});
       }
     }
@@ -604,8 +604,7 @@ json closest(bool quick) {
             checker.check({.contacts = ContactState::first, .threads = 1}).verdict == Verdict::free;
       });
       const double least = best_of([&] {
-        (void)checker.check(
-            {.contacts = ContactState::first, .threads = 1, .least_clearance = true});
+        (void)checker.check({.contacts = ContactState::first, .threads = 1, .closest = true});
       });
       checks.push_back(check);
       leasts.push_back(least);

@@ -117,7 +117,7 @@ int walk_through(int count, char** paths) {
   for (std::size_t k = 0; k + 1 < walk.frames.size(); ++k) {
     const RobotScene scene = scene_between(figure, walk, k, all, itself);
     const auto begin = std::chrono::steady_clock::now();
-    const RobotCheckResult result = check_robots(scene, {.threads = 1});
+    const SceneResult result = check_robots(scene, {.threads = 1});
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     milliseconds.push_back(took.count());
     if (result.verdict != Verdict::free) {

@@ -65,9 +65,11 @@ set(supporting_headers
   firstcontact/narrowphase/oscillation.h
   firstcontact/narrowphase/triangle_distance.h
   firstcontact/query/contact.h
+  firstcontact/query/outcome.h
   firstcontact/query/workspace.h
   firstcontact/many_bodies/body_set.h
   firstcontact/many_bodies/pair_rules.h
+  firstcontact/many_bodies/scene_result.h
   firstcontact/robot/coordinate_path.h
   firstcontact/robot/joint_path.h
   firstcontact/robot/link_geometry.h

@@ -219,7 +219,7 @@ TEST(ManyBodies, AnswersAsTheEarliestOfAllPairs) {
     const double size = random.uniform(1.5, 8.0);
     const BodySet bodies = random_set(random, 24, size);
     ManyBodiesWorkspace workspace;
-    const ManyBodiesResult found = first_contact(bodies, workspace);
+    const SceneResult found = first_contact(bodies, workspace);
     double earliest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < bodies.size(); ++j) {
@@ -231,7 +231,7 @@ TEST(ManyBodies, AnswersAsTheEarliestOfAllPairs) {
     ASSERT_EQ(found.verdict != Verdict::free, std::isfinite(earliest)) << k;
     if (found.verdict == Verdict::free) {
       EXPECT_EQ(found.t, 1.0);
-      EXPECT_TRUE(found.first.empty());
+      EXPECT_TRUE(found.pairs.empty());
       continue;
     }
     // Two proven times of one contact lie within the tolerance of motion of each other.
@@ -239,9 +239,9 @@ TEST(ManyBodies, AnswersAsTheEarliestOfAllPairs) {
     EXPECT_EQ(found.verdict == Verdict::contact_at_start, earliest == 0.0);
     ++contacts;
     late += found.t > 0.0;
-    const PairAnswer& first = found.first.front();
+    const PairAnswer& first = found.pairs.front();
     Workspace own;
-    EXPECT_LE(distance(bodies.moving_shape(first.bodies[0]), bodies.moving_shape(first.bodies[1]),
+    EXPECT_LE(distance(bodies.moving_shape(first.members[0]), bodies.moving_shape(first.members[1]),
                        found.t, own)
                   .distance,
               first.margin + 1e-6);
@@ -258,9 +258,9 @@ TEST(ManyBodies, EachPairAnswersAsIfAlone) {
     const std::vector<PairAnswer> answers = answer_each_pair(bodies, workspace);
     ASSERT_EQ(answers.size(), 16u * 15u / 2u);
     for (const PairAnswer& answer : answers) {
-      const FirstContactResult alone = ask_pair(bodies, answer.bodies, answer.margin);
-      expect_equal(answer.first_contact, alone);
-      EXPECT_EQ(answer.first_contact.clearance, alone.clearance);
+      const FirstContactResult alone = ask_pair(bodies, answer.members, answer.margin);
+      expect_equal(answer, alone);
+      EXPECT_EQ(answer.clearance, alone.clearance);
     }
   }
 }
@@ -273,22 +273,22 @@ TEST(ManyBodies, NumberOfThreadsChangesNothing) {
     ManyBodiesWorkspace workspace;
     ManyBodiesOptions options;
     options.threads = 1;
-    const ManyBodiesResult one = first_contact(bodies, workspace, options);
+    const SceneResult one = first_contact(bodies, workspace, options);
     const std::vector<PairAnswer> one_each = answer_each_pair(bodies, workspace, options);
     for (const int threads : {2, 8}) {
       options.threads = threads;
-      const ManyBodiesResult many = first_contact(bodies, workspace, options);
+      const SceneResult many = first_contact(bodies, workspace, options);
       EXPECT_EQ(many.verdict, one.verdict);
       EXPECT_EQ(many.t, one.t);
       EXPECT_EQ(many.work.steps, one.work.steps);
-      ASSERT_EQ(many.first.size(), one.first.size());
-      for (std::size_t i = 0; i < one.first.size(); ++i) {
-        EXPECT_EQ(many.first[i].bodies, one.first[i].bodies);
-        expect_equal(many.first[i].first_contact, one.first[i].first_contact);
+      ASSERT_EQ(many.pairs.size(), one.pairs.size());
+      for (std::size_t i = 0; i < one.pairs.size(); ++i) {
+        EXPECT_EQ(many.pairs[i].members, one.pairs[i].members);
+        expect_equal(many.pairs[i], one.pairs[i]);
       }
       const std::vector<PairAnswer> each = answer_each_pair(bodies, workspace, options);
       for (std::size_t i = 0; i < each.size(); ++i) {
-        expect_equal(each[i].first_contact, one_each[i].first_contact);
+        expect_equal(each[i], one_each[i]);
       }
     }
   }
@@ -308,8 +308,8 @@ TEST(ManyBodies, ReplacedBodiesAnswerAsNewOnes) {
     fresh.add(bodies.shape(k), bodies.motion(k));
   }
   ManyBodiesWorkspace workspace;
-  const ManyBodiesResult replaced = first_contact(bodies, workspace);
-  const ManyBodiesResult built = first_contact(fresh, workspace);
+  const SceneResult replaced = first_contact(bodies, workspace);
+  const SceneResult built = first_contact(fresh, workspace);
   EXPECT_EQ(replaced.verdict, built.verdict);
   EXPECT_EQ(replaced.t, built.t);
   EXPECT_THROW(bodies.set_motion(99, Motion::fixed()), std::out_of_range);
@@ -334,9 +334,9 @@ TEST(ManyBodies, FindsTheOneContactOfFastBodies) {
   bodies.add(shape,
              Motion::constant_velocity({.position = {-1.0, -1.0, -30.0}}, {20.0, 20.0, 1.0}));
   bodies.add(shape, Motion::fixed({.position = {18.0, 18.0, -29.05}}));
-  const ManyBodiesResult found = first_contact(bodies, workspace);
+  const SceneResult found = first_contact(bodies, workspace);
   ASSERT_EQ(found.verdict, Verdict::contact);
-  EXPECT_EQ(found.first.front().bodies, (BodyPair{400, 401}));
+  EXPECT_EQ(found.pairs.front().members, (BodyPair{400, 401}));
   EXPECT_NEAR(found.t, 0.95, 0.02);
 }
 
@@ -349,7 +349,7 @@ TEST(ManyBodies, ContactAtTheVeryEndIsFound) {
   bodies.add(Shape(mesh),
              Motion::constant_velocity({.position = {0.0, 0.0, 1.0}}, {0.0, 0.0, -1.0}));
   ManyBodiesWorkspace workspace;
-  const ManyBodiesResult found = first_contact(bodies, workspace);
+  const SceneResult found = first_contact(bodies, workspace);
   EXPECT_EQ(found.verdict, Verdict::contact);
   EXPECT_NEAR(found.t, 1.0, 1e-6);
 }
@@ -363,7 +363,7 @@ TEST(ManyBodies, NothingToTestIsFree) {
   bodies.add(random_shape(random), Motion::fixed());
   bodies.add(random_shape(random), Motion::fixed());
   bodies.rules().ignore({0, 1});
-  const ManyBodiesResult found = first_contact(bodies, workspace);
+  const SceneResult found = first_contact(bodies, workspace);
   EXPECT_EQ(found.verdict, Verdict::free);
   EXPECT_EQ(found.clearance, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(answer_each_pair(bodies, workspace).empty());
@@ -373,13 +373,13 @@ TEST(ManyBodies, StopsWithWhatIsProven) {
   Random random(10);
   const BodySet bodies = random_set(random, 50, 3.0);
   ManyBodiesWorkspace workspace;
-  const ManyBodiesResult whole = first_contact(bodies, workspace);
+  const SceneResult whole = first_contact(bodies, workspace);
   ASSERT_NE(whole.verdict, Verdict::free);
   std::stop_source stop;
   stop.request_stop();
   ManyBodiesOptions options;
   options.pair.budget.stop = stop.get_token();
-  const ManyBodiesResult found = first_contact(bodies, workspace, options);
+  const SceneResult found = first_contact(bodies, workspace, options);
   EXPECT_EQ(found.verdict, Verdict::undecided);
   EXPECT_EQ(found.reason, UndecidedReason::cancelled);
   EXPECT_LE(found.t, whole.t);

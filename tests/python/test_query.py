@@ -106,11 +106,11 @@ def test_many_bodies_answer_as_their_pairs(triangle, falling):
     alone = fc.first_contact((triangle, fc.Motion.fixed()), (triangle, falling))
     result = fc.first_contact(bodies, fc.ManyBodiesWorkspace(), threads=2)
     assert (result.t, result.verdict) == (alone.t, alone.verdict)
-    assert result.first[0].bodies == (0, 1)
+    assert result.pairs[result.first].members == (0, 1)
     answers = fc.answer_each_pair(bodies)
-    assert [answer.bodies for answer in answers] == [(0, 1), (0, 2), (1, 2)]
-    assert answers[0].first_contact.__getstate__() == alone.__getstate__()
-    assert answers[1].closest_approach is None
+    assert [answer.members for answer in answers] == [(0, 1), (0, 2), (1, 2)]
+    assert answers[0].__getstate__()[0] == alone.__getstate__()
+    assert answers[1].closest is None
 
 
 def test_rules_hold(triangle, falling):

@@ -113,9 +113,15 @@ def test_gap_is_sampled(swing):
     assert result.t in samples.t and (bound.distance <= np.interp(bound.t, *samples[:2]) + 1e-3).all()
 
 
-def test_bodies_have_no_intervals(swing):
-    with pytest.raises(ValueError, match="in scenes with robots only"):
-        fc.check({"firstcontact": 1, "bodies": swing["bodies"]}, all_contacts_in_time=True)
+def test_bodies_have_intervals_as_links_do(swing):
+    ball = {"sphere": {"radius": 0.1}}
+    bodies = [{"name": "post", "shape": ball},
+              {"name": "stone", "shape": ball, "motion": {
+                  "type": "constant_velocity", "from": {"position": [-1, 0, 0]},
+                  "translation": [2, 0, 0]}}]
+    pair, = fc.check({"firstcontact": 1, "bodies": bodies}, all_contacts_in_time=True).pairs
+    (enter, leave, *_), = pair.intervals
+    assert enter == pytest.approx(0.4, abs=1e-3) and leave == pytest.approx(0.6, abs=1e-3)
 
 
 def test_page_is_the_tools(swing, tool, tmp_path):

@@ -296,13 +296,13 @@ TEST(Deforming, ManyBodiesAnswerAsTheirPairs) {
   options.pair.start_contacts = StartContacts::keep_half;
   double earliest = 1.0;
   for (const PairAnswer& pair : answer_each_pair(bodies, workspace, options)) {
-    if (pair.first_contact.verdict != Verdict::free) {
-      earliest = std::min(earliest, pair.first_contact.t);
+    if (pair.verdict != Verdict::free) {
+      earliest = std::min(earliest, pair.t);
     }
   }
   ASSERT_LT(earliest, 1.0);
   ASSERT_GT(earliest, 0.0);
-  const ManyBodiesResult one = [&] {
+  const SceneResult one = [&] {
     options.threads = 1;
     return first_contact(bodies, workspace, options);
   }();

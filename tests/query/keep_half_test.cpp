@@ -314,7 +314,7 @@ TEST(KeepHalf, LeavesOtherPairsTheirMargin) {
   ManyBodiesWorkspace workspace;
   ManyBodiesOptions options;
   options.pair.start_contacts = StartContacts::keep_half;
-  const ManyBodiesResult result = first_contact(bodies, workspace, options);
+  const SceneResult result = first_contact(bodies, workspace, options);
   ASSERT_EQ(result.verdict, Verdict::contact);
   EXPECT_NEAR(result.t, 0.5 * (1.5 - kMargin), 1e-6);
   EXPECT_GE(result.clearance, 0.5 * kGap - 1e-9);

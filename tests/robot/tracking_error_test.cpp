@@ -59,10 +59,10 @@ TEST(TrackingError, CountsAsMuchAsItMovesTheTip) {
     RobotScene close = straight_arm(bars, 0.98 * way);
     EXPECT_EQ(check_robots(close).verdict, Verdict::free) << bars;
     set_errors(close, bars, kError);
-    const RobotCheckResult result = check_robots(close);
+    const SceneResult result = check_robots(close);
     EXPECT_EQ(result.verdict, Verdict::contact_at_start) << bars;
-    EXPECT_GE(result.pairs.at(0).threshold, way * (1.0 - 1e-6));
-    EXPECT_LE(result.pairs.at(0).threshold, 1.3 * way);
+    EXPECT_GE(result.pairs.at(0).margin, way * (1.0 - 1e-6));
+    EXPECT_LE(result.pairs.at(0).margin, 1.3 * way);
     // And such a motion does touch.
     RobotScene bent;
     bent.add_robot(
@@ -220,10 +220,10 @@ TEST(TrackingError, TheBoundOfABentArmIsReached) {
     const Eigen::Vector2d beyond = p[3] + (kBarRadius + 0.1 + 1e-4) * (p[3] - p[2]);
     scene.add_body("ball", make_sphere(0.1), placed({beyond.x(), beyond.y(), 0.0}));
     set_errors(scene, 3, kError);
-    const RobotCheckResult result = check_robots(scene);
+    const SceneResult result = check_robots(scene);
     ASSERT_EQ(result.verdict, Verdict::contact_at_start) << seed;
-    ASSERT_GE(result.pairs[0].threshold, greatest * (1.0 - 1e-6)) << seed;
-    ASSERT_LE(result.pairs[0].threshold, 1.5 * greatest) << seed;
+    ASSERT_GE(result.pairs[0].margin, greatest * (1.0 - 1e-6)) << seed;
+    ASSERT_LE(result.pairs[0].margin, 1.5 * greatest) << seed;
   }
 }
 

@@ -118,17 +118,13 @@ RobotScene turning_past_a_ball(double turns) {
   return scene;
 }
 
-bool is_contact(Verdict verdict) {
-  return verdict == Verdict::contact || verdict == Verdict::contact_at_start;
-}
-
 TEST(CheckRobots, AgreesWithThePlanarArmInClosedForm) {
   int free = 0;
   int contacts = 0;
   int starts = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const PlanarCase c(seed);
-    const RobotCheckResult result = check_robots(c.scene());
+    const SceneResult result = check_robots(c.scene());
     ASSERT_NE(result.verdict, Verdict::undecided) << seed;
     free += result.verdict == Verdict::free ? 1 : 0;
     contacts += result.verdict == Verdict::contact ? 1 : 0;
@@ -144,9 +140,9 @@ TEST(CheckRobots, AgreesWithThePlanarArmInClosedForm) {
       ASSERT_LE(c.gap(result.t), result.tolerance_used + 1e-12) << seed;
       ASSERT_EQ(result.t_upper, result.t);
       ASSERT_FALSE(result.pairs.empty());
-      const RobotPairAnswer& pair = result.pairs.at(result.first.value());
+      const PairAnswer& pair = result.pairs.at(result.first.value());
       ASSERT_FALSE(pair.contacts.empty()) << seed;
-      const Contact& contact = pair.contacts[0].contact;
+      const Contact& contact = pair.contacts[0];
       ASSERT_NEAR((contact.p_WB - contact.p_WA).norm(), std::abs(contact.distance), 1e-9) << seed;
     } else {
       ASSERT_EQ(result.t, 1.0);
@@ -168,20 +164,19 @@ TEST(CheckRobots, PointsAreInTheWorld) {
       "arm", planar_motion({CoordinatePath::constant(0.0), CoordinatePath::constant(1.2 * quarter),
                             ramp(quarter, 2.0 * quarter)},
                            base));
-  const RobotCheckResult result = check_robots(scene);
+  const SceneResult result = check_robots(scene);
   ASSERT_EQ(result.verdict, Verdict::contact);
   ASSERT_EQ(result.pairs.size(), 1u);
   EXPECT_EQ(result.pairs[0].members, (BodyPair{1, 3}));
-  const RobotContact& contact = result.pairs[0].contacts.at(0);
-  EXPECT_EQ(contact.members, (BodyPair{1, 3}));
-  ASSERT_TRUE(contact.contact.n_AB_W.has_value());
-  EXPECT_LE((*contact.contact.n_AB_W - Vector3d::UnitY()).norm(), 1e-4);
+  const Contact& contact = result.pairs[0].contacts.at(0);
+  ASSERT_TRUE(contact.n_AB_W.has_value());
+  EXPECT_LE((*contact.n_AB_W - Vector3d::UnitY()).norm(), 1e-4);
   // On the upper side of the first bar.
-  EXPECT_NEAR(contact.contact.p_WA.y(), 20.0 + kBarRadius, 1e-6);
-  EXPECT_NEAR(contact.contact.p_WA.z(), 30.0, 1e-9);
-  EXPECT_GT(contact.contact.p_WA.x(), 10.0);
-  EXPECT_LT(contact.contact.p_WA.x(), 11.0);
-  EXPECT_LT(contact.contact.normal_velocity, 0.0);
+  EXPECT_NEAR(contact.p_WA.y(), 20.0 + kBarRadius, 1e-6);
+  EXPECT_NEAR(contact.p_WA.z(), 30.0, 1e-9);
+  EXPECT_GT(contact.p_WA.x(), 10.0);
+  EXPECT_LT(contact.p_WA.x(), 11.0);
+  EXPECT_LT(contact.normal_velocity, 0.0);
 }
 
 Mesh small_mesh(Random& random) {
@@ -243,7 +238,7 @@ TEST(CheckRobots, CarriedBodiesFollowTheExactChain) {
       }
       return meshes_distance(placed, B);
     };
-    const RobotCheckResult result = check_robots(scene);
+    const SceneResult result = check_robots(scene);
     ASSERT_NE(result.verdict, Verdict::undecided) << seed;
     for (int i = 0; i <= kSamples; ++i) {
       const double t = static_cast<double>(i) / kSamples;
@@ -282,8 +277,8 @@ TEST(RobotChecker, AnswersAsIfNewForEveryMotion) {
       checker.set_motion(0, motion);
       scene.set_motion(0, motion);
       const RobotCheckOptions options{.all_pairs = k % 2 == 0};
-      const RobotCheckResult result = checker.check(options);
-      const RobotCheckResult fresh = check_robots(scene, options);
+      const SceneResult result = checker.check(options);
+      const SceneResult fresh = check_robots(scene, options);
       ASSERT_EQ(result.verdict, fresh.verdict) << seed;
       ASSERT_EQ(result.t, fresh.t) << seed;
       ASSERT_EQ(result.pairs.size(), fresh.pairs.size()) << seed;
@@ -313,12 +308,12 @@ TEST(CheckRobots, ABodyCountsAsCarriedOnlyWhileItIs) {
   };
   // Two balls of 0.1 on a circle of radius 1 touch at a chord of 0.2.
   const double touch = 0.8 - 2.0 * std::asin(0.1);
-  const RobotCheckResult carried = check(0.0, 1.0);
+  const SceneResult carried = check(0.0, 1.0);
   ASSERT_EQ(carried.verdict, Verdict::contact);
   EXPECT_LE(carried.t, touch);
   EXPECT_NEAR(carried.t, touch, 2e-6);
   // Taken later, it is that much behind, and put down in time.
-  const RobotCheckResult late = check(0.25, 1.0);
+  const SceneResult late = check(0.25, 1.0);
   ASSERT_EQ(late.verdict, Verdict::contact);
   EXPECT_NEAR(late.t, touch + 0.25, 2e-6);
   EXPECT_EQ(check(0.5, 1.0).verdict, Verdict::free);
@@ -335,11 +330,11 @@ TEST(CheckRobots, TheLinkThatHoldsABodyMayTouchIt) {
     return scene;
   };
   EXPECT_EQ(check_robots(scene_with({2}, 1.0)).verdict, Verdict::free);
-  const RobotCheckResult touching = check_robots(scene_with({}, 1.0));
+  const SceneResult touching = check_robots(scene_with({}, 1.0));
   EXPECT_EQ(touching.verdict, Verdict::contact_at_start);
   EXPECT_EQ(touching.pairs.at(0).members, (BodyPair{2, 3}));
   // When it is put down between the bars it is in contact at once, deep inside of a solid or not.
-  const RobotCheckResult put_down = check_robots(scene_with({2}, 0.5));
+  const SceneResult put_down = check_robots(scene_with({2}, 0.5));
   EXPECT_EQ(put_down.verdict, Verdict::contact);
   EXPECT_EQ(put_down.t, 0.5);
 }
@@ -355,12 +350,12 @@ TEST(CheckRobots, FindsABodyThatIsInsideWhenItIsPutDown) {
   scene.add_robot("r", {RobotModel(box_bot), {{"j", ramp(0.0, 1.0)}}});
   const std::size_t ball = scene.add_body("ball", make_sphere(0.01));
   scene.attach({.body = ball, .link = 1, .t_from = 0.0, .t_to = 0.625});
-  const RobotCheckResult result = check_robots(scene);
+  const SceneResult result = check_robots(scene);
   EXPECT_EQ(result.verdict, Verdict::contact);
   EXPECT_EQ(result.t, 0.625);
   RobotCheckOptions options;
-  options.all_contact_intervals = true;
-  const RobotCheckResult intervals = check_robots(scene, options);
+  options.all_contacts_in_time = true;
+  const SceneResult intervals = check_robots(scene, options);
   ASSERT_EQ(intervals.pairs.size(), 1u);
   ASSERT_EQ(intervals.pairs[0].intervals.size(), 1u);
   EXPECT_EQ(intervals.pairs[0].intervals[0].enter, 0.625);
@@ -387,7 +382,7 @@ TEST(CheckRobots, RobotsOnMovingBasesMeet) {
       {{5.0, 0.0, 0.0}, Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitZ()))},
       Vector3d(-4.0, 0.0, 0.0));
   scene.add_robot("right", planar_motion({CoordinatePath::constant(0.0)}, approach));
-  const RobotCheckResult result = check_robots(scene);
+  const SceneResult result = check_robots(scene);
   ASSERT_EQ(result.verdict, Verdict::contact);
   EXPECT_LE(result.t, (3.0 - 2 * kBarRadius) / 4.0);
   EXPECT_NEAR(result.t, (3.0 - 2 * kBarRadius) / 4.0, 1e-6);
@@ -411,7 +406,7 @@ TEST(CheckRobots, NamesTheGeometryThatTouches) {
   scene.add_body("far", make_sphere(0.1), at({2.0 * std::cos(1.4), 2.0 * std::sin(1.4), 0.0}));
   RobotCheckOptions options;
   options.all_pairs = true;
-  const RobotCheckResult result = check_robots(scene, options);
+  const SceneResult result = check_robots(scene, options);
   ASSERT_EQ(result.pairs.size(), 2u);
   const double near_t = (1.5 - 2.0 * std::asin(0.1)) / 2.0;
   const double far_t = (1.4 - 2.0 * std::asin(0.05)) / 2.0;
@@ -430,9 +425,9 @@ TEST(CheckRobots, MarginsOfGroupsAndOfPairsHold) {
   const std::size_t others = scene.rules().add_group({2});
   EXPECT_EQ(check_robots(scene).verdict, Verdict::free);
   scene.rules().set_group_margin(robot, others, gap + 1e-3);
-  const RobotCheckResult result = check_robots(scene);
+  const SceneResult result = check_robots(scene);
   EXPECT_EQ(result.verdict, Verdict::contact);
-  EXPECT_EQ(result.pairs.at(0).threshold, gap + 1e-3);
+  EXPECT_EQ(result.pairs.at(0).margin, gap + 1e-3);
   scene.rules().set_margin({1, 2}, gap - 1e-3);
   EXPECT_EQ(check_robots(scene).verdict, Verdict::free);
   scene.rules().set_margin({1, 2}, 1.0);
@@ -452,8 +447,8 @@ TEST(CheckRobots, PaddingOfBothIsAMarginOfTheirSum) {
       padded.set_padding(member, 0.03125);
     }
     c.rules = PairRules(0.0625);
-    const RobotCheckResult result = check_robots(padded);
-    const RobotCheckResult same = check_robots(c.scene());
+    const SceneResult result = check_robots(padded);
+    const SceneResult same = check_robots(c.scene());
     ASSERT_EQ(result.verdict, same.verdict) << seed;
     ASSERT_EQ(result.t, same.t) << seed;
   }
@@ -466,8 +461,8 @@ TEST(CheckRobots, FarBodiesChangeNothing) {
     more.add_body("moon", make_sphere(10.0),
                   Motion::constant_velocity({{1e3, 0, 0}, Eigen::Quaterniond::Identity()},
                                             Vector3d(0, 100, 0)));
-    const RobotCheckResult alone = check_robots(c.scene());
-    const RobotCheckResult together = check_robots(more);
+    const SceneResult alone = check_robots(c.scene());
+    const SceneResult together = check_robots(more);
     ASSERT_EQ(alone.verdict, together.verdict) << seed;
     ASSERT_EQ(alone.t, together.t) << seed;
     ASSERT_EQ(alone.pairs.size(), together.pairs.size()) << seed;
@@ -478,7 +473,7 @@ TEST(CheckRobots, FarBodiesChangeNothing) {
 TEST(CheckRobots, TheOrderOfMembersDoesNotMatter) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     PlanarCase c(seed);
-    const RobotCheckResult result = check_robots(c.scene());
+    const SceneResult result = check_robots(c.scene());
     RobotScene swapped(c.rules);
     const RobotScene scene = c.scene();
     for (std::size_t member = scene.size(); member-- > 0;) {
@@ -488,11 +483,11 @@ TEST(CheckRobots, TheOrderOfMembersDoesNotMatter) {
       }
     }
     swapped.add_robot("arm", scene.robot_motion(0));
-    const RobotCheckResult same = check_robots(swapped);
+    const SceneResult same = check_robots(swapped);
     ASSERT_EQ(result.verdict, same.verdict) << seed;
     ASSERT_EQ(result.t, same.t) << seed;
     if (result.first) {
-      const auto names = [](const RobotScene& of, const RobotCheckResult& found) {
+      const auto names = [](const RobotScene& of, const SceneResult& found) {
         const BodyPair& pair = found.pairs[*found.first].members;
         std::array<std::string, 2> both = {of.name(pair[0]), of.name(pair[1])};
         std::sort(both.begin(), both.end());
@@ -523,8 +518,8 @@ TEST(CheckRobots, ASplitTrajectoryIsTheSame) {
       split.add_body(whole.name(member), whole.geometries(member)[0].shape,
                      whole.body_motion(member));
     }
-    const RobotCheckResult a = check_robots(whole);
-    const RobotCheckResult b = check_robots(split);
+    const SceneResult a = check_robots(whole);
+    const SceneResult b = check_robots(split);
     ASSERT_EQ(a.verdict == Verdict::free, b.verdict == Verdict::free) << seed;
     if (a.verdict != Verdict::free) {
       ASSERT_LE(c.gap(b.t), b.tolerance_used + 1e-12) << seed;
@@ -539,11 +534,11 @@ TEST(CheckRobots, FindsEveryIntervalOfContact) {
   constexpr int kTurns = 3;
   const RobotScene scene = turning_past_a_ball(kTurns);
   RobotCheckOptions options;
-  options.all_contact_intervals = true;
+  options.all_contacts_in_time = true;
   options.time_resolution = 1e-4;
-  const RobotCheckResult result = check_robots(scene, options);
+  const SceneResult result = check_robots(scene, options);
   ASSERT_EQ(result.pairs.size(), 1u);
-  const RobotPairAnswer& pair = result.pairs[0];
+  const PairAnswer& pair = result.pairs[0];
   ASSERT_EQ(pair.intervals.size(), static_cast<std::size_t>(kTurns));
   const double half = std::asin((kBall + kBarRadius) / 0.5);
   const double whole = 2.0 * std::numbers::pi;
@@ -564,19 +559,19 @@ TEST(CheckRobots, FindsEveryIntervalOfContact) {
 /// the pair's t, nearly that of the first contact alone.
 TEST(CheckRobots, OutsideOfIntervalsAllIsFree) {
   RobotCheckOptions options;
-  options.all_contact_intervals = true;
+  options.all_contacts_in_time = true;
   std::size_t intervals = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const PlanarCase c(seed);
-    const RobotCheckResult result = check_robots(c.scene(), options);
-    const RobotCheckResult first = check_robots(c.scene());
+    const SceneResult result = check_robots(c.scene(), options);
+    const SceneResult first = check_robots(c.scene());
     ASSERT_EQ(result.verdict, first.verdict) << seed;
     // Searches of other windows end at other times within the tolerance.
     ASSERT_NEAR(result.t, first.t, options.tolerance) << seed;
     for (int i = 0; i <= 1000; ++i) {
       const double t = i / 1000.0;
       bool reported = false;
-      for (const RobotPairAnswer& pair : result.pairs) {
+      for (const PairAnswer& pair : result.pairs) {
         for (const ContactInterval& interval : pair.intervals) {
           reported = reported || (interval.enter <= t && t <= interval.leave);
         }
@@ -585,7 +580,7 @@ TEST(CheckRobots, OutsideOfIntervalsAllIsFree) {
       // Longer than any end of an interval is off.
       ASSERT_TRUE(!reported || c.gap(t) < 0.05) << seed << " at " << t;
     }
-    for (const RobotPairAnswer& pair : result.pairs) {
+    for (const PairAnswer& pair : result.pairs) {
       intervals += pair.intervals.size();
       ASSERT_EQ(pair.verdict == Verdict::free, pair.intervals.empty());
       if (!pair.intervals.empty()) {
@@ -607,12 +602,12 @@ TEST(CheckRobots, FindsTheLeastClearanceInClosedForm) {
                                           at({1.5 * std::cos(angle), 1.5 * std::sin(angle), 0.0}));
   scene.set_padding(ball, 0.1);  // Does not count.
   RobotCheckOptions options;
-  options.least_clearance = true;
-  const RobotCheckResult result = check_robots(scene, options);
+  options.closest = true;
+  const SceneResult result = check_robots(scene, options);
   EXPECT_EQ(result.verdict, Verdict::free);
   ASSERT_EQ(result.pairs.size(), 1u);
   EXPECT_EQ(result.closest, 0u);
-  const LeastClearance& found = result.pairs[0].least_clearance.value();
+  const ClosestApproach& found = result.pairs[0].closest.value();
   const double truth = 0.5 - kBall - kBarRadius;
   EXPECT_EQ(found.reason, UndecidedReason::none);
   EXPECT_LE(found.lower_bound, truth);
@@ -624,24 +619,24 @@ TEST(CheckRobots, FindsTheLeastClearanceInClosedForm) {
 
 TEST(CheckRobots, LeastClearancesHoldForSamples) {
   RobotCheckOptions options;
-  options.least_clearance = true;
+  options.closest = true;
   for (const bool of_each : {false, true}) {
     options.all_pairs = of_each;
     for (std::uint64_t seed = 0; seed < 25; ++seed) {
       const PlanarCase c(seed);
-      const RobotCheckResult result = check_robots(c.scene(), options);
+      const SceneResult result = check_robots(c.scene(), options);
       double sampled = std::numeric_limits<double>::infinity();
       for (int i = 0; i <= 2000; ++i) {
         sampled = std::min(sampled, c.gap(i / 2000.0) + *c.rules.margin({0, 1}));
       }
       double lower = std::numeric_limits<double>::infinity();
       double upper = std::numeric_limits<double>::infinity();
-      for (const RobotPairAnswer& pair : result.pairs) {
-        ASSERT_TRUE(pair.least_clearance || !of_each) << seed;
-        if (pair.least_clearance) {
-          ASSERT_EQ(pair.least_clearance->reason, UndecidedReason::none) << seed;
-          lower = std::min(lower, pair.least_clearance->lower_bound);
-          upper = std::min(upper, pair.least_clearance->distance);
+      for (const PairAnswer& pair : result.pairs) {
+        ASSERT_TRUE(pair.closest || !of_each) << seed;
+        if (pair.closest) {
+          ASSERT_EQ(pair.closest->reason, UndecidedReason::none) << seed;
+          lower = std::min(lower, pair.closest->lower_bound);
+          upper = std::min(upper, pair.closest->distance);
         }
       }
       ASSERT_LE(lower, std::max(sampled, 0.0) + 1e-12) << seed;
@@ -652,8 +647,8 @@ TEST(CheckRobots, LeastClearancesHoldForSamples) {
 }
 
 /// The closest features are where and as far apart as it says.
-void expect_closest_features(const RobotScene& scene, const RobotPairAnswer& pair) {
-  const LeastClearance& least = pair.least_clearance.value();
+void expect_closest_features(const RobotScene& scene, const PairAnswer& pair) {
+  const ClosestApproach& least = pair.closest.value();
   const Contact& closest = least.closest.value();
   EXPECT_NEAR(std::max(closest.distance, 0.0), least.distance, 1e-12);
   EXPECT_NEAR((closest.p_WA - closest.p_WB).norm(), std::abs(closest.distance), 1e-12);
@@ -678,13 +673,12 @@ TEST(CheckRobots, TheLeastClearanceOfAllIsTheLeastOfThoseOfEachPair) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const PlanarCase c(seed);
     const RobotScene scene = c.scene();
-    const RobotCheckResult of_all = check_robots(scene, {.least_clearance = true});
-    const RobotCheckResult of_each =
-        check_robots(scene, {.all_pairs = true, .least_clearance = true});
+    const SceneResult of_all = check_robots(scene, {.closest = true});
+    const SceneResult of_each = check_robots(scene, {.all_pairs = true, .closest = true});
     ASSERT_TRUE(of_all.closest && of_each.closest) << seed;
-    const RobotPairAnswer& found = of_all.pairs[*of_all.closest];
-    const LeastClearance& least = found.least_clearance.value();
-    const LeastClearance& expected = of_each.pairs[*of_each.closest].least_clearance.value();
+    const PairAnswer& found = of_all.pairs[*of_all.closest];
+    const ClosestApproach& least = found.closest.value();
+    const ClosestApproach& expected = of_each.pairs[*of_each.closest].closest.value();
     ASSERT_EQ(least.reason, UndecidedReason::none) << seed;
     ASSERT_NEAR(least.distance, expected.distance, 1e-6) << seed;
     ASSERT_LE(least.distance - least.lower_bound, 1e-6) << seed;
@@ -693,7 +687,7 @@ TEST(CheckRobots, TheLeastClearanceOfAllIsTheLeastOfThoseOfEachPair) {
     // The verdict is that of a check without it; of the closest pair it is for the whole step.
     ASSERT_EQ(of_all.verdict, of_each.verdict) << seed;
     ASSERT_EQ(of_all.t, check_robots(scene).t) << seed;
-    for (const RobotPairAnswer& pair : of_each.pairs) {
+    for (const PairAnswer& pair : of_each.pairs) {
       if (pair.members == found.members) {
         ASSERT_EQ(found.verdict, pair.verdict) << seed;
         // Each time is proven; two ways to it differ by the tolerance over the speed.
@@ -711,11 +705,11 @@ TEST(CheckRobots, TheLeastClearanceOfAllIsTheLeastOfThoseOfEachPair) {
 
 TEST(CheckRobots, ALeastClearanceThatWasNotLookedForClaimsNothing) {
   const RobotScene scene = turning_past_a_ball(1.0);
-  RobotCheckOptions late{.least_clearance = true};
+  RobotCheckOptions late{.closest = true};
   late.budget.deadline = std::chrono::steady_clock::now();
-  const RobotCheckResult result = check_robots(scene, late);
+  const SceneResult result = check_robots(scene, late);
   ASSERT_TRUE(result.closest);
-  const LeastClearance& least = result.pairs[*result.closest].least_clearance.value();
+  const ClosestApproach& least = result.pairs[*result.closest].closest.value();
   EXPECT_EQ(least.reason, UndecidedReason::deadline);
   EXPECT_EQ(least.lower_bound, 0.0);
   EXPECT_FALSE(least.closest);
@@ -727,8 +721,8 @@ TEST(CheckRobots, EachPairAnswersAsIfAlone) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     const PlanarCase c(seed);
     const RobotScene scene = c.scene();
-    const RobotCheckResult all = check_robots(scene, options);
-    for (const RobotPairAnswer& pair : all.pairs) {
+    const SceneResult all = check_robots(scene, options);
+    for (const PairAnswer& pair : all.pairs) {
       RobotScene alone = c.scene();
       for (std::size_t a = 0; a < scene.size(); ++a) {
         for (std::size_t b = a + 1; b < scene.size(); ++b) {
@@ -737,7 +731,7 @@ TEST(CheckRobots, EachPairAnswersAsIfAlone) {
           }
         }
       }
-      const RobotCheckResult result = check_robots(alone);
+      const SceneResult result = check_robots(alone);
       ASSERT_EQ(result.verdict, pair.verdict) << seed;
       ASSERT_NEAR(result.t, pair.t, 1e-9) << seed;
     }
@@ -764,12 +758,13 @@ TEST(CheckRobots, OpensFewOfTheManyTrianglesThatTouchAtOnce) {
       scene.add_body("post", make_cylinder(0.05, kLength), Motion::fixed());
       scene.add_robot("lift",
                       RobotMotion(model, {{"z", ramp(0.5, end)}, {"turn", ramp(0.0, turn)}}));
-      const RobotCheckResult result = check_robots(scene, {.contacts = ContactState::first});
+      const SceneResult result = check_robots(scene, {.contacts = ContactState::first});
       ASSERT_EQ(result.verdict, Verdict::contact);
       const double truth = (0.5 - kLength) / (0.5 - end);
       EXPECT_LE(result.t, truth);
       EXPECT_GE(result.t, truth - 1e-5);
-      EXPECT_LT(result.steps, 12'000u) << turn << ' ' << end;  // Of 100,000 pairs of triangles.
+      EXPECT_LT(result.work.total(), 12'000u)
+          << turn << ' ' << end;  // Of 100,000 pairs of triangles.
     }
   }
 }
@@ -819,25 +814,25 @@ RobotScene slide_of_plates(bool robot_first) {
 
 TEST(CheckRobots, ListsNoMoreContactsOfAPairThanAreAskedFor) {
   const RobotScene scene = slide_of_plates(false);
-  const RobotPairAnswer all = check_robots(scene, {.contacts = ContactState::all}).pairs.at(0);
+  const PairAnswer all = check_robots(scene, {.contacts = ContactState::all}).pairs.at(0);
   ASSERT_EQ(all.verdict, Verdict::contact_at_start);
   EXPECT_TRUE(all.contact_count.is_exact);
   EXPECT_EQ(all.contact_count.at_least, all.contacts.size());
   ASSERT_GT(all.contacts.size(), 2000u);
   double least = std::numeric_limits<double>::infinity();
-  for (const RobotContact& found : all.contacts) {
-    least = std::min(least, found.contact.distance);
+  for (const Contact& found : all.contacts) {
+    least = std::min(least, found.distance);
   }
   for (const std::size_t most : {1u, 2u, 30u, 1000u}) {
-    const RobotPairAnswer some =
+    const PairAnswer some =
         check_robots(scene, {.contacts = ContactState::nearest(most)}).pairs.at(0);
     ASSERT_EQ(some.contacts.size(), most);
     EXPECT_EQ(some.contact_count.at_least, all.contacts.size());
     EXPECT_TRUE(some.contact_count.is_exact);
     double least_of_some = std::numeric_limits<double>::infinity();
     std::array<std::size_t, 2> of_geometry = {};
-    for (const RobotContact& found : some.contacts) {
-      least_of_some = std::min(least_of_some, found.contact.distance);
+    for (const Contact& found : some.contacts) {
+      least_of_some = std::min(least_of_some, found.distance);
       ++of_geometry.at(found.geometries[1]);
     }
     EXPECT_EQ(least_of_some, least);
@@ -850,18 +845,17 @@ TEST(CheckRobots, ListsNoMoreContactsOfAPairThanAreAskedFor) {
 TEST(CheckRobots, ListsTheSameContactsWhicheverMemberIsFirst) {
   for (const std::size_t most : {3u, 50u}) {
     const RobotCheckOptions options{.contacts = ContactState::nearest(most)};
-    const RobotPairAnswer one = check_robots(slide_of_plates(false), options).pairs.at(0);
-    const RobotPairAnswer other = check_robots(slide_of_plates(true), options).pairs.at(0);
-    const auto keys = [](const RobotPairAnswer& pair, bool swapped) {
+    const PairAnswer one = check_robots(slide_of_plates(false), options).pairs.at(0);
+    const PairAnswer other = check_robots(slide_of_plates(true), options).pairs.at(0);
+    const auto keys = [](const PairAnswer& pair, bool swapped) {
       std::vector<std::array<double, 4>> all;
-      for (RobotContact found : pair.contacts) {
+      for (Contact found : pair.contacts) {
         if (swapped) {
-          std::swap(found.geometries[0], found.geometries[1]);
-          swap_bodies(found.contact);
+          swap_bodies(found);
         }
         all.push_back({static_cast<double>(found.geometries[1]),
-                       static_cast<double>(found.contact.feature_A.index),
-                       static_cast<double>(found.contact.feature_B.index), found.contact.distance});
+                       static_cast<double>(found.feature_A.index),
+                       static_cast<double>(found.feature_B.index), found.distance});
       }
       std::sort(all.begin(), all.end());
       return all;
@@ -883,9 +877,9 @@ TEST(CheckRobots, AStopOrADeadlineEndsWithWhatIsProven) {
   late.budget.deadline = std::chrono::steady_clock::now();
   for (RobotCheckOptions options : {stopped, late}) {
     for (const bool all : {false, true}) {
-      options.all_contact_intervals = all;
-      options.least_clearance = all;
-      const RobotCheckResult result = check_robots(scene, options);
+      options.all_contacts_in_time = all;
+      options.closest = all;
+      const SceneResult result = check_robots(scene, options);
       EXPECT_EQ(result.verdict, Verdict::undecided);
       EXPECT_EQ(result.reason,
                 options.budget.deadline ? UndecidedReason::deadline : UndecidedReason::cancelled);
@@ -894,7 +888,7 @@ TEST(CheckRobots, AStopOrADeadlineEndsWithWhatIsProven) {
       if (all) {
         ASSERT_EQ(result.pairs[0].intervals.size(), 1u);
         EXPECT_NE(result.pairs[0].intervals[0].reason, UndecidedReason::none);
-        EXPECT_EQ(result.pairs[0].least_clearance->lower_bound, 0.0);
+        EXPECT_EQ(result.pairs[0].closest->lower_bound, 0.0);
       }
     }
   }
@@ -902,12 +896,12 @@ TEST(CheckRobots, AStopOrADeadlineEndsWithWhatIsProven) {
 
 TEST(CheckRobots, SpentStepsAreUndecidedAndNeverLate) {
   const RobotScene scene = turning_past_a_ball(1.0);
-  const RobotCheckResult full = check_robots(scene);
+  const SceneResult full = check_robots(scene);
   int undecided = 0;
   for (std::uint64_t steps = 0; steps < 40; ++steps) {
     RobotCheckOptions options;
     options.budget.steps = steps;
-    const RobotCheckResult result = check_robots(scene, options);
+    const SceneResult result = check_robots(scene, options);
     ASSERT_LE(result.t, full.t);
     if (result.verdict == Verdict::undecided) {
       ++undecided;
@@ -935,7 +929,7 @@ TEST(CheckRobots, RefusesOptionsOutOfRange) {
 }
 
 TEST(CheckRobots, NothingToTestIsFree) {
-  const RobotCheckResult empty = check_robots(RobotScene());
+  const SceneResult empty = check_robots(RobotScene());
   EXPECT_EQ(empty.verdict, Verdict::free);
   EXPECT_EQ(empty.t, 1.0);
   EXPECT_EQ(empty.clearance, std::numeric_limits<double>::infinity());
@@ -987,8 +981,8 @@ TEST(CheckRobots, ThePumaAgreesWithDistancesAtSingleTimes) {
       }
       return least;
     };
-    const RobotCheckResult result = check_robots(scene, options);
-    for (const RobotPairAnswer& pair : result.pairs) {
+    const SceneResult result = check_robots(scene, options);
+    for (const PairAnswer& pair : result.pairs) {
       ASSERT_NE(pair.verdict, Verdict::undecided) << seed;
       const bool is_free = pair.verdict == Verdict::free;
       (is_free ? free : contacts) += 1;
@@ -1030,9 +1024,9 @@ TEST(CheckRobots, ThePandaFoldedUpTouchesItself) {
     scene.add_robot("panda", {panda, joints}, semantics.disabled);
     RobotCheckOptions options;
     options.all_pairs = true;
-    const RobotCheckResult result = check_robots(scene, options);
+    const SceneResult result = check_robots(scene, options);
     std::vector<std::string> names;
-    for (const RobotPairAnswer& pair : result.pairs) {
+    for (const PairAnswer& pair : result.pairs) {
       if (pair.verdict != Verdict::free) {
         EXPECT_EQ(pair.verdict, Verdict::contact_at_start);
         names.push_back(scene.name(pair.members[0]) + " " + scene.name(pair.members[1]));
@@ -1056,7 +1050,7 @@ TEST(CheckRobots, FarFromTheOriginNothingIsLost) {
   const double angle = 1.25;
   scene.add_body("ball", make_sphere(kBall),
                  at(far + Vector3d(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.0)));
-  const RobotCheckResult result = check_robots(scene);
+  const SceneResult result = check_robots(scene);
   ASSERT_EQ(result.verdict, Verdict::contact);
   EXPECT_NEAR(result.t, (angle - std::asin(0.3)) / 2.0, 1e-6);
 }

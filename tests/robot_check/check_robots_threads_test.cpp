@@ -56,7 +56,7 @@ RobotScene waving_arm(std::size_t segments, std::uint64_t seed, double distance)
 }
 
 /// All numbers of an answer.
-std::vector<std::uint64_t> bits(const RobotCheckResult& result) {
+std::vector<std::uint64_t> bits(const SceneResult& result) {
   std::vector<std::uint64_t> all;
   const auto add = [&](double value) { all.push_back(std::bit_cast<std::uint64_t>(value)); };
   const auto add_vector = [&](const Vector3d& v) {
@@ -72,30 +72,30 @@ std::vector<std::uint64_t> bits(const RobotCheckResult& result) {
   }
   all.push_back(result.first.value_or(99));
   all.push_back(result.closest.value_or(99));
-  for (const RobotPairAnswer& pair : result.pairs) {
+  for (const PairAnswer& pair : result.pairs) {
     all.insert(all.end(), {pair.members[0], pair.members[1]});
     all.push_back(static_cast<std::uint64_t>(pair.verdict));
-    add(pair.threshold);
+    add(pair.margin);
     add(pair.t);
-    for (const RobotContact& contact : pair.contacts) {
-      all.insert(all.end(), {contact.geometries[0], contact.contact.feature_A.index,
-                             contact.contact.feature_B.index});
-      add_vector(contact.contact.p_WA);
-      add_vector(contact.contact.p_WB);
-      add_vector(contact.contact.n_AB_W.value_or(Vector3d::Zero()));
-      add(contact.contact.distance);
+    for (const Contact& contact : pair.contacts) {
+      all.insert(all.end(),
+                 {contact.geometries[0], contact.feature_A.index, contact.feature_B.index});
+      add_vector(contact.p_WA);
+      add_vector(contact.p_WB);
+      add_vector(contact.n_AB_W.value_or(Vector3d::Zero()));
+      add(contact.distance);
     }
     for (const ContactInterval& interval : pair.intervals) {
       add(interval.enter);
       add(interval.leave);
     }
-    if (pair.least_clearance) {
-      add(pair.least_clearance->distance);
-      add(pair.least_clearance->lower_bound);
-      add(pair.least_clearance->t);
-      if (pair.least_clearance->closest) {
-        add_vector(pair.least_clearance->closest->p_WA);
-        add_vector(pair.least_clearance->closest->p_WB);
+    if (pair.closest) {
+      add(pair.closest->distance);
+      add(pair.closest->lower_bound);
+      add(pair.closest->t);
+      if (pair.closest->closest) {
+        add_vector(pair.closest->closest->p_WA);
+        add_vector(pair.closest->closest->p_WB);
       }
     }
   }
@@ -112,8 +112,8 @@ TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
     for (const int kind : {0, 1, 2, 3}) {
       RobotCheckOptions options;
       options.all_pairs = kind == 1;
-      options.all_contact_intervals = kind == 2;
-      options.least_clearance = (kind == 2 && seed == 0) || kind == 3;
+      options.all_contacts_in_time = kind == 2;
+      options.closest = (kind == 2 && seed == 0) || kind == 3;
       options.time_resolution = 0.01;
       options.threads = 1;
       const std::vector<std::uint64_t> alone = bits(check_robots(scene, options));
@@ -128,15 +128,15 @@ TEST(CheckRobotsThreads, AnswersDoNotDependOnTheirNumber) {
 TEST(CheckRobotsThreads, AThousandSegmentsAreLeftAtTheFirstContact) {
   const RobotScene near_scene = waving_arm(1000, 3, 0.8);
   const RobotScene far_scene = waving_arm(1000, 3, 9.0);
-  const RobotCheckResult touching = check_robots(near_scene);
-  const RobotCheckResult free = check_robots(far_scene);
+  const SceneResult touching = check_robots(near_scene);
+  const SceneResult free = check_robots(far_scene);
   EXPECT_EQ(free.verdict, Verdict::free);
   ASSERT_EQ(touching.verdict, Verdict::contact);
   RobotCheckOptions options;
   options.all_pairs = true;
-  const RobotCheckResult whole = check_robots(near_scene, options);
+  const SceneResult whole = check_robots(near_scene, options);
   EXPECT_EQ(whole.t, touching.t);
-  EXPECT_LT(touching.steps, whole.steps);
+  EXPECT_LT(touching.work.total(), whole.work.total());
 }
 
 /// Progress rises, comes from the calling thread, and ends at 1 or at the contact.
@@ -152,7 +152,7 @@ TEST(CheckRobotsThreads, ReportsItsProgress) {
       EXPECT_GE(done, last);
       last = done;
     };
-    const RobotCheckResult result = check_robots(scene, options);
+    const SceneResult result = check_robots(scene, options);
     EXPECT_EQ(last, all ? 1.0 : result.t);
   }
 }

@@ -222,7 +222,7 @@ class Campaign {
 
   void ask(const fs::path& request, Family& family) {
     const LoadedScene loaded = load_scene(read(request), cache_);
-    const RobotCheckResult answer = *check_scene(loaded, workspace_).robots;
+    const SceneResult answer = check_scene(loaded, workspace_);
     name_ = request.parent_path().filename().string() + "/" + request.filename().string();
     ++family.problems;
     family.beyond_limits += loaded.limits.empty() ? 0 : 1;
@@ -257,7 +257,7 @@ class Campaign {
                          ("scene" + name.substr(std::string("request").size()))}});
   }
 
-  void hold(const RobotCheckResult& answer, const SampledScene& sampled, Family& family) {
+  void hold(const SceneResult& answer, const SampledScene& sampled, Family& family) {
     const bool free = answer.verdict == Verdict::free;
     bool all_see = true;
     for (std::size_t k = 0; k < kSteps.size(); ++k) {
@@ -267,18 +267,18 @@ class Campaign {
     }
     if (!free) {
       family.grazes += all_see || sees(answer, sampled, kFineStep) ? 0 : 1;
-      const RobotPairAnswer& pair = answer.pairs[*answer.first];
+      const PairAnswer& pair = answer.pairs[*answer.first];
       const double distance = sampled.distance(pair.members, answer.t);
       // Inside of a solid, at the start, surfaces may be apart.
       const bool inside = answer.verdict == Verdict::contact_at_start && sampled.collides(0.0);
-      if (!(inside || distance <= pair.threshold + pair.tolerance_used + kFclError)) {
+      if (!(inside || distance <= pair.margin + pair.tolerance_used + kFclError)) {
         complain(fmt::format("FCL sees {} m at {}", distance, answer.t));
       }
     }
   }
 
   /// Whether one of the samples collides.
-  bool sees(const RobotCheckResult& answer, const SampledScene& sampled, double step) {
+  bool sees(const SceneResult& answer, const SampledScene& sampled, double step) {
     const auto count = static_cast<int>(std::max(1.0, std::ceil(sampled.length() / step)));
     for (int i = 0; i <= count; ++i) {
       const double t = static_cast<double>(i) / count;

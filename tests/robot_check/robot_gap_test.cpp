@@ -82,7 +82,7 @@ TEST(RobotGap, IsThatOfThePlanarArmInClosedForm) {
 }
 
 TEST(RobotGap, IsPositiveWhereACheckProvesFreedom) {
-  const RobotCheckResult result = check_robots(folding());
+  const SceneResult result = check_robots(folding());
   ASSERT_EQ(result.verdict, Verdict::contact);
   for (const double t : many_times()) {
     if (t < result.t) {

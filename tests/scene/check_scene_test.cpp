@@ -49,7 +49,7 @@ TEST(CheckScene, TheEarliestPairAnswersForAll) {
   expect_time(result.t, 0.25);
   ASSERT_TRUE(result.first);
   ASSERT_EQ(result.pairs.size(), 1u);
-  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 2}));
+  EXPECT_EQ(result.pairs[*result.first].members, (BodyPair{0, 2}));
   EXPECT_EQ(result.t_upper, result.t);
 }
 
@@ -58,10 +58,10 @@ TEST(CheckScene, EveryPairAnswersWhereThatIsAsked) {
   EXPECT_EQ(result.verdict, Verdict::contact);
   expect_time(result.t, 0.25);
   ASSERT_TRUE(result.first);
-  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 2}));
+  EXPECT_EQ(result.pairs[*result.first].members, (BodyPair{0, 2}));
   ASSERT_EQ(result.pairs.size(), 3u);
-  expect_time(result.pairs[0].first_contact.t, 0.5);
-  EXPECT_EQ(result.pairs[2].first_contact.verdict, Verdict::free);  // They fall together.
+  expect_time(result.pairs[0].t, 0.5);
+  EXPECT_EQ(result.pairs[2].verdict, Verdict::free);  // They fall together.
   EXPECT_EQ(result.t_upper, result.t);
 }
 
@@ -76,7 +76,7 @@ TEST(CheckScene, VerticesMoveOnLines) {
   EXPECT_EQ(result.verdict, Verdict::contact);
   expect_time(result.t, 0.75);
   ASSERT_TRUE(result.closest);
-  EXPECT_LE(result.pairs[*result.closest].closest_approach->distance, kTolerance);
+  EXPECT_LE(result.pairs[*result.closest].closest->distance, kTolerance);
   const SceneResult before =
       check(scene(body("floor") + "," + flag, R"("options": {"margin": 1})"));
   expect_time(before.t, 0.5);
@@ -97,10 +97,10 @@ TEST(CheckScene, APairsMarginReplacesTheScenes) {
   const std::string pairs = R"("pairs": {"margin": [["high", "floor", 1.5]]}, )";
   const SceneResult result =
       check(scene(kThree, pairs + R"("options": {"margin": 0.5})"), {.all_pairs = true});
-  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 1}));
-  expect_time(result.t, 0.125);                                     // 0.5 m at 4 m/s.
-  expect_time(result.pairs[1].first_contact.t, 0.125);              // Also 0.5 m: a tie.
-  EXPECT_EQ(result.pairs[2].first_contact.verdict, Verdict::free);  // 1 m apart all the time.
+  EXPECT_EQ(result.pairs[*result.first].members, (BodyPair{0, 1}));
+  expect_time(result.t, 0.125);                       // 0.5 m at 4 m/s.
+  expect_time(result.pairs[1].t, 0.125);              // Also 0.5 m: a tie.
+  EXPECT_EQ(result.pairs[2].verdict, Verdict::free);  // 1 m apart all the time.
 }
 
 TEST(CheckScene, GroupsStandForTheirPairs) {
@@ -127,7 +127,7 @@ TEST(CheckScene, AContactAtTheStartDecides) {
   const SceneResult result = check(scene(kThree + "," + body("rug", R"("pose": {})")));
   EXPECT_EQ(result.verdict, Verdict::contact_at_start);
   EXPECT_EQ(result.t, 0.0);
-  EXPECT_EQ(result.pairs[*result.first].bodies, (BodyPair{0, 3}));
+  EXPECT_EQ(result.pairs[*result.first].members, (BodyPair{0, 3}));
 }
 
 TEST(CheckScene, TheClosestPairIsNamed) {
@@ -137,14 +137,35 @@ TEST(CheckScene, TheClosestPairIsNamed) {
   EXPECT_EQ(result.verdict, Verdict::free);
   ASSERT_TRUE(result.closest);
   const PairAnswer& closest = result.pairs[*result.closest];
-  EXPECT_EQ(closest.bodies, (BodyPair{0, 2}));
-  EXPECT_NEAR(closest.closest_approach->distance, 2.0, kTolerance);
-  EXPECT_LE(closest.closest_approach->lower_bound, 2.0);
-  EXPECT_EQ(closest.closest_approach->t, 1.0);
-  EXPECT_EQ(closest.first_contact.clearance, closest.closest_approach->lower_bound);
+  EXPECT_EQ(closest.members, (BodyPair{0, 2}));
+  EXPECT_NEAR(closest.closest->distance, 2.0, kTolerance);
+  EXPECT_LE(closest.closest->lower_bound, 2.0);
+  EXPECT_EQ(closest.closest->t, 1.0);
+  EXPECT_EQ(closest.clearance, closest.closest->lower_bound);
 }
 
 // The same fall told by waypoints of a longer scene, then rest.
+TEST(CheckScene, AllContactsInTimeOfBodies) {
+  // Past the floor and back: up and down again at 4 m/s.
+  const std::string bounces =
+      R"("motion": {"type": "waypoints", "times": [0, 0.5, 1], "poses": [{"position": [0.1, 0.1, 1]},
+         {"position": [0.1, 0.1, -1]}, {"position": [0.1, 0.1, 1]}]})";
+  const SceneResult result =
+      check(scene(body("floor") + "," + body("stone", bounces)), {.all_contacts_in_time = true});
+  ASSERT_EQ(result.pairs.size(), 1u);
+  const std::vector<ContactInterval>& intervals = result.pairs[0].intervals;
+  ASSERT_EQ(intervals.size(), 2u);
+  EXPECT_EQ(result.t, intervals[0].enter);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double passes = 0.25 + 0.5 * static_cast<double>(k);
+    EXPECT_LE(intervals[k].enter, passes);
+    EXPECT_NEAR(intervals[k].enter, passes, 1e-6);
+    EXPECT_GE(intervals[k].leave, passes);
+    EXPECT_NEAR(intervals[k].leave, passes, 1e-5);
+    EXPECT_EQ(intervals[k].reason, UndecidedReason::none);
+  }
+}
+
 TEST(CheckScene, NormalisesTimesToTheDuration) {
   const std::string falls =
       R"("motion": {"type": "waypoints", "times": [1, 3, 8], "poses": [
@@ -177,10 +198,10 @@ TEST(CheckScene, AStopBetweenPairsKeepsWhatIsKnown) {
                           stop.request_stop();
                         }
                       }});
-  EXPECT_EQ(result.pairs.front().first_contact.verdict, Verdict::contact);
-  EXPECT_EQ(result.pairs.back().first_contact.verdict, Verdict::undecided);
+  EXPECT_EQ(result.pairs.front().verdict, Verdict::contact);
+  EXPECT_EQ(result.pairs.back().verdict, Verdict::undecided);
   ASSERT_TRUE(result.t_upper);  // The first pairs' contact.
-  EXPECT_EQ(*result.t_upper, result.pairs.front().first_contact.t);
+  EXPECT_EQ(*result.t_upper, result.pairs.front().t);
 }
 
 TEST(CheckScene, ADeadlineLeavesItUndecided) {

@@ -122,10 +122,9 @@ TEST_F(RobotSceneFile, CarriesAttachedBodies) {
 
 TEST_F(RobotSceneFile, FindsEveryContactInTime) {
   const SceneResult result = check(load(parse(with_ball(kMove))), {.all_contacts_in_time = true});
-  ASSERT_TRUE(result.robots);
   double enter = 4.0;
   double leave = 0.0;
-  for (const RobotPairAnswer& pair : result.robots->pairs) {
+  for (const PairAnswer& pair : result.pairs) {
     for (const ContactInterval& interval : pair.intervals) {
       enter = std::min(enter, interval.enter * 4.0);
       leave = std::max(leave, interval.leave * 4.0);
@@ -171,9 +170,21 @@ TEST_F(RobotSceneFile, SaysWhatIsWrong) {
             "s.json:1: robots: expected at least one body or robot, got none");
 }
 
-TEST_F(RobotSceneFile, RefusesOptionsThatRobotsDoNotHave) {
-  const LoadedScene loaded = load(parse(with_ball(kMove, R"(, "options": {"contact_band": 1})")));
-  EXPECT_THROW((void)check(loaded), std::invalid_argument);
+TEST_F(RobotSceneFile, RefusesToKeepHalfWithinTrackingErrors) {
+  const std::string options = R"(, "options": {"start_contacts": "keep_half"})";
+  EXPECT_EQ(check(load(parse(with_ball(kMove, options)))).verdict, Verdict::contact);
+  const LoadedScene loose =
+      load(parse(with_ball(std::string(kMove) + R"(, "tracking_error": 0.02)", options)));
+  EXPECT_THROW((void)check(loose), std::invalid_argument);
+}
+
+TEST_F(RobotSceneFile, ListsFeaturesWithinTheBand) {
+  const auto count = [&](const std::string& options) {
+    return check(load(parse(with_ball(kMove, options)))).pairs.at(0).contact_count.at_least;
+  };
+  // The tip is a ball at the end of the bar: one feature pair, and no more within a small band.
+  EXPECT_EQ(count(R"(, "options": {"contact_band": 1e-3})"), count(""));
+  EXPECT_GE(count(R"(, "options": {"contact_band": 1})"), 1u);
 }
 
 TEST_F(RobotSceneFile, IsPutTogetherFromAQuestion) {
@@ -293,7 +304,7 @@ world: {collision_objects: [{id: wall, primitives: [{type: sphere, dimensions: [
   const LoadedScene loaded = load(scene);
   const SceneResult result = check(loaded);
   EXPECT_EQ(result.verdict, Verdict::contact);
-  const RobotPairAnswer& first = result.robots->pairs[*result.robots->first];
+  const PairAnswer& first = result.pairs[*result.first];
   EXPECT_EQ(loaded.robots->name(first.members[0]) + loaded.robots->name(first.members[1]),
             "wallrod/1");
   EXPECT_FALSE(loaded.robots->margin({1, 2}));  // The parts of the rod.

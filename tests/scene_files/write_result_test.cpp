@@ -77,7 +77,7 @@ TEST(WriteResult, SaysWhenWhoAndWhere) {
   EXPECT_EQ(fall.text("version"), version());
   EXPECT_EQ(fall.text("input_digest"), fall.loaded.input_digest);
   const auto& contacts = std::get<JsonArray>(fall.at("contacts").value);
-  ASSERT_EQ(contacts.size(), fall.result.pairs[0].first_contact.contacts.size());
+  ASSERT_EQ(contacts.size(), fall.result.pairs[0].contacts.size());
   const auto& contact = std::get<JsonObject>(contacts[0].value);
   EXPECT_EQ(detail::write_json(*find(contact, "normal")), "[0,0,1]");
   // 4 m in half a second, closing.

@@ -16,18 +16,18 @@ Lengths are metres, angles radians, t runs from 0 to 1 over the step. Points are
 """
 
 from ._check import Answer, Pair, SceneLike, check, check_many, load_scene
-from ._core import (BodySet, ClosestApproachResult, Contact, DistanceResult, ElementaryContact,
-                    Feature, FirstContactResult, LinearContact, ManyBodiesResult,
+from ._core import (BodySet, ClosestApproach, ClosestApproachResult, Contact, DistanceResult,
+                    ElementaryContact, Feature, FirstContactResult, LinearContact,
                     ManyBodiesWorkspace, MeshDefects, Motion, PairAnswer, PairRules, Pose, Result,
                     RobotModel, RobotScene, RunReader, RunStep, Scene, SceneClosest, SceneContact,
-                    ScenePair, Shape, ShapeCache, Simulator, StopSource, Trajectory, WorkCount,
-                    Workspace, __version__, answer_each_pair, closest_approach, convex_hull,
-                    distance, edge_edge_contact, first_contact, inspect, linear_edge_edge_contact,
-                    linear_vertex_face_contact, make_box, make_capsule, make_cone, make_convex_hull,
-                    make_cylinder, make_height_map, make_point_cloud, make_sphere, move_vertices,
-                    parse_obj, parse_off, parse_pcd, parse_ply, parse_ply_points, parse_scene,
-                    parse_stl, parse_xyz, read_heights, read_mesh, read_mesh_file, read_points,
-                    read_points_file, read_request,
+                    ScenePair, SceneResult, Shape, ShapeCache, Simulator, StopSource, Trajectory,
+                    WorkCount, Workspace, __version__, answer_each_pair, closest_approach,
+                    convex_hull, distance, edge_edge_contact, first_contact, inspect,
+                    linear_edge_edge_contact, linear_vertex_face_contact, make_box, make_capsule,
+                    make_cone, make_convex_hull, make_cylinder, make_height_map, make_point_cloud,
+                    make_sphere, move_vertices, parse_obj, parse_off, parse_pcd, parse_ply,
+                    parse_ply_points, parse_scene, parse_stl, parse_xyz, read_heights, read_mesh,
+                    read_mesh_file, read_points, read_points_file, read_request,
                     read_simulation_scene, read_srdf, read_trajectory, read_urdf, sample_gap,
                     verify_run, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
@@ -41,16 +41,16 @@ from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Fill
                      JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
 
 __all__ = [
-    "Answer", "Between", "BodySet", "ClosestApproachResult", "Contact", "ContactInterval",
+    "Answer", "Between", "BodySet", "ClosestApproach", "ClosestApproachResult", "Contact", "ContactInterval",
     "ContactState", "DistanceResult", "ElementaryContact", "ElementaryVerdict", "EndEffector",
     "Feature", "FeatureType", "FileReport", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
     "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
-    "ManyBodiesResult", "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
+    "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PlanningRequest", "PointReading", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
-    "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "Shape", "ShapeCache", "Simulator",
+    "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",
     "distance", "edge_edge_contact", "first_contact", "inspect", "linear_edge_edge_contact",

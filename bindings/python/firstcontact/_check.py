@@ -79,7 +79,7 @@ def check(scene: SceneLike, workspace: ManyBodiesWorkspace | None = None, *,
 
     The same answer as the tool's ``firstcontact check``. all_pairs: also the answer of every pair.
     closest: also the closest approach. all_contacts_in_time: also from when to when each pair is in
-    contact, in scenes with robots. margin, tolerance [m], deadline [s], contacts (which are
+    contact. margin, tolerance [m], deadline [s], contacts (which are
     listed of each two bodies: a word of ContactState, or so many at most): in place of the scene's.
     sample_rate: [1/s] also what sampling at this rate would have seen. strict: ValueError where a
     robot leaves its joint limits. lenient: as of load_scene. threads: at most; 0 for one on each core; the answer does not

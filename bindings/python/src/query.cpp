@@ -1,7 +1,6 @@
 #include "query.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -17,7 +16,6 @@
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/robot/joint_path.h>
-#include <firstcontact/scene_files/write_result.h>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -35,273 +33,6 @@ namespace {
 
 const std::uint64_t kAllSteps = WorkBudget{}.steps;
 const std::size_t kMemory = WorkBudget{}.memory;
-
-// Contacts and results
-
-py::tuple state_of(const Feature& feature) {
-  return py::make_tuple(feature.type, feature.index, feature.triangle);
-}
-
-Feature feature_from(const py::tuple& state) {
-  return {.type = state[0].cast<FeatureType>(),
-          .index = state[1].cast<std::uint32_t>(),
-          .triangle = state[2].cast<std::uint32_t>()};
-}
-
-py::tuple plain(const Eigen::Vector3d& v) { return py::make_tuple(v.x(), v.y(), v.z()); }
-
-py::tuple state_of(const WorkCount& work) {
-  return py::make_tuple(work.node_groups, work.triangle_pairs, work.steps);
-}
-
-WorkCount work_from(const py::tuple& state) {
-  return {.node_groups = state[0].cast<std::uint64_t>(),
-          .triangle_pairs = state[1].cast<std::uint64_t>(),
-          .steps = state[2].cast<std::uint64_t>()};
-}
-
-py::tuple state_of(const ClosestApproachResult& result) {
-  return py::make_tuple(result.distance, result.lower_bound, result.t, result.reason,
-                        result.tolerance_used, result.enclosure_error,
-                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
-                        state_of(result.work));
-}
-
-std::optional<Contact> optional_contact_from(const py::object& state) {
-  return state.is_none() ? std::nullopt : std::optional(contact_from(state));
-}
-
-ClosestApproachResult closest_approach_result_from(const py::tuple& state) {
-  return {.distance = state[0].cast<double>(),
-          .lower_bound = state[1].cast<double>(),
-          .t = state[2].cast<double>(),
-          .reason = state[3].cast<UndecidedReason>(),
-          .tolerance_used = state[4].cast<double>(),
-          .enclosure_error = state[5].cast<double>(),
-          .closest = optional_contact_from(state[6]),
-          .work = work_from(state[7])};
-}
-
-py::tuple state_of(const DistanceResult& result) {
-  return py::make_tuple(result.distance, result.lower_bound, result.enclosure_error,
-                        result.closest ? py::object(python::state_of(*result.closest)) : py::none(),
-                        state_of(result.work));
-}
-
-DistanceResult distance_result_from(const py::tuple& state) {
-  return {.distance = state[0].cast<double>(),
-          .lower_bound = state[1].cast<double>(),
-          .enclosure_error = state[2].cast<double>(),
-          .closest = optional_contact_from(state[3]),
-          .work = work_from(state[4])};
-}
-
-py::tuple state_of(const ManyBodiesResult& result) {
-  py::list first;
-  for (const PairAnswer& answer : result.first) {
-    first.append(python::state_of(answer));
-  }
-  return py::make_tuple(outcome_of(result), py::tuple(first), state_of(result.work));
-}
-
-ManyBodiesResult many_bodies_result_from(const py::tuple& state) {
-  auto result = with_outcome<ManyBodiesResult>(state[0]);
-  for (const py::handle answer : state[1]) {
-    result.first.push_back(pair_answer_from(answer.cast<py::tuple>()));
-  }
-  result.work = work_from(state[2]);
-  return result;
-}
-
-/// Defines pickling by a state.
-template <typename T, typename... Options>
-void add_pickling(py::class_<T, Options...>& type, py::tuple (*state)(const T&),
-                  T (*from)(const py::tuple&)) {
-  type.def(py::pickle([state](const T& value) { return state(value); },
-                      [from](const py::tuple& kept) { return from(kept); }));
-}
-
-std::string number_text(double number) { return py::repr(py::float_(number)); }
-
-std::string describe(const Feature& feature) {
-  return std::string(word(feature.type)) + " " + std::to_string(feature.index);
-}
-
-void bind_contact(py::module_& m) {
-  py::class_<Feature> feature(m, "Feature",
-                              "A vertex, a unique edge or a face of a shape, by its index.");
-  feature.def_readonly("type", &Feature::type)
-      .def_readonly("index", &Feature::index, "Of the vertex, the edge or the triangle.")
-      .def_readonly("triangle", &Feature::triangle, "A triangle that the feature belongs to.")
-      .def("__eq__",
-           [](const Feature& a, const py::object& b) {
-             return py::isinstance<Feature>(b) && a == b.cast<const Feature&>();
-           })
-      .def("__hash__", [](const Feature& value) { return py::hash(state_of(value)); })
-      .def("__repr__", [](const Feature& value) { return "<Feature: " + describe(value) + ">"; });
-  add_pickling<Feature>(feature, &state_of, &feature_from);
-
-  py::class_<Contact> contact(m, "Contact",
-                              "Two features within the contact band at the reported time.");
-  contact
-      .def_property_readonly(
-          "features", [](const Contact& c) { return py::make_tuple(c.feature_A, c.feature_B); },
-          "Of A and of B.")
-      .def_property_readonly(
-          "triangles",
-          [](const Contact& c) {
-            return py::make_tuple(c.feature_A.triangle, c.feature_B.triangle);
-          },
-          "A triangle of each feature.")
-      .def_property_readonly(
-          "points",
-          [](const Contact& c) {
-            const std::array<double, 6> rows{c.p_WA.x(), c.p_WA.y(), c.p_WA.z(),
-                                             c.p_WB.x(), c.p_WB.y(), c.p_WB.z()};
-            return py::array_t<double>({2, 3}, rows.data());
-          },
-          "[m] 2×3, world frame: the closest points on A's and B's thickened surfaces.")
-      .def_property_readonly(
-          "normal",
-          [](const Contact& c) { return c.n_AB_W ? py::object(copied(*c.n_AB_W)) : py::none(); },
-          "[-] (3,), unit, world frame, from A to B; None where no feature normal decides.")
-      .def_readonly("distance", &Contact::distance, "[m] Negative: depth of thickened features.")
-      .def_readonly("normal_velocity", &Contact::normal_velocity,
-                    "[m per step] Of B's point relative to A's along the normal; negative when "
-                    "closing. In the result of a scene [m/s].")
-      .def("__repr__", [](const Contact& c) {
-        return "<Contact: " + describe(c.feature_A) + " and " + describe(c.feature_B) +
-               ", distance " + number_text(c.distance) + " m>";
-      });
-  add_pickling<Contact>(contact, &python::state_of, &contact_from);
-
-  py::class_<WorkCount> work(m, "WorkCount", "Work done: counts, outside of what is proven.");
-  work.def_readonly("node_groups", &WorkCount::node_groups,
-                    "Evaluations of up to 16 pairs of boxes.")
-      .def_readonly("triangle_pairs", &WorkCount::triangle_pairs, "Triangle pairs visited.")
-      .def_readonly("steps", &WorkCount::steps, "Certified steps of triangle pairs.")
-      .def("__repr__", [](const WorkCount& count) {
-        return "<WorkCount: " + std::to_string(count.node_groups) + " node groups, " +
-               std::to_string(count.triangle_pairs) + " triangle pairs, " +
-               std::to_string(count.steps) + " steps>";
-      });
-  add_pickling<WorkCount>(work, &state_of, &work_from);
-}
-
-void bind_pair_results(py::module_& m) {
-  using Result = FirstContactResult;
-  py::class_<Result> first(m, "FirstContactResult", "First contact of two moving shapes.");
-  first.def_readonly("verdict", &Result::verdict)
-      .def_readonly("reason", &Result::reason, "Why it is undecided.")
-      .def_readonly(
-          "t", &Result::t,
-          "[-] Before it the shapes are farther apart than the margin: proven. 1 when free.")
-      .def_readonly("t_upper", &Result::t_upper,
-                    "[-] For `contact` t; for `undecided` a later time that is proven to be in "
-                    "contact, if one is known.")
-      .def_readonly("clearance", &Result::clearance,
-                    "[m] Proven lower bound of the distance before t.")
-      .def_readonly("tolerance_used", &Result::tolerance_used,
-                    "[m] Holds in place of the asked one; larger only if doubles need it.")
-      .def_readonly("enclosure_error", &Result::enclosure_error,
-                    "[m] Of both shapes: adds to the tolerance of a contact.")
-      .def_property_readonly(
-          "contacts", [](const Result& result) { return contact_tuple(result.contacts); },
-          "At t, sorted by features; those that were asked for.")
-      .def_property_readonly(
-          "contact_count", [](const Result& result) { return result.contact_count.at_least; },
-          "How many there are, those included that are not listed.")
-      .def_property_readonly(
-          "contact_count_is_exact",
-          [](const Result& result) { return result.contact_count.is_exact; },
-          "Not where only the first was asked for, or counting ended early: then there may be "
-          "more.")
-      .def_readonly("work", &Result::work)
-      .def("__repr__", [](const Result& result) {
-        return "<FirstContactResult: " + verdict_text(result.verdict, result.reason, result.t) +
-               ">";
-      });
-  add_pickling<Result>(first, &python::state_of, &first_contact_result_from);
-
-  using Closest = ClosestApproachResult;
-  py::class_<Closest> closest(m, "ClosestApproachResult",
-                              "Closest approach of two moving shapes over the step.");
-  closest
-      .def_readonly("distance", &Closest::distance,
-                    "[m] Attained at t; an upper bound of the least distance over the step.")
-      .def_readonly("lower_bound", &Closest::lower_bound, "[m] Proven for all t in [0, 1].")
-      .def_readonly("t", &Closest::t, "[-] A time where `distance` is attained.")
-      .def_readonly("reason", &Closest::reason, "Not `none`: the budget ended the search.")
-      .def_readonly("tolerance_used", &Closest::tolerance_used, "[m]")
-      .def_readonly("enclosure_error", &Closest::enclosure_error,
-                    "[m] Of both shapes: the bodies may be farther apart by this.")
-      .def_readonly("closest", &Closest::closest, "The closest feature pair at t, or None.")
-      .def_readonly("work", &Closest::work)
-      .def("__repr__", [](const Closest& result) {
-        return "<ClosestApproachResult: " + number_text(result.distance) +
-               " m at t = " + number_text(result.t) + ">";
-      });
-  add_pickling<Closest>(closest, &state_of, &closest_approach_result_from);
-
-  using Distance = DistanceResult;
-  py::class_<Distance> distance(m, "DistanceResult", "Distance of two shapes at one instant.");
-  distance
-      .def_readonly("distance", &Distance::distance,
-                    "[m] Of the closest points found, 0 when the shapes meet.")
-      .def_readonly("lower_bound", &Distance::lower_bound,
-                    "[m] Proven: the shapes are at least this far apart.")
-      .def_readonly("enclosure_error", &Distance::enclosure_error,
-                    "[m] Of both: the bodies may be farther apart by this.")
-      .def_readonly("closest", &Distance::closest, "The closest feature pair, or None.")
-      .def_readonly("work", &Distance::work)
-      .def("__repr__", [](const Distance& result) {
-        return "<DistanceResult: " + number_text(result.distance) + " m>";
-      });
-  add_pickling<Distance>(distance, &state_of, &distance_result_from);
-}
-
-void bind_set_results(py::module_& m) {
-  py::class_<PairAnswer> answer(m, "PairAnswer", "What one pair of bodies answered.");
-  answer
-      .def_property_readonly(
-          "bodies", [](const PairAnswer& a) { return py::make_tuple(a.bodies[0], a.bodies[1]); },
-          "Their numbers, the smaller first.")
-      .def_readonly("margin", &PairAnswer::margin, "[m]")
-      .def_readonly("first_contact", &PairAnswer::first_contact)
-      .def_readonly("closest_approach", &PairAnswer::closest_approach,
-                    "None where it was not asked.")
-      .def("__repr__", [](const PairAnswer& a) {
-        return "<PairAnswer of " + std::to_string(a.bodies[0]) + " and " +
-               std::to_string(a.bodies[1]) + ": " +
-               verdict_text(a.first_contact.verdict, a.first_contact.reason, a.first_contact.t) +
-               ">";
-      });
-  add_pickling<PairAnswer>(answer, &python::state_of, &pair_answer_from);
-
-  using Result = ManyBodiesResult;
-  py::class_<Result> many(m, "ManyBodiesResult", "The first contact of a set of bodies.");
-  many.def_readonly("verdict", &Result::verdict)
-      .def_readonly("reason", &Result::reason, "Why it is undecided.")
-      .def_readonly("t", &Result::t, "[-] No pair is in contact before it: proven. 1 when free.")
-      .def_readonly("t_upper", &Result::t_upper,
-                    "[-] A time that is proven to be in contact, if one is known.")
-      .def_readonly("clearance", &Result::clearance,
-                    "[m] Proven lower bound of every pair's distance up to t; infinite where there "
-                    "are no pairs.")
-      .def_readonly("tolerance_used", &Result::tolerance_used,
-                    "[m] The greatest of the pairs that were searched.")
-      .def_readonly("enclosure_error", &Result::enclosure_error, "[m] The greatest of these.")
-      .def_property_readonly(
-          "first", [](const Result& result) { return py::tuple(py::cast(result.first)); },
-          "The pairs that decide t, by their order; none when free.")
-      .def_readonly("work", &Result::work)
-      .def("__repr__", [](const Result& result) {
-        return "<ManyBodiesResult: " + verdict_text(result.verdict, result.reason, result.t) + ">";
-      });
-  add_pickling<Result>(many, &state_of, &many_bodies_result_from);
-}
-
-// Questions
 
 FirstContactResult ask_first_contact(const py::object& A, const py::object& B,
                                      PairWorkspace* workspace, FirstContactOptions options,
@@ -458,21 +189,24 @@ rules, the budget holds for each pair.)");
       [](HeldBodySet& bodies, OrNone<SetWorkspace> workspace, double tolerance,
          StartContacts start_contacts, ContactState contacts, double contact_band,
          std::uint64_t steps, std::size_t memory, std::optional<double> deadline, int threads,
-         const py::object& progress, OrNone<std::stop_source> stop, bool closest) {
+         const py::object& progress, OrNone<std::stop_source> stop, bool closest,
+         bool all_contacts_in_time) {
         ManyBodiesOptions options =
             set_options(tolerance, start_contacts, contacts, contact_band, steps, memory, deadline);
         options.threads = threads;
         options.closest = closest;
+        options.all_contacts_in_time = all_contacts_in_time;
         return ask_set(
             {bodies, workspace, options, progress, stop},
             [](const BodySet& set, ManyBodiesWorkspace& scratch, const ManyBodiesOptions& asked) {
               return answer_each_pair(set, scratch, asked);
             });
       },
-      py::arg("closest") = false,
+      py::arg("closest") = false, py::arg("all_contacts_in_time") = false,
       R"(The answer of every pair that the rules do not ignore, over the whole step, by their order.
 
-closest: also the closest approach of each. progress: called with the part that is done. The rest as
+closest: also the closest approach of each. all_contacts_in_time: also from when to when each is in
+contact. progress: called with the part that is done. The rest as
 of first_contact.)");
 }
 
@@ -656,96 +390,9 @@ MovingShape moving_shape_from(py::handle value, const char* name) {
                        std::string(py::repr(value)));
 }
 
-py::tuple contact_tuple(const std::vector<Contact>& contacts) {
-  py::tuple tuple(contacts.size());
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    tuple[k] = contacts[k];
-  }
-  return tuple;
-}
-
-std::string verdict_text(Verdict verdict, UndecidedReason reason, double t) {
-  std::string text = word(verdict);
-  if (verdict == Verdict::undecided) {
-    text += std::string(" (") + word(reason) + "), free until";
-  } else if (verdict == Verdict::contact) {
-    text += " at";
-  } else {
-    return text;
-  }
-  return text + " t = " + number_text(t);
-}
-
-py::tuple state_of(const Contact& contact) {
-  return py::make_tuple(state_of(contact.feature_A), state_of(contact.feature_B),
-                        plain(contact.p_WA), plain(contact.p_WB),
-                        contact.n_AB_W ? py::object(plain(*contact.n_AB_W)) : py::none(),
-                        contact.distance, contact.normal_velocity);
-}
-
-Contact contact_from(const py::tuple& state) {
-  Contact contact;
-  contact.feature_A = feature_from(state[0]);
-  contact.feature_B = feature_from(state[1]);
-  contact.p_WA = vector_from(state[2], "p_WA");
-  contact.p_WB = vector_from(state[3], "p_WB");
-  if (!state[4].is_none()) {
-    contact.n_AB_W = vector_from(state[4], "n_AB_W");
-  }
-  contact.distance = state[5].cast<double>();
-  contact.normal_velocity = state[6].cast<double>();
-  return contact;
-}
-
-py::tuple state_of(const ContactCount& count) {
-  return py::make_tuple(count.at_least, count.is_exact);
-}
-
-ContactCount contact_count_from(const py::tuple& state) {
-  return {state[0].cast<std::uint64_t>(), state[1].cast<bool>()};
-}
-
-py::tuple state_of(const FirstContactResult& result) {
-  py::tuple contacts(result.contacts.size());
-  for (std::size_t k = 0; k < result.contacts.size(); ++k) {
-    contacts[k] = state_of(result.contacts[k]);
-  }
-  return py::make_tuple(outcome_of(result), contacts, state_of(result.contact_count),
-                        state_of(result.work));
-}
-
-FirstContactResult first_contact_result_from(const py::tuple& state) {
-  auto result = with_outcome<FirstContactResult>(state[0]);
-  for (const py::handle contact : state[1]) {
-    result.contacts.push_back(contact_from(contact.cast<py::tuple>()));
-  }
-  result.contact_count = contact_count_from(state[2]);
-  result.work = work_from(state[3]);
-  return result;
-}
-
-py::tuple state_of(const PairAnswer& answer) {
-  return py::make_tuple(
-      answer.bodies[0], answer.bodies[1], answer.margin, state_of(answer.first_contact),
-      answer.closest_approach ? py::object(state_of(*answer.closest_approach)) : py::none());
-}
-
-PairAnswer pair_answer_from(const py::tuple& state) {
-  PairAnswer answer{.bodies = {state[0].cast<std::size_t>(), state[1].cast<std::size_t>()},
-                    .margin = state[2].cast<double>(),
-                    .first_contact = first_contact_result_from(state[3]),
-                    .closest_approach = {}};
-  if (!state[4].is_none()) {
-    answer.closest_approach = closest_approach_result_from(state[4]);
-  }
-  return answer;
-}
-
 void bind_query(py::module_& m) {
   watch_signals();
-  bind_contact(m);
-  bind_pair_results(m);
-  bind_set_results(m);
+  bind_query_results(m);
   bind_helpers(m);
   bind_rules(m);
   bind_body_set(m);

@@ -17,6 +17,7 @@
 
 #include <firstcontact/many_bodies/body_set.h>
 #include <firstcontact/many_bodies/many_bodies.h>
+#include <firstcontact/many_bodies/scene_result.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
 
@@ -129,42 +130,22 @@ struct FirstShape {
 /// @throws std::invalid_argument unless > 0
 std::optional<std::chrono::steady_clock::time_point> deadline_in(std::optional<double> seconds);
 
+/// Binds contacts and the results of queries.
+void bind_query_results(pybind11::module_& m);
+
 /// States for pickling.
 pybind11::tuple state_of(const Contact& contact);
 Contact contact_from(const pybind11::tuple& state);
-pybind11::tuple state_of(const ContactCount& count);
-ContactCount contact_count_from(const pybind11::tuple& state);
-pybind11::tuple state_of(const FirstContactResult& result);
-FirstContactResult first_contact_result_from(const pybind11::tuple& state);
 pybind11::tuple state_of(const PairAnswer& answer);
 PairAnswer pair_answer_from(const pybind11::tuple& state);
-
-/// The state of what every answer begins with: verdict to enclosure_error.
-template <typename Result>
-pybind11::tuple outcome_of(const Result& result) {
-  return pybind11::make_tuple(result.verdict, result.reason, result.t, result.t_upper,
-                              result.clearance, result.tolerance_used, result.enclosure_error);
-}
-
-/// A result that has only this.
-template <typename Result>
-Result with_outcome(const pybind11::tuple& state) {
-  Result result;
-  result.verdict = state[0].cast<Verdict>();
-  result.reason = state[1].cast<UndecidedReason>();
-  result.t = state[2].cast<double>();
-  result.t_upper = state[3].cast<std::optional<double>>();
-  result.clearance = state[4].cast<double>();
-  result.tolerance_used = state[5].cast<double>();
-  result.enclosure_error = state[6].cast<double>();
-  return result;
-}
+pybind11::tuple state_of(const SceneResult& result);
+SceneResult scene_result_from(const pybind11::tuple& state);
 
 /// The contacts as a tuple of objects.
 pybind11::tuple contact_tuple(const std::vector<Contact>& contacts);
 
 /// "contact at t = 0.5"
-std::string verdict_text(Verdict verdict, UndecidedReason reason, double t);
+std::string verdict_text(const Outcome& outcome);
 
 }  // namespace firstcontact::python
 

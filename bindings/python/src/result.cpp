@@ -28,8 +28,6 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "interrupts.h"
-#include "pair_view.h"
-#include "pickled_robots.h"
 #include "query.h"
 #include "reports.h"
 #include "scene.h"
@@ -48,58 +46,80 @@ struct ScenePair {
   SharedResult result;
   std::size_t index = 0;
 
-  [[nodiscard]] PairView view() const { return view_pair(*result, index); }
+  [[nodiscard]] const PairAnswer& answer() const { return result->answer.pairs[index]; }
 };
 
 /// Its closest approach.
 struct SceneClosest {
   ScenePair pair;
 
-  [[nodiscard]] ClosestView found() const { return *pair.view().closest; }
+  [[nodiscard]] const ClosestApproach& found() const { return *pair.answer().closest; }
+};
+
+/// A contact as scenes tell it: members by name, velocities in seconds.
+struct SceneContact : Contact {
+  std::array<std::string, 2> bodies;
 };
 
 double duration(const HeldResult& result) { return result.scene->scene().duration; }
 
-/// Of every pair that touches at the scene's t.
-py::tuple contacts_of(const HeldResult& result) {
-  py::list list;
-  const bool is_contact = first_pair(result.answer).has_value();
-  for (std::size_t k = 0; is_contact && k < pair_count(result); ++k) {
-    if (view_pair(result, k).t == result.answer.t) {
-      for (SceneContact& contact : contacts_of_pair(result, k)) {
-        list.append(std::move(contact));
-      }
+std::array<std::string, 2> names_of(const HeldResult& result, const PairAnswer& pair) {
+  const Scene& scene = result.scene->scene();
+  return {member_name(scene, pair.members[0]), member_name(scene, pair.members[1])};
+}
+
+py::tuple name_tuple(const ScenePair& pair) {
+  return py::cast(names_of(*pair.result, pair.answer())).cast<py::tuple>();
+}
+
+void append_contacts(const HeldResult& result, const PairAnswer& pair, py::list& list) {
+  for (const Contact& found : pair.contacts) {
+    SceneContact contact{found, names_of(result, pair)};
+    contact.normal_velocity /= duration(result);
+    list.append(std::move(contact));
+  }
+}
+
+/// Calls use(pair) for every pair that touches at the scene's t.
+template <typename Use>
+void for_each_deciding(const HeldResult& result, const Use& use) {
+  for (const PairAnswer& pair : result.answer.pairs) {
+    if (result.answer.first && pair.t == result.answer.t) {
+      use(pair);
     }
   }
+}
+
+py::tuple contacts_of(const HeldResult& result) {
+  py::list list;
+  for_each_deciding(result, [&](const PairAnswer& pair) { append_contacts(result, pair, list); });
   return py::tuple(list);
 }
 
-/// Of the same pairs.
+py::tuple contacts_of_pair(const ScenePair& pair) {
+  py::list list;
+  append_contacts(*pair.result, pair.answer(), list);
+  return py::tuple(list);
+}
+
 ContactCount contact_count_of(const HeldResult& result) {
   ContactCount count{0, true};
-  const bool is_contact = first_pair(result.answer).has_value();
-  for (std::size_t k = 0; is_contact && k < pair_count(result); ++k) {
-    const PairView pair = view_pair(result, k);
-    if (pair.t == result.answer.t) {
-      count += pair.contact_count;
-    }
-  }
+  for_each_deciding(result, [&](const PairAnswer& pair) { count += pair.contact_count; });
   return count;
 }
 
-py::object names_of_first(const HeldResult& result) {
-  const auto first = first_pair(result.answer);
-  return first ? py::cast(view_pair(result, *first).names).cast<py::tuple>()
-               : py::object(py::none());
+py::object names_of_first(const SharedResult& result) {
+  const auto first = result->answer.first;
+  return first ? py::object(name_tuple({result, *first})) : py::object(py::none());
 }
 
 py::object closest_of(const SharedResult& result) {
-  const auto closest = closest_pair(result->answer);
+  const auto closest = result->answer.closest;
   return closest ? py::cast(SceneClosest{{result, *closest}}) : py::object(py::none());
 }
 
 py::tuple pairs_of(const SharedResult& result) {
-  py::tuple pairs(pair_count(*result));
+  py::tuple pairs(result->answer.pairs.size());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     pairs[k] = ScenePair{result, k};
   }
@@ -110,7 +130,7 @@ py::tuple intervals_of(const ScenePair& pair) {
   const py::object interval = tuple_type("ContactInterval");
   const double seconds = duration(*pair.result);
   py::list list;
-  for (const ContactInterval& found : pair.view().intervals) {
+  for (const ContactInterval& found : pair.answer().intervals) {
     list.append(interval(found.enter, found.leave, found.enter * seconds, found.leave * seconds,
                          found.reason));
   }
@@ -215,9 +235,9 @@ std::string fill_page(const HeldResult& result, const std::string& page_template
 std::string describe(const HeldResult& result) {
   const SceneResult& answer = result.answer;
   std::string text = "<Result " + std::string(py::repr(py::str(result.scene->scene().id))) + ": " +
-                     verdict_text(answer.verdict, answer.reason, answer.t);
-  if (const auto first = first_pair(answer)) {
-    const auto names = view_pair(result, *first).names;
+                     verdict_text(answer);
+  if (answer.first) {
+    const auto names = names_of(result, answer.pairs[*answer.first]);
     text += ", " + printable(names[0] + " and " + names[1]);
   }
   const PairCounts& counts = loaded_without_gil(*result.scene).pair_counts;
@@ -225,11 +245,6 @@ std::string describe(const HeldResult& result) {
 }
 
 py::tuple state_of(const HeldResult& result) {
-  const SceneResult& answer = result.answer;
-  py::list pairs;
-  for (const PairAnswer& pair : answer.pairs) {
-    pairs.append(python::state_of(pair));
-  }
   py::object sampling = py::none();
   if (result.sampling) {
     const SamplingReport& report = *result.sampling;
@@ -239,10 +254,7 @@ py::tuple state_of(const HeldResult& result) {
                                                  report.least->lower_bound, report.least->contact))
                      : py::none());
   }
-  return py::make_tuple(result.scene, answer.verdict, answer.reason, answer.t, answer.t_upper,
-                        answer.clearance, answer.tolerance_used, answer.first, answer.closest,
-                        py::tuple(pairs), answer.work, result.all_pairs, sampling,
-                        answer.robots ? py::object(python::state_of(*answer.robots)) : py::none());
+  return py::make_tuple(result.scene, python::state_of(result.answer), result.all_pairs, sampling);
 }
 
 SamplingReport report_from(const py::tuple& state) {
@@ -263,38 +275,23 @@ SamplingReport report_from(const py::tuple& state) {
 std::shared_ptr<HeldResult> result_from(const py::tuple& state) {
   auto result = std::make_shared<HeldResult>();
   result->scene = state[0].cast<std::shared_ptr<HeldScene>>();
-  SceneResult& answer = result->answer;
-  answer.verdict = state[1].cast<Verdict>();
-  answer.reason = state[2].cast<UndecidedReason>();
-  answer.t = state[3].cast<double>();
-  answer.t_upper = state[4].cast<std::optional<double>>();
-  answer.clearance = state[5].cast<double>();
-  answer.tolerance_used = state[6].cast<double>();
-  answer.first = state[7].cast<std::optional<std::size_t>>();
-  answer.closest = state[8].cast<std::optional<std::size_t>>();
-  for (const py::handle pair : state[9]) {
-    answer.pairs.push_back(pair_answer_from(pair.cast<py::tuple>()));
-  }
-  answer.work = state[10].cast<WorkCount>();
-  result->all_pairs = state[11].cast<bool>();
-  if (!state[12].is_none()) {
-    result->sampling = report_from(state[12]);
-  }
-  if (!state[13].is_none()) {
-    answer.robots = robot_check_result_from(state[13]);
+  result->answer = scene_result_from(state[1]);
+  result->all_pairs = state[2].cast<bool>();
+  if (!state[3].is_none()) {
+    result->sampling = report_from(state[3]);
   }
   return result;
 }
 
 /// A getter of something of a pair.
-template <typename T>
-auto of_pair(T PairView::*what) {
-  return [what](const ScenePair& pair) { return pair.view().*what; };
+template <typename T, typename Of>
+auto of_pair(T Of::*what) {
+  return [what](const ScenePair& pair) { return pair.answer().*what; };
 }
 
 /// A getter of something of a closest approach.
 template <typename T>
-auto of_closest(T ClosestView::*what) {
+auto of_closest(T ClosestApproach::*what) {
   return [what](const SceneClosest& closest) { return closest.found().*what; };
 }
 
@@ -319,36 +316,35 @@ void bind_contact_of_scene(py::module_& m) {
           "Of each body the geometry that the features belong to: links may have several.")
       .def(py::pickle(
           [](const SceneContact& c) {
-            return py::make_tuple(static_cast<const Contact&>(c), c.bodies, c.geometries);
+            return py::make_tuple(static_cast<const Contact&>(c), c.bodies);
           },
           [](const py::tuple& state) {
             return SceneContact{state[0].cast<Contact>(),
-                                state[1].cast<std::array<std::string, 2>>(),
-                                state[2].cast<std::array<std::size_t, 2>>()};
+                                state[1].cast<std::array<std::string, 2>>()};
           }));
 }
 
 void bind_closest(py::module_& m) {
   py::class_<SceneClosest>(m, "SceneClosest", "The closest approach of a pair in a scene.")
       .def_property_readonly(
-          "pair", [](const SceneClosest& c) { return py::tuple(py::cast(c.pair.view().names)); },
+          "pair", [](const SceneClosest& c) { return name_tuple(c.pair); },
           "The names of the two bodies.")
-      .def_property_readonly("distance", of_closest(&ClosestView::distance),
+      .def_property_readonly("distance", of_closest(&ClosestApproach::distance),
                              "[m] Attained at t; an upper bound of the least distance over the "
                              "step.")
-      .def_property_readonly("lower_bound", of_closest(&ClosestView::lower_bound),
+      .def_property_readonly("lower_bound", of_closest(&ClosestApproach::lower_bound),
                              "[m] Proven for the whole step.")
-      .def_property_readonly("t", of_closest(&ClosestView::t),
+      .def_property_readonly("t", of_closest(&ClosestApproach::t),
                              "[-] A time where `distance` is attained.")
       .def_property_readonly(
           "time", [](const SceneClosest& c) { return c.found().t * duration(*c.pair.result); },
           "[s]")
-      .def_property_readonly("reason", of_closest(&ClosestView::reason),
+      .def_property_readonly("reason", of_closest(&ClosestApproach::reason),
                              "Not `none`: the budget ended the search.")
       .def_property_readonly(
           "points",
           [](const SceneClosest& c) {
-            const ClosestView found = c.found();
+            const ClosestApproach& found = c.found();
             return found.closest ? py::cast(*found.closest).attr("points") : py::object(py::none());
           },
           "[m] 2×3, world frame: the closest points at t; None where no pair was reached.")
@@ -364,49 +360,44 @@ void bind_closest(py::module_& m) {
 void bind_pair(py::module_& m) {
   py::class_<ScenePair>(m, "ScenePair", "The answer of one pair of bodies in a scene.")
       .def_property_readonly(
-          "pair", [](const ScenePair& p) { return py::tuple(py::cast(p.view().names)); },
+          "pair", [](const ScenePair& p) { return name_tuple(p); },
           "The names of the two bodies; of links \"robot/link\".")
-      .def_property_readonly("margin", of_pair(&PairView::margin),
+      .def_property_readonly("margin", of_pair(&PairAnswer::margin),
                              "[m] With paddings and the effect of tracking errors.")
-      .def_property_readonly("verdict", of_pair(&PairView::verdict))
-      .def_property_readonly("reason", of_pair(&PairView::reason))
-      .def_property_readonly("t", of_pair(&PairView::t),
+      .def_property_readonly("verdict", of_pair(&PairAnswer::verdict))
+      .def_property_readonly("reason", of_pair(&PairAnswer::reason))
+      .def_property_readonly("t", of_pair(&PairAnswer::t),
                              "[-] Before it the pair is farther apart than its margin: proven.")
-      .def_property_readonly("t_upper", of_pair(&PairView::t_upper),
+      .def_property_readonly("t_upper", of_pair(&PairAnswer::t_upper),
                              "[-] A time that is proven to be in contact, if one is known.")
       .def_property_readonly(
-          "time", [](const ScenePair& p) { return p.view().t * duration(*p.result); },
+          "time", [](const ScenePair& p) { return p.answer().t * duration(*p.result); },
           "[s] t times the duration.")
+      .def_property_readonly("contacts", &contacts_of_pair, "At t; those that were asked for.")
       .def_property_readonly(
-          "contacts",
-          [](const ScenePair& p) {
-            return py::tuple(py::cast(contacts_of_pair(*p.result, p.index)));
-          },
-          "At t; those that were asked for.")
-      .def_property_readonly(
-          "contact_count", [](const ScenePair& p) { return p.view().contact_count.at_least; },
+          "contact_count", [](const ScenePair& p) { return p.answer().contact_count.at_least; },
           "How many there are, those included that are not listed.")
       .def_property_readonly(
           "contact_count_is_exact",
-          [](const ScenePair& p) { return p.view().contact_count.is_exact; },
+          [](const ScenePair& p) { return p.answer().contact_count.is_exact; },
           "Not where only the first was asked for, or counting ended early: then there may be "
           "more.")
-      .def_property_readonly("clearance", of_pair(&PairView::clearance),
+      .def_property_readonly("clearance", of_pair(&PairAnswer::clearance),
                              "[m] Proven lower bound of the distance before t.")
-      .def_property_readonly("tolerance_used", of_pair(&PairView::tolerance_used), "[m]")
+      .def_property_readonly("tolerance_used", of_pair(&PairAnswer::tolerance_used), "[m]")
       .def_property_readonly(
           "closest",
           [](const ScenePair& p) {
-            return p.view().closest ? py::cast(SceneClosest{p}) : py::object(py::none());
+            return p.answer().closest ? py::cast(SceneClosest{p}) : py::object(py::none());
           },
           "Its closest approach; None where that was not asked.")
       .def_property_readonly("intervals", &intervals_of,
                              "ContactIntervals, in order; where all_contacts_in_time was asked.")
       .def("__repr__",
            [](const ScenePair& p) {
-             const PairView view = p.view();
-             return "<ScenePair " + printable(view.names[0] + " and " + view.names[1]) + ": " +
-                    verdict_text(view.verdict, view.reason, view.t) + ">";
+             const auto names = names_of(*p.result, p.answer());
+             return "<ScenePair " + printable(names[0] + " and " + names[1]) + ": " +
+                    verdict_text(p.answer()) + ">";
            })
       .def(py::pickle([](const ScenePair& p) { return state_of(p); }, &scene_pair_from));
 }
@@ -461,8 +452,9 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def_property_readonly(
           "time", [](const HeldResult& r) { return r.answer.t * duration(r); },
           "[s] t times the duration.")
-      .def_property_readonly("pair", &names_of_first,
-                             "The names of the bodies that decide t; None when free.")
+      .def_property_readonly(
+          "pair", [](const std::shared_ptr<HeldResult>& r) { return names_of_first(r); },
+          "The names of the bodies that decide t; None when free.")
       .def_property_readonly("contacts", &contacts_of,
                              "At t, of every pair that touches there; those that were asked for.")
       .def_property_readonly(
@@ -506,8 +498,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "tolerance_used", [](const HeldResult& r) { return r.answer.tolerance_used; },
           "[m] The greatest of the pairs that were searched.")
       .def_property_readonly(
-          "enclosure_error",
-          [](const HeldResult& r) { return to_dict(r).attr("get")("enclosure_error", 0.0); },
+          "enclosure_error", [](const HeldResult& r) { return r.answer.enclosure_error; },
           "[m] Of cylinders and cones: adds to the tolerance.")
       .def_property_readonly("work", [](const HeldResult& r) { return r.answer.work; })
       .def_property_readonly("scene", [](const HeldResult& r) { return r.scene; })

@@ -1,15 +1,18 @@
 #include <firstcontact/many_bodies/many_bodies.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <firstcontact/many_bodies/detail/broad_phase.h>
+#include <firstcontact/many_bodies/detail/contact_intervals.h>
 #include <firstcontact/parallel/detail/workers.h>
 #include <firstcontact/query/detail/pair_query.h>
+#include <firstcontact/query/distance.h>
 
 namespace firstcontact {
 
@@ -27,16 +30,6 @@ ManyBodiesWorkspace& ManyBodiesWorkspace::operator=(ManyBodiesWorkspace&&) noexc
 namespace {
 
 using detail::Candidate;
-
-void add(const WorkCount& work, WorkCount& sum) {
-  sum.node_groups += work.node_groups;
-  sum.triangle_pairs += work.triangle_pairs;
-  sum.steps += work.steps;
-}
-
-bool is_contact(const FirstContactResult& result) {
-  return result.verdict == Verdict::contact || result.verdict == Verdict::contact_at_start;
-}
 
 /// Calls use(pair, margin) for each tested pair, in order, until it returns false.
 template <class Use>
@@ -57,8 +50,7 @@ class FirstOfAll {
  public:
   FirstOfAll(const BodySet& bodies, const ManyBodiesOptions& options)
       : keeps_half_(options.pair.start_contacts == StartContacts::keep_half) {
-    result_.tolerance_used = options.pair.tolerance;
-    result_.clearance = std::numeric_limits<double>::infinity();
+    static_cast<Outcome&>(result_) = outcome_of_no_pair(options.pair.tolerance);
     for_each_tested_pair(bodies, [&](const BodyPair&, double) {
       result_.clearance = bodies.rules().least_margin();
       return false;
@@ -68,44 +60,36 @@ class FirstOfAll {
   [[nodiscard]] double horizon() const { return result_.t; }
 
   void take(const PairAnswer& pair) {
-    const FirstContactResult& answer = pair.first_contact;
-    add(answer.work, result_.work);
-    result_.tolerance_used = std::max(result_.tolerance_used, answer.tolerance_used);
-    result_.enclosure_error = std::max(result_.enclosure_error, answer.enclosure_error);
-    if (keeps_half_) {
-      result_.clearance = std::min(result_.clearance, answer.clearance);
+    const double horizon = result_.t;
+    const double clearance = result_.clearance;
+    result_.work += pair.work;
+    merge(pair, result_);
+    if (!keeps_half_) {
+      result_.clearance = clearance;  // The margin, whenever the pair was in contact.
     }
-    if (answer.t_upper) {
-      result_.t_upper = std::min(result_.t_upper.value_or(1.0), *answer.t_upper);
-    }
-    if (answer.verdict == Verdict::free || answer.t > result_.t) {
+    if (pair.verdict == Verdict::free || pair.t > horizon) {
       return;
     }
-    if (answer.t < result_.t) {
-      result_.t = answer.t;
-      result_.first.clear();
+    if (pair.t < horizon) {
+      result_.pairs.clear();
     }
-    result_.first.push_back(pair);
+    result_.pairs.push_back(pair);
   }
 
-  /// A contact holds for the set even beside an undecided pair: no pair touches before it.
-  ManyBodiesResult result() {
-    std::stable_sort(result_.first.begin(), result_.first.end(),
-                     [](const PairAnswer& x, const PairAnswer& y) {
-                       const bool contact_x = is_contact(x.first_contact);
-                       const bool contact_y = is_contact(y.first_contact);
-                       return contact_x != contact_y ? contact_x : x.bodies < y.bodies;
-                     });
-    if (!result_.first.empty()) {
-      result_.verdict = result_.first.front().first_contact.verdict;
-      result_.reason = result_.first.front().first_contact.reason;
+  SceneResult result() {
+    std::sort(result_.pairs.begin(), result_.pairs.end(),
+              [](const PairAnswer& x, const PairAnswer& y) { return x.members < y.members; });
+    result_.first = deciding_pair(result_.pairs);
+    if (result_.first) {  // Pairs were taken in another order.
+      result_.verdict = result_.pairs[*result_.first].verdict;
+      result_.reason = result_.pairs[*result_.first].reason;
     }
     return std::move(result_);
   }
 
  private:
   bool keeps_half_;
-  ManyBodiesResult result_;
+  SceneResult result_;
 };
 
 /// Pairs searched side by side with the same horizon. Fixed, so that answers do not depend on the
@@ -126,7 +110,7 @@ class PairQueries {
     data_.answers.resize(std::max(data_.answers.size(), pairs.size()));
     workers_.for_each(pairs.size(), 1, [&](std::size_t k) {
       PairAnswer& answer = data_.answers[k];
-      answer.bodies = pairs[k].bodies;
+      answer.members = pairs[k].bodies;
       answer.margin = pairs[k].margin;
       ask(answer, window_of(pairs[k]));
     });
@@ -137,22 +121,55 @@ class PairQueries {
   void answer_whole_step(std::span<PairAnswer> pairs) {
     workers_.for_each(pairs.size(), 1, [&](std::size_t k) {
       ask(pairs[k], {});
+      if (options_.all_contacts_in_time) {
+        find_intervals(pairs[k]);
+      }
       if (options_.closest) {
-        pairs[k].closest_approach = closest_approach(
-            bodies_.moving_shape(pairs[k].bodies[0]), bodies_.moving_shape(pairs[k].bodies[1]),
-            data_.of_thread.local(),
-            {.tolerance = options_.pair.tolerance, .budget = options_.pair.budget});
+        find_closest(pairs[k]);
       }
     });
   }
 
  private:
+  void find_intervals(PairAnswer& pair) {
+    const MovingShape A = bodies_.moving_shape(pair.members[0]);
+    const MovingShape B = bodies_.moving_shape(pair.members[1]);
+    FirstContactOptions options = options_.pair;
+    options.margin = pair.margin;
+    options.contacts = ContactState::none;
+    Workspace& workspace = data_.of_thread.local();
+    const detail::ContactQueries queries{
+        .first_contact =
+            [&](const TimeWindow& window) {
+              FirstContactResult found;
+              detail::first_contact_within(A, B, window, workspace, options, found);
+              return found;
+            },
+        .distance = [&](double t) { return distance(A, B, t, workspace).distance; }};
+    detail::IntervalsFound found = detail::contact_intervals(
+        pair, {.window = {}, .margin = pair.margin, .resolution = options_.time_resolution},
+        queries);
+    pair.intervals = detail::joined(std::move(found.intervals), options_.time_resolution);
+    pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
+    pair.work += found.work;
+  }
+
+  void find_closest(PairAnswer& pair) {
+    const ClosestApproachResult found =
+        closest_approach(bodies_.moving_shape(pair.members[0]),
+                         bodies_.moving_shape(pair.members[1]), data_.of_thread.local(),
+                         {.tolerance = options_.pair.tolerance, .budget = options_.pair.budget});
+    pair.closest = found;
+    pair.clearance = std::max(pair.clearance, found.lower_bound);
+    pair.work += found.work;
+  }
+
   void ask(PairAnswer& pair, const TimeWindow& window) {
     FirstContactOptions options = options_.pair;
     options.margin = pair.margin;
-    detail::first_contact_within(bodies_.moving_shape(pair.bodies[0]),
-                                 bodies_.moving_shape(pair.bodies[1]), window,
-                                 data_.of_thread.local(), options, pair.first_contact);
+    detail::first_contact_within(bodies_.moving_shape(pair.members[0]),
+                                 bodies_.moving_shape(pair.members[1]), window,
+                                 data_.of_thread.local(), options, pair);
   }
 
   const BodySet& bodies_;
@@ -160,6 +177,14 @@ class PairQueries {
   ManyBodiesWorkspace::Data& data_;
   const ManyBodiesOptions& options_;
 };
+
+void validate(const ManyBodiesOptions& options) {
+  detail::validate(options.pair);
+  if (!(options.time_resolution > 0.0 && options.time_resolution <= 1.0)) {
+    throw std::invalid_argument("ManyBodiesOptions::time_resolution must be in (0, 1], got " +
+                                std::to_string(options.time_resolution));
+  }
+}
 
 void report(const ManyBodiesOptions& options, double done) {
   if (options.progress) {
@@ -169,9 +194,9 @@ void report(const ManyBodiesOptions& options, double done) {
 
 }  // namespace
 
-ManyBodiesResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& workspace,
-                               const ManyBodiesOptions& options) {
-  detail::validate(options.pair);
+SceneResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& workspace,
+                          const ManyBodiesOptions& options) {
+  validate(options);
   ManyBodiesWorkspace::Data& data = workspace.data();
   detail::Workers workers(options.threads);
   PairQueries queries(bodies, workers, data, options);
@@ -201,10 +226,12 @@ ManyBodiesResult first_contact(const BodySet& bodies, ManyBodiesWorkspace& works
 
 std::vector<PairAnswer> answer_each_pair(const BodySet& bodies, ManyBodiesWorkspace& workspace,
                                          const ManyBodiesOptions& options) {
-  detail::validate(options.pair);
+  validate(options);
   std::vector<PairAnswer> answers;
   for_each_tested_pair(bodies, [&](const BodyPair& pair, double margin) {
-    answers.push_back({pair, margin, {}, {}});
+    PairAnswer& answer = answers.emplace_back();
+    answer.members = pair;
+    answer.margin = margin;
     return true;
   });
   detail::Workers workers(options.threads);

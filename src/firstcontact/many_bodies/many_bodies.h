@@ -5,12 +5,11 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <firstcontact/many_bodies/body_set.h>
+#include <firstcontact/many_bodies/scene_result.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact {
@@ -19,31 +18,11 @@ struct ManyBodiesOptions {
   FirstContactOptions pair;  ///< Of every pair; its margin is not used, the rules have it.
   int threads = 0;           ///< At most; 0 for one on each core. Answers do not depend on it.
   bool closest = false;      ///< answer_each_pair: also the closest approach of each.
+  bool all_contacts_in_time = false;  ///< So too, every interval of contact of each.
+  double time_resolution = 1e-3;      ///< [-]  Of these, see ContactInterval; in (0, 1].
   /// Called now and then from the calling thread with the part that is done, in [0, 1]; for
   /// first_contact the time proven free so far. May be empty.
   std::function<void(double)> progress = {};
-};
-
-/// The answer of one pair of bodies.
-struct PairAnswer {
-  BodyPair bodies = {};
-  double margin = 0.0;  ///< [m]
-  FirstContactResult first_contact;
-  std::optional<ClosestApproachResult> closest_approach = {};
-};
-
-/// The first contact of a set of bodies.
-struct ManyBodiesResult {
-  Verdict verdict = Verdict::free;
-  UndecidedReason reason = UndecidedReason::none;
-  double t = 1.0;                 ///< [-]  No pair is in contact in [0, t): proven. 1 when free.
-  std::optional<double> t_upper;  ///< [-]  A time that is proven to be in contact, if one is known.
-  double clearance = 0.0;         ///< [m]  Proven lower bound of every pair's distance up to t;
-                                  ///<      infinite where there are no pairs.
-  double tolerance_used = 0.0;    ///< [m]  The greatest of the pairs that were searched.
-  double enclosure_error = 0.0;   ///< [m]  The greatest of these.
-  std::vector<PairAnswer> first;  ///< The pairs that decide t, by their order; none when free.
-  WorkCount work;                 ///< Of all pairs that were searched.
 };
 
 /// Scratch memory of the many-body queries, for all their threads.
@@ -72,9 +51,11 @@ class FIRSTCONTACT_API ManyBodiesWorkspace {
 /// Within one, pairs come in the order of the times until which they are proven free. The first
 /// contact found ends the search of those that cannot touch before it.
 ///
+/// @returns the pairs that decide t; all of it but their contacts holds for all pairs
 /// @throws std::invalid_argument if an option is outside its documented range.
-[[nodiscard]] FIRSTCONTACT_API ManyBodiesResult first_contact(
-    const BodySet& bodies, ManyBodiesWorkspace& workspace, const ManyBodiesOptions& options = {});
+[[nodiscard]] FIRSTCONTACT_API SceneResult first_contact(const BodySet& bodies,
+                                                         ManyBodiesWorkspace& workspace,
+                                                         const ManyBodiesOptions& options = {});
 
 /// Answers every pair that the rules do not ignore, over the whole step, in their order.
 ///

@@ -32,9 +32,7 @@ constexpr std::string_view kPlaceholder = "\"FIRSTCONTACT_RESULT\"";
 JsonArray meshes_of_bodies(const LoadedScene& loaded, detail::PageMeshes& meshes) {
   JsonArray bodies;
   for (std::size_t body = 0; body < loaded.scene.bodies.size(); ++body) {
-    const Shape& shape =
-        loaded.robots ? loaded.robots->geometries(body)[0].shape : loaded.bodies.shape(body);
-    bodies.push_back(to_json(meshes.add(shape.mesh())));
+    bodies.push_back(to_json(meshes.add(shape_of_body(loaded, body).mesh())));
   }
   return bodies;
 }

@@ -92,9 +92,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
   FirstContactResult found;
   const auto search = [&]() -> const FirstContactResult& {
     first_contact(pair, {}, workspace, query, found);
-    best.work.node_groups += found.work.node_groups;
-    best.work.triangle_pairs += found.work.triangle_pairs;
-    best.work.steps += found.work.steps;
+    best.work += found.work;
     best.tolerance_used =
         std::max(best.tolerance_used, found.tolerance_used + options.tolerance - query.tolerance);
     best.reason = found.reason;

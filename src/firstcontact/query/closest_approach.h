@@ -12,15 +12,19 @@ struct ClosestApproachOptions {
   WorkBudget budget = {};
 };
 
-struct ClosestApproachResult {
+/// Where two shapes are closest over the step.
+struct ClosestApproach {
   /// [m]  The distance that is attained at t; an upper bound of the least distance over the step.
   double distance = std::numeric_limits<double>::infinity();
   double lower_bound = 0.0;                        ///< [m]  Proven for all t in [0, 1].
   double t = 0.0;                                  ///< [-]  A time where `distance` is attained.
   UndecidedReason reason = UndecidedReason::none;  ///< Not `none`: the budget ended the search.
-  double tolerance_used = 0.0;                     ///< [m]
+  std::optional<Contact> closest = {};             ///< The closest feature pair at t.
+};
+
+struct ClosestApproachResult : ClosestApproach {
+  double tolerance_used = 0.0;   ///< [m]
   double enclosure_error = 0.0;  ///< [m]  Of both shapes: the bodies may be farther apart by this.
-  std::optional<Contact> closest;  ///< The closest feature pair at t.
   WorkCount work;
 };
 

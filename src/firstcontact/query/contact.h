@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -40,6 +41,8 @@ struct Contact {
   /// [m per step]  Velocity of B's point relative to A's along the normal; negative when closing;
   /// 0 without a normal.
   double normal_velocity = 0.0;
+  /// Index of the geometry of A, and of B: links may have several, a body has one.
+  std::array<std::size_t, 2> geometries = {};
 };
 
 /// The number of feature pairs within the contact band, those included that are not listed.
@@ -58,6 +61,7 @@ struct ContactCount {
 inline void swap_bodies(Contact& contact) {
   std::swap(contact.feature_A, contact.feature_B);
   std::swap(contact.p_WA, contact.p_WB);
+  std::swap(contact.geometries[0], contact.geometries[1]);
   if (contact.n_AB_W) {
     contact.n_AB_W = -*contact.n_AB_W;
   }

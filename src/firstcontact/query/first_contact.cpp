@@ -20,6 +20,7 @@
 namespace firstcontact {
 namespace {
 
+using detail::Hold;
 using detail::MovingPair;
 
 void require_range(bool holds, const char* option, const char* range, double value) {
@@ -68,24 +69,13 @@ detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& par
   }
 }
 
-/// How near two bodies may come.
-struct Hold {
-  double distance = 0.0;  ///< [m]  They are proven to be farther apart before the first contact.
-  /// [m]  A contact is no farther than both together, nor than margin + tolerance.
-  double tolerance = std::numeric_limits<double>::infinity();
-  UndecidedReason stopped = UndecidedReason::none;  ///< By the budget; then nothing is claimed.
-};
+/// [1]  Of the distance: the nearest points that are found may be farther by it.
+constexpr double kSlack = 0x1p-10;
 
-/// keep_half: two bodies that start within the band, but apart, are held to half of their start
-/// distance d0 and are in contact at 3/4 of it at most, so not at the start, nor for as long as
-/// they stay as far apart.
-///
-/// Derivation: the nearest points that are found are at least d0 apart but for rounding, which 16
-/// errors outweigh, and at most d0 / (1 - kSlack). A half and a quarter of that is less than d0.
-Hold hold_half(const ShapePair& shapes, const RelativeState& start,
-               detail::WorkspaceData& workspace, const FirstContactOptions& options,
-               WorkCount& work) {
-  constexpr double kSlack = 0x1p-10;
+/// @param start  of the motion that was entered
+detail::StartGap gap_at(const ShapePair& shapes, const RelativeState& start,
+                        detail::WorkspaceData& workspace, const FirstContactOptions& options,
+                        WorkCount& work) {
   const auto& [A, B, motion] = shapes;
   const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
   const double radii = A.radius() + B.radius();
@@ -95,13 +85,7 @@ Hold hold_half(const ShapePair& shapes, const RelativeState& start,
   const detail::NearestTriangles nearest = detail::nearest_triangles(
       pair, start, workspace, work,
       {.within = margin + tolerance + 2.0 * error, .slack = kSlack, .budget = options.budget});
-  const double apart = nearest.distance - radii;
-  Hold hold{.distance = options.margin, .stopped = nearest.stopped};
-  if (apart > 16.0 * error && std::isfinite(apart)) {
-    hold.distance = 0.5 * apart;
-    hold.tolerance = 0.25 * apart;
-  }
-  return hold;
+  return {.apart = nearest.distance - radii, .error = error, .stopped = nearest.stopped};
 }
 
 /// Searches a part of a piece; where doubles come no further, because time is too coarse for the
@@ -275,8 +259,10 @@ void solve_solids(const Query& query, const RelativeState& start, FirstContactRe
 }
 
 /// @param lines  null where they are not known
+/// @param held   how near the two may come; null: as the options say
 void answer(const ShapePair& pair, const TimeWindow& window, const detail::CornerLines* lines,
-            Workspace& workspace, const FirstContactOptions& options, FirstContactResult& result) {
+            const Hold* held, Workspace& workspace, const FirstContactOptions& options,
+            FirstContactResult& result) {
   detail::validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
@@ -289,19 +275,20 @@ void answer(const ShapePair& pair, const TimeWindow& window, const detail::Corne
   result.contact_count = {};
   result.work = {};
   const bool has_inside = window.begin == 0.0 && (pair.A.is_solid() || pair.B.is_solid());
-  const bool keeps = options.start_contacts == StartContacts::keep_half;
+  const bool keeps = held == nullptr && options.start_contacts == StartContacts::keep_half;
   RelativeState start;
   if (has_inside || keeps) {
     pair.motion.enter(0.0);
     start = pair.motion.state(0.0);
   }
-  const Query query{pair,
-                    window,
-                    options,
-                    lines,
-                    workspace.data(),
-                    keeps ? hold_half(pair, start, workspace.data(), options, result.work)
-                          : Hold{.distance = options.margin}};
+  Hold hold{.distance = options.margin};
+  if (held != nullptr) {
+    hold = *held;
+  } else if (keeps) {
+    hold = detail::keep_half(gap_at(pair, start, workspace.data(), options, result.work),
+                             options.margin);
+  }
+  const Query query{pair, window, options, lines, workspace.data(), hold};
   if (has_inside) {
     solve_solids(query, start, result);
   } else {
@@ -324,7 +311,35 @@ void detail::validate(const FirstContactOptions& options) {
 
 void first_contact(const ShapePair& pair, const TimeWindow& window, Workspace& workspace,
                    const FirstContactOptions& options, FirstContactResult& result) {
-  answer(pair, window, nullptr, workspace, options, result);
+  answer(pair, window, nullptr, nullptr, workspace, options, result);
+}
+
+detail::StartGap detail::start_gap(const ShapePair& pair, double t, Workspace& workspace,
+                                   const FirstContactOptions& options, WorkCount& work) {
+  const FloatEnvironmentGuard guard;
+  pair.motion.enter(t);
+  return gap_at(pair, pair.motion.state(t), workspace.data(), options, work);
+}
+
+detail::StartGap detail::nearer(const StartGap& one, const StartGap& other) {
+  return {.apart = std::min(one.apart, other.apart),
+          .error = std::max(one.error, other.error),
+          .stopped = one.stopped != UndecidedReason::none ? one.stopped : other.stopped};
+}
+
+detail::Hold detail::keep_half(const StartGap& start, double margin) {
+  Hold hold{.distance = margin, .stopped = start.stopped};
+  if (start.apart > 16.0 * start.error && std::isfinite(start.apart)) {
+    hold.distance = 0.5 * start.apart;
+    hold.tolerance = 0.25 * start.apart;
+  }
+  return hold;
+}
+
+void detail::first_contact_held(const ShapePair& pair, const TimeWindow& window, const Hold& hold,
+                                Workspace& workspace, const FirstContactOptions& options,
+                                FirstContactResult& result) {
+  answer(pair, window, nullptr, &hold, workspace, options, result);
 }
 
 void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
@@ -333,7 +348,8 @@ void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
   const auto ask = [&](const MovingShape& first, const MovingShape& second) {
     ConstantRatePair motion = detail::motion_of(first, second, options.tolerance);
     const CornerLines lines(first, second);
-    answer({first.shape, second.shape, motion}, window, &lines, workspace, options, result);
+    answer({first.shape, second.shape, motion}, window, &lines, nullptr, workspace, options,
+           result);
   };
   const FloatEnvironmentGuard guard;
   if (in_order(A, B)) {

@@ -15,6 +15,7 @@
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/query/contact.h>
+#include <firstcontact/query/outcome.h>
 #include <firstcontact/query/workspace.h>
 
 namespace firstcontact {
@@ -85,36 +86,23 @@ struct FirstContactOptions {
   WorkBudget budget = {};     ///< Spending it gives `undecided`, never a guess.
 };
 
-enum class Verdict {
-  free,              ///< Proven: farther apart than the margin on all of [0, 1].
-  contact,           ///< Proven: so before t; at t no farther than margin + tolerance.
-  contact_at_start,  ///< As `contact`, with t = 0.
-  undecided,         ///< Proven so before t, nothing known after it; see `reason`.
-};
-
-enum class UndecidedReason { none, work, deadline, memory, precision, cancelled };
-
-/// The word of a verdict in result files, such as "contact_at_start".
-[[nodiscard]] FIRSTCONTACT_API const char* to_string(Verdict verdict);
-[[nodiscard]] FIRSTCONTACT_API const char* to_string(UndecidedReason reason);
-
 /// Work done, for budgets and benchmarks.
 struct WorkCount {
   std::uint64_t node_groups = 0;     ///< Evaluations of up to 16 node pairs.
   std::uint64_t triangle_pairs = 0;  ///< Triangle pairs visited.
   std::uint64_t steps = 0;           ///< Certified steps of triangle pairs.
+
+  [[nodiscard]] std::uint64_t total() const { return node_groups + triangle_pairs + steps; }
+
+  WorkCount& operator+=(const WorkCount& other) {
+    node_groups += other.node_groups;
+    triangle_pairs += other.triangle_pairs;
+    steps += other.steps;
+    return *this;
+  }
 };
 
-struct FirstContactResult {
-  Verdict verdict = Verdict::undecided;
-  UndecidedReason reason = UndecidedReason::none;
-  double t = 0.0;  ///< [-]  Normalised step time; [0, t) is proven free of contact; 1 when free.
-  /// [-]  For `contact` t; for `undecided` a later time proven to be in contact, if one is known.
-  std::optional<double> t_upper;
-  double clearance = 0.0;  ///< [m]  Proven lower bound of the distance before t.
-  double tolerance_used =
-      0.0;  ///< [m]  Holds in place of the asked one; larger only if f64 needs it.
-  double enclosure_error = 0.0;   ///< [m]  Of both shapes: adds to the tolerance of a contact.
+struct FirstContactResult : Outcome {
   std::vector<Contact> contacts;  ///< At t, sorted by features; those that were asked for.
   ContactCount contact_count;     ///< Of them, those included that are not listed.
   WorkCount work;

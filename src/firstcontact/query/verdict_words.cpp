@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/outcome.h>
 
 namespace firstcontact {
 

@@ -1,6 +1,7 @@
 #include <firstcontact/robot_check/check_robots.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,20 +10,21 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/many_bodies/detail/contact_intervals.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/robot_check/detail/candidates.h>
-#include <firstcontact/robot_check/detail/contact_intervals.h>
 #include <firstcontact/robot_check/detail/least_clearance.h>
 #include <firstcontact/robot_check/detail/least_of_all.h>
 #include <firstcontact/robot_check/detail/pair_contacts.h>
+#include <firstcontact/robot_check/detail/pair_holds.h>
+#include <firstcontact/robot_check/detail/part_answer.h>
 #include <firstcontact/robot_check/detail/part_search.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::is_contact;
 using detail::PartAnswer;
 using detail::PartCandidate;
 using detail::PartSearch;
@@ -49,6 +51,8 @@ void validate(const RobotCheckOptions& options) {
           "time_resolution must be in (0, 1]");
   require(options.contacts.kind != ContactState::Kind::nearest || options.contacts.most >= 1,
           "contacts must be nearest(1) or more");
+  require(options.contact_band >= 0.0 && std::isfinite(options.contact_band),
+          "contact_band must be finite and >= 0");
 }
 
 /// All that checks of a scene share.
@@ -73,12 +77,15 @@ class RobotCheck {
     }
   }
 
-  RobotCheckResult run() {
+  SceneResult run() {
+    if (options_.start_contacts == StartContacts::keep_half) {
+      find_holds();
+    }
     walk();
-    if (options_.least_clearance && asks_each_pair()) {
-      find_least_clearances();
-    } else if (options_.least_clearance) {
-      find_least_of_all();
+    if (options_.closest && asks_each_pair()) {
+      find_closest_of_each();
+    } else if (options_.closest) {
+      find_closest_of_all();
     }
     report(1.0);
     return result();
@@ -86,7 +93,28 @@ class RobotCheck {
 
  private:
   [[nodiscard]] bool asks_each_pair() const {
-    return options_.all_pairs || options_.all_contact_intervals;
+    return options_.all_pairs || options_.all_contacts_in_time;
+  }
+
+  void find_holds() {
+    require(!timeline_.has_tracking_errors(),
+            "start_contacts: keep_half is not for robots with tracking errors, within which they "
+            "may start in contact");
+    holds_.emplace(timeline_, options_, workspaces_);
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      give_up_without_hold(pair);
+    }
+  }
+
+  /// Nothing is known of a pair whose start the budget did not let see.
+  void give_up_without_hold(std::size_t pair) {
+    for (const detail::HeldStretch& stretch : holds_->stretches(pair)) {
+      if (stretch.hold.stopped != UndecidedReason::none) {
+        const double t = timeline_.piece(stretch.first_piece).begin;
+        give_up(answer_of(pair), t, stretch.hold.stopped);
+        first_ = std::min(first_, t);
+      }
+    }
   }
 
   /// Takes the pieces one after the other, as far as they matter.
@@ -105,11 +133,11 @@ class RobotCheck {
     }
   }
 
-  [[nodiscard]] RobotPairAnswer free_answer(std::size_t pair) const {
+  [[nodiscard]] PairAnswer free_answer(std::size_t pair) const {
     const detail::TestedPair& tested = timeline_.pairs()[pair];
-    RobotPairAnswer answer;
+    PairAnswer answer;
     answer.members = tested.members;
-    answer.threshold = tested.margin;
+    answer.margin = tested.margin;
     answer.verdict = Verdict::free;
     answer.t = 1.0;
     answer.tolerance_used = options_.tolerance;
@@ -118,12 +146,13 @@ class RobotCheck {
 
   /// That of a tested pair, by index: free until something else is found. Most pairs never need
   /// one.
-  RobotPairAnswer& answer_of(std::size_t pair) {
+  PairAnswer& answer_of(std::size_t pair) {
     std::size_t& place = place_of_[pair];
     if (place == kNone) {
       place = pairs_.size();
       pairs_.push_back(free_answer(pair));
       contacts_.emplace_back(most_contacts());
+      deciding_parts_.emplace_back();
     }
     return pairs_[place];
   }
@@ -159,14 +188,20 @@ class RobotCheck {
     std::function<bool(std::size_t)> wanted;
     if (only_) {
       wanted = [&](std::size_t pair) { return pair == *only_; };
-    } else if (asks_each_pair() && !options_.all_contact_intervals) {
+    } else if (asks_each_pair() && !options_.all_contacts_in_time) {
       wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
     }
+    const std::span<const double> held = holds_ ? holds_->greatest() : std::span<const double>();
     std::vector<std::vector<PartCandidate>> found(last - first);
-    for_each(found.size(), [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted); });
+    for_each(found.size(),
+             [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted, held); });
     std::vector<PartCandidate> all;
     for (const std::vector<PartCandidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
+    }
+    if (holds_) {
+      std::for_each(all.begin(), all.end(),
+                    [&](PartCandidate& candidate) { holds_->apply(candidate); });
     }
     return all;
   }
@@ -195,7 +230,7 @@ class RobotCheck {
 
   PartAnswer ask(const PartCandidate& candidate, double end) {
     PartSearch search(timeline_, candidate, options_, workspaces_.local());
-    if (options_.all_contact_intervals) {
+    if (options_.all_contacts_in_time) {
       return contact_intervals_of(search, candidate, options_.time_resolution);
     }
     return first_contact_of(search, candidate, end, is_tested_anew(candidate));
@@ -210,31 +245,27 @@ class RobotCheck {
 
   /// A contact holds for the pair even beside an undecided search: nothing touches before it.
   void take(const PartCandidate& candidate, PartAnswer&& answer) {
-    RobotPairAnswer& pair = answer_of(candidate.pair);
-    FirstContactResult& found = answer.first;
-    pair.steps += answer.steps;
-    pair.tolerance_used = std::max(pair.tolerance_used, found.tolerance_used);
-    pair.enclosure_error = std::max(pair.enclosure_error, found.enclosure_error);
+    PairAnswer& pair = answer_of(candidate.pair);
+    const FirstContactResult& found = answer.first;
+    detail::PairContacts& contacts = contacts_[place_of_[candidate.pair]];
+    pair.work += answer.work;
     pair.intervals.insert(pair.intervals.end(), answer.intervals.begin(), answer.intervals.end());
-    if (found.t_upper) {
-      pair.t_upper = std::min(pair.t_upper.value_or(1.0), *found.t_upper);
+    const bool decides = decides_before(found, pair);
+    const bool adds = !decides && found.t == pair.t && is_contact(found.verdict);
+    merge(found, pair);
+    if (decides) {
+      pair.margin = candidate.threshold;
+      pair.contact_count = found.contact_count;
+      contacts.clear();
+      contacts.add(found.contacts);
+      deciding_parts_[place_of_[candidate.pair]] = {candidate.parts};
+    } else if (adds) {
+      pair.contact_count += found.contact_count;
+      contacts.add(found.contacts);
+      deciding_parts_[place_of_[candidate.pair]].push_back(candidate.parts);
     }
     if (found.verdict == Verdict::free) {
       return;
-    }
-    const bool is_earlier = pair.verdict == Verdict::free || found.t < pair.t;
-    const bool says_more = found.t == pair.t && is_contact(found.verdict);
-    if (is_earlier || (says_more && !is_contact(pair.verdict))) {
-      pair.verdict = found.verdict;
-      pair.reason = found.reason;
-      pair.t = found.t;
-      pair.threshold = candidate.threshold;
-      pair.contact_count = found.contact_count;
-      contacts_[place_of_[candidate.pair]].clear();
-      contacts_[place_of_[candidate.pair]].add(answer.contacts);
-    } else if (says_more) {
-      pair.contact_count += found.contact_count;
-      contacts_[place_of_[candidate.pair]].add(answer.contacts);
     }
     if (!earliest_ || pair.t < first_) {
       earliest_ = {candidate, found.t};
@@ -249,13 +280,13 @@ class RobotCheck {
       return;
     }
     answer_all();
-    for (RobotPairAnswer& pair : pairs_) {
+    for (PairAnswer& pair : pairs_) {
       give_up(pair, t, reason);
     }
     first_ = std::min(first_, t);
   }
 
-  static void give_up(RobotPairAnswer& pair, double t, UndecidedReason reason) {
+  static void give_up(PairAnswer& pair, double t, UndecidedReason reason) {
     pair.intervals.push_back({t, 1.0, reason});
     if (pair.verdict == Verdict::free) {
       pair.verdict = Verdict::undecided;
@@ -264,7 +295,7 @@ class RobotCheck {
     }
   }
 
-  void find_least_clearances() {
+  void find_closest_of_each() {
     detail::BallsOfPieces balls(timeline_.piece_count());
     const auto spent = [&] { return detail::spent(options_.budget); };
     for_each(balls.size(), [&](std::size_t piece) {
@@ -280,96 +311,111 @@ class RobotCheck {
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
       const UndecidedReason reason = spent();
-      answer_of(k).least_clearance =
+      answer_of(k).closest =
           reason == UndecidedReason::none
               ? least_clearance_of(timeline_, balls, k, options_, workspaces_.local())
-              : LeastClearance{.reason = reason};
+              : ClosestApproach{.reason = reason};
     });
   }
 
-  void find_least_of_all() {
+  void find_closest_of_all() {
     const auto found =
         detail::least_of_all(timeline_, candidates_, earliest_, options_, workspaces_);
     if (!found) {
       return;
     }
-    const RobotPairAnswer& pair = answer_of(found->pair);
+    const PairAnswer& pair = answer_of(found->pair);
     const bool decides = pair.verdict != Verdict::free && pair.t == first_;
     if (first_ < 1.0 && !decides && detail::spent(options_.budget) == UndecidedReason::none) {
       answer_whole_step(found->pair);
     }
-    answer_of(found->pair).least_clearance = found->least;
+    answer_of(found->pair).closest = found->least;
     least_of_all_ = found->least.lower_bound;
   }
 
   /// Of a pair that was searched no longer than until another one's contact.
   void answer_whole_step(std::size_t pair) {
-    RobotPairAnswer& answer = answer_of(pair);
-    const std::uint64_t steps = answer.steps;
+    PairAnswer& answer = answer_of(pair);
+    const WorkCount work = answer.work;
     answer = free_answer(pair);
-    answer.steps = steps;
+    answer.work = work;
     contacts_[place_of_[pair]].clear();
+    if (holds_) {
+      give_up_without_hold(pair);
+    }
     only_ = pair;
     walk();
     only_.reset();
   }
 
-  RobotCheckResult result() {
-    RobotCheckResult result;
-    result.verdict = Verdict::free;
-    result.clearance = std::numeric_limits<double>::infinity();
-    result.t = timeline_.pairs().empty() ? 1.0 : first_;
-    if (pairs_.size() < timeline_.pairs().size()) {
-      result.clearance = timeline_.least_margin();  // Of those without an answer, all of them free.
+  SceneResult result() {
+    SceneResult result;
+    static_cast<Outcome&>(result) = outcome_of_no_pair(options_.tolerance);
+    for (std::size_t pair = 0; pair < timeline_.pairs().size(); ++pair) {
+      if (place_of_[pair] != kNone) {
+        finish(pair);
+      } else if (holds_) {
+        result.clearance = std::min(result.clearance, holds_->least(pair));
+      } else {
+        result.clearance = timeline_.least_margin();  // Of those without an answer, all free.
+      }
     }
-    result.tolerance_used = options_.tolerance;
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      pairs_[k].contacts = contacts_[k].take();
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const PairAnswer& x, const PairAnswer& y) { return x.members < y.members; });
+    for (const PairAnswer& pair : pairs_) {
+      merge(pair, result);
+      result.work += pair.work;
     }
-    std::sort(pairs_.begin(), pairs_.end(), [](const RobotPairAnswer& x, const RobotPairAnswer& y) {
-      return x.members < y.members;
-    });
-    for (RobotPairAnswer& pair : pairs_) {
-      pair.intervals = options_.all_contact_intervals
-                           ? detail::joined(std::move(pair.intervals), options_.time_resolution)
-                           : std::vector<ContactInterval>();
-      gather(pair, result);
+    for (PairAnswer& pair : pairs_) {
       const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
-      if (asks_each_pair() || decides || pair.least_clearance) {
+      if (asks_each_pair() || decides || pair.closest) {
         result.pairs.push_back(std::move(pair));
       }
     }
-    take_verdict(result);
+    result.first = deciding_pair(result.pairs);
+    result.closest = closest_pair(result.pairs);
     result.clearance = std::max(result.clearance, least_of_all_);
     return result;
   }
 
-  static void gather(const RobotPairAnswer& pair, RobotCheckResult& result) {
-    const double least = pair.least_clearance ? pair.least_clearance->lower_bound : 0.0;
-    const double kept = pair.t > 0.0 ? pair.threshold : 0.0;
-    result.clearance = std::min(result.clearance, std::max(kept, least));
-    result.tolerance_used = std::max(result.tolerance_used, pair.tolerance_used);
-    result.enclosure_error = std::max(result.enclosure_error, pair.enclosure_error);
-    result.steps += pair.steps;
-    if (pair.t_upper) {
-      result.t_upper = std::min(result.t_upper.value_or(1.0), *pair.t_upper);
+  void finish(std::size_t index) {
+    const std::size_t place = place_of_[index];
+    PairAnswer& pair = pairs_[place];
+    if (options_.contact_band > 0.0 && is_contact(pair.verdict)) {
+      list_band(index);
+    }
+    pair.contacts = contacts_[place].take();
+    pair.intervals = options_.all_contacts_in_time
+                         ? detail::joined(std::move(pair.intervals), options_.time_resolution)
+                         : std::vector<ContactInterval>();
+    const double proven = holds_ ? holds_->least(index) : pair.margin;
+    pair.clearance =
+        std::max(pair.t > 0.0 ? proven : 0.0, pair.closest ? pair.closest->lower_bound : 0.0);
+    if (holds_) {
+      for (const detail::HeldStretch& stretch : holds_->stretches(index)) {
+        pair.work += stretch.work;
+      }
     }
   }
 
-  static void take_verdict(RobotCheckResult& result) {
-    for (std::size_t k = 0; k < result.pairs.size(); ++k) {
-      const RobotPairAnswer& pair = result.pairs[k];
-      const bool decides = pair.verdict != Verdict::free && pair.t == result.t;
-      if (decides && (!result.first || (is_contact(pair.verdict) && !is_contact(result.verdict)))) {
-        result.first = k;
-        result.verdict = pair.verdict;
-        result.reason = pair.reason;
+  /// The features within the band of those parts that do not decide; of the others they are listed.
+  void list_band(std::size_t index) {
+    const std::size_t place = place_of_[index];
+    PairAnswer& pair = pairs_[place];
+    const std::vector<std::array<std::size_t, 2>>& known = deciding_parts_[place];
+    const double band = pair.margin + pair.tolerance_used + options_.contact_band;
+    for (const std::array<std::size_t, 2>& parts : detail::parts_of(timeline_, index)) {
+      if (std::find(known.begin(), known.end(), parts) != known.end()) {
+        continue;
       }
-      const auto distance = [&](std::size_t index) {
-        return result.pairs[index].least_clearance->distance;
-      };
-      if (pair.least_clearance && (!result.closest || distance(k) < distance(*result.closest))) {
-        result.closest = k;
+      const PartCandidate candidate{
+          .window = {pair.t, pair.t}, .pair = index, .parts = parts, .threshold = pair.margin};
+      PartSearch search(timeline_, candidate, options_, workspaces_.local());
+      const FirstContactResult found = search.features_within(pair.t, band);
+      pair.work += found.work;
+      if (found.verdict != Verdict::free) {
+        pair.contact_count += found.contact_count;
+        contacts_[place].add(search.in_world(found.contacts, pair.t));
       }
     }
   }
@@ -379,15 +425,17 @@ class RobotCheck {
   detail::LinkWorkspaces& workspaces_;
   const RobotCheckOptions& options_;
   std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
-  std::vector<RobotPairAnswer> pairs_;
+  std::vector<PairAnswer> pairs_;
   std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
-  double first_ = 1.0;                          // Before it all pairs are proven free.
-  std::optional<detail::KnownNear> earliest_;   // The search that found it.
-  double least_of_all_ = 0.0;                   // [m]  Of all pairs, where that was asked.
-  std::optional<std::size_t> only_;             // The only pair that is asked about now.
+  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_parts_;  // That these are of.
+  std::optional<detail::PairHolds> holds_;                               // For keep_half.
+  double first_ = 1.0;                         // Before it all pairs are proven free.
+  std::optional<detail::KnownNear> earliest_;  // The search that found it.
+  double least_of_all_ = 0.0;                  // [m]  Of all pairs, where that was asked.
+  std::optional<std::size_t> only_;            // The only pair that is asked about now.
 };
 
-RobotCheckResult check(Prepared& scene, const RobotCheckOptions& options) {
+SceneResult check(Prepared& scene, const RobotCheckOptions& options) {
   validate(options);
   return RobotCheck(scene, options).run();
 }
@@ -418,12 +466,12 @@ void RobotChecker::set_motion(std::size_t robot, RobotMotion motion) {
   data_->prepared.timeline.follow_motions();
 }
 
-RobotCheckResult RobotChecker::check(const RobotCheckOptions& options) {
+SceneResult RobotChecker::check(const RobotCheckOptions& options) {
   const FloatEnvironmentGuard guard;
   return firstcontact::check(data_->prepared, options);
 }
 
-RobotCheckResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
+SceneResult check_robots(const RobotScene& scene, const RobotCheckOptions& options) {
   const FloatEnvironmentGuard guard;
   Prepared prepared(scene);
   return check(prepared, options);

@@ -88,6 +88,27 @@ void detail::first_contact(const MovingLink& A, const MovingLink& B, const TimeW
   ask_first_contact(A, B, window, workspace.queries, workspace.places, options, result);
 }
 
+void detail::first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                                const Hold& hold, LinkWorkspace& workspace,
+                                const FirstContactOptions& options, FirstContactResult& result) {
+  const bool swapped = ask_in_order(A, B, window, workspace.places, [&](const ShapePair& pair) {
+    detail::first_contact_held(pair, window, hold, workspace.queries, options, result);
+  });
+  if (swapped) {
+    std::for_each(result.contacts.begin(), result.contacts.end(), swap_bodies);
+  }
+}
+
+detail::StartGap detail::start_gap(const MovingLink& A, const MovingLink& B, double t,
+                                   LinkWorkspace& workspace, const FirstContactOptions& options,
+                                   WorkCount& work) {
+  StartGap gap;
+  ask_in_order(A, B, {t, t}, workspace.places, [&](const ShapePair& pair) {
+    gap = detail::start_gap(pair, t, workspace.queries, options, work);
+  });
+  return gap;
+}
+
 DistanceResult detail::distance(const MovingLink& A, const MovingLink& B, double t,
                                 LinkWorkspace& workspace) {
   return ask_distance(A, B, t, workspace.queries, workspace.places);

@@ -45,11 +45,7 @@ void merge(const std::vector<GapSample>& more, std::vector<GapSample>& curve) {
 }  // namespace
 
 double time_of_interest(const SceneResult& result) {
-  if (result.robots && result.robots->closest && !result.robots->first) {
-    return result.robots->pairs[*result.robots->closest].least_clearance->t;
-  }
-  return result.closest && !result.first ? result.pairs[*result.closest].closest_approach->t
-                                         : result.t;
+  return result.closest && !result.first ? result.pairs[*result.closest].closest->t : result.t;
 }
 
 std::vector<GapSample> gap_curve(const LoadedScene& loaded, double focus,

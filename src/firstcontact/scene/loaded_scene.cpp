@@ -57,6 +57,14 @@ LoadedScene load_bodies(Scene scene, ShapeCache& cache) {
 
 }  // namespace
 
+const Shape& shape_of_body(const LoadedScene& loaded, std::size_t body) {
+  return loaded.robots ? loaded.robots->geometries(body).front().shape : loaded.bodies.shape(body);
+}
+
+std::optional<double> margin_of_pair(const LoadedScene& loaded, const BodyPair& members) {
+  return loaded.robots ? loaded.robots->margin(members) : loaded.bodies.rules().margin(members);
+}
+
 LoadedScene load_scene(Scene scene, ShapeCache& cache) {
   LoadedScene loaded = scene.robots.empty() ? load_bodies(std::move(scene), cache)
                                             : detail::load_robots(std::move(scene), cache);

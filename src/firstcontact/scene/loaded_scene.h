@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,14 @@ struct LoadedScene {
   std::vector<FileReport> files = {};      ///< What became of each file, in the order of their use.
   PairCounts pair_counts = {};             ///< Of a check; see also LinksAsBodies.
 };
+
+/// The shape of a body of the scene, by its number.
+[[nodiscard]] FIRSTCONTACT_API const Shape& shape_of_body(const LoadedScene& loaded,
+                                                          std::size_t body);
+
+/// [m]  The margin of a pair of members, with paddings; none where the pair is never tested.
+[[nodiscard]] FIRSTCONTACT_API std::optional<double> margin_of_pair(const LoadedScene& loaded,
+                                                                    const BodyPair& members);
 
 /// Refuses a scene in which a robot leaves a limit, as `--strict` does.
 ///

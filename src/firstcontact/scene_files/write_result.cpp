@@ -14,9 +14,9 @@
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene_files/detail/contact_json.h>
+#include <firstcontact/scene_files/detail/joint_reports.h>
 #include <firstcontact/scene_files/detail/reports_json.h>
 #include <firstcontact/scene_files/detail/result_json.h>
-#include <firstcontact/scene_files/detail/robot_result.h>
 #include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
@@ -36,7 +36,7 @@ using detail::two;
 /// Writes the parts of one scene's result.
 class ResultWriter {
  public:
-  explicit ResultWriter(const LoadedScene& loaded) : scene_(loaded.scene), loaded_(loaded) {}
+  explicit ResultWriter(const LoadedScene& loaded) : scene_(loaded.scene) {}
 
   [[nodiscard]] JsonObject result(const SceneResult& result, bool all_pairs) const {
     JsonObject object = head(result);
@@ -46,75 +46,8 @@ class ResultWriter {
     if (all_pairs) {
       object.push_back({"pairs", JsonValue{.value = pairs(result)}});
     }
-    append_tolerance(result.tolerance_used, object);
-    append_enclosure_error(greatest_enclosure_error(), object);
+    append_tolerances(result, object);
     return object;
-  }
-
-  [[nodiscard]] JsonObject head(const SceneResult& result) const {
-    JsonObject object{{"id", to_json(scene_.id)},
-                      {"verdict", to_json(word(result.verdict))},
-                      {"reason", to_json(result.reason)},
-                      {"t", to_json(result.t)},
-                      {"t_upper", to_json(result.t_upper)},
-                      {"time", to_json(result.t * scene_.duration)},
-                      {"pair", result.first ? names(result.pairs[*result.first].bodies)
-                                            : JsonValue{.value = JsonNull{}}}};
-    append_contacts_at(result, object);
-    object.push_back({"clearance", to_json(result.clearance)});
-    return object;
-  }
-
-  [[nodiscard]] JsonValue closest(const PairAnswer& pair) const {
-    const ClosestApproachResult& found = *pair.closest_approach;
-    JsonObject object{{"pair", names(pair.bodies)},
-                      {"distance", to_json(found.distance)},
-                      {"lower_bound", to_json(found.lower_bound)},
-                      {"t", to_json(found.t)},
-                      {"time", to_json(found.t * scene_.duration)},
-                      {"reason", to_json(found.reason)}};
-    if (found.closest) {
-      object.push_back({"points", two(to_json(found.closest->p_WA), to_json(found.closest->p_WB))});
-    }
-    return {.value = std::move(object)};
-  }
-
-  [[nodiscard]] JsonValue pair(const PairAnswer& pair) const {
-    const FirstContactResult& found = pair.first_contact;
-    ContactArray contacts(scene_.duration);
-    append_contacts(pair, contacts);
-    JsonObject object{{"pair", names(pair.bodies)},
-                      {"margin", to_json(pair.margin)},
-                      {"verdict", to_json(word(found.verdict))},
-                      {"reason", to_json(found.reason)},
-                      {"t", to_json(found.t)},
-                      {"t_upper", to_json(found.t_upper)},
-                      {"time", to_json(found.t * scene_.duration)},
-                      {"contacts", contacts.take()}};
-    detail::append_contact_count(found.contact_count, object);
-    object.push_back({"clearance", to_json(found.clearance)});
-    append_tolerance(found.tolerance_used, object);
-    append_enclosure_error(loaded_.bodies.shape(pair.bodies[0]).enclosure_error() +
-                               loaded_.bodies.shape(pair.bodies[1]).enclosure_error(),
-                           object);
-    if (pair.closest_approach) {
-      object.push_back({"closest", closest(pair)});
-    }
-    return {.value = std::move(object)};
-  }
-
-  /// Only where it is not the one that was asked for.
-  void append_tolerance(double tolerance_used, JsonObject& object) const {
-    if (tolerance_used > scene_.options.tolerance) {
-      object.push_back({"tolerance_used", to_json(tolerance_used)});
-    }
-  }
-
-  /// Only where a curved body was enclosed by triangles.
-  static void append_enclosure_error(double enclosure_error, JsonObject& object) {
-    if (enclosure_error > 0.0) {
-      object.push_back({"enclosure_error", to_json(enclosure_error)});
-    }
   }
 
   [[nodiscard]] JsonValue sampling(const SamplingReport& report) const {
@@ -123,7 +56,61 @@ class ResultWriter {
                 {"samples", to_json(report.samples)},
                 {"in_contact", to_json(report.in_contact)},
                 {"least_distance", report.least ? to_json(report.least->distance) : JsonValue{}},
-                {"time", report.least ? to_json(report.least->t * scene_.duration) : JsonValue{}}}};
+                {"time", report.least ? seconds(report.least->t) : JsonValue{}}}};
+  }
+
+ private:
+  [[nodiscard]] JsonValue seconds(double t) const { return to_json(t * scene_.duration); }
+
+  [[nodiscard]] JsonValue names(const BodyPair& members) const {
+    return two(to_json(member_name(scene_, members[0])), to_json(member_name(scene_, members[1])));
+  }
+
+  [[nodiscard]] ContactArray no_contacts() const {
+    return {scene_.duration, !scene_.robots.empty()};
+  }
+
+  [[nodiscard]] JsonObject head(const SceneResult& result) const {
+    JsonObject object{{"id", to_json(scene_.id)}};
+    append_outcome(result, object);
+    object.push_back({"pair", result.first ? names(result.pairs[*result.first].members)
+                                           : JsonValue{.value = JsonNull{}}});
+    append_contacts_at(result, object);
+    object.push_back({"clearance", to_json(result.clearance)});
+    return object;
+  }
+
+  void append_outcome(const Outcome& outcome, JsonObject& object) const {
+    object.push_back({"verdict", to_json(word(outcome.verdict))});
+    object.push_back({"reason", to_json(outcome.reason)});
+    object.push_back({"t", to_json(outcome.t)});
+    object.push_back({"t_upper", to_json(outcome.t_upper)});
+    object.push_back({"time", seconds(outcome.t)});
+  }
+
+  /// Only where a tolerance is not the one that was asked for, and where curved shapes were
+  /// enclosed by triangles.
+  void append_tolerances(const Outcome& outcome, JsonObject& object) const {
+    if (outcome.tolerance_used > scene_.options.tolerance) {
+      object.push_back({"tolerance_used", to_json(outcome.tolerance_used)});
+    }
+    if (outcome.enclosure_error > 0.0) {
+      object.push_back({"enclosure_error", to_json(outcome.enclosure_error)});
+    }
+  }
+
+  [[nodiscard]] JsonValue closest(const PairAnswer& pair) const {
+    const ClosestApproach& found = *pair.closest;
+    JsonObject object{{"pair", names(pair.members)},
+                      {"distance", to_json(found.distance)},
+                      {"lower_bound", to_json(found.lower_bound)},
+                      {"t", to_json(found.t)},
+                      {"time", seconds(found.t)},
+                      {"reason", to_json(found.reason)}};
+    if (found.closest) {
+      object.push_back({"points", two(to_json(found.closest->p_WA), to_json(found.closest->p_WB))});
+    }
+    return {.value = std::move(object)};
   }
 
   [[nodiscard]] JsonArray pairs(const SceneResult& result) const {
@@ -134,46 +121,58 @@ class ResultWriter {
     return array;
   }
 
- private:
-  [[nodiscard]] JsonValue names(const BodyPair& bodies) const {
-    return two(to_json(scene_.bodies[bodies[0]].name), to_json(scene_.bodies[bodies[1]].name));
+  [[nodiscard]] JsonValue pair(const PairAnswer& pair) const {
+    ContactArray contacts = no_contacts();
+    append_contacts(pair, contacts);
+    JsonObject object{{"pair", names(pair.members)}, {"margin", to_json(pair.margin)}};
+    append_outcome(pair, object);
+    object.push_back({"contacts", contacts.take()});
+    detail::append_contact_count(pair.contact_count, object);
+    object.push_back({"clearance", to_json(pair.clearance)});
+    append_tolerances(pair, object);
+    if (pair.closest) {
+      object.push_back({"closest", closest(pair)});
+    }
+    if (!pair.intervals.empty()) {
+      object.push_back({"intervals", JsonValue{.value = intervals(pair)}});
+    }
+    return {.value = std::move(object)};
+  }
+
+  [[nodiscard]] JsonArray intervals(const PairAnswer& pair) const {
+    JsonArray array;
+    for (const ContactInterval& interval : pair.intervals) {
+      array.push_back({.value = JsonObject{{"enter", to_json(interval.enter)},
+                                           {"leave", to_json(interval.leave)},
+                                           {"enter_time", seconds(interval.enter)},
+                                           {"leave_time", seconds(interval.leave)},
+                                           {"reason", to_json(interval.reason)}}});
+    }
+    return array;
   }
 
   void append_contacts(const PairAnswer& pair, ContactArray& array) const {
-    array.set_names(names(pair.bodies));
-    for (const Contact& found : pair.first_contact.contacts) {
+    array.set_names(names(pair.members));
+    for (const Contact& found : pair.contacts) {
       array.add(found);
     }
   }
 
   /// The contacts of every pair that touches at the scene's t.
   void append_contacts_at(const SceneResult& result, JsonObject& object) const {
-    ContactArray array(scene_.duration);
+    ContactArray array = no_contacts();
     ContactCount count{0, true};
     for (const PairAnswer& pair : result.pairs) {
-      if (result.first && pair.first_contact.t == result.t) {
+      if (result.first && pair.t == result.t) {
         append_contacts(pair, array);
-        count += pair.first_contact.contact_count;
+        count += pair.contact_count;
       }
     }
     object.push_back({"contacts", array.take()});
     detail::append_contact_count(count, object);
   }
 
-  /// [m]  Of any two bodies.
-  [[nodiscard]] double greatest_enclosure_error() const {
-    double greatest = 0.0;
-    double second = 0.0;
-    for (std::size_t k = 0; k < loaded_.bodies.size(); ++k) {
-      const double error = loaded_.bodies.shape(k).enclosure_error();
-      second = std::max(second, std::min(error, greatest));
-      greatest = std::max(greatest, error);
-    }
-    return greatest + second;
-  }
-
   const Scene& scene_;
-  const LoadedScene& loaded_;
 };
 
 JsonValue to_json(const WorkCount& work) {
@@ -198,14 +197,13 @@ SamplingReport report_sampling(double rate, std::span<const GapSample> samples) 
 std::string write_result(const LoadedScene& loaded, const SceneResult& result,
                          const WriteResultOptions& options) {
   const ResultWriter writer(loaded);
-  JsonObject object = result.robots
-                          ? detail::robot_result(loaded, *result.robots, options.all_pairs)
-                          : writer.result(result, options.all_pairs);
+  JsonObject object = writer.result(result, options.all_pairs);
   if (options.line) {
     object.insert(object.begin() + 1, {"line", to_json(*options.line)});  // After the id.
   }
+  detail::append_joint_reports(loaded, object);
   const std::vector<std::string> warnings = check_warnings(loaded);
-  if (!result.robots && !warnings.empty()) {
+  if (!loaded.scene.robots.empty() || !warnings.empty()) {
     object.push_back({"warnings", to_json(warnings)});
   }
   if (options.sampling) {

@@ -36,12 +36,13 @@ class Search {
  public:
   /// @param distance  [m]  in place of all thresholds, where it is given
   Search(const RobotTimeline& timeline, std::size_t piece, const std::vector<RobotTree>& trees,
-         const std::vector<std::optional<SweptPart>>& resting,
+         const std::vector<std::optional<SweptPart>>& resting, std::span<const double> held = {},
          const std::optional<double>& distance = std::nullopt)
       : timeline_(timeline),
         piece_(piece),
         grid_{timeline.piece(piece)},
         middle_(grid_.at(TimeGrid::kMiddle)),
+        held_(held),
         distance_(distance),
         has_tracking_errors_(!distance && timeline.has_tracking_errors()),
         trees_(trees),
@@ -76,7 +77,8 @@ class Search {
 
   /// [m]  Of a tested pair, without tracking errors.
   [[nodiscard]] double margin_of(std::size_t pair) const {
-    return distance_.value_or(timeline_.pairs()[pair].margin);
+    const double margin = distance_.value_or(timeline_.pairs()[pair].margin);
+    return held_.empty() ? margin : std::max(margin, held_[pair]);
   }
 
   /// Those of the tested parts whose boxes are not farther apart than their margins.
@@ -285,7 +287,7 @@ class Search {
 
   /// Windows so short that the bound of tracking errors is tight.
   void add_thresholds(const PartCandidate& candidate, int depth) {
-    const auto& [window, piece, pair, parts, unused, gap] = candidate;
+    const auto& [window, piece, pair, parts, unused, gap, no_hold] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
     const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
     const auto error_over = [&, &parts = candidate.parts](const TimeWindow& part) {
@@ -305,7 +307,8 @@ class Search {
   const RobotTimeline& timeline_;
   std::size_t piece_;
   TimeGrid grid_;
-  double middle_;  // Time.
+  double middle_;                 // Time.
+  std::span<const double> held_;  // [m]  Of each tested pair, or empty.
   std::optional<double> distance_;
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
@@ -353,13 +356,14 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   }
 }
 
-std::vector<PartCandidate> CandidateSearch::find(
-    std::size_t piece, const std::function<bool(std::size_t)>& wanted) const {
-  return Search(timeline_, piece, trees_, resting_).run(wanted);
+std::vector<PartCandidate> CandidateSearch::find(std::size_t piece,
+                                                 const std::function<bool(std::size_t)>& wanted,
+                                                 std::span<const double> held) const {
+  return Search(timeline_, piece, trees_, resting_, held).run(wanted);
 }
 
 std::vector<PartCandidate> CandidateSearch::find_within(std::size_t piece, double distance) const {
-  return Search(timeline_, piece, trees_, resting_, distance).run({});
+  return Search(timeline_, piece, trees_, resting_, {}, distance).run({});
 }
 
 }  // namespace firstcontact::detail

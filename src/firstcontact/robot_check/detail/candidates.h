@@ -7,11 +7,13 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/robot_check/detail/swept_part.h>
@@ -26,6 +28,7 @@ struct PartCandidate {
   std::array<std::size_t, 2> parts = {};  ///< Of its members, in their order.
   double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
   double gap = 0.0;        ///< [m]  A bound of how far apart they are at some time of the window.
+  std::optional<Hold> hold = {};  ///< In place of the threshold, where keep_half is asked.
 
   /// By pieces; in each the nearest first, whose contact may spare the search for others.
   friend bool operator<(const PartCandidate& x, const PartCandidate& y) {
@@ -57,8 +60,11 @@ class CandidateSearch {
   /// than their thresholds. Of one pair of parts the windows do not overlap.
   ///
   /// @param wanted  whether a tested pair is of interest, by index; empty where all are
-  [[nodiscard]] std::vector<PartCandidate> find(
-      std::size_t piece, const std::function<bool(std::size_t)>& wanted) const;
+  /// @param held    [m]  a distance for each tested pair, for which a lesser threshold does not
+  ///                count; empty where all thresholds do
+  [[nodiscard]] std::vector<PartCandidate> find(std::size_t piece,
+                                                const std::function<bool(std::size_t)>& wanted,
+                                                std::span<const double> held = {}) const;
 
   /// The same of all pairs that are tested, with one distance [m] in place of their thresholds.
   [[nodiscard]] std::vector<PartCandidate> find_within(std::size_t piece, double distance) const;

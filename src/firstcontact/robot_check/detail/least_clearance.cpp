@@ -38,16 +38,16 @@ std::vector<Place> places_by_distance(const RobotTimeline& timeline, const Balls
 
 }  // namespace
 
-LeastClearance least_clearance_of(const RobotTimeline& timeline, const BallsOfPieces& balls,
-                                  std::size_t pair, const RobotCheckOptions& options,
-                                  LinkWorkspace& workspace) {
+ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfPieces& balls,
+                                   std::size_t pair, const RobotCheckOptions& options,
+                                   LinkWorkspace& workspace) {
   constexpr std::size_t kLooks = 8;  // What is near half way is likely to be nearest.
   const double tolerance = kPartOfTolerance * options.tolerance;
   const std::vector<Place> places = places_by_distance(timeline, balls, pair);
   const auto search_of = [&](const Place& place) {
     return PartSearch(timeline, place.candidate, options, workspace);
   };
-  LeastClearance best;
+  ClosestApproach best;
   LeastDescent descent(options, best);
   const Place* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();

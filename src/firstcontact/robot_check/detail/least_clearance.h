@@ -21,9 +21,9 @@ using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 /// Pieces are taken in the order of what balls say of them. Looks half way through the first of
 /// them, samples and descent find a distance; first contact with a margin of it less the tolerance
 /// proves it, or finds a lesser one. Where the budget ends that, what balls say of the rest holds.
-[[nodiscard]] LeastClearance least_clearance_of(const RobotTimeline& timeline,
-                                                const BallsOfPieces& balls, std::size_t pair,
-                                                const RobotCheckOptions& options,
-                                                LinkWorkspace& workspace);
+[[nodiscard]] ClosestApproach least_clearance_of(const RobotTimeline& timeline,
+                                                 const BallsOfPieces& balls, std::size_t pair,
+                                                 const RobotCheckOptions& options,
+                                                 LinkWorkspace& workspace);
 
 }  // namespace firstcontact::detail

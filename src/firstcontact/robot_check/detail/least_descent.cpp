@@ -57,7 +57,7 @@ double LeastDescent::look(PartSearch& search, double t) {
   if (found.distance < best_.distance) {
     best_.distance = found.distance;
     best_.t = t;
-    best_.closest = search.in_world(found.closest.value(), t).contact;
+    best_.closest = search.in_world(found.closest.value(), t);
   }
   return found.distance;
 }

@@ -17,7 +17,7 @@ inline constexpr double kPartOfTolerance = 0.999;
 class LeastDescent {
  public:
   /// @param best  its distance, t, closest and reason are set
-  LeastDescent(const RobotCheckOptions& options, LeastClearance& best)
+  LeastDescent(const RobotCheckOptions& options, ClosestApproach& best)
       : options_(options), tolerance_(kPartOfTolerance * options.tolerance), best_(best) {}
 
   /// [m]  The distance at a time of the piece.
@@ -41,7 +41,7 @@ class LeastDescent {
 
   const RobotCheckOptions& options_;
   double tolerance_;
-  LeastClearance& best_;
+  ClosestApproach& best_;
 };
 
 }  // namespace firstcontact::detail

@@ -172,7 +172,7 @@ class Search {
       const auto round = left.first(std::min(size, left.size()));
       left = left.subspan(round.size());
       size = std::min(2 * size, kLargestRound);
-      std::vector<LeastClearance> bests(round.size(), found_.least);
+      std::vector<ClosestApproach> bests(round.size(), found_.least);
       parallel_for(options_.threads, round.size(), [&](std::size_t k) {
         PartSearch search(timeline_, round[k], options_, workspaces_.local());
         LeastDescent(options_, bests[k]).run(search, round[k].window);
@@ -183,7 +183,7 @@ class Search {
     }
   }
 
-  void take(const PartCandidate& candidate, const LeastClearance& best) {
+  void take(const PartCandidate& candidate, const ClosestApproach& best) {
     const UndecidedReason reason = is_ended() ? found_.least.reason : best.reason;
     if (best.distance < found_.least.distance) {
       found_ = {candidate.pair, best};

@@ -18,8 +18,8 @@ namespace firstcontact::detail {
 using LinkWorkspaces = tbb::enumerable_thread_specific<LinkWorkspace>;
 
 struct LeastOfAll {
-  std::size_t pair = 0;  ///< Index among the tested pairs.
-  LeastClearance least;  ///< Its lower bound holds for all pairs.
+  std::size_t pair = 0;   ///< Index among the tested pairs.
+  ClosestApproach least;  ///< Its lower bound holds for all pairs.
 };
 
 /// Two parts at a time at which they are known to be near each other.

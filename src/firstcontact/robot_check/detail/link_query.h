@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/robot/link_path.h>
 #include <firstcontact/robot_check/link_contact.h>
 
@@ -17,6 +18,16 @@ struct LinkWorkspace {
 void first_contact(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                    LinkWorkspace& workspace, const FirstContactOptions& options,
                    FirstContactResult& result);
+
+/// As detail::first_contact_held of a pair of shapes.
+void first_contact_held(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
+                        const Hold& hold, LinkWorkspace& workspace,
+                        const FirstContactOptions& options, FirstContactResult& result);
+
+/// As detail::start_gap of a pair of shapes.
+[[nodiscard]] StartGap start_gap(const MovingLink& A, const MovingLink& B, double t,
+                                 LinkWorkspace& workspace, const FirstContactOptions& options,
+                                 WorkCount& work);
 
 [[nodiscard]] DistanceResult distance(const MovingLink& A, const MovingLink& B, double t,
                                       LinkWorkspace& workspace);

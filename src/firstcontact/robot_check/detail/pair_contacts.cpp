@@ -14,12 +14,11 @@ std::uint64_t number_of(std::size_t geometry, const Feature& feature) {
          static_cast<std::uint64_t>(feature.type) << 32 | feature.index;
 }
 
-ContactRank rank_of(const RobotContact& found) {
-  const auto& [members, geometries, contact] = found;
-  return {
-      {number_of(geometries[0], contact.feature_A), number_of(geometries[1], contact.feature_B)},
-      contact.distance,
-      0.5 * (contact.p_WA + contact.p_WB)};
+ContactRank rank_of(const Contact& found) {
+  return {{number_of(found.geometries[0], found.feature_A),
+           number_of(found.geometries[1], found.feature_B)},
+          found.distance,
+          0.5 * (found.p_WA + found.p_WB)};
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ void PairContacts::clear() {
   selection_.reset();
 }
 
-void PairContacts::add(std::span<const RobotContact> contacts) {
+void PairContacts::add(std::span<const Contact> contacts) {
   if (!selection_ && contacts.size() <= most_ - all_.size()) {
     all_.insert(all_.end(), contacts.begin(), contacts.end());
     return;
@@ -38,18 +37,18 @@ void PairContacts::add(std::span<const RobotContact> contacts) {
     selection_.emplace(most_);
     add(std::exchange(all_, {}));
   }
-  for (const RobotContact& contact : contacts) {
+  for (const Contact& contact : contacts) {
     selection_->add(rank_of(contact), contact);
   }
 }
 
-std::vector<RobotContact> PairContacts::take() {
+std::vector<Contact> PairContacts::take() {
   if (!selection_) {
     return std::move(all_);
   }
-  std::vector<RobotContact> kept = selection_->take();
-  std::sort(kept.begin(), kept.end(), [](const RobotContact& x, const RobotContact& y) {
-    const auto key = [](const RobotContact& found) {
+  std::vector<Contact> kept = selection_->take();
+  std::sort(kept.begin(), kept.end(), [](const Contact& x, const Contact& y) {
+    const auto key = [](const Contact& found) {
       return std::tuple(found.geometries, rank_of(found).features);
     };
     return key(x) < key(y);

@@ -19,15 +19,15 @@ class PairContacts {
   explicit PairContacts(std::size_t most) : most_(most) {}
 
   void clear();
-  void add(std::span<const RobotContact> contacts);
+  void add(std::span<const Contact> contacts);
 
   /// All that is kept. Nothing may be added afterwards.
-  [[nodiscard]] std::vector<RobotContact> take();
+  [[nodiscard]] std::vector<Contact> take();
 
  private:
   std::size_t most_;
-  std::vector<RobotContact> all_;
-  std::optional<ContactSelection<RobotContact>> selection_;  // Where there are more.
+  std::vector<Contact> all_;
+  std::optional<ContactSelection<Contact>> selection_;  // Where there are more.
 };
 
 }  // namespace firstcontact::detail

@@ -45,10 +45,36 @@ FirstContactResult PartSearch::ask(const TimeWindow& window, FirstContactOptions
   return result;
 }
 
+FirstContactOptions PartSearch::options_of_candidate() const {
+  return {.margin = candidate_.threshold,
+          .tolerance = options_.tolerance,
+          .contacts = options_.contacts,
+          .contact_band = options_.contact_band,
+          .budget = options_.budget};
+}
+
 FirstContactResult PartSearch::first_contact(const TimeWindow& window) {
-  return ask(window, {.margin = candidate_.threshold,
-                      .tolerance = options_.tolerance,
-                      .contacts = options_.contacts});
+  FirstContactResult result;
+  if (candidate_.hold) {
+    detail::first_contact_held({A_, X_FA_}, {B_, X_FB_}, window, *candidate_.hold, workspace_,
+                               options_of_candidate(), result);
+  } else {
+    detail::first_contact({A_, X_FA_}, {B_, X_FB_}, window, workspace_, options_of_candidate(),
+                          result);
+  }
+  return result;
+}
+
+StartGap PartSearch::start_gap(WorkCount& work) {
+  return detail::start_gap({A_, X_FA_}, {B_, X_FB_}, candidate_.window.begin, workspace_,
+                           options_of_candidate(), work);
+}
+
+FirstContactResult PartSearch::features_within(double t, double distance) {
+  const double tolerance = std::min(options_.tolerance, 0.5 * distance);
+  return ask(
+      {t, t},
+      {.margin = distance - tolerance, .tolerance = tolerance, .contacts = options_.contacts});
 }
 
 FirstContactResult PartSearch::first_contact(const TimeWindow& window, double margin,
@@ -87,18 +113,13 @@ bool PartSearch::is_inside(double t) {
   return (A_.is_solid() || B_.is_solid()) && distance(t) == 0.0;
 }
 
-bool PartSearch::touch(double t, double tolerance_used) {
-  return !(distance(t) > candidate_.threshold + tolerance_used);
-}
-
-RobotContact PartSearch::in_world(const Contact& contact, double t) const {
+Contact PartSearch::in_world(const Contact& contact, double t) const {
   return placed(contact, frame_at(t));
 }
 
-std::vector<RobotContact> PartSearch::in_world(const std::vector<Contact>& contacts,
-                                               double t) const {
+std::vector<Contact> PartSearch::in_world(const std::vector<Contact>& contacts, double t) const {
   const LinkPose X_WF = frame_at(t);
-  std::vector<RobotContact> all;
+  std::vector<Contact> all;
   all.reserve(contacts.size());
   for (const Contact& contact : contacts) {
     all.push_back(placed(contact, X_WF));
@@ -114,15 +135,15 @@ LinkPose PartSearch::frame_at(double t) const {
   return motion.path(paths_.frame->link, t).pose(t);
 }
 
-RobotContact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
+Contact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
   const auto parts = timeline_.parts();
   const auto& [a, b] = candidate_.parts;
-  RobotContact placed{
-      {parts[a].member, parts[b].member}, {parts[a].geometry, parts[b].geometry}, contact};
-  placed.contact.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
-  placed.contact.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
+  Contact placed = contact;
+  placed.geometries = {parts[a].geometry, parts[b].geometry};
+  placed.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
+  placed.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
   if (contact.n_AB_W) {
-    placed.contact.n_AB_W = X_WF.R_FL * *contact.n_AB_W;
+    placed.n_AB_W = X_WF.R_FL * *contact.n_AB_W;
   }
   return placed;
 }

@@ -17,10 +17,6 @@ namespace firstcontact::detail {
 /// Why a check has to end now; none if it need not. Of the steps each search takes care itself.
 [[nodiscard]] UndecidedReason spent(const WorkBudget& budget);
 
-[[nodiscard]] inline bool is_contact(Verdict verdict) {
-  return verdict == Verdict::contact || verdict == Verdict::contact_at_start;
-}
-
 /// Two parts in one window of time. Refers to all that it is made of.
 class PartSearch {
  public:
@@ -28,12 +24,20 @@ class PartSearch {
              const RobotCheckOptions& options, LinkWorkspace& workspace);
 
   /// First contact in a window, before which the two are proven free and not inside of each other;
-  /// when free, `t` is its end. With the candidate's threshold and the tolerance of the options.
+  /// when free, `t` is its end. With the candidate's threshold or hold and the tolerance of the
+  /// options.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window);
 
   /// The same with others, and without contacts.
   [[nodiscard]] FirstContactResult first_contact(const TimeWindow& window, double margin,
                                                  double tolerance);
+
+  /// How far apart the two are at the begin of the window, as far as keep_half has to know it.
+  [[nodiscard]] StartGap start_gap(WorkCount& work);
+
+  /// The features that are no farther apart than a distance at a time of the piece, as a contact;
+  /// free where there are none.
+  [[nodiscard]] FirstContactResult features_within(double t, double distance);
 
   /// At a time of the piece, with the closest features in the candidate's frame.
   [[nodiscard]] DistanceResult nearest(double t);
@@ -51,20 +55,17 @@ class PartSearch {
   /// Whether one is inside of the other, a solid.
   [[nodiscard]] bool is_inside(double t);
 
-  /// Whether they are within threshold + tolerance.
-  [[nodiscard]] bool touch(double t, double tolerance_used);
-
   /// A contact in the candidate's frame at t as the world sees it.
-  [[nodiscard]] RobotContact in_world(const Contact& contact, double t) const;
+  [[nodiscard]] Contact in_world(const Contact& contact, double t) const;
   /// So, too, contacts of one t.
-  [[nodiscard]] std::vector<RobotContact> in_world(const std::vector<Contact>& contacts,
-                                                   double t) const;
+  [[nodiscard]] std::vector<Contact> in_world(const std::vector<Contact>& contacts, double t) const;
 
  private:
   [[nodiscard]] FirstContactResult ask(const TimeWindow& window, FirstContactOptions query);
+  [[nodiscard]] FirstContactOptions options_of_candidate() const;
   /// The pose of the candidate's frame at t.
   [[nodiscard]] LinkPose frame_at(double t) const;
-  [[nodiscard]] RobotContact placed(const Contact& contact, const LinkPose& X_WF) const;
+  [[nodiscard]] Contact placed(const Contact& contact, const LinkPose& X_WF) const;
 
   const RobotTimeline& timeline_;
   const PartCandidate& candidate_;

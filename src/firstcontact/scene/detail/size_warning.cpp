@@ -40,10 +40,6 @@ struct Sized {
   bool in_file = false;  ///< So too, and a scale can be said.
 };
 
-const Shape& shape_of(const LoadedScene& loaded, std::size_t body) {
-  return loaded.robots ? loaded.robots->geometries(body).front().shape : loaded.bodies.shape(body);
-}
-
 Sized size_of_body(const LoadedScene& loaded, std::size_t index) {
   const Body& body = loaded.scene.bodies[index];
   const auto& source = body.shape.source;
@@ -51,7 +47,7 @@ Sized size_of_body(const LoadedScene& loaded, std::size_t index) {
   const bool in_file = std::holds_alternative<MeshFile>(source) ||
                        (hull != nullptr && std::holds_alternative<MeshFile>(hull->of));
   return {.name = "body " + in_quotes(body.name),
-          .size = diameter(shape_of(loaded, index)),
+          .size = diameter(shape_of_body(loaded, index)),
           .is_mesh = std::holds_alternative<MeshFile>(source) ||
                      std::holds_alternative<Mesh>(source) || std::holds_alternative<Shape>(source),
           .in_file = in_file};

@@ -51,11 +51,7 @@ Placed place(const LoadedScene& loaded) {
 
 bool is_tested(const LoadedScene& loaded, std::size_t a, std::size_t b) {
   const BodyPair pair = {std::min(a, b), std::max(a, b)};
-  if (a == b) {
-    return false;
-  }
-  return loaded.robots ? loaded.robots->margin(pair).has_value()
-                       : loaded.bodies.rules().margin(pair).has_value();
+  return a != b && margin_of_pair(loaded, pair).has_value();
 }
 
 /// "a", "b" and 3 more begin inside of ...

@@ -31,8 +31,7 @@ std::string feature(const Feature& feature) {
 
 void ContactArray::set_names(const JsonValue& names) { names_ = write_json(names); }
 
-void ContactArray::add(const Contact& contact,
-                       const std::optional<std::array<std::size_t, 2>>& geometries) {
+void ContactArray::add(const Contact& contact) {
   const auto& [A, B] = std::tie(contact.feature_A, contact.feature_B);
   text_ += text_.empty() ? '[' : ',';
   text_ += R"({"bodies":)" + names_;
@@ -43,8 +42,9 @@ void ContactArray::add(const Contact& contact,
   text_ += R"(,"normal":)" + (contact.n_AB_W ? vector(*contact.n_AB_W) : "null");
   text_ += R"(,"distance":)" + number(contact.distance);
   text_ += R"(,"normal_velocity":)" + number(contact.normal_velocity / duration_);
-  if (geometries) {
-    text_ += R"(,"geometries":)" + array(number((*geometries)[0]), number((*geometries)[1]));
+  if (geometries_) {
+    text_ +=
+        R"(,"geometries":)" + array(number(contact.geometries[0]), number(contact.geometries[1]));
   }
   text_ += '}';
 }

@@ -4,9 +4,6 @@
 
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
 #include <string>
 
 #include <firstcontact/query/contact.h>
@@ -17,23 +14,23 @@ namespace firstcontact::detail {
 /// Writes contacts of several pairs into one array.
 class ContactArray {
  public:
-  /// @param duration  [s]  of the step; velocities are written in m/s
-  explicit ContactArray(double duration) : duration_(duration) {}
+  /// @param duration    [s]  of the step; velocities are written in m/s
+  /// @param geometries  also which geometries of the members touch
+  ContactArray(double duration, bool geometries) : duration_(duration), geometries_(geometries) {}
 
   /// Sets the names of the pair whose contacts are added next.
   ///
   /// @param names  a JSON array of two strings
   void set_names(const JsonValue& names);
 
-  /// @param geometries  of each body, where it may have several
-  void add(const Contact& contact,
-           const std::optional<std::array<std::size_t, 2>>& geometries = std::nullopt);
+  void add(const Contact& contact);
 
   /// All of it. Nothing may be added afterwards.
   [[nodiscard]] JsonValue take();
 
  private:
   double duration_;
+  bool geometries_;
   std::string names_;
   std::string text_;
 };

@@ -1,0 +1,56 @@
+/// @file
+/// How near pairs of members may come that begin in contact: StartContacts::keep_half.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <firstcontact/query/detail/pair_query.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/least_of_all.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+
+namespace firstcontact::detail {
+
+/// A stretch of time in which a pair is tested, and how near it may come in it.
+struct HeldStretch {
+  std::size_t first_piece = 0;
+  Hold hold;  ///< By the least distance of all parts where the stretch begins.
+  WorkCount work;
+};
+
+/// The holds of all tested pairs, found at once.
+class PairHolds {
+ public:
+  PairHolds(const RobotTimeline& timeline, const RobotCheckOptions& options,
+            LinkWorkspaces& workspaces);
+
+  /// [m]  For each tested pair the greatest distance that it is held to; no less than 0.
+  [[nodiscard]] std::span<const double> greatest() const { return greatest_; }
+
+  /// [m]  A tested pair stays farther apart before its first contact.
+  [[nodiscard]] double least(std::size_t pair) const;
+
+  /// In order of time.
+  [[nodiscard]] std::span<const HeldStretch> stretches(std::size_t pair) const {
+    return stretches_[pair];
+  }
+
+  /// Holds a candidate as its pair is held in its piece, with the margin in place of the greatest.
+  void apply(PartCandidate& candidate) const;
+
+ private:
+  const RobotTimeline& timeline_;
+  std::vector<std::vector<HeldStretch>> stretches_;
+  std::vector<double> greatest_;
+};
+
+/// Each two parts of a tested pair.
+[[nodiscard]] std::vector<std::array<std::size_t, 2>> parts_of(const RobotTimeline& timeline,
+                                                               std::size_t pair);
+
+}  // namespace firstcontact::detail
