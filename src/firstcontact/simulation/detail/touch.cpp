@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/geometry/detail/place_grid.h>
+#include <firstcontact/geometry/detail/spatial_hash.h>
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/simulation/detail/constants.h>
@@ -88,7 +88,7 @@ class Successors {
   std::vector<Touch>& touches_;
   double close_by_;
   std::vector<std::size_t> by_features_;  // Where there are many.
-  PlaceGrid by_place_;
+  SpatialHash by_place_;
 };
 
 /// Two bodies, of which features are asked whether they bulge towards each other.
@@ -174,7 +174,7 @@ class NearestOfMany {
 /// edge of it, say the same: of them the nearest is kept.
 ///
 /// @param size  [m]  of the smaller body
-void keep_once(const Touch& touch, double size, PlaceGrid& by_place, std::vector<Touch>& kept) {
+void keep_once(const Touch& touch, double size, SpatialHash& by_place, std::vector<Touch>& kept) {
   std::size_t same = kept.size();
   by_place.for_each_near(touch.point, [&](std::size_t k) {
     if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
@@ -235,7 +235,7 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
     }
   }
   const double size = smaller_reach(world, bodies);
-  PlaceGrid by_place(kSamePlace * size);
+  SpatialHash by_place(kSamePlace * size);
   std::vector<Touch> touches;
   if (!outermost.empty()) {
     touches.reserve(std::min(outermost.size(), kUsualTouches));

@@ -17,10 +17,10 @@
 namespace firstcontact::detail {
 
 /// Finds those of many places that are near one.
-class PlaceGrid {
+class SpatialHash {
  public:
   /// @param reach  [m]  near means no farther than this; > 0
-  explicit PlaceGrid(double reach) : reach_(reach) {}
+  explicit SpatialHash(double reach) : reach_(reach) {}
 
   /// @param key  of the caller
   void add(const Eigen::Vector3d& place, std::size_t key) {

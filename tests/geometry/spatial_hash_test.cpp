@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/detail/place_grid.h>
+#include <firstcontact/geometry/detail/spatial_hash.h>
 
 #include <cmath>
 #include <cstddef>
@@ -24,12 +24,12 @@ std::vector<Vector3d> some_places(std::mt19937& rng, std::size_t count, double f
   return places;
 }
 
-TEST(PlaceGrid, FindsAllThatAreNear) {
+TEST(SpatialHash, FindsAllThatAreNear) {
   std::mt19937 rng(1);
   for (const double far : {0.0, 1e6}) {
     for (const std::size_t count : {10U, 300U}) {
       const std::vector<Vector3d> places = some_places(rng, count, far);
-      PlaceGrid grid(kReach);
+      SpatialHash grid(kReach);
       for (std::size_t k = 0; k < count; ++k) {
         grid.add(places[k], k);
       }
@@ -44,10 +44,10 @@ TEST(PlaceGrid, FindsAllThatAreNear) {
   }
 }
 
-TEST(PlaceGrid, LeavesOutWhatIsFarOfMany) {
+TEST(SpatialHash, LeavesOutWhatIsFarOfMany) {
   std::mt19937 rng(2);
   const std::vector<Vector3d> places = some_places(rng, 1000, 3.0);
-  PlaceGrid grid(kReach);
+  SpatialHash grid(kReach);
   for (std::size_t k = 0; k < places.size(); ++k) {
     grid.add(places[k], k);
   }
