@@ -5,11 +5,11 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/contact_solver/detail/active_set.h>
 #include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 #include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
-#include <firstcontact/contact_solver/detail/deciding_contacts.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
 #include <firstcontact/contact_solver/detail/motion_space.h>
 
@@ -133,7 +133,7 @@ class Solver {
     }
     if (are_many_redundant_) {
       if (const std::optional<ProjectionSpace> space =
-              detail::project_by_deciding_contacts(problem_, rows_, options_, projection_)) {
+              detail::project_by_active_set(problem_, rows_, options_, projection_)) {
         return solution(projection_, *space);
       }
     }

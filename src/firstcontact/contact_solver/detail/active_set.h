@@ -22,8 +22,9 @@ namespace firstcontact::detail {
 /// @param projection  where to start from; afterwards nearer to the laws, if it changed
 /// @return where the last round was solved, if the laws are met within the tolerance or, without
 ///         drives, what is enough
-[[nodiscard]] std::optional<ProjectionSpace> project_by_deciding_contacts(
-    const ContactProblem& problem, const ContactRows& rows, const ProjectionOptions& options,
-    Projection& projection);
+[[nodiscard]] std::optional<ProjectionSpace> project_by_active_set(const ContactProblem& problem,
+                                                                   const ContactRows& rows,
+                                                                   const ProjectionOptions& options,
+                                                                   Projection& projection);
 
 }  // namespace firstcontact::detail

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/deciding_contacts.h>
+#include <firstcontact/contact_solver/detail/active_set.h>
 
 #include <algorithm>
 #include <array>
@@ -18,9 +18,9 @@ unsigned octant(const Vector3d& v) {
   return (v.x() > 0.0 ? 1u : 0u) | (v.y() > 0.0 ? 2u : 0u) | (v.z() > 0.0 ? 4u : 0u);
 }
 
-class DecidingContacts {
+class ActiveSet {
  public:
-  DecidingContacts(const ContactProblem& problem, const ContactRows& rows)
+  ActiveSet(const ContactProblem& problem, const ContactRows& rows)
       : problem_(problem), rows_(rows), is_chosen_(rows.contacts.size(), false) {}
 
   /// Adds those with an impulse, if they are few; or takes all impulses away.
@@ -108,12 +108,12 @@ class DecidingContacts {
 
 }  // namespace
 
-std::optional<ProjectionSpace> project_by_deciding_contacts(const ContactProblem& problem,
-                                                            const ContactRows& rows,
-                                                            const ProjectionOptions& options,
-                                                            Projection& projection) {
+std::optional<ProjectionSpace> project_by_active_set(const ContactProblem& problem,
+                                                     const ContactRows& rows,
+                                                     const ProjectionOptions& options,
+                                                     Projection& projection) {
   Projection found = projection;
-  DecidingContacts deciding(problem, rows);
+  ActiveSet deciding(problem, rows);
   deciding.add_acting(found);
   ProjectionSpace space = ProjectionSpace::contact;
   double left = options.tolerance;
