@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/contact_distances.h>
@@ -298,7 +298,7 @@ ContactSolution IslandPlanner::find_push() const {
     ProjectionOptions around_options = options;
     around_options.sweeps = kPushSweepsAround;
     ContactSolution around =
-        project_again(problem, {.bodies = problem.bodies}, too_near, around_options);
+        re_solve(problem, {.bodies = problem.bodies}, too_near, around_options);
     if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
       return around;
     }

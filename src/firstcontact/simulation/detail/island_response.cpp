@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/response.h>
@@ -143,8 +143,8 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
     return std::nullopt;
   }
   PlanSolution plan{
-      project_again(problem, before.velocities, changed,
-                    {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
+      re_solve(problem, before.velocities, changed,
+               {.tolerance = of_gravity(state, kAroundTolerance), .sweeps = kAroundSweeps})};
   if (plan.velocities.residual > projection_options(state, problem).enough) {
     return std::nullopt;
   }

@@ -31,7 +31,7 @@ struct PlanSolution {
 /// The free velocities of a plan as contacts and drives allow them.
 [[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
 
-/// Those of a plan that is like another but for contacts that changed, by project_again(). Nothing
+/// Those of a plan that is like another but for contacts that changed, by re_solve(). Nothing
 /// where that is not worth while, or leaves too much.
 [[nodiscard]] std::optional<PlanSolution> project_plan_again(
     const IslandState& state, const ContactProblem& problem, const PlanSolution& before,

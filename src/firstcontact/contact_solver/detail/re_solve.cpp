@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/re_solve.h>
 
 #include <algorithm>
 #include <cassert>
@@ -208,9 +208,9 @@ class Neighbourhood {
 
 }  // namespace
 
-ContactSolution project_again(const ContactProblem& problem, const ContactSolution& before,
-                              const std::vector<std::size_t>& changed,
-                              const ProjectionOptions& options) {
+ContactSolution re_solve(const ContactProblem& problem, const ContactSolution& before,
+                         const std::vector<std::size_t>& changed,
+                         const ProjectionOptions& options) {
   assert(problem.mechanisms.empty() && problem.drives.empty());
   Neighbourhood around(problem, before);
   around.balance(changed);

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/project_again.h>
+#include <firstcontact/contact_solver/detail/re_solve.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -78,11 +78,11 @@ double difference(const ContactBody& x, const ContactBody& y) {
   return (x.v - y.v).norm() + (x.w - y.w).norm();
 }
 
-TEST(ProjectAgain, LeavesAloneWhatIsNotReached) {
+TEST(ReSolve, LeavesAloneWhatIsNotReached) {
   Solved c;
   c.problem.contacts[0].least_normal_velocity = 0.05;
   const ContactSolution again =
-      project_again(c.problem, c.solution, {0}, {.tolerance = 1e-4, .sweeps = 100});
+      re_solve(c.problem, c.solution, {0}, {.tolerance = 1e-4, .sweeps = 100});
   EXPECT_GT(difference(again.bodies[1], c.solution.bodies[1]), 0.01);
   for (std::size_t b = 1 + kLevels; b < c.problem.bodies.size(); ++b) {
     EXPECT_EQ(again.bodies[b].v, c.solution.bodies[b].v) << b;
@@ -90,20 +90,20 @@ TEST(ProjectAgain, LeavesAloneWhatIsNotReached) {
   }
 }
 
-TEST(ProjectAgain, MeetsTheLawsOfTheWhole) {
+TEST(ReSolve, MeetsTheLawsOfTheWhole) {
   Solved c;
   for (const std::size_t k : {0u, 1u}) {
     c.problem.contacts[k].least_normal_velocity = 0.05;
   }
   const ContactSolution again =
-      project_again(c.problem, c.solution, {0, 1}, {.tolerance = 1e-9, .sweeps = 10000});
+      re_solve(c.problem, c.solution, {0, 1}, {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_LE(again.residual, 1e-7);
   EXPECT_NEAR(contact_residual(c.problem, again), again.residual, 1e-12);
   EXPECT_LE(imbalance(c.problem, again), 1e-12);
 }
 
 // What it pressed elsewhere before it does not press there any more.
-TEST(ProjectAgain, BalancesContactsThatMovedOrOpen) {
+TEST(ReSolve, BalancesContactsThatMovedOrOpen) {
   Solved c;
   ASSERT_LE(imbalance(c.problem, c.solution), 1e-12);
   c.problem.contacts[0].arm_A.x() += 0.2;
@@ -112,13 +112,13 @@ TEST(ProjectAgain, BalancesContactsThatMovedOrOpen) {
   c.problem.contacts[6].frame.row(0).swap(c.problem.contacts[6].frame.row(1));
   c.problem.contacts[6].frame.row(2) *= -1.0;
   const ContactSolution again =
-      project_again(c.problem, c.solution, {0, 5, 6}, {.tolerance = 1e-9, .sweeps = 10000});
+      re_solve(c.problem, c.solution, {0, 5, 6}, {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_EQ(again.impulses[5], Vector3d::Zero());
   EXPECT_LE(imbalance(c.problem, again), 1e-12);
   EXPECT_LE(again.residual, 1e-7);
 }
 
-TEST(ProjectAgain, TakesNewContactsAndBodies) {
+TEST(ReSolve, TakesNewContactsAndBodies) {
   Solved c;
   c.problem.bodies.emplace_back();  // Around the island, and coming.
   c.problem.bodies.back().v = {0.05, 0.0, 0.0};
@@ -128,19 +128,18 @@ TEST(ProjectAgain, TakesNewContactsAndBodies) {
   contact.frame << 1, 0, 0, 0, 1, 0, 0, 0, 1;
   contact.friction = 0.3;
   c.problem.contacts.push_back(contact);
-  const ContactSolution again = project_again(
-      c.problem, c.solution, {c.problem.contacts.size() - 1}, {.tolerance = 1e-9, .sweeps = 10000});
+  const ContactSolution again = re_solve(c.problem, c.solution, {c.problem.contacts.size() - 1},
+                                         {.tolerance = 1e-9, .sweeps = 10000});
   EXPECT_LE(again.residual, 1e-7);
   EXPECT_GT(again.bodies[kLevels].v.x(), 0.03);
   EXPECT_EQ(again.impulses.size(), c.problem.contacts.size());
 }
 
-TEST(ProjectAgain, StopsAfterSoManySweeps) {
+TEST(ReSolve, StopsAfterSoManySweeps) {
   Solved c;
   c.problem.contacts[0].least_normal_velocity = 0.05;
   const auto residual = [&](int sweeps) {
-    return project_again(c.problem, c.solution, {0}, {.tolerance = 1e-300, .sweeps = sweeps})
-        .residual;
+    return re_solve(c.problem, c.solution, {0}, {.tolerance = 1e-300, .sweeps = sweeps}).residual;
   };
   EXPECT_LT(residual(1), 0.05);  // As it was at first.
   EXPECT_LT(residual(100), 0.1 * residual(1));

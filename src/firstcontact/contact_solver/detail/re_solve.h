@@ -23,9 +23,8 @@ namespace firstcontact::detail {
 ///                 residual of contacts that did not change
 /// @param changed  contacts
 /// @returns  the residual is no less than that of any contact; what is allowed is as it was before
-[[nodiscard]] ContactSolution project_again(const ContactProblem& problem,
-                                            const ContactSolution& before,
-                                            const std::vector<std::size_t>& changed,
-                                            const ProjectionOptions& options);
+[[nodiscard]] ContactSolution re_solve(const ContactProblem& problem, const ContactSolution& before,
+                                       const std::vector<std::size_t>& changed,
+                                       const ProjectionOptions& options);
 
 }  // namespace firstcontact::detail
