@@ -49,7 +49,7 @@ std::optional<ContactBatches<Number>> ContactBatches<Number>::of(const ContactPr
     return std::nullopt;
   }
   const bool in_any_order = sizeof(Number) == 4 || problem.contacts.size() >= kVeryManyInOrder;
-  const std::optional<PairLanes> lanes = place_pairs(problem, kLanes<Number>, in_any_order);
+  const std::optional<GraphColouring> lanes = place_pairs(problem, kLanes<Number>, in_any_order);
   if (!lanes) {
     return std::nullopt;
   }
@@ -62,7 +62,7 @@ std::optional<ContactBatches<Number>> ContactBatches<Number>::of(const ContactPr
 
 template <class Number>
 void ContactBatches<Number>::take_lanes(const std::vector<ContactPoint>& contacts,
-                                        const PairLanes& lanes) {
+                                        const GraphColouring& lanes) {
   using Place = typename PairBatch<Number>::Place;
   const auto place_of_body = [](std::size_t body) {
     return static_cast<Place>(kNumbersOfBody * body);

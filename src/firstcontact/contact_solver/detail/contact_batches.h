@@ -14,7 +14,7 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/detail/graph_colouring.h>
 
 namespace firstcontact::detail {
 
@@ -113,7 +113,7 @@ class ContactBatches {
  private:
   ContactBatches(const ContactRows& rows, const BatchUnits& units) : rows_(&rows), units_(units) {}
 
-  void take_lanes(const std::vector<ContactPoint>& contacts, const PairLanes& lanes);
+  void take_lanes(const std::vector<ContactPoint>& contacts, const GraphColouring& lanes);
   void fill(const ContactProblem& problem);
   [[nodiscard]] Eigen::Index impulse_count() const {
     return static_cast<Eigen::Index>(3 * kLanes<Number> * batches_.size());

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/detail/graph_colouring.h>
 
 #include <algorithm>
 #include <array>
@@ -84,9 +84,9 @@ void for_each_pair(const std::vector<ContactPoint>& contacts, const Use& use) {
   }
 }
 
-PairLanes place_in_order(const ContactProblem& problem, std::size_t lanes) {
+GraphColouring place_in_order(const ContactProblem& problem, std::size_t lanes) {
   const std::vector<ContactPoint>& contacts = problem.contacts;
-  PairLanes placed;
+  GraphColouring placed;
   placed.places.resize(contacts.size());
   std::vector<std::size_t> next(problem.bodies.size(), 0);  // After the last batch of the body.
   FreeLanes free(lanes);
@@ -122,9 +122,9 @@ class BatchesOfBody {
 };
 
 /// Each in the first batch in which its bodies are not yet.
-PairLanes place_anyhow(const ContactProblem& problem, std::size_t lanes) {
+GraphColouring place_anyhow(const ContactProblem& problem, std::size_t lanes) {
   const std::vector<ContactPoint>& contacts = problem.contacts;
-  PairLanes placed;
+  GraphColouring placed;
   placed.places.resize(contacts.size());
   std::vector<BatchesOfBody> used(problem.bodies.size());
   FreeLanes free(lanes);
@@ -147,7 +147,7 @@ PairLanes place_anyhow(const ContactProblem& problem, std::size_t lanes) {
 
 }  // namespace
 
-double PairLanes::fill(std::size_t lanes) const {
+double GraphColouring::fill(std::size_t lanes) const {
   const std::size_t batches = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   return static_cast<double>(places.size()) / static_cast<double>(batches * lanes);
 }
@@ -161,9 +161,9 @@ std::size_t count_of_pair(const std::vector<ContactPoint>& contacts, std::size_t
   return count;
 }
 
-std::optional<PairLanes> place_pairs(const ContactProblem& problem, std::size_t lanes,
-                                     bool in_any_order) {
-  PairLanes placed = place_in_order(problem, lanes);
+std::optional<GraphColouring> place_pairs(const ContactProblem& problem, std::size_t lanes,
+                                          bool in_any_order) {
+  GraphColouring placed = place_in_order(problem, lanes);
   if (in_any_order && placed.fill(lanes) < kGoodFill) {
     placed = place_anyhow(problem, lanes);
   }

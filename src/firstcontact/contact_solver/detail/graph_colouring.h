@@ -18,7 +18,7 @@ struct PairPlace {
 };
 
 /// Pairs in lanes of batches: those of a batch share no moving body.
-struct PairLanes {
+struct GraphColouring {
   std::vector<PairPlace> places;    ///< Of the first contact of each pair.
   std::vector<std::size_t> counts;  ///< Of each batch: the most contacts that a pair has.
 
@@ -35,7 +35,7 @@ struct PairLanes {
 /// @param lanes         of a batch
 /// @param in_any_order  where chains of pairs would leave many lanes empty
 /// @returns nothing where most stay empty
-[[nodiscard]] std::optional<PairLanes> place_pairs(const ContactProblem& problem, std::size_t lanes,
-                                                   bool in_any_order);
+[[nodiscard]] std::optional<GraphColouring> place_pairs(const ContactProblem& problem,
+                                                        std::size_t lanes, bool in_any_order);
 
 }  // namespace firstcontact::detail

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/pair_lanes.h>
+#include <firstcontact/contact_solver/detail/graph_colouring.h>
 
 #include "contact_solver/wall_problem.h"
 
@@ -32,7 +32,7 @@ ContactProblem row_of_bodies(std::size_t count) {
 }
 
 /// No batch has two pairs in a lane, or a moving body twice.
-void expect_valid(const ContactProblem& problem, const PairLanes& placed) {
+void expect_valid(const ContactProblem& problem, const GraphColouring& placed) {
   std::set<std::pair<std::size_t, std::size_t>> lanes;
   std::set<std::pair<std::size_t, std::size_t>> bodies;
   for (std::size_t first = 0; first < problem.contacts.size();) {
@@ -51,10 +51,10 @@ void expect_valid(const ContactProblem& problem, const PairLanes& placed) {
   }
 }
 
-TEST(PairLanes, KeepTheOrderOfEachBodyAndLeaveFewLanesEmpty) {
+TEST(GraphColouring, KeepTheOrderOfEachBodyAndLeaveFewLanesEmpty) {
   std::mt19937 rng(5);
   const ContactProblem problem = wall(rng, 24, 24, 0.5);
-  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest, true);
+  const std::optional<GraphColouring> placed = place_pairs(problem, kLanesOfTest, true);
   ASSERT_TRUE(placed);
   expect_valid(problem, *placed);
   EXPECT_GE(placed->fill(kLanesOfTest), 0.8);
@@ -72,9 +72,9 @@ TEST(PairLanes, KeepTheOrderOfEachBodyAndLeaveFewLanesEmpty) {
 }
 
 // In their order each would wait for the one before.
-TEST(PairLanes, GiveUpTheOrderOfLongChains) {
+TEST(GraphColouring, GiveUpTheOrderOfLongChains) {
   const ContactProblem problem = row_of_bodies(601);
-  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest, true);
+  const std::optional<GraphColouring> placed = place_pairs(problem, kLanesOfTest, true);
   ASSERT_TRUE(placed);
   expect_valid(problem, *placed);
   EXPECT_GE(placed->fill(kLanesOfTest), 0.95);
@@ -82,7 +82,7 @@ TEST(PairLanes, GiveUpTheOrderOfLongChains) {
 }
 
 // In a time that grows with their number, whatever the order (0.4 ms for 4,000, once 2.6 s).
-TEST(PairLanes, AreFoundForOneBodyAmongVeryMany) {
+TEST(GraphColouring, AreFoundForOneBodyAmongVeryMany) {
   constexpr std::size_t kMany = 10'000;
   ContactProblem problem = row_of_bodies(kMany);
   for (std::size_t k = 1; k < kMany; ++k) {
@@ -91,12 +91,12 @@ TEST(PairLanes, AreFoundForOneBodyAmongVeryMany) {
   for (std::size_t k = 0; k + 2 < kMany; ++k) {
     problem.contacts.push_back({.bodies = {k, k + 2}});
   }
-  const std::optional<PairLanes> placed = place_pairs(problem, kLanesOfTest, true);
+  const std::optional<GraphColouring> placed = place_pairs(problem, kLanesOfTest, true);
   ASSERT_TRUE(placed);
   expect_valid(problem, *placed);
 }
 
-TEST(PairLanes, AreNotForOneBodyThatTouchesAll) {
+TEST(GraphColouring, AreNotForOneBodyThatTouchesAll) {
   ContactProblem problem = row_of_bodies(601);
   for (ContactPoint& contact : problem.contacts) {
     contact.bodies[0] = 600;
