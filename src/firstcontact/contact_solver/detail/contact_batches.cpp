@@ -196,8 +196,8 @@ void ContactBatches<Number>::take(const State& state, Projection& projection) co
 
 template <class Number>
 double ContactBatches<Number>::sweep(bool backwards, State& state) {
-  return units_.velocity * sweep_batches(pairs_, batches_, backwards, state.data(), sliding_.data(),
-                                         state.data() + impulse_count());
+  return units_.velocity * wide_gauss_seidel(pairs_, batches_, backwards, state.data(),
+                                             sliding_.data(), state.data() + impulse_count());
 }
 
 template class ContactBatches<double>;

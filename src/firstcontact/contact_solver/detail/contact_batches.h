@@ -64,12 +64,12 @@ struct PairBatch {
 /// @param sliding   alpha of each lane when it slid last; at first 0
 /// @param x         of each body eight numbers, the first six its kinetic coordinates
 /// @returns  the greatest change of a velocity
-double sweep_batches(const std::vector<PairBatch<double>>& pairs,
-                     const std::vector<ContactBatch<double>>& batches, bool backwards,
-                     double* impulses, double* sliding, double* x);
-float sweep_batches(const std::vector<PairBatch<float>>& pairs,
-                    const std::vector<ContactBatch<float>>& batches, bool backwards,
-                    float* impulses, float* sliding, float* x);
+double wide_gauss_seidel(const std::vector<PairBatch<double>>& pairs,
+                         const std::vector<ContactBatch<double>>& batches, bool backwards,
+                         double* impulses, double* sliding, double* x);
+float wide_gauss_seidel(const std::vector<PairBatch<float>>& pairs,
+                        const std::vector<ContactBatch<float>>& batches, bool backwards,
+                        float* impulses, float* sliding, float* x);
 
 /// The units of which the numbers of batches are multiples.
 ///

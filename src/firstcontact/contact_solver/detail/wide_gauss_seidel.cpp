@@ -1,7 +1,7 @@
 #include <firstcontact/contact_solver/detail/contact_batches.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "firstcontact/contact_solver/detail/sweep_batches.cpp"
+#define HWY_TARGET_INCLUDE "firstcontact/contact_solver/detail/wide_gauss_seidel.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -323,16 +323,16 @@ HWY_EXPORT(SweepFloats);
 
 }  // namespace
 
-double sweep_batches(const std::vector<PairBatch<double>>& pairs,
-                     const std::vector<ContactBatch<double>>& batches, bool backwards,
-                     double* impulses, double* sliding, double* x) {
+double wide_gauss_seidel(const std::vector<PairBatch<double>>& pairs,
+                         const std::vector<ContactBatch<double>>& batches, bool backwards,
+                         double* impulses, double* sliding, double* x) {
   return HWY_DYNAMIC_DISPATCH(SweepDoubles)(pairs.data(), pairs.size(), batches.data(), backwards,
                                             impulses, sliding, x);
 }
 
-float sweep_batches(const std::vector<PairBatch<float>>& pairs,
-                    const std::vector<ContactBatch<float>>& batches, bool backwards,
-                    float* impulses, float* sliding, float* x) {
+float wide_gauss_seidel(const std::vector<PairBatch<float>>& pairs,
+                        const std::vector<ContactBatch<float>>& batches, bool backwards,
+                        float* impulses, float* sliding, float* x) {
   return HWY_DYNAMIC_DISPATCH(SweepFloats)(pairs.data(), pairs.size(), batches.data(), backwards,
                                            impulses, sliding, x);
 }
