@@ -10,8 +10,8 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 #include "contact_solver/wall_problem.h"
 
@@ -23,7 +23,7 @@ using test::nothing;
 using test::wall;
 using test::wall_with_heavy_top;
 
-TEST(InteriorPoint, IsTheSameAsContactSpaceWithoutFriction) {
+TEST(InteriorPoint, IsTheSameAsGaussSeidelWithoutFriction) {
   std::mt19937 rng(1);
   const ContactProblem problem = wall(rng, 6, 6, 0.0);
   const detail::ContactRows rows(problem);
@@ -31,7 +31,7 @@ TEST(InteriorPoint, IsTheSameAsContactSpaceWithoutFriction) {
   detail::project_by_interior_point(problem, rows, {.tolerance = 1e-7}, inner);
   EXPECT_LE(inner.residual, 1e-7);
   detail::Projection swept = nothing(problem, rows);
-  detail::project_in_contact_space(problem, rows, {.tolerance = 1e-8, .sweeps = 100000}, swept);
+  detail::project_by_gauss_seidel(problem, rows, {.tolerance = 1e-8, .sweeps = 100000}, swept);
   ASSERT_LE(swept.residual, 1e-8);
   EXPECT_TRUE(inner.velocities.allFinite());
   EXPECT_TRUE(swept.velocities.allFinite());
@@ -104,7 +104,7 @@ TEST(ProjectOnContacts, LeavesWhatIsEnough) {
   EXPECT_LT(found.residual, left.residual);
 }
 
-TEST(ProjectOnContacts, SolvesWallsInMotionSpace) {
+TEST(ProjectOnContacts, SolvesWallsByAugmentedLagrangian) {
   std::mt19937 rng(3);
   const ContactProblem problem = wall(rng, 10, 12, 0.5);
   const ContactSolution solution = project_on_contacts(problem, {.tolerance = 1e-6});

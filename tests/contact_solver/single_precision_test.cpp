@@ -9,7 +9,7 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/contact_space.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 #include "contact_solver/wall_problem.h"
 
@@ -127,8 +127,8 @@ TEST(SinglePrecision, NeverEndsWorseThanItBegan) {
     projection.residual =
         detail::greatest_residual(rows, projection.impulses, projection.velocities);
     const double before = projection.residual;
-    detail::project_in_contact_space(problem, rows, {.tolerance = tolerance, .sweeps = 50},
-                                     projection);
+    detail::project_by_gauss_seidel(problem, rows, {.tolerance = tolerance, .sweeps = 50},
+                                    projection);
     EXPECT_LE(projection.residual, before) << tolerance;
   }
 }

@@ -6,12 +6,12 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/detail/active_set.h>
+#include <firstcontact/contact_solver/detail/augmented_lagrangian.h>
 #include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
 #include <firstcontact/contact_solver/detail/interior_point.h>
-#include <firstcontact/contact_solver/detail/motion_space.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 namespace firstcontact {
 namespace {
@@ -117,7 +117,7 @@ class Solver {
     }
     const std::size_t moving = moving_velocities(problem);
     const std::size_t contacts = rows_.contacts.size();
-    is_small_ = moving <= detail::kMostInMotionSpace;
+    is_small_ = moving <= detail::kMostForAugmentedLagrangian;
     are_redundant_ = 6 * contacts >= detail::kManyContactsOfBody * moving;
     are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= detail::kManyRedundant;
     has_interior_ =
@@ -165,9 +165,9 @@ class Solver {
     }
     ProjectionOptions sweeping = options_;
     if (is_automatic_ && is_small_) {
-      sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeMotionSpace);
+      sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeAugmentedLagrangian);
     }
-    detail::project_in_contact_space(problem_, rows_, sweeping, projection_);
+    detail::project_by_gauss_seidel(problem_, rows_, sweeping, projection_);
     return !is_automatic_ || is_solved(projection_) || !is_small_;
   }
 
@@ -179,14 +179,14 @@ class Solver {
       if (are_redundant_) {
         sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsOfRedundant);
       } else if (!(options_.enough > 0.0)) {
-        sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeMotionSpace);
+        sweeping.sweeps = std::min(options_.sweeps, detail::kSweepsBeforeAugmentedLagrangian);
       }
-      detail::project_in_contact_space(problem_, rows_, sweeping, inner);
+      detail::project_by_gauss_seidel(problem_, rows_, sweeping, inner);
       if (is_solved(inner) && !are_redundant_) {
         sweeping.sweeps = detail::kExtraSweeps;
         sweeping.tolerance = detail::kExtraTolerance * options_.tolerance;
         Projection more = inner;
-        detail::project_in_contact_space(problem_, rows_, sweeping, more);
+        detail::project_by_gauss_seidel(problem_, rows_, sweeping, more);
         more.iterations += inner.iterations;
         if (more.residual < inner.residual) {
           inner = std::move(more);
@@ -209,7 +209,7 @@ class Solver {
 
   ContactSolution by_multipliers() {
     const Projection before = projection_;
-    detail::project_in_motion_space(problem_, rows_, options_, projection_);
+    detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
     return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
                                                   : solution(projection_, ProjectionSpace::motion);
   }

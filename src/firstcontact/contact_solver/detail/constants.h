@@ -12,10 +12,10 @@ namespace firstcontact::detail {
 
 /// [velocities]  Larger problems are only swept: factorisations grow with more than the number of
 /// velocities. Sweeps of such problems may stop far from an answer, but take less memory.
-inline constexpr std::size_t kMostInMotionSpace = 6000;
+inline constexpr std::size_t kMostForAugmentedLagrangian = 6000;
 /// [sweeps]  What sweeps do not do in so many, motion space does better, unless they may leave
 /// something...
-inline constexpr int kSweepsBeforeMotionSpace = 100;
+inline constexpr int kSweepsBeforeAugmentedLagrangian = 100;
 /// [sweeps]  ... and in so many where contacts are many for each body.
 inline constexpr int kSweepsOfRedundant = 30;
 /// [sweeps]  Then there are so many more, [-] to this part of the tolerance: what is left would add

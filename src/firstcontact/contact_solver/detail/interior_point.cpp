@@ -9,8 +9,8 @@
 
 #include <firstcontact/contact_solver/detail/block_cholesky.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/contact_space.h>
 #include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -131,8 +131,8 @@ class InteriorPoint {
       Projection swept{.impulses = impulses()};
       swept.velocities = velocities_after(rows_, swept.impulses);
       swept.residual = greatest_residual(rows_, swept.impulses, swept.velocities);
-      project_in_contact_space(problem_, rows_, {.tolerance = options.tolerance, .sweeps = kSweeps},
-                               swept);
+      project_by_gauss_seidel(problem_, rows_, {.tolerance = options.tolerance, .sweeps = kSweeps},
+                              swept);
       V = swept.velocities;
       const double residual = swept.residual;
       if (residual < projection.residual) {

@@ -15,7 +15,7 @@ namespace firstcontact::detail {
 ///
 /// @param rows        of the problem
 /// @param projection  where to start from; afterwards what the last sweep left
-void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
-                              const ProjectionOptions& options, Projection& projection);
+void project_by_gauss_seidel(const ContactProblem& problem, const ContactRows& rows,
+                             const ProjectionOptions& options, Projection& projection);
 
 }  // namespace firstcontact::detail

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/contact_space.h>
+#include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -183,8 +183,8 @@ double told_by_single_precision(const ContactRows& rows, const BatchUnits& units
 
 }  // namespace
 
-void project_in_contact_space(const ContactProblem& problem, const ContactRows& rows,
-                              const ProjectionOptions& options, Projection& projection) {
+void project_by_gauss_seidel(const ContactProblem& problem, const ContactRows& rows,
+                             const ProjectionOptions& options, Projection& projection) {
   const BatchUnits units = units_of(rows);
   if (are_alike(rows, units) &&
       told_by_single_precision(rows, units, projection) <= options.tolerance) {

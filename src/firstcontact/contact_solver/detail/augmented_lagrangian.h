@@ -15,7 +15,7 @@ namespace firstcontact::detail {
 ///
 /// @param rows        of the problem
 /// @param projection  where to start from; afterwards nearer to the laws, if it changed
-void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
-                             const ProjectionOptions& options, Projection& projection);
+void project_by_augmented_lagrangian(const ContactProblem& problem, const ContactRows& rows,
+                                     const ProjectionOptions& options, Projection& projection);
 
 }  // namespace firstcontact::detail

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/motion_space.h>
+#include <firstcontact/contact_solver/detail/augmented_lagrangian.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,8 +171,8 @@ double greatest_response(const ContactRows& rows) {
 
 }  // namespace
 
-void project_in_motion_space(const ContactProblem& problem, const ContactRows& rows,
-                             const ProjectionOptions& options, Projection& projection) {
+void project_by_augmented_lagrangian(const ContactProblem& problem, const ContactRows& rows,
+                                     const ProjectionOptions& options, Projection& projection) {
   KineticCoordinates coordinates(problem, rows);
   auto hessian = coordinates.factorisation();
   const Lagrangian lagrangian(coordinates, rows);
