@@ -11,7 +11,7 @@
 #include <firstcontact/contact_solver/detail/block_cholesky.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
-#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -34,7 +34,7 @@ constexpr double kPartOfTolerance = 1e-3;
 /// The augmented Lagrangian over kinetic coordinates x.
 class Lagrangian {
  public:
-  Lagrangian(const KineticCoordinates& coordinates, const ContactRows& rows)
+  Lagrangian(const MassWhitenedCoordinates& coordinates, const ContactRows& rows)
       : rows_(rows), contacts_(coordinates.contacts()), drives_(coordinates.drives()) {
     for (const ContactRow& row : rows.contacts) {
       u_free_.push_back(row.excess_velocity(rows.free_velocities));
@@ -173,7 +173,7 @@ double greatest_response(const ContactRows& rows) {
 
 void project_by_augmented_lagrangian(const ContactProblem& problem, const ContactRows& rows,
                                      const ProjectionOptions& options, Projection& projection) {
-  KineticCoordinates coordinates(problem, rows);
+  MassWhitenedCoordinates coordinates(problem, rows);
   auto hessian = coordinates.factorisation();
   const Lagrangian lagrangian(coordinates, rows);
   Lagrangian::Round round;

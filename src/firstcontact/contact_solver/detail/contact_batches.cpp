@@ -5,7 +5,7 @@
 
 #include <firstcontact/contact_solver/detail/constants.h>
 #include <firstcontact/contact_solver/detail/coulomb_cone.h>
-#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
 
 namespace firstcontact::detail {
 namespace {

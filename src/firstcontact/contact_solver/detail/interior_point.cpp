@@ -9,7 +9,7 @@
 
 #include <firstcontact/contact_solver/detail/block_cholesky.h>
 #include <firstcontact/contact_solver/detail/contact_rows.h>
-#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
 #include <firstcontact/contact_solver/detail/projected_gauss_seidel.h>
 
 namespace firstcontact::detail {
@@ -354,7 +354,7 @@ class InteriorPoint {
 
   const ContactProblem& problem_;
   const ContactRows& rows_;
-  KineticCoordinates coordinates_;
+  MassWhitenedCoordinates coordinates_;
   BlockCholesky matrix_;
   double least_complementarity_ = 0.0;  // [J]
   VectorXd x_;

@@ -20,10 +20,10 @@ namespace firstcontact::detail {
 
 /// x with V = V_free + S x for each body and mechanism, S S^T = M^-1: |V - V_free|_M = |x|, and
 /// bodies that nothing moves fall out.
-class KineticCoordinates {
+class MassWhitenedCoordinates {
  public:
   /// @param rows  of the problem
-  KineticCoordinates(const ContactProblem& problem, const ContactRows& rows);
+  MassWhitenedCoordinates(const ContactProblem& problem, const ContactRows& rows);
 
   [[nodiscard]] Eigen::Index size() const { return size_; }
   [[nodiscard]] const BlockRows<3>& contacts() const { return contacts_; }

@@ -1,4 +1,4 @@
-#include <firstcontact/contact_solver/detail/kinetic_coordinates.h>
+#include <firstcontact/contact_solver/detail/mass_whitened_coordinates.h>
 
 #include <array>
 #include <utility>
@@ -35,7 +35,8 @@ Eigen::Matrix<double, 6, 6> square_root(const InverseInertia& inverse) {
   return S;
 }
 
-KineticCoordinates::KineticCoordinates(const ContactProblem& problem, const ContactRows& rows)
+MassWhitenedCoordinates::MassWhitenedCoordinates(const ContactProblem& problem,
+                                                 const ContactRows& rows)
     : part_at_(static_cast<std::size_t>(rows.layout.size), kNone) {
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     if (is_movable(problem.bodies[b])) {
@@ -58,19 +59,19 @@ KineticCoordinates::KineticCoordinates(const ContactProblem& problem, const Cont
   }
 }
 
-void KineticCoordinates::add_part(Index in_V, MatrixXd root) {
+void MassWhitenedCoordinates::add_part(Index in_V, MatrixXd root) {
   part_at_[static_cast<std::size_t>(in_V)] = parts_.size();
   parts_.push_back({in_V, size_, std::move(root)});
   size_ += parts_.back().root.cols();
 }
 
 /// Null of what nothing moves.
-const KineticCoordinates::Part* KineticCoordinates::part_of(Index in_V) const {
+const MassWhitenedCoordinates::Part* MassWhitenedCoordinates::part_of(Index in_V) const {
   const std::size_t part = part_at_[static_cast<std::size_t>(in_V)];
   return part == kNone ? nullptr : &parts_[part];
 }
 
-void KineticCoordinates::add_side(const RowSide& side) {
+void MassWhitenedCoordinates::add_side(const RowSide& side) {
   const Part* part = part_of(side.at);
   const bool is_there = side.J_q.any() || side.J.any();  // Two links may be one side.
   if (part != nullptr && is_there) {
@@ -79,7 +80,7 @@ void KineticCoordinates::add_side(const RowSide& side) {
   }
 }
 
-VectorXd KineticCoordinates::moved_by(const Impulses& impulses) const {
+VectorXd MassWhitenedCoordinates::moved_by(const Impulses& impulses) const {
   VectorXd x = VectorXd::Zero(size_);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
     contacts_.add_transposed(k, impulses.contacts[k], x);
@@ -90,14 +91,14 @@ VectorXd KineticCoordinates::moved_by(const Impulses& impulses) const {
   return x;
 }
 
-BlockCholesky KineticCoordinates::factorisation() {
+BlockCholesky MassWhitenedCoordinates::factorisation() {
   BlockCholesky matrix(static_cast<std::size_t>(size_ / 6), connected_blocks());
   contacts_.find_places(matrix);
   drives_.find_places(matrix);
   return matrix;
 }
 
-std::vector<std::array<std::size_t, 2>> KineticCoordinates::connected_blocks() const {
+std::vector<std::array<std::size_t, 2>> MassWhitenedCoordinates::connected_blocks() const {
   std::vector<std::array<std::size_t, 2>> pairs;
   contacts_.list_pairs(pairs);
   drives_.list_pairs(pairs);
