@@ -9,7 +9,7 @@
 
 #include <firstcontact/narrowphase/detail/elementary_search.h>
 #include <firstcontact/narrowphase/detail/gap_bounds.h>
-#include <firstcontact/narrowphase/detail/seen_vector.h>
+#include <firstcontact/narrowphase/detail/vector_in_a.h>
 
 namespace firstcontact {
 namespace {
@@ -149,8 +149,8 @@ class TwoEdges {
   Vector3d u_;
   Vector3d lever_B_;
   Vector3d start_v_;
-  detail::SeenVector path_c_;
-  detail::SeenVector path_v_;
+  detail::VectorInA path_c_;
+  detail::VectorInA path_v_;
 
   double uu_;
   double vv_;
@@ -161,8 +161,8 @@ class TwoEdges {
   detail::GapBounds gap_;
   double speed_bound_ = 0.0;  // From coplanarity_bounds().
 
-  detail::SeenVector::State seen_c_;
-  detail::SeenVector::State seen_v_;
+  detail::VectorInA::State seen_c_;
+  detail::VectorInA::State seen_v_;
   Vector3d e_;
   Vector3d v_;
   Vector3d normal_;

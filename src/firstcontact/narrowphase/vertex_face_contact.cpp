@@ -9,7 +9,7 @@
 
 #include <firstcontact/narrowphase/detail/elementary_search.h>
 #include <firstcontact/narrowphase/detail/gap_bounds.h>
-#include <firstcontact/narrowphase/detail/seen_vector.h>
+#include <firstcontact/narrowphase/detail/vector_in_a.h>
 
 namespace firstcontact {
 namespace {
@@ -154,7 +154,7 @@ class VertexAndFace {
   }
 
   const ElementaryMotion& motion_;
-  detail::SeenVector path_;
+  detail::VectorInA path_;
   double circle_B_;
   Vector3d corner_;
   Vector3d edge_1_;
@@ -174,7 +174,7 @@ class VertexAndFace {
   std::array<Lanes, 3> inward_lanes_;
   double speed_bound_ = 0.0;  // From coplanarity_bounds().
 
-  detail::SeenVector::State seen_;
+  detail::VectorInA::State seen_;
   Vector3d p_;
   Vector3d axis_B_;
 };

@@ -34,7 +34,7 @@ struct Turns {
 
 /// A vector of body B: a point's position from A's pivot, or the difference of two points,
 ///   v(tau) = constant + tau drift + cos(rate_B tau) cosine + sin(rate_B tau) sine.
-struct SeenVector {
+struct VectorInA {
   Eigen::Vector3d constant;
   Eigen::Vector3d drift;
   Eigen::Vector3d cosine;
@@ -55,20 +55,20 @@ struct SeenVector {
 };
 
 /// The rate of a vector in A, whose z axis turns at the rate w: p' = rate - w z x p.
-inline Eigen::Vector3d relative_rate(const SeenVector::State& p, double w) {
+inline Eigen::Vector3d relative_rate(const VectorInA::State& p, double w) {
   return {p.rate.x() + w * p.value.y(), p.rate.y() - w * p.value.x(), p.rate.z()};
 }
 
 /// @param v  of body B, at the start of the piece
-inline SeenVector seen_vector(const ElementaryMotion& motion, const Eigen::Vector3d& v) {
+inline VectorInA seen_vector(const ElementaryMotion& motion, const Eigen::Vector3d& v) {
   const Eigen::Vector3d& u = motion.axis_B;
   const Eigen::Vector3d along = u.dot(v) * u;
   return {along, Eigen::Vector3d::Zero(), v - along, u.cross(v)};
 }
 
 /// @param lever  of a point of B, at the start of the piece
-inline SeenVector seen_point(const ElementaryMotion& motion, const Eigen::Vector3d& lever) {
-  SeenVector seen = seen_vector(motion, lever);
+inline VectorInA seen_point(const ElementaryMotion& motion, const Eigen::Vector3d& lever) {
+  VectorInA seen = seen_vector(motion, lever);
   seen.constant += motion.offset;
   seen.drift = motion.drift;
   return seen;
