@@ -14,7 +14,7 @@
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/robot/precise_transform.h>
 #include <firstcontact/robot_check/detail/swept_part.h>
-#include <firstcontact/robot_check/detail/tree_course.h>
+#include <firstcontact/robot_check/detail/tree_poses.h>
 
 #include "robot/chain_case.h"
 #include "support/convex_distance.h"
@@ -100,7 +100,7 @@ class Followed {
   Followed(const Shape& shape, const ChainCase& chain, const TimeWindow& window)
       : part_(part_of(shape)),
         course_(nodes_of(chain.motion, 0.5 * (window.begin + window.end)), {window}),
-        track_(part_, mount_on_tip(chain.motion.model()), detail::TreeCourse::kWorld) {
+        track_(part_, mount_on_tip(chain.motion.model()), detail::TreePoses::kWorld) {
     const auto place = [&](int k) { return track_.place(k); };
     swept_ = track_.sweep(window, place(0), place(detail::TimeGrid::kMiddle),
                           place(detail::GridWindow::kSize));
@@ -110,8 +110,8 @@ class Followed {
   Followed(const Shape& shape, const Vector3d& p_WB)
       : part_(part_of(shape)),
         path_(JointPath::rigid(precise(Pose{p_WB, Eigen::Quaterniond::Identity()}))),
-        course_({{detail::TreeCourse::kWorld, &path_}}, {{0.0, 1.0}}),
-        track_(part_, detail::PartMount(part_, course_), detail::TreeCourse::kWorld),
+        course_({{detail::TreePoses::kWorld, &path_}}, {{0.0, 1.0}}),
+        track_(part_, detail::PartMount(part_, course_), detail::TreePoses::kWorld),
         swept_(track_.rest()) {}
 
   Followed(const Followed&) = delete;
@@ -120,9 +120,9 @@ class Followed {
   [[nodiscard]] const SweptPart& swept() const { return swept_; }
 
  private:
-  static std::vector<detail::TreeCourse::Node> nodes_of(const RobotMotion& motion, double t) {
-    std::vector<detail::TreeCourse::Node> nodes = {
-        {detail::TreeCourse::kWorld, &motion.base_path(t)}};
+  static std::vector<detail::TreePoses::Node> nodes_of(const RobotMotion& motion, double t) {
+    std::vector<detail::TreePoses::Node> nodes = {
+        {detail::TreePoses::kWorld, &motion.base_path(t)}};
     const RobotModel& model = motion.model();
     for (const std::size_t joint : model.chain(model.root(), model.links().size() - 1)) {
       if (const JointPath* path = motion.joint_path(joint, t)) {
@@ -140,7 +140,7 @@ class Followed {
 
   detail::Part part_;
   JointPath path_ = JointPath::rigid({});
-  detail::TreeCourse course_;
+  detail::TreePoses course_;
   detail::PartTrack track_;
   SweptPart swept_;
 };
@@ -205,21 +205,21 @@ TEST(SweptPart, LinksAreSeenFromTheOneThatCarriesThem) {
     const double middle = grid.at(detail::TimeGrid::kMiddle);
     const Shape shape = some_hull(random);
     const detail::Part part = part_of(shape);
-    std::vector<detail::TreeCourse::Node> nodes = {
-        {detail::TreeCourse::kWorld, &motion.base_path(middle)}};
+    std::vector<detail::TreePoses::Node> nodes = {
+        {detail::TreePoses::kWorld, &motion.base_path(middle)}};
     for (const std::size_t joint :
          motion.model().chain(motion.model().root(), motion.model().links().size() - 1)) {
       if (const JointPath* path = motion.joint_path(joint, middle)) {
         nodes.push_back({nodes.size() - 1, path});
       }
     }
-    detail::TreeCourse course(nodes, grid);
+    detail::TreePoses course(nodes, grid);
     const JointPath none = JointPath::rigid({});
     const std::size_t last = course.size() - 1;
     const detail::PartTrack carried(part, {part, course, last, none}, last);
     ASSERT_TRUE(carried.rests()) << seed;
     const detail::PartTrack in_frame(part, {part, course, last, none}, course.parent(last));
-    const detail::PartTrack in_world(part, {part, course, last, none}, detail::TreeCourse::kWorld);
+    const detail::PartTrack in_world(part, {part, course, last, none}, detail::TreePoses::kWorld);
     for (const int k : {0, 5, detail::GridWindow::kSize}) {
       const detail::FramePlace& F = course.place(course.parent(last), k);
       const detail::PartPlace near = in_frame.place(k);

@@ -233,11 +233,11 @@ class Search {
     return rests ? std::nullopt : std::optional(RobotLink{link->robot, frame});
   }
 
-  TreeCourse& robot(std::size_t index) {
-    std::optional<TreeCourse>& course = robots_[index];
+  TreePoses& robot(std::size_t index) {
+    std::optional<TreePoses>& course = robots_[index];
     if (!course) {
       const RobotMotion& motion = timeline_.scene().robot_motion(index);
-      std::vector<TreeCourse::Node> nodes = {{TreeCourse::kWorld, &motion.base_path(middle_)}};
+      std::vector<TreePoses::Node> nodes = {{TreePoses::kWorld, &motion.base_path(middle_)}};
       for (const auto& [parent, joint] : std::span(trees_[index].nodes).subspan(1)) {
         nodes.push_back({parent, motion.joint_path(joint, middle_)});
       }
@@ -252,14 +252,14 @@ class Search {
       return {timeline_.parts()[part], robot(link->robot),
               trees_[link->robot].node_of_link[link->link], *path};
     }
-    bodies_.emplace_back(std::vector<TreeCourse::Node>{{TreeCourse::kWorld, path}}, grid_);
+    bodies_.emplace_back(std::vector<TreePoses::Node>{{TreePoses::kWorld, path}}, grid_);
     return {timeline_.parts()[part], bodies_.back()};
   }
 
   std::size_t place(std::size_t part, const std::optional<RobotLink>& frame) {
     placed_.emplace_back(
         timeline_.parts()[part], mount(part),
-        frame ? trees_[frame->robot].node_of_link[frame->link] : TreeCourse::kWorld, grid_,
+        frame ? trees_[frame->robot].node_of_link[frame->link] : TreePoses::kWorld, grid_,
         has_tracking_errors_ ? std::optional(timeline_.path(part, middle_, frame)) : std::nullopt);
     return placed_.size() - 1;
   }
@@ -313,8 +313,8 @@ class Search {
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
   const std::vector<std::optional<SweptPart>>& resting_;
-  std::vector<std::optional<TreeCourse>> robots_;
-  std::deque<TreeCourse> bodies_;
+  std::vector<std::optional<TreePoses>> robots_;
+  std::deque<TreePoses> bodies_;
   std::deque<PlacedPart> placed_;
   std::vector<std::optional<std::size_t>> in_world_;  // Of each part, where placed.
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
@@ -350,8 +350,8 @@ CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
   for (std::size_t k = 0; k < resting_.size(); ++k) {
     const Part& part = timeline.parts()[k];
     if (part.rests) {
-      TreeCourse course({{TreeCourse::kWorld, timeline.seat_of(k, 0.5).path}}, step);
-      resting_[k] = PartTrack(part, PartMount(part, course), TreeCourse::kWorld).rest();
+      TreePoses course({{TreePoses::kWorld, timeline.seat_of(k, 0.5).path}}, step);
+      resting_[k] = PartTrack(part, PartMount(part, course), TreePoses::kWorld).rest();
     }
   }
 }

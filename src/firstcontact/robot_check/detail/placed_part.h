@@ -13,7 +13,7 @@
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/robot_check/detail/swept_part.h>
 #include <firstcontact/robot_check/detail/time_grid.h>
-#include <firstcontact/robot_check/detail/tree_course.h>
+#include <firstcontact/robot_check/detail/tree_poses.h>
 
 namespace firstcontact::detail {
 

@@ -266,7 +266,7 @@ PartPath RobotTimeline::path(std::size_t part, double t,
   return path(seat(part, t), t, frame ? std::optional(frame->link) : std::nullopt);
 }
 
-PartSeat RobotTimeline::seat_of(std::size_t part, double t) const {
+PartCarrier RobotTimeline::seat_of(std::size_t part, double t) const {
   const Seat& at = seat(part, t);
   return {at.link, at.link ? at.X_LS.get() : at.pieces[at.piece(t)].get()};
 }

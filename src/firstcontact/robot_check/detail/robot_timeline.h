@@ -48,7 +48,7 @@ struct PartPath {
 };
 
 /// The seat of a part over a piece of time: a link, or its own path in the world.
-struct PartSeat {
+struct PartCarrier {
   std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
   const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
 };
@@ -94,7 +94,7 @@ class RobotTimeline {
                               const std::optional<RobotLink>& frame) const;
 
   /// Over the piece around t; valid as long as this, and the motions.
-  [[nodiscard]] PartSeat seat_of(std::size_t part, double t) const;
+  [[nodiscard]] PartCarrier seat_of(std::size_t part, double t) const;
 
   /// @param a, b  parts
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;

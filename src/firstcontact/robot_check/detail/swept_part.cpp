@@ -46,7 +46,7 @@ double thickness(const SweptPart& A, const SweptPart& B, double error) {
 
 }  // namespace
 
-PartMount::PartMount(const Part& part, TreeCourse& given_course, std::size_t given_node,
+PartMount::PartMount(const Part& part, TreePoses& given_course, std::size_t given_node,
                      const JointPath& X_LS)
     : course(&given_course), node(given_node) {
   const JointState& rest = *X_LS.rest();
@@ -56,7 +56,7 @@ PartMount::PartMount(const Part& part, TreeCourse& given_course, std::size_t giv
   far = (p_LS.norm() + part.box.centre.norm() + part.box.reach()) * kUp;
 }
 
-PartMount::PartMount(const Part& part, TreeCourse& given_course)
+PartMount::PartMount(const Part& part, TreePoses& given_course)
     : course(&given_course),
       p_LC(part.box.centre),
       far((part.box.centre.norm() + part.box.reach()) * kUp) {}
@@ -75,7 +75,7 @@ PartPlace PartTrack::place(int k) const {
       (L.position_error + L.rounding + (L.rotation_error + 2.0 * kRotationStep) * mount_.far +
        part_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
       kUp;
-  if (frame_ != TreeCourse::kWorld) {
+  if (frame_ != TreePoses::kWorld) {
     const FramePlace& F = mount_.course->place(frame_, k);
     const Vector3d arm = place.centre - F.p;
     const double size = place.centre.norm() + F.p.norm() + mount_.far;

@@ -11,7 +11,7 @@
 #include <firstcontact/motion/time_window.h>
 #include <firstcontact/robot/link_path.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
-#include <firstcontact/robot_check/detail/tree_course.h>
+#include <firstcontact/robot_check/detail/tree_poses.h>
 
 namespace firstcontact::detail {
 
@@ -38,17 +38,17 @@ struct SweptPart {
 
 /// Where a part is fixed to a node of a course.
 struct PartMount {
-  TreeCourse* course = nullptr;
+  TreePoses* course = nullptr;
   std::size_t node = 0;
   Eigen::Matrix3d R_LS = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  ///< [m]  The centre of the part's box.
   double far = 0.0;  ///< [m]  No point is farther from the node's origin, nor was in between.
 
   /// @param X_LS  rests
-  PartMount(const Part& part, TreeCourse& course, std::size_t node, const JointPath& X_LS);
+  PartMount(const Part& part, TreePoses& course, std::size_t node, const JointPath& X_LS);
 
   /// Mounts a part that is a node of its own.
-  PartMount(const Part& part, TreeCourse& course);
+  PartMount(const Part& part, TreePoses& course);
 };
 
 /// How a part moves over a piece of time, in a frame F: a node that carries it, or the world.

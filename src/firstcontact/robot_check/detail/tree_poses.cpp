@@ -1,4 +1,4 @@
-#include <firstcontact/robot_check/detail/tree_course.h>
+#include <firstcontact/robot_check/detail/tree_poses.h>
 
 #include <algorithm>
 #include <cassert>
@@ -34,7 +34,7 @@ FramePlace pass(const FramePlace& parent, const JointState& joint) {
 
 }  // namespace
 
-TreeCourse::TreeCourse(const std::vector<Node>& nodes, const TimeGrid& grid) : grid_(grid) {
+TreePoses::TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid) : grid_(grid) {
   joints_.reserve(nodes.size());
   for (const Node& node : nodes) {
     assert(node.parent == kWorld || node.parent < joints_.size());
@@ -44,7 +44,7 @@ TreeCourse::TreeCourse(const std::vector<Node>& nodes, const TimeGrid& grid) : g
   }
 }
 
-const FramePlace& TreeCourse::place(std::size_t node, int k) {
+const FramePlace& TreePoses::place(std::size_t node, int k) {
   const std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
   if (places.empty()) {
     place_all(k);
@@ -52,7 +52,7 @@ const FramePlace& TreeCourse::place(std::size_t node, int k) {
   return places[node];
 }
 
-void TreeCourse::place_all(int k) {
+void TreePoses::place_all(int k) {
   const FramePlace world;
   const double t = grid_.at(k);
   std::vector<FramePlace>& places = places_[static_cast<std::size_t>(k)];
@@ -67,15 +67,15 @@ void TreeCourse::place_all(int k) {
   }
 }
 
-void TreeCourse::add_lever(const FramePlace& parent, const JointState& state,
-                           const JointPath& path) {
+void TreePoses::add_lever(const FramePlace& parent, const JointState& state,
+                          const JointPath& path) {
   const Vector3d step = state.p_PQ.value();
   levers_.push_back({parent.p + parent.R * step, parent.R * state.axis, step.norm(),
                      state.p_QL.norm(), path.bounds(grid_.piece.begin, grid_.piece.end)});
 }
 
-CoordinateSegment::Bounds TreeCourse::bounds(std::size_t node, const Vector3d& p_LC, double reach,
-                                             std::size_t frame) {
+CoordinateSegment::Bounds TreePoses::bounds(std::size_t node, const Vector3d& p_LC, double reach,
+                                            std::size_t frame) {
   const double middle = grid_.at(TimeGrid::kMiddle);
   const double T = std::max(grid_.piece.end - middle, middle - grid_.piece.begin) * kUp;
   const FramePlace& L = place(node, TimeGrid::kMiddle);

@@ -29,7 +29,7 @@ struct FramePlace {
 /// A robot, or a body that moves on its own: the links that joints move against each other. What
 /// ChainMemory knows of one chain after the other, without velocities, for all links at once: cheap
 /// where most of them are asked about.
-class TreeCourse {
+class TreePoses {
  public:
   static constexpr std::size_t kWorld = std::numeric_limits<std::size_t>::max();
 
@@ -38,7 +38,7 @@ class TreeCourse {
     const JointPath* path = nullptr;  ///< From the parent; smooth in the piece.
   };
 
-  TreeCourse(const std::vector<Node>& nodes, const TimeGrid& grid);
+  TreePoses(const std::vector<Node>& nodes, const TimeGrid& grid);
 
   [[nodiscard]] std::size_t size() const { return joints_.size(); }
   [[nodiscard]] std::size_t parent(std::size_t node) const { return joints_[node].node.parent; }
