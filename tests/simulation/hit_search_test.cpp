@@ -13,9 +13,9 @@
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/hit_search.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
-#include <firstcontact/simulation/detail/world.h>
 
 #include "simulation/random_body.h"
 
@@ -45,10 +45,10 @@ class Island {
   explicit Island(std::mt19937& rng)
       : loaded_(boxes_beside_a_plate(cache_)),
         linked_(links_as_bodies(loaded_)),
-        world_(loaded_, linked_),
+        model_(loaded_, linked_),
         start_(start(rng)),
-        around_(world_, start_),
-        state({world_, start_, around_, guesses_, stop_}, members()) {
+        around_(model_, start_),
+        state({model_, start_, around_, guesses_, stop_}, members()) {
     state.find_manifolds(guesses_, workspace);
   }
 
@@ -77,7 +77,7 @@ class Island {
   ShapeCache cache_;
   LoadedScene loaded_;
   LinksAsBodies linked_;
-  World world_;
+  SimulationModel model_;
   StepStart start_;
   Surroundings around_;
   std::vector<Touch> guesses_;
@@ -149,15 +149,15 @@ TEST(HitSearch, LeavesOutNoPair) {
     for (std::size_t a = 0; a <= kBoxes; ++a) {
       for (std::size_t b = std::max<std::size_t>(a + 1, 1); b <= kBoxes; ++b) {
         const auto motion = [&](std::size_t body) {
-          return motion_of(state.world.bodies[body], state.pose_of(body),
+          return motion_of(state.model.bodies[body], state.pose_of(body),
                            body == 0 ? Move() : plan.moves[body - 1]);
         };
         FirstContactOptions options;
-        options.margin = state.world.distances.least;
+        options.margin = state.model.distances.least;
         options.tolerance = 1e-9;
         const FirstContactResult truth =
-            first_contact({state.world.bodies[a].shape, motion(a)},
-                          {state.world.bodies[b].shape, motion(b)}, boxes.workspace, options);
+            first_contact({state.model.bodies[a].shape, motion(a)},
+                          {state.model.bodies[b].shape, motion(b)}, boxes.workspace, options);
         const auto hit = std::ranges::find(found, BodyPair{a, b}, &Hit::bodies);
         if (truth.verdict != Verdict::free) {
           ++hits;

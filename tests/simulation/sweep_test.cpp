@@ -11,9 +11,9 @@
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
-#include <firstcontact/simulation/detail/world.h>
 
 #include "simulation/random_body.h"
 
@@ -136,12 +136,12 @@ TEST(Surroundings, HoldScriptedBodiesOverTheWholeStep) {
                              "test.json"),
                  cache);
   const LinksAsBodies linked = links_as_bodies(loaded);
-  World world(loaded, linked);
-  world.bodies[2].kind = BodyKind::scripted;
+  SimulationModel model(loaded, linked);
+  model.bodies[2].kind = BodyKind::scripted;
   StepStart start{.h = 1.0, .states = std::vector<RigidState>(3), .scripted = {{}, {}, {}}};
   start.states[0].X_WB.position = {0.0, 5.0, 0.0};
   start.scripted[2].translation = {10.0, 0.0, 0.0};
-  const Surroundings around(world, start);
+  const Surroundings around(model, start);
   const auto near = [&](const Vector3d& point) {
     std::vector<std::size_t> bodies;
     around.for_each_overlap(AlignedBox3d(point, point),

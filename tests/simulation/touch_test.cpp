@@ -16,7 +16,7 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 
 #include "simulation/random_body.h"
 
@@ -121,7 +121,7 @@ constexpr double kGap = 1e-4;  // [m]
 /// Two cubes of 1 m and a cylinder.
 class ManifoldOfCubes : public testing::Test {
  protected:
-  [[nodiscard]] const Shape& shape(std::size_t body) const { return world_.bodies[body].shape; }
+  [[nodiscard]] const Shape& shape(std::size_t body) const { return model_.bodies[body].shape; }
 
   [[nodiscard]] Manifold manifold(const BodyPair& bodies, const Pose& X_WA, const Pose& X_WB) {
     return finder_.find(bodies, PlacedShape(shape(bodies[0]), X_WA),
@@ -141,8 +141,8 @@ class ManifoldOfCubes : public testing::Test {
   Workspace workspace_;
 
  protected:
-  World world_{loaded_, linked_};
-  ManifoldFinder finder_{world_, workspace_};
+  SimulationModel model_{loaded_, linked_};
+  ManifoldFinder finder_{model_, workspace_};
 };
 
 /// Turned about their common normal, shifted, anywhere.
@@ -185,7 +185,7 @@ TEST_F(ManifoldOfCubes, IsOnePointWhereEdgesCross) {
 }
 
 TEST_F(ManifoldOfCubes, IsEmptyBeyondTheBand) {
-  const double band = world_.distances.band;
+  const double band = model_.distances.band;
   const auto above = [&](double gap) {
     return manifold({0, 1}, {}, {.position = {0.0, 0.0, 1.0 + gap}});
   };
@@ -210,9 +210,9 @@ TEST_F(ManifoldOfCubes, IsThatOfTheContactsOfItsPairAlone) {
     const Motion B = Motion::fixed(X_WB);
     Workspace workspace;
     std::vector<Contact> contacts;
-    close_features({shape(bodies[0]), A}, {shape(bodies[1]), B}, 0.0, world_.distances.band,
+    close_features({shape(bodies[0]), A}, {shape(bodies[1]), B}, 0.0, model_.distances.band,
                    workspace, contacts);
-    const std::vector<Touch> expected = touches_among(world_, bodies, {X_WA, X_WB}, 0.0, contacts);
+    const std::vector<Touch> expected = touches_among(model_, bodies, {X_WA, X_WB}, 0.0, contacts);
     ASSERT_EQ(found.touches.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
       ASSERT_TRUE(same_features(found.touches[k], expected[k]));

@@ -16,18 +16,18 @@
 #include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/sim_robot.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact {
 
 using detail::BodyKind;
 using detail::IslandTrack;
 using detail::SimBody;
+using detail::SimulationModel;
 using detail::StepStart;
 using detail::Touch;
-using detail::World;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -89,15 +89,15 @@ class Simulator::Implementation {
   explicit Implementation(const LoadedScene& loaded)
       : linked_((require_simulation(loaded), links_as_bodies(loaded))),
         loaded_(linked_.loaded),
-        world_(loaded, linked_) {
+        model_(loaded, linked_) {
     const Scene& scene = loaded_.scene;
     header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
-    header_.scene.simulation->contact_distance = world_.distances.least;
-    for (const detail::SimRobot& robot : world_.robots) {
+    header_.scene.simulation->contact_distance = model_.distances.least;
+    for (const detail::SimRobot& robot : model_.robots) {
       state_.robots.push_back(robot.start);
     }
-    for (std::size_t b = 0; b < world_.bodies.size(); ++b) {
-      const SimBody& body = world_.bodies[b];
+    for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
+      const SimBody& body = model_.bodies[b];
       const bool is_free = body.kind == BodyKind::free;
       header_.masses.push_back(!is_free     ? 0.0
                                : body.piece ? scene.bodies[b].free->mass.value()
@@ -123,10 +123,10 @@ class Simulator::Implementation {
   const std::vector<RigidState>& states() const { return state_.states; }
 
   void set_state(std::size_t body, const RigidState& state) {
-    if (body >= state_.states.size() || world_.bodies[body].kind != BodyKind::free) {
+    if (body >= state_.states.size() || model_.bodies[body].kind != BodyKind::free) {
       throw std::invalid_argument("set_state: body " + std::to_string(body) + " is not free");
     }
-    if (world_.bodies[body].piece) {
+    if (model_.bodies[body].piece) {
       throw std::invalid_argument("set_state: body " + std::to_string(body) +
                                   " is a link; move its robot");
     }
@@ -138,7 +138,7 @@ class Simulator::Implementation {
     std::vector<RigidState> states = state_.states;
     states[body] = state;
     states[body].X_WB.rotation.normalize();
-    lock(world_.bodies[body].inertia, states[body]);
+    lock(model_.bodies[body].inertia, states[body]);
     require_apart(states, [body](std::size_t b) { return b == body; });
     state_.states = std::move(states);
     state_.rests.assign(state_.states.size(), false);  // What it held may fall.
@@ -151,7 +151,7 @@ class Simulator::Implementation {
       throw std::invalid_argument("set_robot_state: there is no robot " + std::to_string(robot) +
                                   " with dynamics");
     }
-    const Mechanism& mechanism = world_.robots[robot].mechanism;
+    const Mechanism& mechanism = model_.robots[robot].mechanism;
     const std::string wrong = wrong_state(mechanism, state);
     if (!wrong.empty()) {
       throw std::invalid_argument("set_robot_state: " + wrong);
@@ -165,7 +165,7 @@ class Simulator::Implementation {
     try {
       follow_robots(states);
       require_apart(states, [&](std::size_t b) {
-        return world_.bodies[b].piece && world_.bodies[b].piece->robot == robot;
+        return model_.bodies[b].piece && model_.bodies[b].piece->robot == robot;
       });
     } catch (...) {
       state_.robots = std::move(robots);
@@ -180,7 +180,7 @@ class Simulator::Implementation {
     std::vector<RigidState> states = state_.states;
     std::size_t moving = 0;
     for (const RunBody& body : step.bodies) {
-      if (body.body >= states.size() || world_.bodies[body.body].kind == BodyKind::fixed) {
+      if (body.body >= states.size() || model_.bodies[body.body].kind == BodyKind::fixed) {
         throw std::invalid_argument("the step is of another scene: it moves body " +
                                     std::to_string(body.body));
       }
@@ -205,11 +205,11 @@ class Simulator::Implementation {
   std::optional<RunStep> step(const std::stop_token& stop) {
     const StepStart start = step_start();
     std::optional<std::vector<IslandTrack>> tracks =
-        detail::advance_islands(world_, start, guesses(), workspace_, stop);
+        detail::advance_islands(model_, start, guesses(), workspace_, stop);
     if (!tracks) {
       return std::nullopt;
     }
-    return detail::record_step(world_, start, *tracks, state_);
+    return detail::record_step(model_, start, *tracks, state_);
   }
 
  private:
@@ -238,23 +238,23 @@ class Simulator::Implementation {
   /// Of a step of a run of this scene.
   [[nodiscard]] std::vector<MechanismState> robots_of(const RunStep& step) const {
     std::vector<MechanismState> robots;
-    for (std::size_t k = 0; k < world_.robots.size() && k < step.robots.size(); ++k) {
+    for (std::size_t k = 0; k < model_.robots.size() && k < step.robots.size(); ++k) {
       const RunRobot& recorded = step.robots[k];
       robots.push_back(
           {Eigen::Map<const Eigen::VectorXd>(recorded.positions.data(),
                                              static_cast<Eigen::Index>(recorded.positions.size())),
            Eigen::Map<const Eigen::VectorXd>(
                recorded.velocities.data(), static_cast<Eigen::Index>(recorded.velocities.size()))});
-      const Mechanism& mechanism = world_.robots[k].mechanism;
-      if (recorded.robot != world_.robots[k].number ||
+      const Mechanism& mechanism = model_.robots[k].mechanism;
+      if (recorded.robot != model_.robots[k].number ||
           !wrong_state(mechanism, robots.back()).empty()) {
         throw std::invalid_argument("the step is of another scene: its robots have other joints");
       }
     }
-    if (step.robots.size() != world_.robots.size()) {
+    if (step.robots.size() != model_.robots.size()) {
       throw std::invalid_argument("the step is of another scene: it moves " +
                                   std::to_string(step.robots.size()) + " robots, not " +
-                                  std::to_string(world_.robots.size()));
+                                  std::to_string(model_.robots.size()));
     }
     return robots;
   }
@@ -263,12 +263,12 @@ class Simulator::Implementation {
   void follow_robots(std::vector<RigidState>& states) const {
     std::vector<std::size_t> pieces;
     for (std::size_t b = 0; b < states.size(); ++b) {
-      if (world_.bodies[b].piece) {
+      if (model_.bodies[b].piece) {
         pieces.push_back(b);
       }
     }
     const StepStart start{.robots = state_.robots};
-    const detail::IslandRobots robots(world_, start, pieces);
+    const detail::IslandRobots robots(model_, start, pieces);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       states[pieces[k]] = robots.state(k);
     }
@@ -276,29 +276,29 @@ class Simulator::Implementation {
 
   [[nodiscard]] std::size_t moving_bodies() const {
     return static_cast<std::size_t>(std::ranges::count_if(
-        world_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
+        model_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
   }
 
   /// All pairs with a body that `concerns` says yes to.
   template <class Concerns>
   void require_apart(const std::vector<RigidState>& states, const Concerns& concerns) {
     std::vector<Eigen::AlignedBox3d> boxes;
-    const Vector3d slack = Vector3d::Constant(0.5 * world_.laws.greatest_margin());
+    const Vector3d slack = Vector3d::Constant(0.5 * model_.laws.greatest_margin());
     for (std::size_t b = 0; b < states.size(); ++b) {
-      const Eigen::AlignedBox3d box = detail::swept_box(world_.bodies[b], states[b].X_WB, {});
+      const Eigen::AlignedBox3d box = detail::swept_box(model_.bodies[b], states[b].X_WB, {});
       boxes.emplace_back(box.min() - slack, box.max() + slack);
     }
     for (const auto& [a, b] : detail::overlapping_pairs(boxes)) {
       const bool is_held =
-          world_.bodies[a].kind != BodyKind::free && world_.bodies[b].kind != BodyKind::free;
-      const std::optional<double> margin = world_.laws.margin({a, b});
+          model_.bodies[a].kind != BodyKind::free && model_.bodies[b].kind != BodyKind::free;
+      const std::optional<double> margin = model_.laws.margin({a, b});
       if (is_held || !margin || !(concerns(a) || concerns(b))) {
         continue;
       }
       const Motion A = Motion::fixed(states[a].X_WB);
       const Motion B = Motion::fixed(states[b].X_WB);
       const DistanceResult found =
-          distance({world_.bodies[a].shape, A}, {world_.bodies[b].shape, B}, 0.0, workspace_);
+          distance({model_.bodies[a].shape, A}, {model_.bodies[b].shape, B}, 0.0, workspace_);
       if (!(found.lower_bound > *margin)) {
         const auto& bodies = loaded_.scene.bodies;
         throw std::invalid_argument("bodies \"" + bodies[a].name + "\" and \"" + bodies[b].name +
@@ -317,7 +317,7 @@ class Simulator::Implementation {
                     .rests = state_.rests};
     start.scripted.resize(state_.states.size());
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
-      if (world_.bodies[b].kind != BodyKind::scripted) {
+      if (model_.bodies[b].kind != BodyKind::scripted) {
         continue;
       }
       const Motion& motion = loaded_.bodies.motion(b);
@@ -331,7 +331,7 @@ class Simulator::Implementation {
 
   LinksAsBodies linked_;
   const LoadedScene& loaded_;  // With links as bodies.
-  World world_;
+  SimulationModel model_;
   RunHeader header_;
   detail::SimulationState state_;
   Workspace workspace_;

@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 
 std::vector<Hit> HitSearch::find(const Plan& plan) {
   follow(plan);
-  const double reach = state_.world.distances.least + state_.world.distances.tolerance;
-  clearance_ = state_.world.distances.least;
+  const double reach = state_.model.distances.least + state_.model.distances.tolerance;
+  clearance_ = state_.model.distances.least;
   std::vector<Hit> hits;
   for (Candidate& pair : candidates_) {
     if (mover(pair, 0).is_changed || mover(pair, 1).is_changed) {
@@ -33,7 +33,7 @@ std::vector<Hit> HitSearch::find(const Plan& plan) {
       const double gap =
           pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
       clearance_ =
-          std::min(clearance_, held_distance(state_.world.distances, pair.margin, gap).margin);
+          std::min(clearance_, held_distance(state_.model.distances, pair.margin, gap).margin);
     }
     if (pair.hit) {
       hits.push_back(*pair.hit);
@@ -81,7 +81,7 @@ void HitSearch::look_around() {
     rooms.push_back(mover.room);
   }
   candidates_.clear();
-  const double reach = state_.world.distances.least + state_.world.distances.tolerance;
+  const double reach = state_.model.distances.least + state_.model.distances.tolerance;
   state_.for_each_pair(
       rooms, reach, span_ / state_.start.h, [&](const BodyPair& pair, double margin) {
         const auto found = state_.manifolds.find(pair);
@@ -94,7 +94,7 @@ void HitSearch::look_around() {
 
 /// Those of members come first.
 std::size_t HitSearch::mover_of(std::size_t body) {
-  if (state_.world.bodies[body].kind == BodyKind::free) {
+  if (state_.model.bodies[body].kind == BodyKind::free) {
     return state_.place.at(body);
   }
   const auto [found, is_new] = around_.try_emplace(body, movers_.size());
@@ -102,7 +102,7 @@ std::size_t HitSearch::mover_of(std::size_t body) {
     const Move move = state_.start.scripted[body].part(span_ / state_.start.h);
     movers_.push_back({.body = body,
                        .move = move,
-                       .box = swept_box(state_.world.bodies[body], state_.pose_of(body), move)});
+                       .box = swept_box(state_.model.bodies[body], state_.pose_of(body), move)});
   }
   movers_[found->second].is_changed = true;
   return found->second;
@@ -112,8 +112,8 @@ std::size_t HitSearch::mover_of(std::size_t body) {
 std::optional<Hit> HitSearch::ask(Candidate& pair) {
   const double gap =
       pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
-  const HeldDistance held = held_distance(state_.world.distances, pair.margin, gap);
-  if (cannot_reach(pair, std::min(gap, state_.world.distances.band) + pair.margin - held.margin)) {
+  const HeldDistance held = held_distance(state_.model.distances, pair.margin, gap);
+  if (cannot_reach(pair, std::min(gap, state_.model.distances.band) + pair.margin - held.margin)) {
     return std::nullopt;
   }
   const BodyPair bodies = bodies_of(pair);
@@ -127,13 +127,13 @@ std::optional<Hit> HitSearch::ask(Candidate& pair) {
   options.margin = held.margin;
   options.tolerance = held.tolerance;
   const auto motion = [&](int side) {
-    return motion_of(state_.world.bodies[bodies[side]], state_.pose_of(bodies[side]),
+    return motion_of(state_.model.bodies[bodies[side]], state_.pose_of(bodies[side]),
                      mover(pair, side).move);
   };
   const Motion A = motion(0);
   const Motion B = motion(1);
-  first_contact({state_.world.bodies[bodies[0]].shape, A},
-                {state_.world.bodies[bodies[1]].shape, B}, workspace_, options, answer_);
+  first_contact({state_.model.bodies[bodies[0]].shape, A},
+                {state_.model.bodies[bodies[1]].shape, B}, workspace_, options, answer_);
   if (answer_.verdict == Verdict::free) {
     return std::nullopt;
   }
@@ -142,7 +142,7 @@ std::optional<Hit> HitSearch::ask(Candidate& pair) {
 
 SweptHull HitSearch::hull_of(std::size_t k, double from, double to) {
   const Mover& mover = movers_[k];
-  return {state_.world.bodies[mover.body], state_.pose_of(mover.body), mover.move, from, to};
+  return {state_.model.bodies[mover.body], state_.pose_of(mover.body), mover.move, from, to};
 }
 
 const SweptHull& HitSearch::whole_hull_of(std::size_t k) {
@@ -219,7 +219,7 @@ bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
   double size = 0.0;
   for (int side = 0; side < 2; ++side) {
     const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
-    const double reach = state_.world.bodies[body].reach;
+    const double reach = state_.model.bodies[body].reach;
     way += move.translation.norm() + reach * move.rotation_vector.norm();
     size += state_.pose_of(body).position.norm() + reach;
   }
@@ -234,16 +234,16 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   for (int side = 0; side < 2; ++side) {
     const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
     bodies.add(body, {{}, move.translation / span_, move.rotation_vector / span_},
-               centre_of_mass(state_.world.bodies[body].inertia, poses[side]));
+               centre_of_mass(state_.model.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
   for (Touch& touch :
-       touches_among(state_.world, hit.bodies, poses, pair.margin, answer_.contacts)) {
+       touches_among(state_.model, hit.bodies, poses, pair.margin, answer_.contacts)) {
     TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.
     const double gap = touch.gap - hit.t * span_ * u_n;
-    ahead.least = std::min(0.0, -state_.world.distances.way_to_rest(gap) / span_);
+    ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap) / span_);
     closing = std::max(closing, -u_n);
     hit.ahead.push_back(std::move(ahead));
   }
@@ -255,8 +255,8 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
 double HitSearch::smaller_free_reach(const BodyPair& pair) const {
   double smaller = std::numeric_limits<double>::infinity();
   for (const std::size_t b : pair) {
-    if (state_.world.bodies[b].kind == BodyKind::free) {
-      smaller = std::min(smaller, state_.world.bodies[b].reach);
+    if (state_.model.bodies[b].kind == BodyKind::free) {
+      smaller = std::min(smaller, state_.model.bodies[b].reach);
     }
   }
   return smaller;

@@ -37,7 +37,7 @@ class Island {
       impact();
     }
     while (state_.reached < state_.start.h) {
-      if (track_.events > state_.world.events || stalls >= kMostStalls) {
+      if (track_.events > state_.model.events || stalls >= kMostStalls) {
         break;
       }
       const double reached = state_.reached;
@@ -184,7 +184,7 @@ class Island {
       state_.add_others(pair, bodies);
       for (const Touch& touch : manifold.touches) {
         const ContactPoint contact = contact_at(touch, bodies, 0.0, 0.0);
-        if (touch.gap <= state_.world.distances.touching &&
+        if (touch.gap <= state_.model.distances.touching &&
             state_.bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
           return true;
         }
@@ -201,17 +201,17 @@ class Island {
     std::vector<double> restitution;
     for (const auto& [pair, manifold] : state_.manifolds) {
       for (const Touch& touch : manifold.touches) {
-        if (touch.gap > state_.world.distances.touching) {
+        if (touch.gap > state_.model.distances.touching) {
           continue;
         }
         state_.add_others(pair, bodies);
         Touch unknown = touch;
         unknown.impulse.setZero();
         problem.contacts.push_back(
-            contact_at(unknown, bodies, state_.world.laws.friction(pair), 0.0));
+            contact_at(unknown, bodies, state_.model.laws.friction(pair), 0.0));
         touches.push_back(&touch);
         const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
-        restitution.push_back(state_.bounces(pair, closing) ? state_.world.laws.restitution(pair)
+        restitution.push_back(state_.bounces(pair, closing) ? state_.model.laws.restitution(pair)
                                                             : 0.0);
       }
     }

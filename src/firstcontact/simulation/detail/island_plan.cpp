@@ -8,7 +8,7 @@
 #include <firstcontact/simulation/detail/contact_distances.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -26,7 +26,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
       flight.rotation_vectors.emplace_back(Vector3d::Zero());
       continue;  // Flies with its robot.
     }
-    Vector3d force = body.inertia.mass * state_.world.gravity;
+    Vector3d force = body.inertia.mass * state_.model.gravity;
     Vector3d torque = Vector3d::Zero();
     const double from = state_.start.time + state_.reached;
     for (const TimedForce& timed : body.forces) {
@@ -55,7 +55,7 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        append(touch, contact_of(touch, -state_.world.distances.way_to_rest(touch.gap) / span_));
+        append(touch, contact_of(touch, -state_.model.distances.way_to_rest(touch.gap) / span_));
       }
     }
   }
@@ -73,7 +73,7 @@ void IslandPlanner::set_bodies() {
 /// Its guess is the impulse of the touch, of a whole step.
 ContactPoint IslandPlanner::contact_of(const Touch& touch, double least) const {
   ContactPoint contact =
-      contact_at(touch, bodies_, state_.world.laws.friction(touch.bodies), least);
+      contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
   contact.guess *= span_ / state_.start.h;
   contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span_;
   return contact;
@@ -96,7 +96,7 @@ bool IslandPlanner::is_at(const TouchAhead& ahead, std::size_t k) const {
   const ContactPoint& contact = problem_.contacts[k];
   const double apart = std::min((contact.arm_A - ahead.contact.arm_A).norm(),
                                 (contact.arm_B - ahead.contact.arm_B).norm());
-  return apart <= kReplacedWithin * smaller_reach(state_.world, ahead.touch.bodies);
+  return apart <= kReplacedWithin * smaller_reach(state_.model, ahead.touch.bodies);
 }
 
 /// The contact whose place a touch ahead takes.
@@ -122,7 +122,7 @@ void IslandPlanner::add(const TouchAhead& ahead) {
   set_bodies();
   ContactPoint contact = ahead.contact;
   contact.bodies = {bodies_.place(pair[0]), bodies_.place(pair[1])};
-  contact.friction = state_.world.laws.friction(pair);
+  contact.friction = state_.model.laws.friction(pair);
   contact.least_normal_velocity = ahead.least - drift_along(pair, contact) / span_;
   const std::optional<std::size_t> k = find(ahead);
   if (!k) {
@@ -179,7 +179,7 @@ std::vector<Touch> IslandPlanner::touches() const {
 double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
   double way = 0.0;
   for (int side = 0; side < 2; ++side) {
-    if (state_.world.bodies[pair[side]].piece) {
+    if (state_.model.bodies[pair[side]].piece) {
       const std::size_t k = state_.place.at(pair[side]);
       const Move drift = state_.robots.drift(k, state_.states[k].X_WB);
       const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
@@ -253,7 +253,7 @@ void IslandPlanner::keep_push_from(const ContactPoint& contact) {
     return;
   }
   push_->bodies.resize(problem_.bodies.size());  // Others that came since do not move.
-  if (normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.world.distances.least) {
+  if (normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.model.distances.least) {
     push_.reset();
   }
 }
@@ -261,7 +261,7 @@ void IslandPlanner::keep_push_from(const ContactPoint& contact) {
 /// Displacements, in metres in place of metres per second: least in the kinetic metric, and
 /// without velocity, so that they add no energy of motion.
 ContactSolution IslandPlanner::find_push() const {
-  const ContactDistances& distances = state_.world.distances;
+  const ContactDistances& distances = state_.model.distances;
   const ProjectionOptions options{.tolerance = kPushTolerance * distances.least,
                                   .enough = kPushEnough * distances.least,
                                   .sweeps = kPushSweeps};

@@ -27,7 +27,7 @@ double fastest(const ContactSolution& solution) {
 
 /// [m/s]  A part of what gravity adds in a step.
 double of_gravity(const IslandState& state, double part) {
-  return std::max(kLeastTolerance, part * state.world.gravity.norm() * state.start.h);
+  return std::max(kLeastTolerance, part * state.model.gravity.norm() * state.start.h);
 }
 
 /// [J]  Of the members and their robots.
@@ -119,7 +119,7 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
 /// parts.
 ProjectionOptions plan_options(const IslandState& state, const ContactProblem& problem) {
   ProjectionOptions options = projection_options(state, problem);
-  if (state.size() >= kSeveralBodies && state.robots.empty() && !state.world.gravity.isZero(0.0)) {
+  if (state.size() >= kSeveralBodies && state.robots.empty() && !state.model.gravity.isZero(0.0)) {
     options.of_hits = kPartOfHits;
     options.hit = of_gravity(state, kHitOfGravity);
   }

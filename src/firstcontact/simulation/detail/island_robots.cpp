@@ -10,8 +10,8 @@
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -35,12 +35,12 @@ Move move_between(const SimBody& body, const Pose& from, const Pose& to, const V
 
 }  // namespace
 
-IslandRobots::IslandRobots(const World& world, const StepStart& start,
+IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
                            const std::vector<std::size_t>& members)
-    : world_(world), place_(members.size(), {kNone, kNone}) {
+    : model_(model), place_(members.size(), {kNone, kNone}) {
   std::vector<std::size_t> numbers;  // Of the world, of each robot here.
   for (std::size_t k = 0; k < members.size(); ++k) {
-    const SimBody& body = world.bodies[members[k]];
+    const SimBody& body = model.bodies[members[k]];
     if (!body.piece) {
       continue;
     }
@@ -49,9 +49,9 @@ IslandRobots::IslandRobots(const World& world, const StepStart& start,
     const auto r = static_cast<std::size_t>(found - numbers.begin());
     if (found == numbers.end()) {
       numbers.push_back(number);
-      robots_.push_back({.robot = &world.robots[number], .state = start.robots[number]});
+      robots_.push_back({.robot = &model.robots[number], .state = start.robots[number]});
       robots_.back().track.robot = number;
-      robots_.back().impact = VectorXd::Zero(world.robots[number].mechanism.size());
+      robots_.back().impact = VectorXd::Zero(model.robots[number].mechanism.size());
     }
     place_[k] = {r, robots_[r].pieces.size()};
     robots_[r].pieces.push_back({.member = k, .body = &body});
@@ -67,7 +67,7 @@ IslandRobots::View IslandRobots::view_of(const Robot& robot, const MechanismStat
   const auto n = mechanism.size();
   View view;
   view.inverse_mass = mechanism.mass_matrix(instant).llt().solve(MatrixXd::Identity(n, n));
-  view.gravity_forces = mechanism.bias_forces(instant, world_.gravity) -
+  view.gravity_forces = mechanism.bias_forces(instant, model_.gravity) -
                         mechanism.bias_forces(instant, Vector3d::Zero());
   for (const Piece& piece : robot.pieces) {
     PiecePlace place{piece_pose(*piece.body, instant), instant.J[piece.body->piece->link]};
@@ -134,7 +134,7 @@ std::vector<RobotPlan> IslandRobots::fly(ContactProblem& problem, double from, d
     // Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It
     // does not fall: the forces of gravity are those where it gets.
     const MechanismState end = mechanism.after_free_motion(
-        robot.state, is_driven ? Vector3d::Zero() : world_.gravity, span);
+        robot.state, is_driven ? Vector3d::Zero() : model_.gravity, span);
     View there = view_of(robot, end);
     VectorXd velocities = end.velocities;
     std::vector<JointDrive> drives;

@@ -19,7 +19,7 @@ namespace firstcontact::detail {
 struct SimBody;
 struct SimRobot;
 struct StepStart;
-struct World;
+struct SimulationModel;
 
 /// A part of a step of a robot without impacts.
 struct RobotTrackPiece {
@@ -51,7 +51,8 @@ struct RobotPlan {
 class IslandRobots {
  public:
   /// @param members  of the island; all pieces of a robot's links, or none
-  IslandRobots(const World& world, const StepStart& start, const std::vector<std::size_t>& members);
+  IslandRobots(const SimulationModel& model, const StepStart& start,
+               const std::vector<std::size_t>& members);
 
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
@@ -149,7 +150,7 @@ class IslandRobots {
                                             const ContactSolution& solution) const;
   [[nodiscard]] const PiecePlace& piece_of(std::size_t member) const;
 
-  const World& world_;
+  const SimulationModel& model_;
   std::vector<Robot> robots_;
   std::vector<std::array<std::size_t, 2>> place_;  // Of each member: robot and piece.
 };

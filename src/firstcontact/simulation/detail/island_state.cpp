@@ -21,11 +21,11 @@ struct RestingBody {
 }  // namespace
 
 IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given_members)
-    : world(step.world),
+    : model(step.model),
       start(step.start),
       around(step.around),
       members(std::move(given_members)),
-      robots(step.world, step.start, members) {
+      robots(step.model, step.start, members) {
   for (std::size_t k = 0; k < size(); ++k) {
     place[members[k]] = k;
     states.push_back(start.states[members[k]]);
@@ -33,12 +33,12 @@ IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given
 }
 
 const Pose& IslandState::pose_of(std::size_t body) {
-  if (world.bodies[body].kind == BodyKind::free) {
+  if (model.bodies[body].kind == BodyKind::free) {
     return states[place.at(body)].X_WB;
   }
   const auto [found, is_new] = poses_around.try_emplace(body);
   if (is_new) {
-    found->second = scripted_pose(world, start, body, reached / start.h);
+    found->second = scripted_pose(model, start, body, reached / start.h);
   }
   return found->second;
 }
@@ -61,19 +61,19 @@ void IslandState::add_others(const BodyPair& pair, ProblemBodies& bodies) {
     if (!bodies.has(b)) {
       const Move& move = start.scripted[b];
       bodies.add(b, {{}, move.translation / start.h, move.rotation_vector / start.h},
-                 centre_of_mass(world.bodies[b].inertia, pose_of(b)));
+                 centre_of_mass(model.bodies[b].inertia, pose_of(b)));
     }
   }
 }
 
 bool IslandState::bounces(const BodyPair& pair, double closing) const {
-  return world.laws.restitution(pair) > 0.0 &&
-         closing > kStepsWithoutBounce * world.gravity.norm() * start.h;
+  return model.laws.restitution(pair) > 0.0 &&
+         closing > kStepsWithoutBounce * model.gravity.norm() * start.h;
 }
 
 bool IslandState::is_too_near() const {
   return std::ranges::any_of(
-      manifolds, [&](const auto& entry) { return entry.second.gap < world.distances.pushed; });
+      manifolds, [&](const auto& entry) { return entry.second.gap < model.distances.pushed; });
 }
 
 void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& workspace) {
@@ -82,21 +82,21 @@ void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& wo
   for (std::size_t k = 0; k < size(); ++k) {
     boxes.push_back(swept_box(member(k), states[k].X_WB, {}));
   }
-  ManifoldFinder finder(world, workspace);
+  ManifoldFinder finder(model, workspace);
   std::unordered_map<std::size_t, RestingBody> resting;
   const auto at_rest = [&](std::size_t body) -> const RestingBody& {
-    return resting.try_emplace(body, world.bodies[body], pose_of(body)).first->second;
+    return resting.try_emplace(body, model.bodies[body], pose_of(body)).first->second;
   };
-  for_each_pair(boxes, world.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
+  for_each_pair(boxes, model.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
     const RestingBody& A = at_rest(pair[0]);
     const RestingBody& B = at_rest(pair[1]);
-    if (stays_apart(A.hull, B.hull, margin + world.distances.band,
+    if (stays_apart(A.hull, B.hull, margin + model.distances.band,
                     (B.hull.p_WC - A.hull.p_WC).normalized())) {
       return;
     }
     Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
-    if (manifold.gap <= world.distances.band) {
-      carry_impulses(before, smaller_reach(world, pair), manifold);
+    if (manifold.gap <= model.distances.band) {
+      carry_impulses(before, smaller_reach(model, pair), manifold);
       manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
     }
   });

@@ -19,16 +19,16 @@
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/touch.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 
 /// The data that the islands of a step share.
 struct StepContext {
-  const World& world;
+  const SimulationModel& model;
   const StepStart& start;
   const Surroundings& around;
   const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
@@ -41,7 +41,7 @@ struct IslandState {
   IslandState(const StepContext& step, std::vector<std::size_t> given_members);
 
   [[nodiscard]] std::size_t size() const { return members.size(); }
-  [[nodiscard]] const SimBody& member(std::size_t k) const { return world.bodies[members[k]]; }
+  [[nodiscard]] const SimBody& member(std::size_t k) const { return model.bodies[members[k]]; }
 
   /// Where a member is now, or a body around the island.
   [[nodiscard]] const Pose& pose_of(std::size_t body);
@@ -75,7 +75,7 @@ struct IslandState {
   void for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double reach, double share,
                      const Use& use);
 
-  const World& world;
+  const SimulationModel& model;
   const StepStart& start;
   const Surroundings& around;
   std::vector<std::size_t> members;
@@ -96,11 +96,11 @@ template <class Use>
 void IslandState::for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, double reach,
                                 double share, const Use& use) {
   using Eigen::AlignedBox3d;
-  const double most = reach + world.laws.greatest_margin();
+  const double most = reach + model.laws.greatest_margin();
   const auto use_near = [&](std::size_t a, const AlignedBox3d& box_a, std::size_t b,
                             const AlignedBox3d& box_b) {
     const BodyPair pair{std::min(a, b), std::max(a, b)};
-    const std::optional<double> margin = world.laws.margin(pair);
+    const std::optional<double> margin = model.laws.margin(pair);
     if (margin && widened(box_a, reach).exteriorDistance(box_b) <= *margin) {
       use(pair, *margin);
     }
@@ -109,7 +109,7 @@ void IslandState::for_each_pair(const std::vector<Eigen::AlignedBox3d>& boxes, d
   for (std::size_t k = 0; k < size(); ++k) {
     around.for_each_overlap(widened(boxes[k], most), [&](std::size_t b) {
       const Move move = start.scripted[b].part(share);
-      use_near(members[k], boxes[k], b, swept_box(world.bodies[b], pose_of(b), move));
+      use_near(members[k], boxes[k], b, swept_box(model.bodies[b], pose_of(b), move));
     });
     halfway.push_back(widened(boxes[k], 0.5 * most));
   }

@@ -12,10 +12,10 @@
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/rest.h>
 #include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -25,16 +25,16 @@ using Eigen::Vector3d;
 
 class Islands {
  public:
-  Islands(const World& world, const StepStart& start, const std::vector<Touch>& guesses,
+  Islands(const SimulationModel& model, const StepStart& start, const std::vector<Touch>& guesses,
           Workspace& workspace, const std::stop_token& stop)
-      : world_(world),
+      : model_(model),
         start_(start),
-        around_(world, start),
-        step_{world, start, around_, guesses, stop},
+        around_(model, start),
+        step_{model, start, around_, guesses, stop},
         workspace_(workspace),
-        sets_(world.bodies.size()) {
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-      if (world.bodies[b].kind == BodyKind::free) {
+        sets_(model.bodies.size()) {
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      if (model.bodies[b].kind == BodyKind::free) {
         free_.push_back(b);
       }
     }
@@ -70,19 +70,19 @@ class Islands {
   }
 
   [[nodiscard]] bool may_touch(std::size_t a, std::size_t b) const {
-    return world_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
+    return model_.laws.margin({std::min(a, b), std::max(a, b)}).has_value();
   }
 
   /// Boxes are widened by half of what any pair may have to keep apart.
   [[nodiscard]] AlignedBox3d widened(const AlignedBox3d& box, double by) const {
-    const Vector3d slack = Vector3d::Constant(0.5 * (by + world_.laws.greatest_margin()));
+    const Vector3d slack = Vector3d::Constant(0.5 * (by + model_.laws.greatest_margin()));
     return {box.min() - slack, box.max() + slack};
   }
 
   void join_links() {
-    std::vector<std::size_t> first(world_.robots.size(), kNone);
+    std::vector<std::size_t> first(model_.robots.size(), kNone);
     for (const std::size_t b : free_) {
-      if (const auto& piece = world_.bodies[b].piece) {
+      if (const auto& piece = model_.bodies[b].piece) {
         std::size_t& one = first[piece->robot];
         one = one == kNone ? b : one;
         join(one, b);
@@ -97,8 +97,8 @@ class Islands {
     std::vector<AlignedBox3d> boxes;
     for (const std::size_t b : free_) {
       moves.push_back(inertial_move(b));
-      boxes.push_back(widened(swept_box(world_.bodies[b], start_.states[b].X_WB, moves.back()),
-                              world_.distances.band));
+      boxes.push_back(widened(swept_box(model_.bodies[b], start_.states[b].X_WB, moves.back()),
+                              model_.distances.band));
     }
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
       const std::size_t a = free_[i];
@@ -113,17 +113,17 @@ class Islands {
   /// As the body moves over the step by itself. Links rest: their joints lead them.
   [[nodiscard]] Move inertial_move(std::size_t b) const {
     const RigidState& state = start_.states[b];
-    if (world_.bodies[b].piece || start_.rests[b]) {
+    if (model_.bodies[b].piece || start_.rests[b]) {
       return {};
     }
-    return {start_.h * (state.v_WC + 0.5 * start_.h * world_.gravity), start_.h * state.w_WB};
+    return {start_.h * (state.v_WC + 0.5 * start_.h * model_.gravity), start_.h * state.w_WB};
   }
 
   /// Whether the bodies' boxes are within the band now.
   [[nodiscard]] bool are_near(std::size_t a, std::size_t b) const {
     const auto box_of = [&](std::size_t body) {
-      return widened(swept_box(world_.bodies[body], start_.states[body].X_WB, {}),
-                     world_.distances.band);
+      return widened(swept_box(model_.bodies[body], start_.states[body].X_WB, {}),
+                     model_.distances.band);
     };
     return box_of(a).intersects(box_of(b));
   }
@@ -131,19 +131,19 @@ class Islands {
   /// Whether a plane tells that the hulls do not meet on their ways.
   [[nodiscard]] bool pass_by(std::size_t a, const Move& move_a, std::size_t b,
                              const Move& move_b) const {
-    const SweptHull A(world_.bodies[a], start_.states[a].X_WB, move_a);
-    const SweptHull B(world_.bodies[b], start_.states[b].X_WB, move_b);
-    return stays_apart(A, B, world_.distances.band, (B.p_WC - A.p_WC).normalized());
+    const SweptHull A(model_.bodies[a], start_.states[a].X_WB, move_a);
+    const SweptHull B(model_.bodies[b], start_.states[b].X_WB, move_b);
+    return stays_apart(A, B, model_.distances.band, (B.p_WC - A.p_WC).normalized());
   }
 
   /// Advances the sets that are new. Returns false if it was stopped.
   bool advance_changed() {
-    std::vector<std::vector<std::size_t>> members(world_.bodies.size());
+    std::vector<std::vector<std::size_t>> members(model_.bodies.size());
     for (const std::size_t b : free_) {
       members[set_of(b)].push_back(b);
     }
-    tracks_.resize(world_.bodies.size());
-    is_new_.assign(world_.bodies.size(), false);
+    tracks_.resize(model_.bodies.size());
+    is_new_.assign(model_.bodies.size(), false);
     for (std::size_t s = 0; s < members.size(); ++s) {
       if (tracks_[s] && tracks_[s]->members == members[s]) {
         continue;
@@ -171,9 +171,9 @@ class Islands {
   }
 
   [[nodiscard]] AlignedBox3d box_of(std::size_t body) {
-    AlignedBox3d box = swept_box(world_.bodies[body], start_.states[body].X_WB, {});
+    AlignedBox3d box = swept_box(model_.bodies[body], start_.states[body].X_WB, {});
     for (const TrackPiece& piece : pieces_of(body)) {
-      box.extend(swept_box(world_.bodies[body], piece.X_WB, piece.move));
+      box.extend(swept_box(model_.bodies[body], piece.X_WB, piece.move));
     }
     return box;
   }
@@ -192,20 +192,20 @@ class Islands {
     if (pieces.empty() || pieces.back().t_end < 1.0) {
       pieces.push_back({1.0, last});
     }
-    return Motion::constant_rates(pieces, world_.bodies[body].inertia.p_BC);
+    return Motion::constant_rates(pieces, model_.bodies[body].inertia.p_BC);
   }
 
   [[nodiscard]] bool meet(std::size_t a, std::size_t b) {
     const BodyPair pair{std::min(a, b), std::max(a, b)};
     FirstContactOptions options;
-    const HeldDistance held = held_distance(world_.distances, *world_.laws.margin(pair),
+    const HeldDistance held = held_distance(model_.distances, *model_.laws.margin(pair),
                                             std::numeric_limits<double>::infinity());
     options.margin = held.margin;
     options.tolerance = held.tolerance;
     options.contacts = ContactState::none;
     const Motion A = motion_over_step(pair[0]);
     const Motion B = motion_over_step(pair[1]);
-    return first_contact({world_.bodies[pair[0]].shape, A}, {world_.bodies[pair[1]].shape, B},
+    return first_contact({model_.bodies[pair[0]].shape, A}, {model_.bodies[pair[1]].shape, B},
                          workspace_, options)
                .verdict != Verdict::free;
   }
@@ -215,7 +215,7 @@ class Islands {
   bool join_meeting(bool with_ways) {
     std::vector<AlignedBox3d> boxes;
     for (const std::size_t b : free_) {
-      boxes.push_back(widened(box_of(b), world_.distances.least + world_.distances.tolerance));
+      boxes.push_back(widened(box_of(b), model_.distances.least + model_.distances.tolerance));
     }
     std::vector<std::array<std::size_t, 2>> meeting;
     std::vector<std::array<std::size_t, 2>> crossing;
@@ -247,7 +247,7 @@ class Islands {
 
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  const World& world_;
+  const SimulationModel& model_;
   const StepStart& start_;
   Surroundings around_;
   StepContext step_;
@@ -260,11 +260,12 @@ class Islands {
 
 }  // namespace
 
-std::optional<std::vector<IslandTrack>> advance_islands(const World& world, const StepStart& start,
+std::optional<std::vector<IslandTrack>> advance_islands(const SimulationModel& model,
+                                                        const StepStart& start,
                                                         const std::vector<Touch>& guesses,
                                                         Workspace& workspace,
                                                         const std::stop_token& stop) {
-  return Islands(world, start, guesses, workspace, stop).run();
+  return Islands(model, start, guesses, workspace, stop).run();
 }
 
 }  // namespace firstcontact::detail

@@ -14,14 +14,14 @@
 namespace firstcontact::detail {
 
 struct StepStart;
-struct World;
+struct SimulationModel;
 
 /// Advances every free body. Two islands of which the motions found bring bodies of both into
 /// contact were one: they are joined and advanced anew, until no two meet.
 ///
 /// @returns  nothing if it was stopped
 [[nodiscard]] std::optional<std::vector<IslandTrack>> advance_islands(
-    const World& world, const StepStart& start, const std::vector<Touch>& guesses,
+    const SimulationModel& model, const StepStart& start, const std::vector<Touch>& guesses,
     Workspace& workspace, const std::stop_token& stop);
 
 }  // namespace firstcontact::detail

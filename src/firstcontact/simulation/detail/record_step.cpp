@@ -13,10 +13,10 @@
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/sim_robot.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/touch.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -56,18 +56,19 @@ std::vector<RunContact> without_idle(const std::vector<RunContact>& contacts) {
 class StepRecorder {
  public:
   /// @param lasted  [s]  when the step ends, since it began
-  StepRecorder(const World& world, const StepStart& start, double lasted, SimulationState& state)
-      : world_(world), start_(start), lasted_(lasted), state_(state) {}
+  StepRecorder(const SimulationModel& model, const StepStart& start, double lasted,
+               SimulationState& state)
+      : model_(model), start_(start), lasted_(lasted), state_(state) {}
 
   RunStep record(const std::vector<IslandTrack>& tracks) {
     RunStep step{.index = state_.count + 1,
                  .time = state_.time + lasted_,
                  .lasted = lasted_,
                  .time_lost = start_.h - lasted_};
-    step.clearance = world_.distances.least;
+    step.clearance = model_.distances.least;
     add_tracks(tracks, step);
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
-      if (world_.bodies[b].kind == BodyKind::scripted) {
+      if (model_.bodies[b].kind == BodyKind::scripted) {
         step.bodies.push_back(recorded_script(b));
       }
     }
@@ -104,7 +105,7 @@ class StepRecorder {
     }
     for (std::size_t r = 0; r < state_.robots.size(); ++r) {
       const auto& [positions, velocities] = state_.robots[r];
-      step.robots.push_back({.robot = world_.robots[r].number,
+      step.robots.push_back({.robot = model_.robots[r].number,
                              .positions = {positions.begin(), positions.end()},
                              .velocities = {velocities.begin(), velocities.end()},
                              .efforts = {efforts[r].begin(), efforts[r].end()}});
@@ -129,7 +130,7 @@ class StepRecorder {
       for (const RunPiece& piece : body.pieces) {
         size = std::max(size,
                         piece.X_WB.position.cwiseAbs().maxCoeff() + piece.translation.norm() +
-                            world_.bodies[body.body].reach * (1.0 + piece.rotation_vector.norm()));
+                            model_.bodies[body.body].reach * (1.0 + piece.rotation_vector.norm()));
       }
     }
     return size;
@@ -154,7 +155,7 @@ class StepRecorder {
     }
     for (const Touch& touch : touches) {
       step.contacts.push_back({touch.bodies, touch.feature_A, touch.feature_B, touch.point,
-                               touch.normal, touch.gap + world_.laws.margin(touch.bodies).value(),
+                               touch.normal, touch.gap + model_.laws.margin(touch.bodies).value(),
                                touch.impulse});
     }
     std::ranges::stable_sort(step.contacts, is_listed_before);
@@ -171,7 +172,7 @@ class StepRecorder {
       const double share =
           piece.to <= lasted_ ? 1.0 : std::max(0.0, (lasted_ - from) / (piece.to - from));
       if (share < 1.0) {
-        const Motion motion = motion_of(world_.bodies[b], piece.X_WB, piece.move);
+        const Motion motion = motion_of(model_.bodies[b], piece.X_WB, piece.move);
         state.X_WB = motion.pose(share);
         state.X_WB.rotation.normalize();
         state.v_WC = piece.begin.v_WC + share * (piece.end.v_WC - piece.begin.v_WC);
@@ -202,7 +203,7 @@ class StepRecorder {
     RunBody body{.body = b};
     body.pieces.push_back({lasted_, start_.states[b].X_WB, move.translation, move.rotation_vector});
     RigidState& state = state_.states[b];
-    state.X_WB = scripted_pose(world_, start_, b, share);
+    state.X_WB = scripted_pose(model_, start_, b, share);
     state.X_WB.rotation.normalize();
     state.v_WC = start_.scripted[b].translation / start_.h;
     state.w_WB = start_.scripted[b].rotation_vector / start_.h;
@@ -225,7 +226,7 @@ class StepRecorder {
       if (share == 1.0) {
         state = piece.end;
       } else {
-        const Mechanism& mechanism = world_.robots[track.robot].mechanism;
+        const Mechanism& mechanism = model_.robots[track.robot].mechanism;
         state = {mechanism.between(piece.begin.positions, piece.end.positions, share),
                  piece.begin.velocities + share * (piece.end.velocities - piece.begin.velocities)};
       }
@@ -241,14 +242,14 @@ class StepRecorder {
   void add_mechanics(RunStep& step) const {
     for (std::size_t r = 0; r < state_.robots.size(); ++r) {
       const MechanismMechanics robot =
-          world_.robots[r].mechanism.mechanics(state_.robots[r], world_.gravity);
+          model_.robots[r].mechanism.mechanics(state_.robots[r], model_.gravity);
       step.kinetic_energy += robot.kinetic_energy;
       step.potential_energy += robot.potential_energy;
       step.linear_momentum += robot.linear_momentum;
       step.angular_momentum += robot.angular_momentum;
     }
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
-      const SimBody& body = world_.bodies[b];
+      const SimBody& body = model_.bodies[b];
       if (body.kind != BodyKind::free || body.piece) {
         continue;
       }
@@ -256,14 +257,14 @@ class StepRecorder {
       const Vector3d p_WC = centre_of_mass(body.inertia, state.X_WB);
       const Vector3d momentum = body.inertia.mass * state.v_WC;
       step.kinetic_energy += kinetic_energy(body.inertia, state);
-      step.potential_energy -= body.inertia.mass * world_.gravity.dot(p_WC);
+      step.potential_energy -= body.inertia.mass * model_.gravity.dot(p_WC);
       step.linear_momentum += momentum;
       step.angular_momentum +=
           p_WC.cross(momentum) + rotational_inertia(body.inertia, state.X_WB) * state.w_WB;
     }
   }
 
-  const World& world_;
+  const SimulationModel& model_;
   const StepStart& start_;
   double lasted_;  // [s]
   SimulationState& state_;
@@ -271,13 +272,13 @@ class StepRecorder {
 
 }  // namespace
 
-RunStep record_step(const World& world, const StepStart& start,
+RunStep record_step(const SimulationModel& model, const StepStart& start,
                     const std::vector<IslandTrack>& tracks, SimulationState& state) {
   double lasted = start.h;
   for (const IslandTrack& track : tracks) {
     lasted = std::min(lasted, track.reached);
   }
-  return StepRecorder(world, start, lasted, state).record(tracks);
+  return StepRecorder(model, start, lasted, state).record(tracks);
 }
 
 }  // namespace firstcontact::detail

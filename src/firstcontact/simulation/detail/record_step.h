@@ -12,10 +12,10 @@ namespace firstcontact::detail {
 struct IslandTrack;
 struct SimulationState;
 struct StepStart;
-struct World;
+struct SimulationModel;
 
 /// Moves a simulation over a step, as far as all of its islands got, and records it.
-[[nodiscard]] RunStep record_step(const World& world, const StepStart& start,
+[[nodiscard]] RunStep record_step(const SimulationModel& model, const StepStart& start,
                                   const std::vector<IslandTrack>& tracks, SimulationState& state);
 
 }  // namespace firstcontact::detail

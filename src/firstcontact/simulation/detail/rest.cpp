@@ -9,9 +9,9 @@
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -49,11 +49,11 @@ bool changes(const TimedForce& force, const StepStart& start) {
 bool moves(const Move& move) { return move.translation.any() || move.rotation_vector.any(); }
 
 /// Whether anything scripted that moves in the step may get near the body.
-bool is_disturbed(const World& world, const StepStart& start, const Surroundings& around,
+bool is_disturbed(const SimulationModel& model, const StepStart& start, const Surroundings& around,
                   std::size_t body) {
-  const double reach = world.distances.band + world.laws.greatest_margin();
+  const double reach = model.distances.band + model.laws.greatest_margin();
   const AlignedBox3d box =
-      widened(swept_box(world.bodies[body], start.states[body].X_WB, {}), reach);
+      widened(swept_box(model.bodies[body], start.states[body].X_WB, {}), reach);
   bool found = false;
   around.for_each_overlap(box, [&](std::size_t b) { found = found || moves(start.scripted[b]); });
   return found;
@@ -63,7 +63,7 @@ bool is_disturbed(const World& world, const StepStart& start, const Surroundings
 
 bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
   const double seeming = std::min(kRestOfExactTolerance * exact_tolerance(state),
-                                  kRestOfGravity * state.world.gravity.norm() * state.start.h);
+                                  kRestOfGravity * state.model.gravity.norm() * state.start.h);
   if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
   }
@@ -72,7 +72,7 @@ bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector
     const RigidState& begin = state.start.states[state.members[k]];
     if (!(greatest_speed(body, begin.v_WC, begin.w_WB) <= seeming) ||
         !(greatest_speed(body, plan.at_end[k].v, plan.at_end[k].w) <= seeming) ||
-        is_disturbed(state.world, state.start, state.around, state.members[k])) {
+        is_disturbed(state.model, state.start, state.around, state.members[k])) {
       return false;
     }
   }
@@ -82,9 +82,9 @@ bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector
 bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& members) {
   return std::ranges::all_of(members, [&](std::size_t b) {
     return step.start.rests[b] &&
-           std::ranges::none_of(step.world.bodies[b].forces,
+           std::ranges::none_of(step.model.bodies[b].forces,
                                 [&](const auto& force) { return changes(force, step.start); }) &&
-           !is_disturbed(step.world, step.start, step.around, b);
+           !is_disturbed(step.model, step.start, step.around, b);
   });
 }
 
@@ -97,7 +97,7 @@ IslandTrack track_at_rest(const StepContext& step, std::vector<std::size_t> memb
   }
   track.reached = step.start.h;
   // Pairs that come to rest are not too near, and are held to half of their gap at least.
-  track.clearance = 0.5 * step.world.distances.pushed;
+  track.clearance = 0.5 * step.model.distances.pushed;
   track.rests = Rest::goes_on;
   return track;
 }

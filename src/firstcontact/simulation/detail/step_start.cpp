@@ -1,11 +1,12 @@
 #include <firstcontact/simulation/detail/step_start.h>
 
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 
-Pose scripted_pose(const World& world, const StepStart& start, std::size_t body, double share) {
-  const SimBody& moved = world.bodies[body];
+Pose scripted_pose(const SimulationModel& model, const StepStart& start, std::size_t body,
+                   double share) {
+  const SimBody& moved = model.bodies[body];
   const Pose& X_WB = start.states[body].X_WB;
   return moved.kind == BodyKind::scripted && share > 0.0
              ? motion_of(moved, X_WB, start.scripted[body]).pose(share)

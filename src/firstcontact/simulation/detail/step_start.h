@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-struct World;
+struct SimulationModel;
 
 /// What a step of a simulation begins with, for every body.
 struct StepStart {
@@ -26,7 +26,7 @@ struct StepStart {
 };
 
 /// Where a scripted or fixed body is, a share of the step after its begin.
-[[nodiscard]] Pose scripted_pose(const World& world, const StepStart& start, std::size_t body,
-                                 double share);
+[[nodiscard]] Pose scripted_pose(const SimulationModel& model, const StepStart& start,
+                                 std::size_t body, double share);
 
 }  // namespace firstcontact::detail

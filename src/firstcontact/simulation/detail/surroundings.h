@@ -13,12 +13,12 @@
 namespace firstcontact::detail {
 
 struct StepStart;
-struct World;
+struct SimulationModel;
 
 /// The fixed and scripted bodies of a step, by where they are in it.
 class Surroundings {
  public:
-  Surroundings(const World& world, const StepStart& start);
+  Surroundings(const SimulationModel& model, const StepStart& start);
 
   /// Calls use(body) for each body whose box over the whole step overlaps this one.
   template <class Use>

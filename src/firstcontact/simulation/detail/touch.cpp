@@ -15,8 +15,8 @@
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/surface_neighbours.h>
-#include <firstcontact/simulation/detail/world.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -94,9 +94,10 @@ class Successors {
 /// Two bodies, of which features are asked whether they bulge towards each other.
 class FacingBodies {
  public:
-  FacingBodies(const World& world, const BodyPair& bodies, const std::array<Pose, 2>& poses)
-      : A_(*world.neighbours[bodies[0]]),
-        B_(*world.neighbours[bodies[1]]),
+  FacingBodies(const SimulationModel& model, const BodyPair& bodies,
+               const std::array<Pose, 2>& poses)
+      : A_(*model.neighbours[bodies[0]]),
+        B_(*model.neighbours[bodies[1]]),
         R_AW_(poses[0].rotation.normalized().conjugate()),
         R_BW_(poses[1].rotation.normalized().conjugate()) {}
 
@@ -216,13 +217,13 @@ bool same_features(const Touch& x, const Touch& y) {
          x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
 }
 
-std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
+std::vector<Touch> touches_among(const SimulationModel& model, const BodyPair& bodies,
                                  const std::array<Pose, 2>& poses, double margin,
                                  const std::vector<Contact>& contacts) {
-  const FacingBodies facing(world, bodies, poses);
+  const FacingBodies facing(model, bodies, poses);
   if (contacts.size() > kVeryManyContacts) {
     std::vector<Touch> few = touches_among_many(facing, bodies, margin, contacts,
-                                                kNeighbourhood * smaller_reach(world, bodies));
+                                                kNeighbourhood * smaller_reach(model, bodies));
     if (!few.empty()) {
       return few;
     }
@@ -234,7 +235,7 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
       outermost.push_back(&contact);
     }
   }
-  const double size = smaller_reach(world, bodies);
+  const double size = smaller_reach(model, bodies);
   SpatialHash by_place(kSamePlace * size);
   std::vector<Touch> touches;
   if (!outermost.empty()) {
@@ -255,12 +256,12 @@ std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  close_features(A, B, margin + world_.distances.band, workspace_, contacts_,
-                 kNeighbourhood * smaller_reach(world_, bodies));
+  close_features(A, B, margin + model_.distances.band, workspace_, contacts_,
+                 kNeighbourhood * smaller_reach(model_, bodies));
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }
-  manifold.touches = touches_among(world_, bodies, {A.pose(), B.pose()}, margin, contacts_);
+  manifold.touches = touches_among(model_, bodies, {A.pose(), B.pose()}, margin, contacts_);
   return manifold;
 }
 

@@ -15,14 +15,14 @@
 
 namespace firstcontact::detail {
 
-struct World;
+struct SimulationModel;
 
 /// A point at which two bodies are near each other.
 struct Touch {
   BodyPair bodies = {};
   Feature feature_A;
   Feature feature_B;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< [m]  World, between the surfaces.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
@@ -35,7 +35,7 @@ struct Touch {
 /// normal, of surfaces that meet, are left out.
 ///
 /// @param margin  [m]  of the pair
-[[nodiscard]] std::vector<Touch> touches_among(const World& world, const BodyPair& bodies,
+[[nodiscard]] std::vector<Touch> touches_among(const SimulationModel& model, const BodyPair& bodies,
                                                const std::array<Pose, 2>& poses, double margin,
                                                const std::vector<Contact>& contacts);
 
@@ -49,7 +49,8 @@ struct Manifold {
 /// Finds the manifolds of many pairs in memory that they share.
 class ManifoldFinder {
  public:
-  ManifoldFinder(const World& world, Workspace& workspace) : world_(world), workspace_(workspace) {}
+  ManifoldFinder(const SimulationModel& model, Workspace& workspace)
+      : model_(model), workspace_(workspace) {}
 
   /// @param A,B     the shapes of the pair
   /// @param margin  [m]  of the pair
@@ -57,7 +58,7 @@ class ManifoldFinder {
                               double margin);
 
  private:
-  const World& world_;
+  const SimulationModel& model_;
   Workspace& workspace_;
   std::vector<Contact> contacts_;
 };

@@ -22,9 +22,9 @@ struct LoadedScene;
 
 namespace firstcontact::detail {
 
-struct World {
+struct SimulationModel {
   /// @param loaded  the scene of which `linked` was made
-  World(const LoadedScene& loaded, const LinksAsBodies& linked);
+  SimulationModel(const LoadedScene& loaded, const LinksAsBodies& linked);
 
   std::vector<SimBody> bodies;
   std::vector<SimRobot> robots;
@@ -36,6 +36,6 @@ struct World {
 };
 
 /// [m]  Of two bodies, how far the smaller one reaches.
-[[nodiscard]] double smaller_reach(const World& world, const BodyPair& bodies);
+[[nodiscard]] double smaller_reach(const SimulationModel& model, const BodyPair& bodies);
 
 }  // namespace firstcontact::detail

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/world.h>
+#include <firstcontact/simulation/detail/simulation_model.h>
 
 #include <algorithm>
 #include <unordered_map>
@@ -27,7 +27,7 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
 
 }  // namespace
 
-World::World(const LoadedScene& loaded, const LinksAsBodies& linked)
+SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies& linked)
     : bodies(make_sim_bodies(loaded.scene, linked)),
       robots(make_sim_robots(loaded, linked)),
       laws(linked.loaded),
@@ -36,8 +36,8 @@ World::World(const LoadedScene& loaded, const LinksAsBodies& linked)
       gravity(loaded.scene.simulation->gravity),
       events(loaded.scene.simulation->events) {}
 
-double smaller_reach(const World& world, const BodyPair& bodies) {
-  return std::min(world.bodies[bodies[0]].reach, world.bodies[bodies[1]].reach);
+double smaller_reach(const SimulationModel& model, const BodyPair& bodies) {
+  return std::min(model.bodies[bodies[0]].reach, model.bodies[bodies[1]].reach);
 }
 
 }  // namespace firstcontact::detail
