@@ -11,7 +11,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/rest.h>
+#include <firstcontact/simulation/detail/sleeping.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -148,7 +148,7 @@ class Island {
       }
     }
     if (t == 1.0 && planned == state_.start.h && track_.events == 0 &&
-        comes_to_rest(state_, plan, touches)) {
+        falls_asleep(state_, plan, touches)) {
       come_to_rest();
     }
     state_.reached = to;

@@ -10,9 +10,9 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/contact_distances.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/rest.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
@@ -153,8 +153,8 @@ class Islands {
         continue;
       }
       is_new_[s] = true;
-      tracks_[s] = stays_at_rest(step_, members[s])
-                       ? track_at_rest(step_, std::move(members[s]))
+      tracks_[s] = stays_asleep(step_, members[s])
+                       ? track_asleep(step_, std::move(members[s]))
                        : advance_island(step_, std::move(members[s]), workspace_);
       if (!tracks_[s]) {
         return false;

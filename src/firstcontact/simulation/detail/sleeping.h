@@ -21,16 +21,16 @@ struct StepContext;
 /// plan none is faster than a little more than what exact solutions leave, 3e-5 of what gravity
 /// adds in a step at most. Bodies that gather speed more slowly than that are at rest, too; without
 /// gravity none are. Heaps, which are solved less exactly, rarely get there.
-[[nodiscard]] bool comes_to_rest(const IslandState& state, const Plan& plan,
-                                 const std::vector<Touch>& touches);
+[[nodiscard]] bool falls_asleep(const IslandState& state, const Plan& plan,
+                                const std::vector<Touch>& touches);
 
 /// Whether all members were found at rest in the step before, and nothing that acts on them
 /// changed.
 ///
 /// Nothing changed since: no force on them begins or ends, and nothing scripted moves near them.
-[[nodiscard]] bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& members);
+[[nodiscard]] bool stays_asleep(const StepContext& step, const std::vector<std::size_t>& members);
 
 /// The track of members that stay at rest. What touches and presses is as in the step before.
-[[nodiscard]] IslandTrack track_at_rest(const StepContext& step, std::vector<std::size_t> members);
+[[nodiscard]] IslandTrack track_asleep(const StepContext& step, std::vector<std::size_t> members);
 
 }  // namespace firstcontact::detail

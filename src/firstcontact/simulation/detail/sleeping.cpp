@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/rest.h>
+#include <firstcontact/simulation/detail/sleeping.h>
 
 #include <algorithm>
 #include <utility>
@@ -61,7 +61,7 @@ bool is_disturbed(const SimulationModel& model, const StepStart& start, const Su
 
 }  // namespace
 
-bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
+bool falls_asleep(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
   const double seeming = std::min(kRestOfExactTolerance * exact_tolerance(state),
                                   kRestOfGravity * state.model.gravity.norm() * state.start.h);
   if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
@@ -79,7 +79,7 @@ bool comes_to_rest(const IslandState& state, const Plan& plan, const std::vector
   return are_all_held(state, touches);
 }
 
-bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& members) {
+bool stays_asleep(const StepContext& step, const std::vector<std::size_t>& members) {
   return std::ranges::all_of(members, [&](std::size_t b) {
     return step.start.rests[b] &&
            std::ranges::none_of(step.model.bodies[b].forces,
@@ -88,7 +88,7 @@ bool stays_at_rest(const StepContext& step, const std::vector<std::size_t>& memb
   });
 }
 
-IslandTrack track_at_rest(const StepContext& step, std::vector<std::size_t> members) {
+IslandTrack track_asleep(const StepContext& step, std::vector<std::size_t> members) {
   IslandTrack track;
   track.members = std::move(members);
   for (const std::size_t b : track.members) {
