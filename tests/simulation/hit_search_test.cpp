@@ -13,9 +13,9 @@
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/hit_search.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/surroundings.h>
 
 #include "simulation/random_body.h"
 
@@ -79,7 +79,7 @@ class Island {
   LinksAsBodies linked_;
   SimulationModel model_;
   StepStart start_;
-  Surroundings around_;
+  Obstacles around_;
   std::vector<Touch> guesses_;
   std::stop_token stop_;
 

@@ -11,9 +11,9 @@
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/surroundings.h>
 
 #include "simulation/random_body.h"
 
@@ -126,7 +126,7 @@ TEST(OverlappingPairs, AreAllThatTouch) {
 }
 
 // Neither a box over part of the step nor one at its end is left out.
-TEST(Surroundings, HoldScriptedBodiesOverTheWholeStep) {
+TEST(Obstacles, HoldScriptedBodiesOverTheWholeStep) {
   ShapeCache cache;
   const LoadedScene loaded =
       load_scene(parse_scene(R"({"firstcontact": 1, "simulation": {}, "bodies": [
@@ -141,7 +141,7 @@ TEST(Surroundings, HoldScriptedBodiesOverTheWholeStep) {
   StepStart start{.h = 1.0, .states = std::vector<RigidState>(3), .scripted = {{}, {}, {}}};
   start.states[0].X_WB.position = {0.0, 5.0, 0.0};
   start.scripted[2].translation = {10.0, 0.0, 0.0};
-  const Surroundings around(model, start);
+  const Obstacles around(model, start);
   const auto near = [&](const Vector3d& point) {
     std::vector<std::size_t> bodies;
     around.for_each_overlap(AlignedBox3d(point, point),

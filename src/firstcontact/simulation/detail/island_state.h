@@ -18,10 +18,10 @@
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
@@ -30,7 +30,7 @@ namespace firstcontact::detail {
 struct StepContext {
   const SimulationModel& model;
   const StepStart& start;
-  const Surroundings& around;
+  const Obstacles& around;
   const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
                                       ///< the solver.
   const std::stop_token& stop;
@@ -77,7 +77,7 @@ struct IslandState {
 
   const SimulationModel& model;
   const StepStart& start;
-  const Surroundings& around;
+  const Obstacles& around;
   std::vector<std::size_t> members;
   std::unordered_map<std::size_t, std::size_t> place;  ///< Of each member.
   std::vector<RigidState> states;                      ///< Of each member.

@@ -10,11 +10,11 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/contact_distances.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/surroundings.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 namespace firstcontact::detail {
@@ -249,7 +249,7 @@ class Islands {
 
   const SimulationModel& model_;
   const StepStart& start_;
-  Surroundings around_;
+  Obstacles around_;
   StepContext step_;
   Workspace& workspace_;
   DisjointSets sets_;  // Of bodies; an island is named after its least member.

@@ -8,10 +8,10 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/surroundings.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -49,7 +49,7 @@ bool changes(const TimedForce& force, const StepStart& start) {
 bool moves(const Move& move) { return move.translation.any() || move.rotation_vector.any(); }
 
 /// Whether anything scripted that moves in the step may get near the body.
-bool is_disturbed(const SimulationModel& model, const StepStart& start, const Surroundings& around,
+bool is_disturbed(const SimulationModel& model, const StepStart& start, const Obstacles& around,
                   std::size_t body) {
   const double reach = model.distances.band + model.laws.greatest_margin();
   const AlignedBox3d box =

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/surroundings.h>
+#include <firstcontact/simulation/detail/obstacles.h>
 
 #include <firstcontact/simulation/detail/sim_body.h>
 
@@ -32,7 +32,7 @@ std::vector<Eigen::AlignedBox3d> boxes_over_step(const SimulationModel& model,
 
 }  // namespace
 
-Surroundings::Surroundings(const SimulationModel& model, const StepStart& start)
+Obstacles::Obstacles(const SimulationModel& model, const StepStart& start)
     : bodies_(bodies_that_are_not_free(model)), tree_(boxes_over_step(model, start, bodies_)) {}
 
 }  // namespace firstcontact::detail

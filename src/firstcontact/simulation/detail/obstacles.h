@@ -16,9 +16,9 @@ struct StepStart;
 struct SimulationModel;
 
 /// The fixed and scripted bodies of a step, by where they are in it.
-class Surroundings {
+class Obstacles {
  public:
-  Surroundings(const SimulationModel& model, const StepStart& start);
+  Obstacles(const SimulationModel& model, const StepStart& start);
 
   /// Calls use(body) for each body whose box over the whole step overlaps this one.
   template <class Use>
