@@ -80,7 +80,7 @@ class Island {
   SimulationModel model_;
   StepStart start_;
   Obstacles around_;
-  std::vector<Touch> guesses_;
+  std::vector<ManifoldPoint> guesses_;
   std::stop_token stop_;
 
  public:

@@ -24,10 +24,10 @@ namespace firstcontact {
 
 using detail::BodyKind;
 using detail::IslandTrack;
+using detail::ManifoldPoint;
 using detail::SimBody;
 using detail::SimulationModel;
 using detail::StepStart;
-using detail::Touch;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -214,8 +214,8 @@ class Simulator::Implementation {
 
  private:
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
-  [[nodiscard]] std::vector<Touch> guesses() const {
-    std::vector<Touch> touches;
+  [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
+    std::vector<ManifoldPoint> touches;
     touches.reserve(state_.contacts.size());
     for (const RunContact& contact : state_.contacts) {
       touches.push_back({.bodies = contact.bodies,

@@ -160,7 +160,7 @@ HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
     return *pair.plane;
   }
   if (pair.manifold != nullptr && !pair.manifold->touches.empty()) {
-    const Touch& touch = pair.manifold->touches[0];
+    const ManifoldPoint& touch = pair.manifold->touches[0];
     return {touch.normal, touch.feature_B.type == FeatureType::face};
   }
   const auto centre = [&](int side) {
@@ -237,9 +237,9 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
                centre_of_mass(state_.model.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
-  for (Touch& touch :
+  for (ManifoldPoint& touch :
        touches_among(state_.model, hit.bodies, poses, pair.margin, answer_.contacts)) {
-    TouchAhead ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
+    PredictedContact ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.
     const double gap = touch.gap - hit.t * span_ * u_n;

@@ -14,9 +14,9 @@
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
-#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
 
@@ -27,7 +27,7 @@ struct Hit {
   BodyPair bodies;
   double t = 0.0;  ///< [-]  Of the span.
   bool is_slight = false;
-  std::vector<TouchAhead> ahead = {};
+  std::vector<PredictedContact> ahead = {};
 };
 
 /// The search for first contacts in the motions of plans.

@@ -111,7 +111,7 @@ class Island {
       }
       for (const Hit& hit : hits) {
         if (hit.is_slight) {
-          for (const TouchAhead& ahead : hit.ahead) {
+          for (const PredictedContact& ahead : hit.ahead) {
             planner.add(ahead);
           }
         }
@@ -122,7 +122,7 @@ class Island {
 
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
   /// little to be told from now.
-  void move_to(const Plan& plan, std::vector<Touch> touches, double t, double clearance) {
+  void move_to(const Plan& plan, std::vector<ManifoldPoint> touches, double t, double clearance) {
     const double planned = span();
     const bool is_last = planned >= state_.start.h - state_.reached;
     const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned;
@@ -157,7 +157,7 @@ class Island {
     state_.poses_around.clear();
     if (to < state_.start.h) {
       acted_ = touches;
-      for (Touch& touch : acted_) {
+      for (ManifoldPoint& touch : acted_) {
         touch.impulse *= state_.start.h / planned;
       }
       std::ranges::stable_sort(acted_, comes_before);
@@ -182,7 +182,7 @@ class Island {
     ProblemBodies bodies = state_.problem_bodies();
     for (const auto& [pair, manifold] : state_.manifolds) {
       state_.add_others(pair, bodies);
-      for (const Touch& touch : manifold.touches) {
+      for (const ManifoldPoint& touch : manifold.touches) {
         const ContactPoint contact = contact_at(touch, bodies, 0.0, 0.0);
         if (touch.gap <= state_.model.distances.touching &&
             state_.bounces(pair, -normal_velocity(contact, bodies.bodies()))) {
@@ -197,15 +197,15 @@ class Island {
   void impact() {
     ProblemBodies bodies = state_.problem_bodies();
     ContactProblem problem;
-    std::vector<const Touch*> touches;
+    std::vector<const ManifoldPoint*> touches;
     std::vector<double> restitution;
     for (const auto& [pair, manifold] : state_.manifolds) {
-      for (const Touch& touch : manifold.touches) {
+      for (const ManifoldPoint& touch : manifold.touches) {
         if (touch.gap > state_.model.distances.touching) {
           continue;
         }
         state_.add_others(pair, bodies);
-        Touch unknown = touch;
+        ManifoldPoint unknown = touch;
         unknown.impulse.setZero();
         problem.contacts.push_back(
             contact_at(unknown, bodies, state_.model.laws.friction(pair), 0.0));
@@ -237,9 +237,10 @@ class Island {
   }
 
   IslandState state_;
-  const std::vector<Touch>& guesses_;
+  const std::vector<ManifoldPoint>& guesses_;
   const std::stop_token& stop_;
-  std::vector<Touch> acted_ = {};  // In the last plan, sorted, with the impulses of a whole step.
+  std::vector<ManifoldPoint> acted_ =
+      {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
   double span_;  // [s]  Longest of a plan, for now.

@@ -11,8 +11,8 @@
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
 
@@ -39,7 +39,7 @@ struct IslandTrack {
   std::vector<std::size_t> members;             ///< Free bodies.
   std::vector<std::vector<TrackPiece>> pieces;  ///< Of each member.
   std::vector<RobotTrack> robots = {};          ///< Whose links are members.
-  std::vector<Touch> touches = {};              ///< That acted last, with their impulses.
+  std::vector<ManifoldPoint> touches = {};      ///< That acted last, with their impulses.
   std::vector<RunImpact> impacts = {};          ///< In the order of time.
   double reached = 0.0;                         ///< [s]
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.

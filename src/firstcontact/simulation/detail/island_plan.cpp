@@ -51,7 +51,7 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
   set_bodies();
   for (const auto& [pair, manifold] : state_.manifolds) {
-    for (const Touch& touch : manifold.touches) {
+    for (const ManifoldPoint& touch : manifold.touches) {
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
@@ -71,7 +71,7 @@ void IslandPlanner::set_bodies() {
 }
 
 /// Its guess is the impulse of the touch, of a whole step.
-ContactPoint IslandPlanner::contact_of(const Touch& touch, double least) const {
+ContactPoint IslandPlanner::contact_of(const ManifoldPoint& touch, double least) const {
   ContactPoint contact =
       contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
   contact.guess *= span_ / state_.start.h;
@@ -79,16 +79,16 @@ ContactPoint IslandPlanner::contact_of(const Touch& touch, double least) const {
   return contact;
 }
 
-void IslandPlanner::append(const Touch& touch, const ContactPoint& contact) {
+void IslandPlanner::append(const ManifoldPoint& touch, const ContactPoint& contact) {
   changed_.push_back(touches_.size());
   touches_.push_back(touch);
   problem_.contacts.push_back(contact);
 }
 
 /// Whether a contact is about the same place of one of the bodies, seen from there.
-bool IslandPlanner::is_at(const TouchAhead& ahead, std::size_t k) const {
+bool IslandPlanner::is_at(const PredictedContact& ahead, std::size_t k) const {
   // Features and normals tell most apart, and cost least.
-  const Touch& touch = touches_[k];
+  const ManifoldPoint& touch = touches_[k];
   if (!same_features(touch, ahead.touch) ||
       !(touch.normal.dot(ahead.touch.normal) >= kReplacedNormal)) {
     return false;
@@ -100,10 +100,11 @@ bool IslandPlanner::is_at(const TouchAhead& ahead, std::size_t k) const {
 }
 
 /// The contact whose place a touch ahead takes.
-std::optional<std::size_t> IslandPlanner::find(const TouchAhead& ahead) const {
+std::optional<std::size_t> IslandPlanner::find(const PredictedContact& ahead) const {
   const BodyPair& pair = ahead.touch.bodies;
   const auto end_touching = touches_.begin() + static_cast<std::ptrdiff_t>(first_ahead_);
-  auto touch = std::ranges::lower_bound(touches_.begin(), end_touching, pair, {}, &Touch::bodies);
+  auto touch =
+      std::ranges::lower_bound(touches_.begin(), end_touching, pair, {}, &ManifoldPoint::bodies);
   for (; touch != end_touching && touch->bodies == pair; ++touch) {
     const auto k = static_cast<std::size_t>(touch - touches_.begin());
     if (is_at(ahead, k)) {
@@ -116,7 +117,7 @@ std::optional<std::size_t> IslandPlanner::find(const TouchAhead& ahead) const {
   return found == end ? std::nullopt : std::optional(found->second);
 }
 
-void IslandPlanner::add(const TouchAhead& ahead) {
+void IslandPlanner::add(const PredictedContact& ahead) {
   const BodyPair& pair = ahead.touch.bodies;
   state_.add_others(pair, bodies_);
   set_bodies();
@@ -166,8 +167,8 @@ Plan IslandPlanner::plan() {
   return made;
 }
 
-std::vector<Touch> IslandPlanner::touches() const {
-  std::vector<Touch> touches = touches_;
+std::vector<ManifoldPoint> IslandPlanner::touches() const {
+  std::vector<ManifoldPoint> touches = touches_;
   for (std::size_t k = 0; k < touches.size(); ++k) {
     const ContactPoint& contact = problem_.contacts[k];
     touches[k].impulse = contact.frame.transpose() * contact.guess;
@@ -268,12 +269,12 @@ ContactSolution IslandPlanner::find_push() const {
   ContactProblem problem;
   std::vector<std::size_t> too_near;
   for (const auto& [pair, manifold] : state_.manifolds) {
-    for (const Touch& touch : manifold.touches) {
+    for (const ManifoldPoint& touch : manifold.touches) {
       const double missing = distances.least - touch.gap;
       if (kPush * missing > options.tolerance) {
         too_near.push_back(problem.contacts.size());
       }
-      Touch unknown = touch;
+      ManifoldPoint unknown = touch;
       unknown.impulse.setZero();
       problem.contacts.push_back(
           contact_at(unknown, bodies_, 0.0, missing > 0.0 ? kPush * missing : missing));

@@ -14,17 +14,17 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/response.h>
-#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
 
 struct IslandState;
 
 /// A touch of the motion ahead, and how it would be reached.
-struct TouchAhead {
-  Touch touch;
+struct PredictedContact {
+  ManifoldPoint touch;
   ContactPoint contact;  ///< With the arms of its time.
   double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
 };
@@ -54,11 +54,11 @@ class IslandPlanner {
   [[nodiscard]] Plan plan();
 
   /// The pairs that the last plan holds apart, with its impulses.
-  [[nodiscard]] std::vector<Touch> touches() const;
+  [[nodiscard]] std::vector<ManifoldPoint> touches() const;
 
   /// Makes a touch of the motion ahead a constraint. Where the same features have one there it
   /// takes its place: between two that say nearly the same impulses would only slowly go over.
-  void add(const TouchAhead& ahead);
+  void add(const PredictedContact& ahead);
 
  private:
   /// Velocities without contacts, as those of Plan, and how far they lead.
@@ -69,10 +69,10 @@ class IslandPlanner {
 
   [[nodiscard]] FreeFlight free_flight() const;
   void set_bodies();
-  [[nodiscard]] ContactPoint contact_of(const Touch& touch, double least) const;
-  void append(const Touch& touch, const ContactPoint& contact);
-  [[nodiscard]] bool is_at(const TouchAhead& ahead, std::size_t contact) const;
-  [[nodiscard]] std::optional<std::size_t> find(const TouchAhead& ahead) const;
+  [[nodiscard]] ContactPoint contact_of(const ManifoldPoint& touch, double least) const;
+  void append(const ManifoldPoint& touch, const ContactPoint& contact);
+  [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;
+  [[nodiscard]] std::optional<std::size_t> find(const PredictedContact& ahead) const;
   void solve();
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
@@ -86,7 +86,7 @@ class IslandPlanner {
   ProblemBodies bodies_;
   FreeFlight flight_;
   ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
-  std::vector<Touch> touches_;                  // Of each contact of the problem.
+  std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
   std::vector<RobotPlan> free_robots_;

@@ -76,7 +76,7 @@ bool IslandState::is_too_near() const {
       manifolds, [&](const auto& entry) { return entry.second.gap < model.distances.pushed; });
 }
 
-void IslandState::find_manifolds(const std::vector<Touch>& before, Workspace& workspace) {
+void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Workspace& workspace) {
   manifolds.clear();
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::size_t k = 0; k < size(); ++k) {

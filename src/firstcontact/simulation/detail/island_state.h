@@ -17,12 +17,12 @@
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
 
@@ -31,8 +31,8 @@ struct StepContext {
   const SimulationModel& model;
   const StepStart& start;
   const Obstacles& around;
-  const std::vector<Touch>& guesses;  ///< Touches of the step before, sorted; their impulses start
-                                      ///< the solver.
+  const std::vector<ManifoldPoint>& guesses;  ///< Touches of the step before, sorted; their
+                                              ///< impulses start the solver.
   const std::stop_token& stop;
 };
 
@@ -61,7 +61,7 @@ struct IslandState {
   /// Looks around after bodies were moved.
   ///
   /// @param before  sorted touches whose impulses go to those found
-  void find_manifolds(const std::vector<Touch>& before, Workspace& workspace);
+  void find_manifolds(const std::vector<ManifoldPoint>& before, Workspace& workspace);
 
   /// Calls use(pair, margin) for pairs of a member and any other body whose boxes are near each
   /// other.

@@ -25,8 +25,9 @@ using Eigen::Vector3d;
 
 class Islands {
  public:
-  Islands(const SimulationModel& model, const StepStart& start, const std::vector<Touch>& guesses,
-          Workspace& workspace, const std::stop_token& stop)
+  Islands(const SimulationModel& model, const StepStart& start,
+          const std::vector<ManifoldPoint>& guesses, Workspace& workspace,
+          const std::stop_token& stop)
       : model_(model),
         start_(start),
         around_(model, start),
@@ -262,7 +263,7 @@ class Islands {
 
 std::optional<std::vector<IslandTrack>> advance_islands(const SimulationModel& model,
                                                         const StepStart& start,
-                                                        const std::vector<Touch>& guesses,
+                                                        const std::vector<ManifoldPoint>& guesses,
                                                         Workspace& workspace,
                                                         const std::stop_token& stop) {
   return Islands(model, start, guesses, workspace, stop).run();

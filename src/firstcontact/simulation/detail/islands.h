@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/manifold.h>
 
 namespace firstcontact::detail {
 
@@ -21,7 +21,7 @@ struct SimulationModel;
 ///
 /// @returns  nothing if it was stopped
 [[nodiscard]] std::optional<std::vector<IslandTrack>> advance_islands(
-    const SimulationModel& model, const StepStart& start, const std::vector<Touch>& guesses,
+    const SimulationModel& model, const StepStart& start, const std::vector<ManifoldPoint>& guesses,
     Workspace& workspace, const std::stop_token& stop);
 
 }  // namespace firstcontact::detail

@@ -10,13 +10,13 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/sim_robot.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/touch.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -139,7 +139,7 @@ class StepRecorder {
   /// Those of bodies that stay at rest are those of the step before.
   void add_contacts(const std::vector<IslandTrack>& tracks, RunStep& step) const {
     std::vector<bool> stays(state_.states.size(), false);
-    std::vector<Touch> touches;
+    std::vector<ManifoldPoint> touches;
     for (const IslandTrack& track : tracks) {
       if (track.rests == Rest::goes_on) {
         for (const std::size_t b : track.members) {
@@ -153,7 +153,7 @@ class StepRecorder {
         step.contacts.push_back(contact);
       }
     }
-    for (const Touch& touch : touches) {
+    for (const ManifoldPoint& touch : touches) {
       step.contacts.push_back({touch.bodies, touch.feature_A, touch.feature_B, touch.point,
                                touch.normal, touch.gap + model_.laws.margin(touch.bodies).value(),
                                touch.impulse});

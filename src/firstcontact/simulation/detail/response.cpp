@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/manifold.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -64,7 +64,7 @@ std::size_t ProblemBodies::add(std::size_t body, const ContactBody& with, const 
   return place;
 }
 
-ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies, double friction,
+ContactPoint contact_at(const ManifoldPoint& touch, const ProblemBodies& bodies, double friction,
                         double least_normal_velocity) {
   ContactPoint contact;
   contact.bodies = {bodies.place(touch.bodies[0]), bodies.place(touch.bodies[1])};

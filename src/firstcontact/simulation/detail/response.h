@@ -14,7 +14,7 @@
 
 namespace firstcontact::detail {
 
-struct Touch;
+struct ManifoldPoint;
 
 /// The bodies of a problem: the members of an island first, by their place there, and the fixed and
 /// scripted bodies that they touch.
@@ -36,7 +36,7 @@ class ProblemBodies {
 
 /// A contact of the problem at a touch, whose impulse starts the solver. Arms are those of the
 /// bodies' present centres.
-[[nodiscard]] ContactPoint contact_at(const Touch& touch, const ProblemBodies& bodies,
+[[nodiscard]] ContactPoint contact_at(const ManifoldPoint& touch, const ProblemBodies& bodies,
                                       double friction, double least_normal_velocity);
 
 /// [m/s]  Of B relative to A along the normal.

@@ -25,9 +25,9 @@ double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w)
 }
 
 /// Whether contacts press each member.
-bool are_all_held(const IslandState& state, const std::vector<Touch>& touches) {
+bool are_all_held(const IslandState& state, const std::vector<ManifoldPoint>& touches) {
   std::vector<bool> is_held(state.size(), false);
-  for (const Touch& touch : touches) {
+  for (const ManifoldPoint& touch : touches) {
     for (const std::size_t b : touch.bodies) {
       const auto member = state.place.find(b);
       if (member != state.place.end() && !touch.impulse.isZero(0.0)) {
@@ -61,7 +61,8 @@ bool is_disturbed(const SimulationModel& model, const StepStart& start, const Ob
 
 }  // namespace
 
-bool falls_asleep(const IslandState& state, const Plan& plan, const std::vector<Touch>& touches) {
+bool falls_asleep(const IslandState& state, const Plan& plan,
+                  const std::vector<ManifoldPoint>& touches) {
   const double seeming = std::min(kRestOfExactTolerance * exact_tolerance(state),
                                   kRestOfGravity * state.model.gravity.norm() * state.start.h);
   if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/manifold.h>
 
 namespace firstcontact::detail {
 
@@ -22,7 +22,7 @@ struct StepContext;
 /// adds in a step at most. Bodies that gather speed more slowly than that are at rest, too; without
 /// gravity none are. Heaps, which are solved less exactly, rarely get there.
 [[nodiscard]] bool falls_asleep(const IslandState& state, const Plan& plan,
-                                const std::vector<Touch>& touches);
+                                const std::vector<ManifoldPoint>& touches);
 
 /// Whether all members were found at rest in the step before, and nothing that acts on them
 /// changed.

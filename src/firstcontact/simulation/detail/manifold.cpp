@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/manifold.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ using Eigen::Vector3d;
 /// Of a pair; there may be more.
 constexpr std::size_t kUsualTouches = 4;
 
-auto features_of(const Touch& touch) {
+auto features_of(const ManifoldPoint& touch) {
   return std::tuple(touch.feature_A.type, touch.feature_A.index, touch.feature_B.type,
                     touch.feature_B.index);
 }
@@ -35,7 +35,7 @@ auto features_of(const Touch& touch) {
 class Successors {
  public:
   /// @param close_by  [m]  how far it may be where it has other features
-  Successors(double close_by, std::vector<Touch>& touches)
+  Successors(double close_by, std::vector<ManifoldPoint>& touches)
       : touches_(touches), close_by_(close_by), by_place_(close_by) {
     for (std::size_t k = 0; k < touches.size(); ++k) {
       by_place_.add(touches[k].point, k);
@@ -50,11 +50,11 @@ class Successors {
   }
 
   /// Null where there is none.
-  Touch* of(const Touch& before) {
-    if (Touch* same = of_same_features(before)) {
+  ManifoldPoint* of(const ManifoldPoint& before) {
+    if (ManifoldPoint* same = of_same_features(before)) {
       return same;
     }
-    Touch* nearest = nullptr;
+    ManifoldPoint* nearest = nullptr;
     double least = close_by_;
     by_place_.for_each_near(before.point, [&](std::size_t k) {
       const double distance = (touches_[k].point - before.point).norm();
@@ -72,10 +72,10 @@ class Successors {
   static constexpr std::size_t kFew = 24;
 
   /// The first of them.
-  Touch* of_same_features(const Touch& before) {
+  ManifoldPoint* of_same_features(const ManifoldPoint& before) {
     if (touches_.size() <= kFew) {
       const auto same = std::ranges::find_if(
-          touches_, [&](const Touch& touch) { return same_features(touch, before); });
+          touches_, [&](const ManifoldPoint& touch) { return same_features(touch, before); });
       return same != touches_.end() ? &*same : nullptr;
     }
     const auto same =
@@ -85,7 +85,7 @@ class Successors {
                                                                                 : nullptr;
   }
 
-  std::vector<Touch>& touches_;
+  std::vector<ManifoldPoint>& touches_;
   double close_by_;
   std::vector<std::size_t> by_features_;  // Where there are many.
   SpatialHash by_place_;
@@ -121,7 +121,7 @@ class FacingBodies {
   Eigen::Quaterniond R_BW_;
 };
 
-Touch make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
+ManifoldPoint make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
   return {.bodies = bodies,
           .feature_A = contact.feature_A,
           .feature_B = contact.feature_B,
@@ -175,7 +175,8 @@ class NearestOfMany {
 /// edge of it, say the same: of them the nearest is kept.
 ///
 /// @param size  [m]  of the smaller body
-void keep_once(const Touch& touch, double size, SpatialHash& by_place, std::vector<Touch>& kept) {
+void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
+               std::vector<ManifoldPoint>& kept) {
   std::size_t same = kept.size();
   by_place.for_each_near(touch.point, [&](std::size_t k) {
     if ((touch.point - kept[k].point).norm() <= kSamePlace * size &&
@@ -194,16 +195,16 @@ void keep_once(const Touch& touch, double size, SpatialHash& by_place, std::vect
 }
 
 /// @param beside  [m]
-std::vector<Touch> touches_among_many(const FacingBodies& facing, const BodyPair& bodies,
-                                      double margin, const std::vector<Contact>& contacts,
-                                      double beside) {
+std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const BodyPair& bodies,
+                                              double margin, const std::vector<Contact>& contacts,
+                                              double beside) {
   NearestOfMany nearest(beside);
   for (const Contact& contact : contacts) {
     if (contact.n_AB_W) {
       nearest.add(contact, facing);
     }
   }
-  std::vector<Touch> touches;
+  std::vector<ManifoldPoint> touches;
   for (const Contact* contact : nearest.take()) {
     touches.push_back(make_touch(bodies, margin, *contact));
   }
@@ -212,18 +213,18 @@ std::vector<Touch> touches_among_many(const FacingBodies& facing, const BodyPair
 
 }  // namespace
 
-bool same_features(const Touch& x, const Touch& y) {
+bool same_features(const ManifoldPoint& x, const ManifoldPoint& y) {
   return x.feature_A.type == y.feature_A.type && x.feature_A.index == y.feature_A.index &&
          x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
 }
 
-std::vector<Touch> touches_among(const SimulationModel& model, const BodyPair& bodies,
-                                 const std::array<Pose, 2>& poses, double margin,
-                                 const std::vector<Contact>& contacts) {
+std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const BodyPair& bodies,
+                                         const std::array<Pose, 2>& poses, double margin,
+                                         const std::vector<Contact>& contacts) {
   const FacingBodies facing(model, bodies, poses);
   if (contacts.size() > kVeryManyContacts) {
-    std::vector<Touch> few = touches_among_many(facing, bodies, margin, contacts,
-                                                kNeighbourhood * smaller_reach(model, bodies));
+    std::vector<ManifoldPoint> few = touches_among_many(
+        facing, bodies, margin, contacts, kNeighbourhood * smaller_reach(model, bodies));
     if (!few.empty()) {
       return few;
     }
@@ -237,7 +238,7 @@ std::vector<Touch> touches_among(const SimulationModel& model, const BodyPair& b
   }
   const double size = smaller_reach(model, bodies);
   SpatialHash by_place(kSamePlace * size);
-  std::vector<Touch> touches;
+  std::vector<ManifoldPoint> touches;
   if (!outermost.empty()) {
     touches.reserve(std::min(outermost.size(), kUsualTouches));
     for (const Contact* contact : outermost) {
@@ -265,19 +266,19 @@ Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, cons
   return manifold;
 }
 
-bool comes_before(const Touch& x, const Touch& y) {
+bool comes_before(const ManifoldPoint& x, const ManifoldPoint& y) {
   return std::pair(x.bodies, features_of(x)) < std::pair(y.bodies, features_of(y));
 }
 
-void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold) {
-  const auto bodies_of = [](const Touch& touch) { return touch.bodies; };
+void carry_impulses(const std::vector<ManifoldPoint>& before, double size, Manifold& manifold) {
+  const auto bodies_of = [](const ManifoldPoint& touch) { return touch.bodies; };
   auto touch = std::ranges::lower_bound(before, manifold.bodies, {}, bodies_of);
   if (touch == before.end() || touch->bodies != manifold.bodies) {
     return;
   }
   Successors successors(kCloseBy * size, manifold.touches);
   for (; touch != before.end() && touch->bodies == manifold.bodies; ++touch) {
-    if (Touch* next = successors.of(*touch)) {
+    if (ManifoldPoint* next = successors.of(*touch)) {
       next->impulse += touch->impulse;
     }
   }

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/touch.h>
+#include <firstcontact/simulation/detail/manifold.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 
 constexpr double kSize = 1.0;  // [m]
 
-Touch touch(const BodyPair& bodies, std::uint32_t vertex, double x, double impulse = 0.0) {
+ManifoldPoint touch(const BodyPair& bodies, std::uint32_t vertex, double x, double impulse = 0.0) {
   return {.bodies = bodies,
           .feature_A = {FeatureType::face, 0, 0},
           .feature_B = {FeatureType::vertex, vertex, 0},
@@ -37,12 +37,12 @@ Touch touch(const BodyPair& bodies, std::uint32_t vertex, double x, double impul
 }
 
 /// Normal impulses of the touches of a pair after those before.
-std::vector<double> carried(std::vector<Touch> before, std::vector<Touch> now) {
+std::vector<double> carried(std::vector<ManifoldPoint> before, std::vector<ManifoldPoint> now) {
   std::ranges::sort(before, comes_before);
   Manifold manifold{.bodies = {1, 2}, .touches = std::move(now)};
   carry_impulses(before, kSize, manifold);
   std::vector<double> impulses;
-  for (const Touch& touch : manifold.touches) {
+  for (const ManifoldPoint& touch : manifold.touches) {
     impulses.push_back(touch.impulse.z());
   }
   return impulses;
@@ -76,12 +76,12 @@ TEST(CarryImpulses, GoToTheSameOfManyAsInAList) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> uniform;
   const auto some = [&](std::uint32_t features, double impulse) {
-    Touch one = touch({1, 2}, static_cast<std::uint32_t>(rng()) % features, 0.0, impulse);
+    ManifoldPoint one = touch({1, 2}, static_cast<std::uint32_t>(rng()) % features, 0.0, impulse);
     one.point = {0.1 * uniform(rng), 0.1 * uniform(rng), 0.1 * uniform(rng)};
     return one;
   };
-  std::vector<Touch> before;
-  std::vector<Touch> now;
+  std::vector<ManifoldPoint> before;
+  std::vector<ManifoldPoint> now;
   for (int k = 0; k < 500; ++k) {
     before.push_back(some(1000, 1.0 + k));
     now.push_back(some(1000, 0.0));
@@ -90,11 +90,12 @@ TEST(CarryImpulses, GoToTheSameOfManyAsInAList) {
   std::vector<double> expected(now.size(), 0.0);
   int by_place = 0;
   int lost = 0;
-  for (const Touch& old : before) {
-    auto next = std::ranges::find_if(now, [&](const Touch& t) { return same_features(t, old); });
+  for (const ManifoldPoint& old : before) {
+    auto next =
+        std::ranges::find_if(now, [&](const ManifoldPoint& t) { return same_features(t, old); });
     if (next == now.end()) {
-      next = std::ranges::min_element(now, {},
-                                      [&](const Touch& t) { return (t.point - old.point).norm(); });
+      next = std::ranges::min_element(
+          now, {}, [&](const ManifoldPoint& t) { return (t.point - old.point).norm(); });
       const bool is_close = (next->point - old.point).norm() <= 0.01 * kSize;
       ++(is_close ? by_place : lost);
       if (!is_close) {
@@ -158,7 +159,7 @@ TEST_F(ManifoldOfCubes, HasTheCornersWhereFacesOverlap) {
       const double rounding = far == 0.0 ? 1e-12 : 1e-9;
       ASSERT_NEAR(found.gap, kGap, rounding);
       ASSERT_EQ(found.touches.size(), 4u) << trial;
-      for (const Touch& touch : found.touches) {
+      for (const ManifoldPoint& touch : found.touches) {
         const Vector3d p_A = all.conjugate() * (touch.point - X_WA.position);
         const bool is_left = p_A.x() < 0.2;
         EXPECT_NEAR(p_A.x(), is_left ? -0.2 : 0.5, 10.0 * rounding);
@@ -212,7 +213,8 @@ TEST_F(ManifoldOfCubes, IsThatOfTheContactsOfItsPairAlone) {
     std::vector<Contact> contacts;
     close_features({shape(bodies[0]), A}, {shape(bodies[1]), B}, 0.0, model_.distances.band,
                    workspace, contacts);
-    const std::vector<Touch> expected = touches_among(model_, bodies, {X_WA, X_WB}, 0.0, contacts);
+    const std::vector<ManifoldPoint> expected =
+        touches_among(model_, bodies, {X_WA, X_WB}, 0.0, contacts);
     ASSERT_EQ(found.touches.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {
       ASSERT_TRUE(same_features(found.touches[k], expected[k]));

@@ -18,7 +18,7 @@ namespace firstcontact::detail {
 struct SimulationModel;
 
 /// A point at which two bodies are near each other.
-struct Touch {
+struct ManifoldPoint {
   BodyPair bodies = {};
   Feature feature_A;
   Feature feature_B;
@@ -28,22 +28,24 @@ struct Touch {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 
-[[nodiscard]] bool same_features(const Touch& x, const Touch& y);
+[[nodiscard]] bool same_features(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
 /// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without
 /// normal, of surfaces that meet, are left out.
 ///
 /// @param margin  [m]  of the pair
-[[nodiscard]] std::vector<Touch> touches_among(const SimulationModel& model, const BodyPair& bodies,
-                                               const std::array<Pose, 2>& poses, double margin,
-                                               const std::vector<Contact>& contacts);
+[[nodiscard]] std::vector<ManifoldPoint> touches_among(const SimulationModel& model,
+                                                       const BodyPair& bodies,
+                                                       const std::array<Pose, 2>& poses,
+                                                       double margin,
+                                                       const std::vector<Contact>& contacts);
 
 /// The touches of two bodies at rest at these poses, and the least gap of all their features.
 struct Manifold {
   BodyPair bodies = {};
   double gap = 0.0;  ///< [m]  Infinite where nothing is within the band.
-  std::vector<Touch> touches = {};
+  std::vector<ManifoldPoint> touches = {};
 };
 
 /// Finds the manifolds of many pairs in memory that they share.
@@ -64,7 +66,7 @@ class ManifoldFinder {
 };
 
 /// Whether the bodies, or else the features, of one touch come before those of the other.
-[[nodiscard]] bool comes_before(const Touch& x, const Touch& y);
+[[nodiscard]] bool comes_before(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// Gives the manifold the impulses of the touches before.
 ///
@@ -73,6 +75,6 @@ class ManifoldFinder {
 ///
 /// @param before  sorted
 /// @param size    [m]  of the smaller body
-void carry_impulses(const std::vector<Touch>& before, double size, Manifold& manifold);
+void carry_impulses(const std::vector<ManifoldPoint>& before, double size, Manifold& manifold);
 
 }  // namespace firstcontact::detail
