@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <firstcontact/simulation/detail/constants.h>
-#include <firstcontact/simulation/detail/hit_search.h>
+#include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
@@ -97,19 +97,20 @@ class Island {
   /// plan. Returns how far, in parts of its span; nothing if it was stopped.
   std::optional<double> advance() {
     IslandPlanner planner(state_, span());
-    HitSearch search(state_, span(), workspace_);
+    ImpactSearch search(state_, span(), workspace_);
     for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
-      const std::vector<Hit> hits = search.find(plan);
-      if (hits.empty() || round == kRoundsOfSlight || std::ranges::none_of(hits, &Hit::is_slight)) {
+      const std::vector<Impact> hits = search.find(plan);
+      if (hits.empty() || round == kRoundsOfSlight ||
+          std::ranges::none_of(hits, &Impact::is_slight)) {
         double t = state_.robots.share_within_limits(plan.robots);
-        for (const Hit& hit : hits) {
+        for (const Impact& hit : hits) {
           t = std::min(t, hit.t);
         }
         move_to(plan, planner.touches(), t, search.clearance());
         return t;
       }
-      for (const Hit& hit : hits) {
+      for (const Impact& hit : hits) {
         if (hit.is_slight) {
           for (const PredictedContact& ahead : hit.ahead) {
             planner.add(ahead);

@@ -11,7 +11,7 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/simulation/detail/hit_search.h>
+#include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
@@ -96,7 +96,7 @@ Plan random_plan(std::mt19937& rng) {
   return plan;
 }
 
-void expect_same(const std::vector<Hit>& found, const std::vector<Hit>& expected) {
+void expect_same(const std::vector<Impact>& found, const std::vector<Impact>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {
     EXPECT_EQ(found[k].bodies, expected[k].bodies);
@@ -113,16 +113,16 @@ void expect_same(const std::vector<Hit>& found, const std::vector<Hit>& expected
 }
 
 // Pairs of which neither body moves otherwise than in the plan before are not asked again.
-TEST(HitSearch, FindsTheSameAfterOtherPlans) {
+TEST(ImpactSearch, FindsTheSameAfterOtherPlans) {
   std::mt19937 rng(1);
   std::size_t hits = 0;
   for (int island = 0; island < 10; ++island) {
     Island boxes(rng);
-    HitSearch search(boxes.state, kSpan, boxes.workspace);
+    ImpactSearch search(boxes.state, kSpan, boxes.workspace);
     Plan plan = random_plan(rng);
     for (int round = 0; round < 6; ++round) {
-      const std::vector<Hit> found = search.find(plan);
-      HitSearch afresh(boxes.state, kSpan, boxes.workspace);
+      const std::vector<Impact> found = search.find(plan);
+      ImpactSearch afresh(boxes.state, kSpan, boxes.workspace);
       expect_same(found, afresh.find(plan));
       EXPECT_EQ(search.clearance(), afresh.clearance());
       hits += found.size();
@@ -138,14 +138,14 @@ TEST(HitSearch, FindsTheSameAfterOtherPlans) {
 }
 
 // Against queries of all pairs.
-TEST(HitSearch, LeavesOutNoPair) {
+TEST(ImpactSearch, LeavesOutNoPair) {
   std::mt19937 rng(2);
   std::size_t hits = 0;
   for (int island = 0; island < 10; ++island) {
     Island boxes(rng);
     IslandState& state = boxes.state;
     const Plan plan = random_plan(rng);
-    const std::vector<Hit> found = HitSearch(state, kSpan, boxes.workspace).find(plan);
+    const std::vector<Impact> found = ImpactSearch(state, kSpan, boxes.workspace).find(plan);
     for (std::size_t a = 0; a <= kBoxes; ++a) {
       for (std::size_t b = std::max<std::size_t>(a + 1, 1); b <= kBoxes; ++b) {
         const auto motion = [&](std::size_t body) {
@@ -158,7 +158,7 @@ TEST(HitSearch, LeavesOutNoPair) {
         const FirstContactResult truth =
             first_contact({state.model.bodies[a].shape, motion(a)},
                           {state.model.bodies[b].shape, motion(b)}, boxes.workspace, options);
-        const auto hit = std::ranges::find(found, BodyPair{a, b}, &Hit::bodies);
+        const auto hit = std::ranges::find(found, BodyPair{a, b}, &Impact::bodies);
         if (truth.verdict != Verdict::free) {
           ++hits;
           ASSERT_NE(hit, found.end()) << a << " " << b;

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/hit_search.h>
+#include <firstcontact/simulation/detail/impact_search.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,11 +18,11 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-std::vector<Hit> HitSearch::find(const Plan& plan) {
+std::vector<Impact> ImpactSearch::find(const Plan& plan) {
   follow(plan);
   const double reach = state_.model.distances.least + state_.model.distances.tolerance;
   clearance_ = state_.model.distances.least;
-  std::vector<Hit> hits;
+  std::vector<Impact> hits;
   for (Candidate& pair : candidates_) {
     if (mover(pair, 0).is_changed || mover(pair, 1).is_changed) {
       pair.is_near =
@@ -43,7 +43,7 @@ std::vector<Hit> HitSearch::find(const Plan& plan) {
 }
 
 /// Takes the plan's motions, and the pairs that they may bring near each other.
-void HitSearch::follow(const Plan& plan) {
+void ImpactSearch::follow(const Plan& plan) {
   const bool is_first = movers_.empty();
   bool have_room = !is_first;
   for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -71,7 +71,7 @@ void HitSearch::follow(const Plan& plan) {
 
 /// Finds all pairs that are near while their boxes stay in their rooms. All of them are to be
 /// asked.
-void HitSearch::look_around() {
+void ImpactSearch::look_around() {
   std::vector<AlignedBox3d> rooms;
   for (std::size_t k = 0; k < state_.size(); ++k) {
     Mover& mover = movers_[k];
@@ -93,7 +93,7 @@ void HitSearch::look_around() {
 }
 
 /// Those of members come first.
-std::size_t HitSearch::mover_of(std::size_t body) {
+std::size_t ImpactSearch::mover_of(std::size_t body) {
   if (state_.model.bodies[body].kind == BodyKind::free) {
     return state_.place.at(body);
   }
@@ -109,7 +109,7 @@ std::size_t HitSearch::mover_of(std::size_t body) {
 }
 
 /// A hit, if they come into contact.
-std::optional<Hit> HitSearch::ask(Candidate& pair) {
+std::optional<Impact> ImpactSearch::ask(Candidate& pair) {
   const double gap =
       pair.manifold == nullptr ? std::numeric_limits<double>::infinity() : pair.manifold->gap;
   const HeldDistance held = held_distance(state_.model.distances, pair.margin, gap);
@@ -118,7 +118,7 @@ std::optional<Hit> HitSearch::ask(Candidate& pair) {
   }
   const BodyPair bodies = bodies_of(pair);
   if (!(held.tolerance > 0.0)) {
-    return Hit{.bodies = bodies};  // Rounding left no gap that could be halved: no time passes.
+    return Impact{.bodies = bodies};  // Rounding left no gap that could be halved: no time passes.
   }
   if (hulls_stay_apart(pair, held.margin)) {
     return std::nullopt;
@@ -140,12 +140,12 @@ std::optional<Hit> HitSearch::ask(Candidate& pair) {
   return hit_of(pair, {A.pose(answer_.t), B.pose(answer_.t)});
 }
 
-SweptHull HitSearch::hull_of(std::size_t k, double from, double to) {
+SweptHull ImpactSearch::hull_of(std::size_t k, double from, double to) {
   const Mover& mover = movers_[k];
   return {state_.model.bodies[mover.body], state_.pose_of(mover.body), mover.move, from, to};
 }
 
-const SweptHull& HitSearch::whole_hull_of(std::size_t k) {
+const SweptHull& ImpactSearch::whole_hull_of(std::size_t k) {
   std::optional<SweptHull>& hull = movers_[k].hull;
   if (!hull) {
     hull = hull_of(k, 0.0, 1.0);
@@ -155,7 +155,7 @@ const SweptHull& HitSearch::whole_hull_of(std::size_t k) {
 
 /// The one of the plan before, or of what touches. A face that touches goes with its body; of
 /// edges, often one of both will do.
-HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
+ImpactSearch::Plane ImpactSearch::likely_plane(const Candidate& pair) const {
   if (pair.plane) {
     return *pair.plane;
   }
@@ -171,8 +171,8 @@ HitSearch::Plane HitSearch::likely_plane(const Candidate& pair) const {
 }
 
 /// One that tells that the hulls stay apart; it goes with either of both.
-std::optional<HitSearch::Plane> HitSearch::plane_of(const SweptHull& A, const SweptHull& B,
-                                                    double distance, const Plane& likely) {
+std::optional<ImpactSearch::Plane> ImpactSearch::plane_of(const SweptHull& A, const SweptHull& B,
+                                                          double distance, const Plane& likely) {
   for (const bool is_of_second : {likely.is_of_second, !likely.is_of_second}) {
     const std::optional<Vector3d> n = is_of_second ? plane_between(B, A, distance, -likely.n)
                                                    : plane_between(A, B, distance, likely.n);
@@ -183,7 +183,7 @@ std::optional<HitSearch::Plane> HitSearch::plane_of(const SweptHull& A, const Sw
   return std::nullopt;
 }
 
-bool HitSearch::hulls_stay_apart(Candidate& pair, double distance) {
+bool ImpactSearch::hulls_stay_apart(Candidate& pair, double distance) {
   const Plane likely = likely_plane(pair);
   pair.plane =
       plane_of(whole_hull_of(pair.movers[0]), whole_hull_of(pair.movers[1]), distance, likely);
@@ -194,9 +194,9 @@ bool HitSearch::hulls_stay_apart(Candidate& pair, double distance) {
 ///
 /// @param times   [-]  where the part of the plan begins, its middle, and where it ends
 /// @param splits  how often it is halved
-bool HitSearch::parts_stay_apart(const Candidate& pair, double distance,
-                                 const std::array<double, 3>& times, int splits,
-                                 const Plane& likely) {
+bool ImpactSearch::parts_stay_apart(const Candidate& pair, double distance,
+                                    const std::array<double, 3>& times, int splits,
+                                    const Plane& likely) {
   for (std::size_t half = 0; half < 2; ++half) {
     const double from = times[half];
     const double to = times[half + 1];
@@ -214,7 +214,7 @@ bool HitSearch::parts_stay_apart(const Candidate& pair, double distance,
 
 /// Whether no point of two bodies gets far enough to close a distance: what rests is not
 /// searched.
-bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
+bool ImpactSearch::cannot_reach(const Candidate& pair, double distance) {
   double way = 0.0;
   double size = 0.0;
   for (int side = 0; side < 2; ++side) {
@@ -228,8 +228,8 @@ bool HitSearch::cannot_reach(const Candidate& pair, double distance) {
 }
 
 /// The contact that was just found, as a constraint on the span.
-Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
-  Hit hit{.bodies = bodies_of(pair), .t = answer_.t};
+Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
+  Impact hit{.bodies = bodies_of(pair), .t = answer_.t};
   ProblemBodies bodies;
   for (int side = 0; side < 2; ++side) {
     const auto& [body, move, box, room, is_changed, hull] = mover(pair, side);
@@ -252,7 +252,7 @@ Hit HitSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& poses) {
   return hit;
 }
 
-double HitSearch::smaller_free_reach(const BodyPair& pair) const {
+double ImpactSearch::smaller_free_reach(const BodyPair& pair) const {
   double smaller = std::numeric_limits<double>::infinity();
   for (const std::size_t b : pair) {
     if (state_.model.bodies[b].kind == BodyKind::free) {

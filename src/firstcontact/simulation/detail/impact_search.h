@@ -23,7 +23,7 @@ namespace firstcontact::detail {
 struct IslandState;
 
 /// A pair that the plan brings into contact.
-struct Hit {
+struct Impact {
   BodyPair bodies;
   double t = 0.0;  ///< [-]  Of the span.
   bool is_slight = false;
@@ -34,14 +34,14 @@ struct Hit {
 ///
 /// In plans after the first one, only those pairs are searched of which a body moves otherwise than
 /// in the plan before.
-class HitSearch {
+class ImpactSearch {
  public:
   /// @param span  [s]  of the plans
-  HitSearch(IslandState& state, double span, Workspace& workspace)
+  ImpactSearch(IslandState& state, double span, Workspace& workspace)
       : state_(state), span_(span), workspace_(workspace) {}
 
   /// Searches all pairs that the plan may bring near each other.
-  [[nodiscard]] std::vector<Hit> find(const Plan& plan);
+  [[nodiscard]] std::vector<Impact> find(const Plan& plan);
 
   /// [m]  No pair comes closer in the plan that was asked last, until its first hit.
   [[nodiscard]] double clearance() const { return clearance_; }
@@ -67,7 +67,7 @@ class HitSearch {
     double margin;             // [m]
     const Manifold* manifold;  // Null beyond the band.
     bool is_near = false;      // The boxes of the plan are.
-    std::optional<Hit> hit = {};
+    std::optional<Impact> hit = {};
     std::optional<Plane> plane = {};  // That kept them apart in the plan before.
   };
 
@@ -80,9 +80,9 @@ class HitSearch {
   [[nodiscard]] BodyPair bodies_of(const Candidate& pair) const {
     return {mover(pair, 0).body, mover(pair, 1).body};
   }
-  [[nodiscard]] std::optional<Hit> ask(Candidate& pair);
+  [[nodiscard]] std::optional<Impact> ask(Candidate& pair);
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
-  [[nodiscard]] Hit hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
+  [[nodiscard]] Impact hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
   [[nodiscard]] SweptHull hull_of(std::size_t mover, double from, double to);
   [[nodiscard]] const SweptHull& whole_hull_of(std::size_t mover);
