@@ -1,6 +1,6 @@
 // The search in windows of time, which serves bodies that stay close for long: an M16 nut that is
 // turned by a sixteenth of a turn on its bolt. Its threads are 0.1 mm apart all the while. The bolt
-// turns a little, too: threads that glide on a body at rest need no windows.
+// turns a little, too: threads that screw_sliding on a body at rest need no windows.
 
 #include <cmath>
 #include <cstdint>
@@ -105,9 +105,9 @@ TEST_F(SearchWindows, AgreeWithGliding) {
   const FirstContactResult free = turn(screwed(kRightWay));
   const FirstContactResult contact = turn(screwed(kWrongWay));
   bolt_motion_ = Motion::fixed();
-  const FirstContactResult gliding = turn(screwed(kRightWay, 0.0));
-  EXPECT_EQ(gliding.verdict, free.verdict);
-  EXPECT_LT(gliding.work.node_groups + gliding.work.steps, kPatience / 64);
+  const FirstContactResult screw_sliding = turn(screwed(kRightWay, 0.0));
+  EXPECT_EQ(screw_sliding.verdict, free.verdict);
+  EXPECT_LT(screw_sliding.work.node_groups + screw_sliding.work.steps, kPatience / 64);
   const FirstContactResult ahead = turn(screwed(kWrongWay, 0.0));
   EXPECT_EQ(ahead.verdict, contact.verdict);
   const double closing = std::cos(std::numbers::pi / 6.0) * (kRightWay - kWrongWay);

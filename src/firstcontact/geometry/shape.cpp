@@ -14,8 +14,8 @@
 
 #include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/feature_table.h>
-#include <firstcontact/geometry/glide_bounds.h>
 #include <firstcontact/geometry/mesh_defects.h>
+#include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/math/double_double.h>
 
@@ -198,20 +198,23 @@ struct LazyFeatures {
   FeatureTable table;
 };
 
-struct LazyGlide {
+struct LazyScrewSliding {
   std::once_flag found;
-  std::optional<GlidingSurface> surface;
+  std::optional<ScrewSlidingSurface> surface;
 };
 
-std::optional<GlidingSurface> find_gliding(const Hierarchy& hierarchy) {
-  const std::optional<Glide> glide = find_glide(hierarchy);
-  if (!glide) {
+std::optional<ScrewSlidingSurface> find_screw_sliding_surface(const Hierarchy& hierarchy) {
+  const std::optional<ScrewSliding> screw_sliding = find_screw_sliding(hierarchy);
+  if (!screw_sliding) {
     return std::nullopt;
   }
-  GlidingSurface surface{.glide = *glide, .order = order_along(*glide, hierarchy), .bounds = {}};
-  const Eigen::Vector3d p_SB = -(glide->R_SB * glide->p_BS);
-  bound_glide(*glide, hierarchy, surface.order, {{glide->R_SB, glide->R_SB}, {p_SB, p_SB}}, false,
-              surface.bounds);
+  ScrewSlidingSurface surface{.screw_sliding = *screw_sliding,
+                              .order = order_along(*screw_sliding, hierarchy),
+                              .bounds = {}};
+  const Eigen::Vector3d p_SB = -(screw_sliding->R_SB * screw_sliding->p_BS);
+  bound_screw_sliding(*screw_sliding, hierarchy, surface.order,
+                      {{screw_sliding->R_SB, screw_sliding->R_SB}, {p_SB, p_SB}}, false,
+                      surface.bounds);
   surface.bounds.release_vertices();
   return surface;
 }
@@ -230,7 +233,7 @@ struct Shape::Data {
   std::vector<std::uint32_t> components;
   std::uint64_t hash = 0;
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
-  std::shared_ptr<LazyGlide> gliding = std::make_shared<LazyGlide>();
+  std::shared_ptr<LazyScrewSliding> screw_sliding = std::make_shared<LazyScrewSliding>();
   std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();  // At all times.
 };
 
@@ -283,7 +286,7 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
   data->translation_to = translation;
   data->hash = hash;
   data->bounds = std::make_shared<LazyBounds>();
-  data->gliding = std::make_shared<LazyGlide>();
+  data->screw_sliding = std::make_shared<LazyScrewSliding>();
   Shape shape = *this;
   shape.data_ = std::move(data);
   return shape;
@@ -346,11 +349,12 @@ const ShapeBounds& Shape::bounds() const {
   return data_->bounds->bounds;
 }
 
-const GlidingSurface* Shape::gliding() const {
+const ScrewSlidingSurface* Shape::screw_sliding() const {
   assert(!data_->hierarchy.deforms());
-  std::call_once(data_->gliding->found,
-                 [&] { data_->gliding->surface = find_gliding(data_->hierarchy); });
-  return data_->gliding->surface ? &*data_->gliding->surface : nullptr;
+  std::call_once(data_->screw_sliding->found, [&] {
+    data_->screw_sliding->surface = find_screw_sliding_surface(data_->hierarchy);
+  });
+  return data_->screw_sliding->surface ? &*data_->screw_sliding->surface : nullptr;
 }
 
 int Shape::compare(const Shape& other) const {

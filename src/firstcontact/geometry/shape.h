@@ -15,7 +15,7 @@
 namespace firstcontact {
 
 struct FeatureTable;
-struct GlidingSurface;
+struct ScrewSlidingSurface;
 struct Hierarchy;
 struct ShapeBounds;
 
@@ -107,7 +107,7 @@ class FIRSTCONTACT_API Shape {
   /// none.
   ///
   /// Only for a shape that does not deform. Computed when first needed.
-  [[nodiscard]] const GlidingSurface* gliding() const;
+  [[nodiscard]] const ScrewSlidingSurface* screw_sliding() const;
 
   /// Compares two shapes by content: negative, zero or positive, a total order up to hash
   /// collisions.

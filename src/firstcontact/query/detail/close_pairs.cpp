@@ -8,8 +8,8 @@
 
 #include <firstcontact/query/detail/box_pairs.h>
 #include <firstcontact/query/detail/close_list.h>
-#include <firstcontact/query/detail/glide_cover.h>
 #include <firstcontact/query/detail/nearest_pairs.h>
+#include <firstcontact/query/detail/screw_sliding_cover.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -52,7 +52,7 @@ bool clearly_apart(const TrianglePair& pair, double reach) {
 }
 
 /// Pairs of boxes are opened so often, or triangles looked at, until surfaces may be found to
-/// glide; and so many pairs of triangles may they leave.
+/// screw_sliding; and so many pairs of triangles may they leave.
 constexpr std::size_t kManyOpened = 1000;
 constexpr std::size_t kMostClose = 100'000;
 
@@ -90,16 +90,18 @@ void for_each_close(const ContactFrame& frame, const TrianglePair& triangles, co
   }
 }
 
-/// Of surfaces that glide on each other, most pairs of boxes are near each other, as boxes of
-/// curved patches are thicker than the gap. Begins the list anew. False where they do not glide.
-bool find_close_by_glide(const ContactFrame& frame, const RelativeState& state,
-                         const CloseBand& band, WorkspaceData& workspace, CloseList& list) {
+/// Of surfaces that screw_sliding on each other, most pairs of boxes are near each other, as boxes
+/// of curved patches are thicker than the gap. Begins the list anew. False where they do not
+/// screw_sliding.
+bool find_close_by_screw_sliding(const ContactFrame& frame, const RelativeState& state,
+                                 const CloseBand& band, WorkspaceData& workspace, CloseList& list) {
   const MovingPair& pair = frame.pair;
-  const std::optional<GlideCover> cover = GlideCover::of(pair, frame.A, frame.B, frame.t);
+  const std::optional<ScrewSlidingCover> cover =
+      ScrewSlidingCover::of(pair, frame.A, frame.B, frame.t);
   if (!cover || !cover->find(frame.t, band.reach(), kMostClose, workspace)) {
     return false;
   }
-  std::vector<IndexPair>& left = workspace.left_by_glide;
+  std::vector<IndexPair>& left = workspace.left_by_screw_sliding;
   const bool are_chosen = frame.beside > 0.0 && left.size() > kVeryMany;
   if (are_chosen) {
     keep_nearest(frame, state, band.reach(), frame.beside, left);
@@ -152,7 +154,8 @@ std::optional<ContactCount> find_close(const ContactFrame& frame, const Relative
   stack.assign(1, {false, 0, 0, root(pair.A()), root(pair.B())});
   std::size_t opened = 0;
   while (!stack.empty()) {
-    if (++opened == kManyOpened && find_close_by_glide(frame, state, all, workspace, list)) {
+    if (++opened == kManyOpened &&
+        find_close_by_screw_sliding(frame, state, all, workspace, list)) {
       break;
     }
     const CloseBand close = all.within(list.reach());

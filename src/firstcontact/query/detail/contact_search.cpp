@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/glide_windows.h>
 #include <firstcontact/query/detail/group_bounder.h>
 #include <firstcontact/query/detail/group_queue.h>
 #include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/query/detail/screw_sliding_windows.h>
 #include <firstcontact/query/detail/search_state.h>
 #include <firstcontact/query/detail/triangle_follower.h>
 
@@ -19,7 +19,8 @@ namespace {
 /// Opened pairs of triangles; a dozen times what most queries open.
 constexpr std::size_t kMostRemembered = 256;
 
-/// After so much work, much more than most searches take, it is asked whether surfaces glide.
+/// After so much work, much more than most searches take, it is asked whether surfaces
+/// screw_sliding.
 constexpr std::uint64_t kLongSearch = 1000;
 
 /// Takes what is due first, again and again: bounds a group of boxes, opens what one of its lanes
@@ -53,7 +54,7 @@ class Search {
           return result;
         }
         patience_ = state_.limits.patience;
-        if (state_.all_remembered && windows_.may_glide()) {
+        if (state_.all_remembered && windows_.may_screw_sliding()) {
           forget_opened();
           continue;
         }
@@ -86,7 +87,7 @@ class Search {
     state_.box_threshold = state_.limits.threshold;
     state_.instant.forget_boxes();
     const double t = state_.proven_free();
-    if (!windows_.glide_on(t)) {
+    if (!windows_.screw_sliding_on(t)) {
       start(t);
     }
   }
@@ -95,7 +96,7 @@ class Search {
   [[nodiscard]] bool is_over() {
     while (state_.queue.empty() && !state_.best.contact && state_.t_end < state_.t_last) {
       const double t = state_.t_end;
-      if (!windows_.glide_on(t)) {
+      if (!windows_.screw_sliding_on(t)) {
         start(t);
       }
     }
@@ -160,7 +161,7 @@ class Search {
   SearchState state_;
   TriangleFollower triangles_;
   GroupBounder groups_;
-  GlideWindows windows_;
+  ScrewSlidingWindows windows_;
   std::uint64_t steps_before_;
   std::uint64_t patience_;  // Work until something is done about it.
 };

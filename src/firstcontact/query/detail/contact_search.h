@@ -51,8 +51,8 @@ struct SearchLimits {
 /// than the first contact of the shapes. Keys of nearly tied pairs are lowered a little with each
 /// level of the hierarchies, so that ties are searched depth-first.
 ///
-/// Where very many pairs are near each other as surfaces glide, most are proven apart by that
-/// (glide_cover.h), window by window.
+/// Where very many pairs are near each other as surfaces screw_sliding, most are proven apart by
+/// that (screw_sliding_cover.h), window by window.
 PieceResult search_piece(const MovingPair& pair, double t_begin, double t_end,
                          const SearchLimits& limits, WorkspaceData& workspace, WorkCount& work);
 

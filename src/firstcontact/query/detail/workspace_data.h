@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/geometry/glide_bounds.h>
+#include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/detail/box_pairs.h>
@@ -48,8 +48,8 @@ struct IndexPair {
   std::uint32_t b = 0;
 };
 
-/// Nodes of one level of two GlideBounds.
-struct GlideNodes {
+/// Nodes of one level of two ScrewSlidingBounds.
+struct ScrewSlidingNodes {
   std::size_t level = 0;
   std::uint32_t carrier = 0;
   std::uint32_t other = 0;
@@ -205,9 +205,9 @@ struct WorkspaceData {
   std::vector<CloseKey> close_keys;
   std::vector<BoxPair> stack;
   std::vector<std::pair<double, BoxPair>> nearest;
-  GlideBounds glide_bounds;  ///< Of the body that is no carrier.
-  std::vector<GlideNodes> glide_stack;
-  std::vector<IndexPair> left_by_glide;
+  ScrewSlidingBounds screw_sliding_bounds;  ///< Of the body that is no carrier.
+  std::vector<ScrewSlidingNodes> screw_sliding_stack;
+  std::vector<IndexPair> left_by_screw_sliding;
 };
 
 }  // namespace firstcontact::detail

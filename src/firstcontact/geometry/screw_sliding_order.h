@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <firstcontact/geometry/glide.h>
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/screw_sliding.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
@@ -16,7 +16,7 @@ constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 /// The triangles by the part of the profile that they belong to, then along the thread; kNoTriangle
 /// fills gaps.
-[[nodiscard]] FIRSTCONTACT_API std::vector<std::uint32_t> order_along(const Glide& glide,
-                                                                      const Hierarchy& hierarchy);
+[[nodiscard]] FIRSTCONTACT_API std::vector<std::uint32_t> order_along(
+    const ScrewSliding& screw_sliding, const Hierarchy& hierarchy);
 
 }  // namespace firstcontact

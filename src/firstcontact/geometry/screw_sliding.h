@@ -21,7 +21,7 @@ namespace firstcontact {
 ///
 /// In the coordinates r (distance from the axis) and h = z - pitch angle nothing moves that is
 /// carried along the screw: the surface is a curve there, its profile.
-struct Glide {
+struct ScrewSliding {
   static constexpr std::size_t kDirections = 7;
   static constexpr std::size_t kRadius = 0;
   static constexpr std::size_t kHeight = 1;
@@ -43,6 +43,7 @@ struct Glide {
 /// a motion is slippable if it moves points across their normals, which is the eigenvector of a 6 x
 /// 6 matrix. Here with weights that follow the residuals, as a head and the ends do not slip. Any
 /// answer is right for its users, who prove what they make of it.
-[[nodiscard]] FIRSTCONTACT_API std::optional<Glide> find_glide(const Hierarchy& hierarchy);
+[[nodiscard]] FIRSTCONTACT_API std::optional<ScrewSliding> find_screw_sliding(
+    const Hierarchy& hierarchy);
 
 }  // namespace firstcontact

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/glide_bounds.h>
+#include <firstcontact/geometry/screw_sliding_bounds.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "firstcontact/geometry/glide_bounds.cpp"
+#define HWY_TARGET_INCLUDE "firstcontact/geometry/screw_sliding_bounds.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kNumbers = GlideNode::kNumbers;
+constexpr std::size_t kNumbers = ScrewSlidingNode::kNumbers;
 constexpr std::size_t kHalf = kNumbers / 2;
 constexpr float kUnbounded = 1e30f;
 constexpr float kNarrow = 0.1f;    // [rad]
@@ -75,7 +75,7 @@ HWY_INLINE Numbers all(float value) {
 }
 
 /// The greatest numbers of the parts of a node.
-HWY_INLINE Numbers greatest_of(const GlideNode& node) {
+HWY_INLINE Numbers greatest_of(const ScrewSlidingNode& node) {
   return greater(greater(load(node.most[0]), load(node.most[1])),
                  greater(load(node.most[2]), load(node.most[3])));
 }
@@ -140,27 +140,27 @@ struct Factors {
   Numbers bend;
   Numbers slack;
 
-  Factors(const Glide& glide, double stray, double error, bool mirrored) {
+  Factors(const ScrewSliding& screw_sliding, double stray, double error, bool mirrored) {
     alignas(64) float of[6][kNumbers] = {};
     for (std::size_t k = 0; k < kNumbers; ++k) {
       const std::size_t to = mirrored ? (k + kHalf) % kNumbers : k;
       const bool is_least = k < kHalf;
       const double sign = is_least ? -1.0 : 1.0;
-      if (k % kHalf == Glide::kDirections) {
+      if (k % kHalf == ScrewSliding::kDirections) {
         of[2][to] = static_cast<float>(sign);
         of[5][to] = 0x1p-19f;
         continue;
       }
-      const Eigen::Vector2d& f = glide.directions[k % kHalf];
+      const Eigen::Vector2d& f = screw_sliding.directions[k % kHalf];
       const double bends = sign * f.x();
       of[0][to] = static_cast<float>(sign * f.x());
       of[1][to] = static_cast<float>(sign * f.y());
-      const double pitch = k % kHalf == Glide::kHeight ? 0.0 : glide.pitch;
+      const double pitch = k % kHalf == ScrewSliding::kHeight ? 0.0 : screw_sliding.pitch;
       of[2][to] = static_cast<float>(-sign * f.y() * pitch);
       of[3][to] = bends < 0.0 ? static_cast<float>(-bends * (1.0 + 0x1p-20)) : 0.0f;
       of[4][to] = static_cast<float>(std::abs(f.y() * pitch) * (1.0 + 0x1p-20));
-      of[5][to] =
-          static_cast<float>((slope_of(glide, k % kHalf) * stray + error) * (1.0 + 0x1p-20));
+      of[5][to] = static_cast<float>((slope_of(screw_sliding, k % kHalf) * stray + error) *
+                                     (1.0 + 0x1p-20));
     }
     radius = load(of[0]);
     height = load(of[1]);
@@ -178,12 +178,12 @@ struct Factors {
 /// Bounds triangles and nodes from places of vertices.
 class Bounder {
  public:
-  HWY_INLINE Bounder(const Glide& glide, const Hierarchy& hierarchy, const GlidePath& path,
-                     bool mirrored, GlideBounds& bounds)
+  HWY_INLINE Bounder(const ScrewSliding& screw_sliding, const Hierarchy& hierarchy,
+                     const ScrewSlidingPath& path, bool mirrored, ScrewSlidingBounds& bounds)
       : hierarchy_(hierarchy),
         bounds_(bounds),
-        factors_(glide, path.stray, bounds.error, mirrored),
-        least_radius_(static_cast<float>(2.0 * glide.least_radius)),
+        factors_(screw_sliding, path.stray, bounds.error, mirrored),
+        least_radius_(static_cast<float>(2.0 * screw_sliding.least_radius)),
         first_(mirrored ? kHalf : 0),
         greatest_(mirrored ? 0 : kHalf) {}
 
@@ -197,8 +197,8 @@ class Bounder {
     bound_level(0, order.size(), [&](std::size_t k) HWY_ATTR {
       return order[k] == kNoTriangle ? all(-kUnbounded) : of_triangle(order[k]);
     });
-    for (std::size_t level = 1; level < GlideBounds::kLevels; ++level) {
-      const std::vector<GlideNode>& below = bounds_.levels[level - 1];
+    for (std::size_t level = 1; level < ScrewSlidingBounds::kLevels; ++level) {
+      const std::vector<ScrewSlidingNode>& below = bounds_.levels[level - 1];
       bound_level(level, below.size(),
                   [&](std::size_t k) HWY_ATTR { return greatest_of(below[k]); });
     }
@@ -207,11 +207,11 @@ class Bounder {
  private:
   template <class Part>
   HWY_INLINE void bound_level(std::size_t level, std::size_t count, const Part& part) {
-    std::vector<GlideNode>& nodes = bounds_.levels[level];
-    nodes.resize((count + GlideNode::kParts - 1) / GlideNode::kParts);
-    for (std::size_t k = 0; k < GlideNode::kParts * nodes.size(); ++k) {
+    std::vector<ScrewSlidingNode>& nodes = bounds_.levels[level];
+    nodes.resize((count + ScrewSlidingNode::kParts - 1) / ScrewSlidingNode::kParts);
+    for (std::size_t k = 0; k < ScrewSlidingNode::kParts * nodes.size(); ++k) {
       store(k < count ? part(k) : all(-kUnbounded),
-            nodes[k / GlideNode::kParts].most[k % GlideNode::kParts]);
+            nodes[k / ScrewSlidingNode::kParts].most[k % ScrewSlidingNode::kParts]);
     }
   }
 
@@ -305,21 +305,21 @@ class Bounder {
   }
 
   const Hierarchy& hierarchy_;
-  GlideBounds& bounds_;
+  ScrewSlidingBounds& bounds_;
   Factors factors_;
   float least_radius_;
   std::size_t first_;  // Where the least values begin; the first direction is the radius.
   std::size_t greatest_;
 };
 
-void BoundGlide(const Glide& glide, const Hierarchy& hierarchy,
-                std::span<const std::uint32_t> order, const GlidePath& path, bool mirrored,
-                GlideBounds& bounds) {
+void BoundScrewSliding(const ScrewSliding& screw_sliding, const Hierarchy& hierarchy,
+                       std::span<const std::uint32_t> order, const ScrewSlidingPath& path,
+                       bool mirrored, ScrewSlidingBounds& bounds) {
   for (std::size_t k = 0; k < 2; ++k) {
     place_vertices(hierarchy.vertices, path.R_SB[k], path.p_SB[k], bounds.radius[k].data(),
                    bounds.angle[k].data(), bounds.height[k].data());
   }
-  Bounder bounder(glide, hierarchy, path, mirrored, bounds);
+  Bounder bounder(screw_sliding, hierarchy, path, mirrored, bounds);
   bounder.bound_vertices();
   bounder.bound_nodes(order);
 }
@@ -336,7 +336,7 @@ HWY_INLINE bool none_below(const Numbers& a, const Numbers& b, const Numbers& tu
   return hn::AllFalse(d, below);
 }
 
-HWY_INLINE unsigned near_after_turns(const GlideNode& a, const GlideNode& mirrored,
+HWY_INLINE unsigned near_after_turns(const ScrewSlidingNode& a, const ScrewSlidingNode& mirrored,
                                      const Numbers& turns, const Numbers& least) {
   unsigned lanes = 0;
   for (int i = 0; i < 4; ++i) {
@@ -349,7 +349,8 @@ HWY_INLINE unsigned near_after_turns(const GlideNode& a, const GlideNode& mirror
 }
 
 /// Angles begin anew somewhere: parts on both sides of it are seen once around either way.
-unsigned NearByGlide(const GlideNode& a, const GlideNode& mirrored, const GlideLimits& limits) {
+unsigned NearByScrewSliding(const ScrewSlidingNode& a, const ScrewSlidingNode& mirrored,
+                            const ScrewSlidingLimits& limits) {
   const Numbers least = load(limits.least.data());
   const Numbers turn = load(limits.turn.data());
   unsigned lanes = near_after_turns(a, mirrored, all(0.0f), least);
@@ -373,23 +374,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace firstcontact {
 namespace detail {
-HWY_EXPORT(BoundGlide);
-HWY_EXPORT(NearByGlide);
+HWY_EXPORT(BoundScrewSliding);
+HWY_EXPORT(NearByScrewSliding);
 }  // namespace detail
 
-double slope_of(const Glide& glide, std::size_t direction) {
-  const Eigen::Vector2d& f = glide.directions[direction];
-  const double steepness = glide.pitch / glide.least_radius;
+double slope_of(const ScrewSliding& screw_sliding, std::size_t direction) {
+  const Eigen::Vector2d& f = screw_sliding.directions[direction];
+  const double steepness = screw_sliding.pitch / screw_sliding.least_radius;
   return std::sqrt(f.x() * f.x() + f.y() * f.y() * (1.0 + steepness * steepness)) * (1.0 + 0x1p-40);
 }
 
-void bound_glide(const Glide& glide, const Hierarchy& hierarchy,
-                 std::span<const std::uint32_t> order, const GlidePath& path, bool mirrored,
-                 GlideBounds& bounds) {
+void bound_screw_sliding(const ScrewSliding& screw_sliding, const Hierarchy& hierarchy,
+                         std::span<const std::uint32_t> order, const ScrewSlidingPath& path,
+                         bool mirrored, ScrewSlidingBounds& bounds) {
   using namespace detail;
   const double size = hierarchy.radius + std::max(path.p_SB[0].norm(), path.p_SB[1].norm());
-  const double steepness = std::abs(glide.pitch) / glide.least_radius;
-  bounds.error = 0x1p-19 * (size * (1.0 + steepness) + 8.0 * std::abs(glide.pitch));
+  const double steepness = std::abs(screw_sliding.pitch) / screw_sliding.least_radius;
+  bounds.error = 0x1p-19 * (size * (1.0 + steepness) + 8.0 * std::abs(screw_sliding.pitch));
   const std::size_t count = hierarchy.vertices.size();
   for (std::size_t k = 0; k < 2; ++k) {
     bounds.radius[k].resize(count);
@@ -397,12 +398,13 @@ void bound_glide(const Glide& glide, const Hierarchy& hierarchy,
     bounds.height[k].resize(count);
   }
   bounds.of_vertices.resize(count);
-  HWY_DYNAMIC_DISPATCH(BoundGlide)(glide, hierarchy, order, path, mirrored, bounds);
+  HWY_DYNAMIC_DISPATCH(BoundScrewSliding)(screw_sliding, hierarchy, order, path, mirrored, bounds);
 }
 
-unsigned near_by_glide(const GlideNode& a, const GlideNode& mirrored, const GlideLimits& limits) {
+unsigned near_by_screw_sliding(const ScrewSlidingNode& a, const ScrewSlidingNode& mirrored,
+                               const ScrewSlidingLimits& limits) {
   using namespace detail;
-  return HWY_DYNAMIC_DISPATCH(NearByGlide)(a, mirrored, limits);
+  return HWY_DYNAMIC_DISPATCH(NearByScrewSliding)(a, mirrored, limits);
 }
 
 }  // namespace firstcontact

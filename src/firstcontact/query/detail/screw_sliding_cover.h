@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <firstcontact/geometry/glide_bounds.h>
+#include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/workspace_data.h>
@@ -30,29 +30,29 @@ namespace firstcontact::detail {
 /// all seen from the carrier with z the axis, w_d = w - w_s and p the point's place from the pivot,
 /// the screw sees the point move by u = s - pitch w_s z - w_s x q + w_d x p, and
 ///   |y''| <= w_s |s across z| + |w_d| w |p| + w_s |u|.
-class GlideCover {
+class ScrewSlidingCover {
  public:
   /// Makes the proof of two such bodies; none for any others.
-  static std::optional<GlideCover> of(const MovingPair& pair, const Shape& A, const Shape& B,
-                                      double t);
+  static std::optional<ScrewSlidingCover> of(const MovingPair& pair, const Shape& A, const Shape& B,
+                                             double t);
 
   /// Finds all pairs of triangles that are not proven to be farther apart than the threshold
-  /// throughout [t, t_end] of the piece: WorkspaceData::left_by_glide. False, with some missing,
-  /// where they are more than `most`, or the bodies move otherwise.
+  /// throughout [t, t_end] of the piece: WorkspaceData::left_by_screw_sliding. False, with some
+  /// missing, where they are more than `most`, or the bodies move otherwise.
   bool find(double t_end, double threshold, std::size_t most, WorkspaceData& workspace) const;
 
  private:
-  GlideCover(const MovingPair& pair, const GlidingSurface& carrier, const GlidingSurface& other,
-             bool carrier_is_A, double t)
+  ScrewSlidingCover(const MovingPair& pair, const ScrewSlidingSurface& carrier,
+                    const ScrewSlidingSurface& other, bool carrier_is_A, double t)
       : pair_(pair), carrier_(carrier), other_(other), carrier_is_A_(carrier_is_A), t_(t) {}
 
   struct Window;
   [[nodiscard]] std::optional<Window> window(double t_end, double threshold) const;
-  void walk(const GlideLimits& limits, std::size_t most, WorkspaceData& workspace) const;
+  void walk(const ScrewSlidingLimits& limits, std::size_t most, WorkspaceData& workspace) const;
 
   const MovingPair& pair_;
-  const GlidingSurface& carrier_;
-  const GlidingSurface& other_;
+  const ScrewSlidingSurface& carrier_;
+  const ScrewSlidingSurface& other_;
   bool carrier_is_A_;
   double t_;
 };

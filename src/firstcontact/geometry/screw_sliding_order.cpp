@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/glide_order.h>
+#include <firstcontact/geometry/screw_sliding_order.h>
 
 #include <algorithm>
 #include <array>
@@ -24,17 +24,17 @@ using Strip = std::array<int, 2>;
 /// Tells strips apart. A sliver lies on several: it goes with the one that has most.
 /// [m]  How far a turn leads along the axis; 0 of a surface of revolution, whatever rounding made
 /// of its pitch.
-double lead_of(const Glide& glide, double radius) {
+double lead_of(const ScrewSliding& screw_sliding, double radius) {
   constexpr double kRounding = 1e-6;
-  const double lead = 2.0 * std::numbers::pi * std::abs(glide.pitch);
+  const double lead = 2.0 * std::numbers::pi * std::abs(screw_sliding.pitch);
   return lead > kRounding * radius ? lead : 0.0;
 }
 
 class StripFinder {
  public:
-  StripFinder(const Glide& glide, const Hierarchy& hierarchy)
-      : glide_(glide),
-        lead_(lead_of(glide, hierarchy.radius)),
+  StripFinder(const ScrewSliding& screw_sliding, const Hierarchy& hierarchy)
+      : screw_sliding_(screw_sliding),
+        lead_(lead_of(screw_sliding, hierarchy.radius)),
         width_(std::max(kStripOfLead * lead_, kStripOfRadius * hierarchy.radius)) {
     for (const auto& t : hierarchy.triangles) {
       corners_.push_back(corners_of(t, hierarchy));
@@ -44,7 +44,7 @@ class StripFinder {
     }
     for (std::size_t k = 0; k < corners_.size(); ++k) {
       std::size_t thinnest = 0;
-      for (std::size_t direction = 1; direction < Glide::kDirections; ++direction) {
+      for (std::size_t direction = 1; direction < ScrewSliding::kDirections; ++direction) {
         thinnest = extent(k, direction) < extent(k, thinnest) ? direction : thinnest;
       }
       Share& share = shares_[strip(k, thinnest)];
@@ -56,7 +56,7 @@ class StripFinder {
   [[nodiscard]] Strip most_common(std::size_t triangle) const {
     Strip best{};
     double most = -1.0;
-    for (std::size_t direction = 0; direction < Glide::kDirections; ++direction) {
+    for (std::size_t direction = 0; direction < ScrewSliding::kDirections; ++direction) {
       const Strip candidate = strip(triangle, direction);
       const auto found = shares_.find(candidate);
       const double area = extent(triangle, direction) < kThin * width_ && found != shares_.end()
@@ -73,7 +73,7 @@ class StripFinder {
   /// Whether it comes near the axis or spans much of a turn: bounds of others would be lost in its.
   [[nodiscard]] bool is_wide(std::size_t triangle) const {
     const auto [a, b, c] = corners_[triangle];
-    return !(std::min({a.x(), b.x(), c.x()}) > 2.05 * glide_.least_radius &&
+    return !(std::min({a.x(), b.x(), c.x()}) > 2.05 * screw_sliding_.least_radius &&
              std::max({a.z(), b.z(), c.z()}) - std::min({a.z(), b.z(), c.z()}) < 0.5);
   }
 
@@ -98,19 +98,19 @@ class StripFinder {
                                    const Hierarchy& hierarchy) const {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d p = glide_.R_SB * (hierarchy.vertices[t[k]] - glide_.p_BS);
+      const Vector3d p = screw_sliding_.R_SB * (hierarchy.vertices[t[k]] - screw_sliding_.p_BS);
       double angle = std::atan2(p.y(), p.x());
       if (k > 0) {  // Beside the first one, where angles begin anew.
         angle += 2.0 * std::numbers::pi *
                  std::round((corners[0].z() - angle) / (2.0 * std::numbers::pi));
       }
-      corners[k] = {p.head<2>().norm(), p.z() - glide_.pitch * angle, angle};
+      corners[k] = {p.head<2>().norm(), p.z() - screw_sliding_.pitch * angle, angle};
     }
     return corners;
   }
 
   [[nodiscard]] Vector3d along(std::size_t triangle, std::size_t direction) const {
-    const Vector2d& f = glide_.directions[direction];
+    const Vector2d& f = screw_sliding_.directions[direction];
     const Corners& c = corners_[triangle];
     return {f.dot(c[0].head<2>()), f.dot(c[1].head<2>()), f.dot(c[2].head<2>())};
   }
@@ -138,7 +138,7 @@ class StripFinder {
     std::complex<double> phase = 0.0;  // Its direction is the mean.
   };
 
-  const Glide& glide_;
+  const ScrewSliding& screw_sliding_;
   double lead_;   // [m]
   double width_;  // [m]
   std::vector<Corners> corners_;
@@ -148,8 +148,9 @@ class StripFinder {
 
 }  // namespace
 
-std::vector<std::uint32_t> order_along(const Glide& glide, const Hierarchy& hierarchy) {
-  const StripFinder strips(glide, hierarchy);
+std::vector<std::uint32_t> order_along(const ScrewSliding& screw_sliding,
+                                       const Hierarchy& hierarchy) {
+  const StripFinder strips(screw_sliding, hierarchy);
   std::vector<std::tuple<bool, Strip, double, double, std::uint32_t>> places;
   for (std::uint32_t k = 0; k < hierarchy.triangles.size(); ++k) {
     const Strip strip = strips.most_common(k);

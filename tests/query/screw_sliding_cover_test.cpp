@@ -1,6 +1,6 @@
-// Threads that glide on each other.
+// Threads that screw_sliding on each other.
 
-#include <firstcontact/query/detail/glide_cover.h>
+#include <firstcontact/query/detail/screw_sliding_cover.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,14 +80,14 @@ class Cover {
   Cover(const Shape& A, const Motion& X_WA, const Shape& B, const Motion& X_WB)
       : motion_(X_WA, X_WB, A.hierarchy().centre, B.hierarchy().centre, 1e-6),
         pair_((motion_.enter(0.0), A.hierarchy()), B.hierarchy(), motion_),
-        cover_(detail::GlideCover::of(pair_, A, B, 0.0)) {}
+        cover_(detail::ScrewSlidingCover::of(pair_, A, B, 0.0)) {}
 
   [[nodiscard]] bool exists() const { return cover_.has_value(); }
 
   [[nodiscard]] std::set<std::pair<std::uint32_t, std::uint32_t>> left(double threshold) {
     EXPECT_TRUE(cover_->find(1.0, threshold, 1'000'000, workspace_.data()));
     std::set<std::pair<std::uint32_t, std::uint32_t>> all;
-    for (const auto& [a, b] : workspace_.data().left_by_glide) {
+    for (const auto& [a, b] : workspace_.data().left_by_screw_sliding) {
       all.emplace(a, b);
     }
     return all;
@@ -102,7 +102,7 @@ class Cover {
  private:
   ConstantRatePair motion_;
   detail::MovingPair pair_;
-  std::optional<detail::GlideCover> cover_;
+  std::optional<detail::ScrewSlidingCover> cover_;
   Workspace workspace_;
 };
 
@@ -138,10 +138,10 @@ Shape capped(const Shape& thread, double z) {
   return Shape(std::move(mesh));
 }
 
-using GlideCoverOn = test::OnInstructionSet;
+using ScrewSlidingCoverOn = test::OnInstructionSet;
 
 // Sound: what is not left is never nearer than the threshold.
-TEST_P(GlideCoverOn, LeavesEveryPairThatComesNear) {
+TEST_P(ScrewSlidingCoverOn, LeavesEveryPairThatComesNear) {
   std::mt19937 rng(11);
   const Shape inner = rod();
   const Shape outer = nut();
@@ -160,12 +160,12 @@ TEST_P(GlideCoverOn, LeavesEveryPairThatComesNear) {
   EXPECT_GT(near, 100u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, GlideCoverOn, testing::ValuesIn(test::instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(, ScrewSlidingCoverOn, testing::ValuesIn(test::instruction_sets()),
                          test::instruction_set_name);
 
 // The way between two poses is not straight: seen from the screw, a body that turns beside its axis
 // is led along a bow, and nearer in the middle than at the ends.
-TEST(GlideCover, LeavesWhatComesNearOnItsWay) {
+TEST(ScrewSlidingCover, LeavesWhatComesNearOnItsWay) {
   const Shape inner = rod();
   const Shape outer = test::make_thread({.turns = 3, .wider = 0.5, .shift = 1.0});
   const Motion still = Motion::fixed();
@@ -182,8 +182,8 @@ TEST(GlideCover, LeavesWhatComesNearOnItsWay) {
   EXPECT_GT(near, 100u);
 }
 
-// Surfaces across the axis do not glide: they come nearer by what the thread climbs.
-TEST(GlideCover, LeavesWhatIsClimbedTo) {
+// Surfaces across the axis do not screw_sliding: they come nearer by what the thread climbs.
+TEST(ScrewSlidingCover, LeavesWhatIsClimbedTo) {
   const Shape inner = capped(rod(), 1.0);
   for (const double sign : {-1.0, 1.0}) {
     const Shape outer = capped(nut(), 1.0 - 0.04 * sign);
@@ -199,7 +199,7 @@ TEST(GlideCover, LeavesWhatIsClimbedTo) {
 }
 
 // Tight: along the thread nothing is left of pairs that stay apart by little more.
-TEST(GlideCover, LeavesNothingOfAThreadThatGlides) {
+TEST(ScrewSlidingCover, LeavesNothingOfAThreadThatScrewSlidings) {
   const Shape inner = rod();
   const Shape outer = nut();
   const Motion still = Motion::fixed();
@@ -211,7 +211,7 @@ TEST(GlideCover, LeavesNothingOfAThreadThatGlides) {
   EXPECT_FALSE(cover.left(0.1).empty());
 }
 
-TEST(GlideCover, IsNoneOfBodiesThatBothTurn) {
+TEST(ScrewSlidingCover, IsNoneOfBodiesThatBothTurn) {
   const Shape inner = rod();
   const Shape outer = nut();
   const Motion turning = Motion::constant_velocity({}, Vector3d::Zero(), {0.0, 0.0, 0.4});
@@ -219,7 +219,7 @@ TEST(GlideCover, IsNoneOfBodiesThatBothTurn) {
 }
 
 // A law: what first_contact says of threads is what distances say.
-TEST(GlideCover, LetsFirstContactBeRight) {
+TEST(ScrewSlidingCover, LetsFirstContactBeRight) {
   std::mt19937 rng(17);
   const Shape inner = test::make_thread({.segments = 60, .turns = 8});
   const Shape outer = test::make_thread({.segments = 60, .turns = 6, .wider = 0.03, .shift = 1.0});
@@ -257,7 +257,7 @@ TEST(GlideCover, LetsFirstContactBeRight) {
   EXPECT_GT(misses, 2);
 }
 
-TEST(GlideCover, SparesFirstContactMostOfItsWork) {
+TEST(ScrewSlidingCover, SparesFirstContactMostOfItsWork) {
   const Shape inner = test::make_thread({.segments = 60, .turns = 8});
   const Shape outer = test::make_thread({.segments = 60, .turns = 6, .wider = 0.03, .shift = 1.0});
   const Motion turning = Motion::constant_velocity({}, {0.0, 0.0, 0.2 * kPitch}, {0.0, 0.0, 0.2});
@@ -269,7 +269,7 @@ TEST(GlideCover, SparesFirstContactMostOfItsWork) {
 }
 
 // Of very many close features all are listed or, where the nearest ones will do, these.
-TEST(GlideCover, ListsTheNearestFeatures) {
+TEST(ScrewSlidingCover, ListsTheNearestFeatures) {
   const Shape inner = test::make_thread({.segments = 60, .turns = 8});
   const Shape outer = test::make_thread({.segments = 60, .turns = 6, .wider = 0.03, .shift = 1.0});
   const Motion still = Motion::fixed();

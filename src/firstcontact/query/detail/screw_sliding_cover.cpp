@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/glide_cover.h>
+#include <firstcontact/query/detail/screw_sliding_cover.h>
 
 #include <algorithm>
 #include <array>
@@ -37,9 +37,10 @@ struct SeenBody {
   Vector3d spin;   // [rad per step]
 };
 
-SeenBody seen_from(const Glide& glide, const RelativeState& state, bool carrier_is_A) {
-  const Matrix3d R_SW = glide.R_SB * (carrier_is_A ? state.R_WA : state.R_WB).transpose();
-  const Vector3d p_SC = glide.R_SB * glide.p_BS;
+SeenBody seen_from(const ScrewSliding& screw_sliding, const RelativeState& state,
+                   bool carrier_is_A) {
+  const Matrix3d R_SW = screw_sliding.R_SB * (carrier_is_A ? state.R_WA : state.R_WB).transpose();
+  const Vector3d p_SC = screw_sliding.R_SB * screw_sliding.p_BS;
   if (carrier_is_A) {
     return {R_SW * state.R_WB, R_SW * state.p_AB - p_SC, R_SW * state.p_AQb - p_SC,
             R_SW * state.pivot_velocity, R_SW * (state.rate_B * state.axis_B)};
@@ -71,13 +72,13 @@ double stray_of(const SeenBody& begin, const SeenBody& end, double pitch, double
 
 }  // namespace
 
-struct GlideCover::Window {
-  GlidePath path;
-  GlideLimits limits;
+struct ScrewSlidingCover::Window {
+  ScrewSlidingPath path;
+  ScrewSlidingLimits limits;
 };
 
-std::optional<GlideCover> GlideCover::of(const MovingPair& pair, const Shape& A, const Shape& B,
-                                         double t) {
+std::optional<ScrewSlidingCover> ScrewSlidingCover::of(const MovingPair& pair, const Shape& A,
+                                                       const Shape& B, double t) {
   const RelativeState state = pair.motion().state(t);
   if (pair.deforms() || !has_constant_rates(state)) {
     return std::nullopt;
@@ -85,56 +86,58 @@ std::optional<GlideCover> GlideCover::of(const MovingPair& pair, const Shape& A,
   const bool larger_is_A = pair.A().triangles.size() >= pair.B().triangles.size();
   for (const bool carrier_is_A : {larger_is_A, !larger_is_A}) {
     if ((carrier_is_A ? state.rate_A : state.rate_B) == 0.0) {
-      const GlidingSurface* carrier = (carrier_is_A ? A : B).gliding();
-      const GlidingSurface* other = (carrier_is_A ? B : A).gliding();
+      const ScrewSlidingSurface* carrier = (carrier_is_A ? A : B).screw_sliding();
+      const ScrewSlidingSurface* other = (carrier_is_A ? B : A).screw_sliding();
       return carrier != nullptr && other != nullptr
-                 ? std::optional(GlideCover(pair, *carrier, *other, carrier_is_A, t))
+                 ? std::optional(ScrewSlidingCover(pair, *carrier, *other, carrier_is_A, t))
                  : std::nullopt;
     }
   }
   return std::nullopt;
 }
 
-std::optional<GlideCover::Window> GlideCover::window(double t_end, double threshold) const {
-  const Glide& glide = carrier_.glide;
+std::optional<ScrewSlidingCover::Window> ScrewSlidingCover::window(double t_end,
+                                                                   double threshold) const {
+  const ScrewSliding& screw_sliding = carrier_.screw_sliding;
   const Hierarchy& other = carrier_is_A_ ? pair_.B() : pair_.A();
   const RelativeState state = pair_.motion().state(t_);
   const RelativeState state_end = pair_.motion().state(t_end);
-  const SeenBody begin = seen_from(glide, state, carrier_is_A_);
-  SeenBody end = seen_from(glide, state_end, carrier_is_A_);
+  const SeenBody begin = seen_from(screw_sliding, state, carrier_is_A_);
+  SeenBody end = seen_from(screw_sliding, state_end, carrier_is_A_);
   const double duration = t_end - t_;
   const double rate = begin.spin.z();
   const double turn = rate * duration;
   Window window;
-  window.path.stray = stray_of(begin, end, glide.pitch, rate, duration, other.radius);
-  unscrew(turn, glide.pitch, end.R_SO, end.p_SO);
+  window.path.stray = stray_of(begin, end, screw_sliding.pitch, rate, duration, other.radius);
+  unscrew(turn, screw_sliding.pitch, end.R_SO, end.p_SO);
   window.path.R_SB = {begin.R_SO, end.R_SO};
   window.path.p_SB = {begin.p_SO, end.p_SO};
   const double apart =
       (threshold + pair_.gap_error(state) + pair_.gap_error(state_end)) * kRounding;
-  if (!(apart + window.path.stray < glide.least_radius && std::abs(turn) < kMostTurn &&
+  if (!(apart + window.path.stray < screw_sliding.least_radius && std::abs(turn) < kMostTurn &&
         std::max(begin.p_SO.norm(), end.p_SO.norm()) < kFarthest)) {
     return std::nullopt;
   }
-  constexpr std::size_t kAngle = Glide::kDirections;
+  constexpr std::size_t kAngle = ScrewSliding::kDirections;
   constexpr std::size_t kHalf = kAngle + 1;
   const double whole_turn = 2.0 * std::numbers::pi;
   for (std::size_t k = 0; k < kAngle; ++k) {
-    const double limit = slope_of(glide, k) * apart + carrier_.bounds.error;
-    const double by_turn = whole_turn * glide.pitch * glide.directions[k].y();
+    const double limit = slope_of(screw_sliding, k) * apart + carrier_.bounds.error;
+    const double by_turn = whole_turn * screw_sliding.pitch * screw_sliding.directions[k].y();
     window.limits.least[k] = window.limits.least[kHalf + k] =
         static_cast<float>(-limit * kRounding);
     window.limits.turn[k] = static_cast<float>(by_turn);
     window.limits.turn[kHalf + k] = static_cast<float>(-by_turn);
   }
-  const double climb = glide.pitch * turn;
-  float* const height = &window.limits.least[Glide::kHeight];
+  const double climb = screw_sliding.pitch * turn;
+  float* const height = &window.limits.least[ScrewSliding::kHeight];
   height[0] -= static_cast<float>(std::max(climb, 0.0) * kRounding);
   height[kHalf] -= static_cast<float>(std::max(-climb, 0.0) * kRounding);
-  window.limits.turn[Glide::kHeight] = window.limits.turn[kHalf + Glide::kHeight] = 0.0f;
+  window.limits.turn[ScrewSliding::kHeight] = window.limits.turn[kHalf + ScrewSliding::kHeight] =
+      0.0f;
   // Points farther than r from the axis are seen apart by 2 asin(d / 2 r), at most 1.05 d / r.
   const double reach = apart + window.path.stray;
-  const double angle = 1.1 * reach / (2.0 * glide.least_radius - reach) + 0x1p-18;
+  const double angle = 1.1 * reach / (2.0 * screw_sliding.least_radius - reach) + 0x1p-18;
   window.limits.least[kAngle] = static_cast<float>(-(angle + std::max(turn, 0.0)) * kRounding);
   window.limits.least[kHalf + kAngle] =
       static_cast<float>(-(angle + std::max(-turn, 0.0)) * kRounding);
@@ -143,33 +146,35 @@ std::optional<GlideCover::Window> GlideCover::window(double t_end, double thresh
   return window;
 }
 
-bool GlideCover::find(double t_end, double threshold, std::size_t most,
-                      WorkspaceData& workspace) const {
+bool ScrewSlidingCover::find(double t_end, double threshold, std::size_t most,
+                             WorkspaceData& workspace) const {
   const std::optional<Window> found = window(t_end, threshold);
   if (!found) {
     return false;
   }
-  GlideBounds& other = workspace.glide_bounds;
-  bound_glide(carrier_.glide, carrier_is_A_ ? pair_.B() : pair_.A(), other_.order, found->path,
-              true, other);
-  GlideLimits limits = found->limits;
+  ScrewSlidingBounds& other = workspace.screw_sliding_bounds;
+  bound_screw_sliding(carrier_.screw_sliding, carrier_is_A_ ? pair_.B() : pair_.A(), other_.order,
+                      found->path, true, other);
+  ScrewSlidingLimits limits = found->limits;
   for (float& limit : limits.least) {
     limit -= static_cast<float>(other.error * kRounding);
   }
   walk(limits, most, workspace);
-  return workspace.left_by_glide.size() <= most;
+  return workspace.left_by_screw_sliding.size() <= most;
 }
 
-void GlideCover::walk(const GlideLimits& limits, std::size_t most, WorkspaceData& workspace) const {
-  auto& left = workspace.left_by_glide;
+void ScrewSlidingCover::walk(const ScrewSlidingLimits& limits, std::size_t most,
+                             WorkspaceData& workspace) const {
+  auto& left = workspace.left_by_screw_sliding;
   left.clear();
-  auto& stack = workspace.glide_stack;
-  stack.assign(1, {GlideBounds::kLevels - 1, 0, 0});
+  auto& stack = workspace.screw_sliding_stack;
+  stack.assign(1, {ScrewSlidingBounds::kLevels - 1, 0, 0});
   while (!stack.empty() && left.size() <= most) {
-    const GlideNodes top = stack.back();
+    const ScrewSlidingNodes top = stack.back();
     stack.pop_back();
-    unsigned lanes = near_by_glide(carrier_.bounds.levels[top.level][top.carrier],
-                                   workspace.glide_bounds.levels[top.level][top.other], limits);
+    unsigned lanes =
+        near_by_screw_sliding(carrier_.bounds.levels[top.level][top.carrier],
+                              workspace.screw_sliding_bounds.levels[top.level][top.other], limits);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const std::uint32_t c = 4 * top.carrier + lane / 4;

@@ -1,4 +1,4 @@
-#include <firstcontact/geometry/glide.h>
+#include <firstcontact/geometry/screw_sliding.h>
 
 #include <algorithm>
 #include <cmath>
@@ -143,13 +143,13 @@ struct ProfilePoint {
   double weight;
 };
 
-std::vector<ProfilePoint> profile_of(const std::vector<Facet>& facets, const Glide& glide,
-                                     double unit) {
+std::vector<ProfilePoint> profile_of(const std::vector<Facet>& facets,
+                                     const ScrewSliding& screw_sliding, double unit) {
   std::vector<ProfilePoint> profile;
   for (const Facet& facet : facets) {
-    const Vector3d p = glide.R_SB * (unit * facet.centre - glide.p_BS);
+    const Vector3d p = screw_sliding.R_SB * (unit * facet.centre - screw_sliding.p_BS);
     const double radius = p.head<2>().norm();
-    const Vector3d n = glide.R_SB * facet.normal;
+    const Vector3d n = screw_sliding.R_SB * facet.normal;
     const Vector2d normal(n.head<2>().dot(p.head<2>()) / radius, n.z());
     if (normal.norm() > 0.5) {
       profile.push_back({radius, normal.normalized(), facet.area});
@@ -159,7 +159,7 @@ std::vector<ProfilePoint> profile_of(const std::vector<Facet>& facets, const Gli
 }
 
 /// The most frequent normals, a few degrees apart at least.
-void choose_directions(const std::vector<ProfilePoint>& profile, Glide& glide) {
+void choose_directions(const std::vector<ProfilePoint>& profile, ScrewSliding& screw_sliding) {
   constexpr int kBins = 180;
   constexpr int kApart = 4;
   std::array<double, kBins> weight{};
@@ -176,12 +176,12 @@ void choose_directions(const std::vector<ProfilePoint>& profile, Glide& glide) {
   for (int apart = -kApart; apart <= kApart; ++apart) {
     weight[(apart + kBins) % kBins] = 0.0;  // Along r.
   }
-  glide.directions[Glide::kRadius] = Vector2d::UnitX();
-  glide.directions[Glide::kHeight] = Vector2d::UnitY();
-  for (std::size_t k = 2; k < Glide::kDirections; ++k) {
+  screw_sliding.directions[ScrewSliding::kRadius] = Vector2d::UnitX();
+  screw_sliding.directions[ScrewSliding::kHeight] = Vector2d::UnitY();
+  for (std::size_t k = 2; k < ScrewSliding::kDirections; ++k) {
     const auto most = std::ranges::max_element(weight) - weight.begin();
-    const double angle = std::numbers::pi * static_cast<double>(k) / Glide::kDirections;
-    glide.directions[k] =
+    const double angle = std::numbers::pi * static_cast<double>(k) / ScrewSliding::kDirections;
+    screw_sliding.directions[k] =
         weight[most] > 0.0 ? sum[most].normalized() : Vector2d(std::cos(angle), std::sin(angle));
     for (int apart = -kApart; apart <= kApart; ++apart) {
       weight[(most + apart + kBins) % kBins] = 0.0;
@@ -191,7 +191,7 @@ void choose_directions(const std::vector<ProfilePoint>& profile, Glide& glide) {
 
 }  // namespace
 
-std::optional<Glide> find_glide(const Hierarchy& hierarchy) {
+std::optional<ScrewSliding> find_screw_sliding(const Hierarchy& hierarchy) {
   if (hierarchy.triangles.size() < kFewTriangles || hierarchy.triangles.size() > kManyTriangles ||
       !(hierarchy.radius > kSmallest && hierarchy.radius < kLargest)) {
     return std::nullopt;
@@ -208,22 +208,22 @@ std::optional<Glide> find_glide(const Hierarchy& hierarchy) {
       static_cast<double>(inner.size()) < kSlipping * static_cast<double>(facets.size())) {
     return std::nullopt;
   }
-  Glide glide;
+  ScrewSliding screw_sliding;
   const Vector3d axis = slip.w / rate;
-  glide.R_SB.row(2) = axis.transpose();
-  glide.R_SB.row(0) = axis.unitOrthogonal().transpose();
-  glide.R_SB.row(1) = axis.cross(Vector3d(glide.R_SB.row(0))).transpose();
-  glide.p_BS = hierarchy.radius * axis.cross(slip.v) / rate;
-  glide.pitch = hierarchy.radius * axis.dot(slip.v) / rate;
-  std::vector<ProfilePoint> profile = profile_of(inner, glide, hierarchy.radius);
+  screw_sliding.R_SB.row(2) = axis.transpose();
+  screw_sliding.R_SB.row(0) = axis.unitOrthogonal().transpose();
+  screw_sliding.R_SB.row(1) = axis.cross(Vector3d(screw_sliding.R_SB.row(0))).transpose();
+  screw_sliding.p_BS = hierarchy.radius * axis.cross(slip.v) / rate;
+  screw_sliding.pitch = hierarchy.radius * axis.dot(slip.v) / rate;
+  std::vector<ProfilePoint> profile = profile_of(inner, screw_sliding, hierarchy.radius);
   if (profile.empty()) {
     return std::nullopt;
   }
-  choose_directions(profile, glide);
+  choose_directions(profile, screw_sliding);
   const auto low = profile.begin() + static_cast<std::ptrdiff_t>(profile.size() / 50);
   std::ranges::nth_element(profile, low, {}, &ProfilePoint::radius);
-  glide.least_radius = 0.47 * low->radius;
-  return glide;
+  screw_sliding.least_radius = 0.47 * low->radius;
+  return screw_sliding;
 }
 
 }  // namespace firstcontact

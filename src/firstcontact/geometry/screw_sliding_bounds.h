@@ -11,9 +11,9 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/geometry/glide.h>
-#include <firstcontact/geometry/glide_order.h>
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/screw_sliding.h>
+#include <firstcontact/geometry/screw_sliding_order.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
@@ -21,24 +21,24 @@ namespace firstcontact {
 /// Bounds of four parts of a surface, as numbers that are bounds from above.
 ///
 /// For each part they are the least and the greatest values of f = alpha r + beta h [m] along the
-/// directions (alpha, beta) of the Glide, and of the angle [rad], in this order:
+/// directions (alpha, beta) of the ScrewSliding, and of the angle [rad], in this order:
 ///   -least f of each direction, -least angle, greatest f of each direction, greatest angle.
 /// For a mirrored body, the halves are exchanged.
-struct alignas(64) GlideNode {
+struct alignas(64) ScrewSlidingNode {
   static constexpr std::size_t kParts = 4;
-  static constexpr std::size_t kNumbers = 2 * (Glide::kDirections + 1);
+  static constexpr std::size_t kNumbers = 2 * (ScrewSliding::kDirections + 1);
   float most[kParts][kNumbers];
 };
 
 /// The numbers of a vertex, as those of a part.
-struct alignas(64) GlideVertex {
-  float most[GlideNode::kNumbers];
+struct alignas(64) ScrewSlidingVertex {
+  float most[ScrewSlidingNode::kNumbers];
 };
 
-/// A rigid body in the axes of the screw S of a `Glide`, by which its motion is taken back.
+/// A rigid body in the axes of the screw S of a `ScrewSliding`, by which its motion is taken back.
 ///
 /// From one pose to the other its points stay within `stray` of lines that they follow in any way.
-struct GlidePath {
+struct ScrewSlidingPath {
   std::array<Eigen::Matrix3d, 2> R_SB;
   std::array<Eigen::Vector3d, 2> p_SB;  ///< [m]  Of Hierarchy::centre.
   double stray = 0.0;                   ///< [m]
@@ -49,16 +49,16 @@ struct GlidePath {
 /// Four triangles belong to a node, four such nodes to the next one, and so on: part k of node n of
 /// a level is node 4 n + k of the level below it, or triangle 4 n + k. There are always as many
 /// levels as the largest mesh needs.
-struct GlideBounds {
+struct ScrewSlidingBounds {
   static constexpr std::size_t kLevels = 14;
-  std::array<std::vector<GlideNode>, kLevels> levels = {};
+  std::array<std::vector<ScrewSlidingNode>, kLevels> levels = {};
   double error = 0.0;  ///< [m]  Of sums of two bounds, which is not in them.
 
   /// The radius, angle and height of vertices, at both poses.
   std::array<std::vector<float>, 2> radius = {};
   std::array<std::vector<float>, 2> angle = {};
   std::array<std::vector<float>, 2> height = {};
-  std::vector<GlideVertex> of_vertices = {};
+  std::vector<ScrewSlidingVertex> of_vertices = {};
 
   /// Frees the numbers of vertices, for callers that need only the nodes.
   void release_vertices() {
@@ -80,36 +80,41 @@ struct GlideBounds {
 ///   |angle(x) - sum l_i angle_i| <= sum l_i |y_i - x|^2 / (2 r^2) <= R^2 / (2 r^2), lengths taken
 ///   across the axis and R that of any circle around the y_i.
 /// f changes by at most L = sqrt(alpha^2 + beta^2 (1 + pitch^2 / r^2)) times `stray`. What comes
-/// nearer to the axis than twice Glide::least_radius, or lies around it, is only bounded in r and
-/// z; its other numbers are huge.
+/// nearer to the axis than twice ScrewSliding::least_radius, or lies around it, is only bounded in
+/// r and z; its other numbers are huge.
 ///
 /// Single precision: angles are within 2^-20, places within 2^-23 of size; `error` and what is
 /// added to each bound cover that by far.
 ///
 /// @param order  of the triangles; those that are near each other in r, h and angle in sequence
 /// @param path   at one time both poses are the same
-FIRSTCONTACT_API void bound_glide(const Glide& glide, const Hierarchy& hierarchy,
-                                  std::span<const std::uint32_t> order, const GlidePath& path,
-                                  bool mirrored, GlideBounds& bounds);
+FIRSTCONTACT_API void bound_screw_sliding(const ScrewSliding& screw_sliding,
+                                          const Hierarchy& hierarchy,
+                                          std::span<const std::uint32_t> order,
+                                          const ScrewSlidingPath& path, bool mirrored,
+                                          ScrewSlidingBounds& bounds);
 
 /// A surface that slides in itself along a screw, at rest in the axes of that screw.
-struct GlidingSurface {
-  Glide glide;
+struct ScrewSlidingSurface {
+  ScrewSliding screw_sliding;
   std::vector<std::uint32_t> order;  ///< Of the triangles, along the thread.
-  GlideBounds bounds;
+  ScrewSlidingBounds bounds;
 };
 
 /// The limits of two parts that are near each other: no sum of their numbers is below these.
-struct GlideLimits {
-  alignas(64) std::array<float, GlideNode::kNumbers> least;
-  alignas(64) std::array<float, GlideNode::kNumbers> turn;  ///< Once more around the axis adds it.
+struct ScrewSlidingLimits {
+  alignas(64) std::array<float, ScrewSlidingNode::kNumbers> least;
+  alignas(64)
+      std::array<float, ScrewSlidingNode::kNumbers> turn;  ///< Once more around the axis adds it.
 };
 
 /// The lanes 4 i + j of the parts i of one body and j of a mirrored one that are near each other.
-[[nodiscard]] FIRSTCONTACT_API unsigned near_by_glide(const GlideNode& a, const GlideNode& mirrored,
-                                                      const GlideLimits& limits);
+[[nodiscard]] FIRSTCONTACT_API unsigned near_by_screw_sliding(const ScrewSlidingNode& a,
+                                                              const ScrewSlidingNode& mirrored,
+                                                              const ScrewSlidingLimits& limits);
 
 /// [-]  A bound of the slope of f along the direction, where bounds hold.
-[[nodiscard]] FIRSTCONTACT_API double slope_of(const Glide& glide, std::size_t direction);
+[[nodiscard]] FIRSTCONTACT_API double slope_of(const ScrewSliding& screw_sliding,
+                                               std::size_t direction);
 
 }  // namespace firstcontact
