@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/robot_question.h>

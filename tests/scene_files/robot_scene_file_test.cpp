@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>
