@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/robot_check/robot_scene.h>
+
 #include "contact_text.h"
 #include "file_text.h"
 #include "quantity_text.h"

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <firstcontact/geometry/deforming_body.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/detail/load_robots.h>
 #include <firstcontact/scene/detail/size_warning.h>
