@@ -63,18 +63,18 @@ struct SceneContact : Contact {
 
 double duration(const HeldResult& result) { return result.scene->scene().duration; }
 
-std::array<std::string, 2> names_of(const HeldResult& result, const PairAnswer& pair) {
+std::array<std::string, 2> pair_names(const HeldResult& result, const PairAnswer& pair) {
   const Scene& scene = result.scene->scene();
   return {member_name(scene, pair.members[0]), member_name(scene, pair.members[1])};
 }
 
 py::tuple name_tuple(const ScenePair& pair) {
-  return py::cast(names_of(*pair.result, pair.answer())).cast<py::tuple>();
+  return py::cast(pair_names(*pair.result, pair.answer())).cast<py::tuple>();
 }
 
 void append_contacts(const HeldResult& result, const PairAnswer& pair, py::list& list) {
   for (const Contact& found : pair.contacts) {
-    SceneContact contact{found, names_of(result, pair)};
+    SceneContact contact{found, pair_names(result, pair)};
     contact.normal_velocity /= duration(result);
     list.append(std::move(contact));
   }
@@ -237,7 +237,7 @@ std::string describe(const HeldResult& result) {
   std::string text = "<Result " + std::string(py::repr(py::str(result.scene->scene().id))) + ": " +
                      verdict_text(answer);
   if (answer.first) {
-    const auto names = names_of(result, answer.pairs[*answer.first]);
+    const auto names = pair_names(result, answer.pairs[*answer.first]);
     text += ", " + printable(names[0] + " and " + names[1]);
   }
   const PairCounts& counts = loaded_without_gil(*result.scene).pair_counts;
@@ -395,7 +395,7 @@ void bind_pair(py::module_& m) {
                              "ContactIntervals, in order; where all_contacts_in_time was asked.")
       .def("__repr__",
            [](const ScenePair& p) {
-             const auto names = names_of(*p.result, p.answer());
+             const auto names = pair_names(*p.result, p.answer());
              return "<ScenePair " + printable(names[0] + " and " + names[1]) + ": " +
                     verdict_text(p.answer()) + ">";
            })
