@@ -13,10 +13,10 @@ for k in range(100):
 bodies.rules.ignore((0, 1))  # These two may touch.
 
 result = fc.first_contact(bodies)
-for pair in result.first:
-    print(f"balls {pair.bodies} at t = {result.t:.5f}")
+first = result.pairs[result.first]
+print(f"balls {first.members} at t = {result.t:.5f}")
 
 # Only what is new costs anything: hold one of them, and ask again.
-held = result.first[0].bodies[0]
+held = first.members[0]
 bodies.set_motion(held, fc.Motion.fixed(bodies.motion(held).pose(0)))
 print(f"with ball {held} held: t = {fc.first_contact(bodies).t:.5f}")
