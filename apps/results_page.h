@@ -15,12 +15,13 @@ namespace firstcontact::app {
 /// that would make it larger than a browser opens are in the list, but cannot be played; nor can
 /// those whose meshes cannot be read any more.
 ///
-/// @param results  a file of results, one in each line
-/// @param page     where the page goes
-/// @param reading  of the scenes
+/// @param results  the file of results, one in each line
+/// @param page     the file of the page
+/// @param reading  how files of the scenes are read
 /// @param stop     ends the work early, without a page
-/// @param doing    called with what is being done
-/// @returns        what there is to say, in lines
+/// @param doing    called with the name of each part of the work
+/// @returns        a report in lines: the results that the page lists, but cannot play
+///
 /// @throws std::runtime_error, one line, where the viewer is missing or a file cannot be read or
 ///         written
 [[nodiscard]] std::string write_results_page(const std::string& results, const std::string& page,

@@ -97,7 +97,7 @@ struct ProjectionOptions {
                          ///< come next; >= 0. Half of it where ten sweeps less than halve the
                          ///< changes (and these are more than ten tolerances), or where the guesses
                          ///< leave more than ten times it.
-  int sweeps = 200;      ///< At most, of all contacts in contact space; > 0.
+  int sweeps = 200;      ///< At most, of all contacts, by Gauss-Seidel; > 0.
   int rounds = 12;       ///< At most, of the interior point; > 0.
 };
 
@@ -129,24 +129,24 @@ struct ContactSolution {
 ///
 /// The velocities are unique without friction, the impulses only without redundant contacts.
 ///
-/// Method in contact space: each contact is solved in turn, with all others held, until none
+/// Projected Gauss-Seidel: each contact is solved in turn, with all others held, until none
 /// changes. After each sweep there and back the method goes on in the direction of the sweeps
 /// before (M. Silcowitz, S. Niebe, K. Erleben, "A nonsmooth nonlinear conjugate gradient method for
 /// interactive contact force problems", The Visual Computer 26 (2010)): r in K, u + mu |u_t| n in
 /// its dual, orthogonal (De Saxce, Feng, "The bipotential method", Mathematical and Computer
 /// Modelling 28 (1998)).
 ///
-/// Method in motion space: the velocities minimise
+/// Augmented Lagrangian: the velocities minimise
 ///   1/2 |v - v_free|_M^2 + sum |proj_K(r_i - rho_i (u_i + mu |u_t| n))|^2 / (2 rho_i)
 /// whose minimum gives the next r (method of multipliers). There is one equation for each degree of
 /// freedom, however many contacts there are, and no loss where masses differ greatly.
 ///
 /// Choice: from 120 contacts on (300 where there are two for each velocity), without drives, an
-/// interior point comes before motion space, in rounds. Each round solves the convex problem in
-/// which |u_t| is what the round before left, and sweeps contact space. Where a part is enough, the
-/// automatic choice takes what its rounds leave. Where there are 300 contacts and two for each
-/// velocity, it first solves a few alone, with all drives. The contacts that the answer closes
-/// fastest join them, until none is left or these are no longer few.
+/// interior point comes before the augmented Lagrangian, in rounds. Each round solves the convex
+/// problem in which |u_t| is what the round before left, and sweeps all contacts. Where a part is
+/// enough, the automatic choice takes what its rounds leave. Where there are 300 contacts and two
+/// for each velocity, it first solves a few alone, with all drives. The contacts that the answer
+/// closes fastest join them, until none is left or these are no longer few.
 ///
 /// @throws std::invalid_argument if an option is outside its range.
 [[nodiscard]] FIRSTCONTACT_API ContactSolution

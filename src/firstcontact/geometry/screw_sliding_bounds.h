@@ -86,8 +86,8 @@ struct ScrewSlidingBounds {
 /// Single precision: angles are within 2^-20, places within 2^-23 of size; `error` and what is
 /// added to each bound cover that by far.
 ///
-/// @param order  of the triangles; those that are near each other in r, h and angle in sequence
-/// @param path   at one time both poses are the same
+/// @param order  the triangles in sequence, so that neighbours are near in r, h and angle
+/// @param path   the two motions; their poses coincide at one time
 FIRSTCONTACT_API void bound_screw_sliding(const ScrewSliding& screw_sliding,
                                           const Hierarchy& hierarchy,
                                           std::span<const std::uint32_t> order,

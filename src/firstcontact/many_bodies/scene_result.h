@@ -17,9 +17,9 @@ namespace firstcontact {
 
 /// A stretch of time that may be in contact: outside of its intervals a pair is proven free.
 ///
-/// At `enter` the pair is within margin + tolerance, and proven free before, back to the `leave`
-/// of the interval before. Of `leave` it is claimed that the pair was within margin + tolerance
-/// at some time in [leave - resolution, leave]. Gaps in which the pair comes apart for less than
+/// At `enter` the pair is within margin + tolerance. The pair is proven free before it, back to the
+/// `leave` of the interval before. `leave` is sampled, not proven: a sample within margin +
+/// tolerance lies in [leave - resolution, leave]. Gaps in which the pair comes apart for less than
 /// twice the resolution may be counted to the interval around them.
 struct ContactInterval {
   double enter = 0.0;  ///< [-]
@@ -31,16 +31,18 @@ struct ContactInterval {
 /// The first contact of a pair of members, and what else was asked of the pair.
 struct PairAnswer : FirstContactResult {
   BodyPair members = {};
-  /// [m]  Closer than this counts as contact. Of links with both paddings and the effect of the
-  /// tracking errors about t.
+  /// [m]  Closer than this counts as contact. For links it includes both paddings, and the effect
+  /// of the tracking errors about t.
   double margin = 0.0;
   std::vector<ContactInterval> intervals = {};  ///< Of contact, in order, where asked.
   std::optional<ClosestApproach> closest = {};  ///< Over all times that are tested, where asked.
 };
 
-/// The answer of all pairs of members that are tested. No pair is in contact before `t`, that of
-/// the pair that decides. The clearance is a lower bound of every pair's distance up to t.
-/// Tolerance and enclosure error are the greatest of the pairs that were searched.
+/// The answer of all pairs of members that are tested.
+///
+/// No pair is in contact before `t`, which is that of the deciding pair. The clearance is a lower
+/// bound of every pair's distance up to t. Tolerance and enclosure error are the greatest of the
+/// pairs that were searched.
 struct SceneResult : Outcome {
   /// Index into `pairs` of the one that decides `t`: the earliest, ties by their order. None when
   /// free.
@@ -58,8 +60,10 @@ struct SceneResult : Outcome {
 [[nodiscard]] FIRSTCONTACT_API std::optional<std::size_t> deciding_pair(
     std::span<const PairAnswer> pairs);
 
-/// The pair that comes closest, of those for which that was asked. Of several that touch it is the
-/// first in time. None where none was asked.
+/// The pair that comes closest, among those with a closest approach; none where there is no such
+/// pair.
+///
+/// If several pairs touch, it is the first in time.
 [[nodiscard]] FIRSTCONTACT_API std::optional<std::size_t> closest_pair(
     std::span<const PairAnswer> pairs);
 

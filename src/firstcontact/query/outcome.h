@@ -61,7 +61,9 @@ struct Outcome {
   return a.t < b.t || (a.t == b.t && is_contact(a.verdict) && !is_contact(b.verdict));
 }
 
-/// Takes one more outcome into what holds of all. Of several that decide alike the first counts.
+/// Merges one more outcome into the outcome of all.
+///
+/// If several decide alike, the first one counts.
 inline void merge(const Outcome& more, Outcome& all) {
   if (decides_before(more, all)) {
     all.verdict = more.verdict;

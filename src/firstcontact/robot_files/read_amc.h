@@ -17,8 +17,8 @@ struct AsfSkeleton;
 /// Reads an AMC file: the numbers of its frames, and in each a line for every bone that turns.
 ///
 /// @param frame_time  [s]  > 0; the file does not say it
-/// @throws ParseError  as read_asf: an unknown bone, one missing or there twice, frames that do not
-///                     count up by one
+/// @throws ParseError  as read_asf, and for an unknown, missing or repeated bone. Frames must count
+///                     up by one.
 /// @throws std::invalid_argument if the frame time is out of its range
 [[nodiscard]] FIRSTCONTACT_API MotionCapture read_amc(const std::filesystem::path& path,
                                                       const AsfSkeleton& skeleton,

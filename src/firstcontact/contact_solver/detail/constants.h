@@ -13,7 +13,7 @@ namespace firstcontact::detail {
 /// [velocities]  Larger problems are only swept: factorisations grow with more than the number of
 /// velocities. Sweeps of such problems may stop far from an answer, but take less memory.
 inline constexpr std::size_t kMostForAugmentedLagrangian = 6000;
-/// [sweeps]  What sweeps do not do in so many, motion space does better, unless they may leave
+/// [sweeps]  After so many the augmented Lagrangian takes over, unless sweeps may leave
 /// something...
 inline constexpr int kSweepsBeforeAugmentedLagrangian = 100;
 /// [sweeps]  ... and in so many where contacts are many for each body.
@@ -22,8 +22,8 @@ inline constexpr int kSweepsOfRedundant = 30;
 /// up from step to step.
 inline constexpr int kExtraSweeps = 30;
 inline constexpr double kExtraTolerance = 0.1;
-/// [contacts]  For each body, that is for six velocities, from where on motion space is cheaper: a
-/// sweep costs as many contacts as an assembly, and takes more of them.
+/// [contacts]  For each body, that is for six velocities, from where on the augmented Lagrangian is
+/// cheaper: a sweep costs as many contacts as an assembly, and takes more of them.
 inline constexpr std::size_t kManyContactsOfBody = 12;
 /// [contacts]  From so many on an interior point comes first: multipliers would take ten times as
 /// long.

@@ -13,7 +13,7 @@ namespace firstcontact::detail {
 /// n and z = P^-1 r that lie in the cone of Lorentz, orthogonal to each other, a convex problem;
 /// Newton's steps with the scaling of Nesterov and Todd solve it from inside, in about as many
 /// steps for each number of contacts, each the factorisation of one matrix (S. Mehrotra, SIAM
-/// Journal on Optimization 2 (1992)). Sweeps of contact space follow. That is the fixed point of V.
+/// Journal on Optimization 2 (1992)). Sweeps of all contacts follow. That is the fixed point of V.
 /// Acary, F. Cadoux, C. Lemarechal, J. Malick, "A formulation of the linear discrete Coulomb
 /// friction problem via convex optimization", ZAMM 91 (2011).
 ///

@@ -27,8 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 //  - Velocities: cross and dot products add up to 10 u of |s| + w_A rho_A + w_B rho_B, as positions
 //    relative to the pivot are formed in double; w (n x u) to 4 u w, and as part of an extent to
 //    4 u sqrt(3) w r.
-//  - Extents at the horizon, along m = n + H w (n x u): 24 u sqrt(3) r |m|. Of two extents that are
-//    interpolated each error counts by its share; with |m| <= 1 + H w |n x u| the gap's slack has
+//  - Extents at the horizon, along m = n + H w (n x u): 24 u sqrt(3) r |m|. If two extents are
+//    interpolated, each error counts by its share; with |m| <= 1 + H w |n x u| the gap's slack has
 //    24 u sqrt(3) r. The other box's axes b see w (n x u) . b_k as (n . b_i) (w . b_j) - (n . b_j)
 //    (w . b_i), which is w (n x u) . (b_i x b_j) and thus within 40 u w |n x u|, and 9 u w for
 //    rounding. All in all 16 u w r of the speed, and 70 u r w |n x u|, for which is kSwingSlack.

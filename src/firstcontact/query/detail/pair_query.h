@@ -42,9 +42,11 @@ struct Hold {
   UndecidedReason stopped = UndecidedReason::none;  ///< By the budget; then nothing is claimed.
 };
 
-/// keep_half: two shapes that start within the band, but apart, are held to half of their start
-/// distance d0 and are in contact at 3/4 of it at most, so not at the start, nor for as long as
-/// they stay as far apart. Others are held to the margin.
+/// The hold of StartContacts::keep_half.
+///
+/// Two shapes that start within the band, but apart, are held to half of their start distance d0.
+/// They are in contact at 3/4 of it at most. So they are not in contact at the start, nor for as
+/// long as they stay as far apart. Others are held to the margin.
 ///
 /// Derivation: the nearest points that are found are at least d0 apart but for rounding, which 16
 /// errors outweigh, and at most d0 / (1 - kSlack). A half and a quarter of that is less than d0.
