@@ -81,11 +81,13 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
   set_bodies();
   for (const auto& [pair, manifold] : state_.manifolds) {
+    const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        acting_.push_back(acting(touch, -state_.model.distances.way_to_rest(touch.gap) / span_));
+        acting_.push_back(
+            acting(touch, -state_.model.distances.way_to_rest(touch.gap, lowest) / span_));
         append(touch, by_mean(acting_.back()));
       }
     }
@@ -101,15 +103,20 @@ void IslandPlanner::set_bodies() {
   }
 }
 
-ContactSide IslandPlanner::side_of(std::size_t body) const {
+ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side) const {
+  const std::size_t body = touch.bodies[side];
   const ContactBody& moving = bodies_.bodies()[bodies_.place(body)];
-  return {&state_.model.bodies[body], state_.pose_of(body).rotation.normalized().toRotationMatrix(),
-          bodies_.centre(bodies_.place(body)), moving.v, moving.w};
+  return {&state_.model.bodies[body],
+          touch.rolls[side] ? state_.model.round_sides[body].get() : nullptr,
+          state_.pose_of(body).rotation.normalized().toRotationMatrix(),
+          bodies_.centre(bodies_.place(body)),
+          moving.v,
+          moving.w};
 }
 
 /// Its guess is the impulse of the touch, of a whole step.
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
-  const std::array<ContactSide, 2> sides{side_of(touch.bodies[0]), side_of(touch.bodies[1])};
+  const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
   made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
   made.now.guess *= span_ / state_.start.h;
@@ -246,16 +253,11 @@ bool IslandPlanner::mean_is_allowed() const {
     mean[b].v = 0.5 * (before[b].v + mean[b].v);
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
-  const double tolerance = projection_options(state_, problem_).tolerance;
+  const double slack = 2.0 * projection_options(state_, problem_).tolerance +
+                       kSlackOfMean * state_.model.distances.least / span_;
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    double least = problem_.contacts[k].least_normal_velocity;
-    double slack = 2.0 * tolerance;
-    if (k < first_ahead_) {
-      least = acting_[k].least;
-      if (turns(k)) {
-        slack += kSlackOfTurning * state_.model.distances.least / span_;
-      }
-    }
+    const double least =
+        k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
     if (!(normal_velocity(problem_.contacts[k], mean) >= least - slack)) {
       return false;
     }
@@ -277,7 +279,7 @@ bool IslandPlanner::mean_is_allowed() const {
 ///
 /// @param first,end  the contacts of the pair
 bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
-  const double slow = kSlackOfTurning * state_.model.distances.least / span_;
+  const double slow = kSlackOfMean * state_.model.distances.least / span_;
   Vector3d friction = Vector3d::Zero();
   double most = 0.0;
   bool slides = false;

@@ -81,7 +81,7 @@ class IslandPlanner {
   [[nodiscard]] FreeFlight free_flight() const;
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
-  [[nodiscard]] ContactSide side_of(std::size_t body) const;
+  [[nodiscard]] ContactSide side_of(const ManifoldPoint& touch, std::size_t side) const;
   void append(const ManifoldPoint& touch, const ContactPoint& contact);
   [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;
   [[nodiscard]] std::optional<std::size_t> find(const PredictedContact& ahead) const;
