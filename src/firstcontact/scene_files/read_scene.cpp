@@ -113,7 +113,11 @@ void read_dynamics_or_surface(const JsonObject& object, Body& body, const JsonRe
     detail::read_dynamics(*dynamics, body, read);
   }
   if (surface != nullptr) {
-    body.surface = detail::read_surface(read.object(*surface, {{"friction", "restitution"}}), read);
+    const JsonObject& given = read.object(*surface, {{"friction", "restitution", "velocity"}});
+    body.surface = detail::read_surface(given, read);
+    if (const JsonValue* velocity = find(given, "velocity")) {
+      body.surface.velocity = read.vector3(*velocity);
+    }
   }
 }
 

@@ -199,7 +199,7 @@ class Island {
     ProblemBodies bodies = state_.problem_bodies();
     ContactProblem problem;
     std::vector<const ManifoldPoint*> touches;
-    std::vector<double> restitution;
+    std::vector<BodyPair> pairs;
     for (const auto& [pair, manifold] : state_.manifolds) {
       for (const ManifoldPoint& touch : manifold.touches) {
         if (touch.gap > state_.model.distances.touching) {
@@ -208,12 +208,9 @@ class Island {
         state_.add_others(pair, bodies);
         ManifoldPoint unknown = touch;
         unknown.impulse.setZero();
-        problem.contacts.push_back(
-            contact_at(unknown, bodies, state_.model.laws.friction(pair), 0.0));
+        problem.contacts.push_back(state_.contact(unknown, bodies, 0.0));
         touches.push_back(&touch);
-        const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
-        restitution.push_back(state_.bounces(pair, closing) ? state_.model.laws.restitution(pair)
-                                                            : 0.0);
+        pairs.push_back(pair);
       }
     }
     if (problem.contacts.empty()) {
@@ -222,7 +219,7 @@ class Island {
     problem.bodies = bodies.bodies();
     state_.robots.add_mechanisms(problem);
     state_.robots.add_drives_at_impact(problem);
-    const ContactSolution solution = project_impact_of(state_, problem, restitution);
+    const ContactSolution solution = project_impact_of(state_, problem, pairs);
     state_.robots.take_velocities(solution);
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (!solution.impulses[k].isZero(0.0)) {

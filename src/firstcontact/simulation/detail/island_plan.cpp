@@ -118,7 +118,7 @@ ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side)
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
   const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
-  made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
+  made.now = state_.contact(touch, bodies_, least);
   made.now.guess *= span_ / state_.start.h;
   made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
   made.is_held = least == 0.0 || made.now.guess[0] > 0.0;

@@ -7,6 +7,7 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/sequential_impacts.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -46,10 +47,9 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 
 /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
 /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
-/// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
-/// answer is anything: it is shortened to what there was before, or to what moves with the
-/// script.
-/// Motors add what they want, as long as there is a solution.
+/// its own speed twice, and so does a belt. Of a problem without solution, as of a body that is
+/// crushed, the solver's answer is anything: it is shortened to what there was before, or to what
+/// moves with the script. Motors add what they want, as long as there is a solution.
 ///
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
@@ -69,6 +69,7 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   }
   double speed = 0.0;
   for (const ContactPoint& contact : problem.contacts) {
+    speed = std::max(speed, contact.sticking_velocity.norm());
     for (int side = 0; side < 2; ++side) {
       const ContactBody& body = problem.bodies[contact.bodies[side]];
       if (contact.bodies[side] >= state.size()) {
@@ -165,7 +166,29 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
 }
 
 ContactSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
-                                  const std::vector<double>& restitution) {
+                                  const std::vector<BodyPair>& pairs) {
+  std::vector<double> restitution;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    restitution.push_back(restitution_of(state, pairs[k], problem.contacts[k], problem.bodies));
+  }
+  const bool bounces = std::ranges::any_of(restitution, [](double e) { return e > 0.0; });
+  return bounces && state.model.impacts == ImpactLaw::sequential
+             ? project_sequential_impacts(state, problem, pairs)
+             : project_simultaneous_impact(state, problem, restitution);
+}
+
+double slowest_bounce(const IslandState& state) {
+  return kStepsWithoutBounce * state.model.gravity.norm() * state.start.h;
+}
+
+double restitution_of(const IslandState& state, const BodyPair& pair, const ContactPoint& contact,
+                      const std::vector<ContactBody>& bodies) {
+  return state.bounces(pair, -normal_velocity(contact, bodies)) ? state.model.laws.restitution(pair)
+                                                                : 0.0;
+}
+
+ContactSolution project_simultaneous_impact(const IslandState& state, const ContactProblem& problem,
+                                            const std::vector<double>& restitution) {
   ContactSolution solution = project_impact(
       problem, restitution, state.size(),
       [&](const auto& moving, const auto& mechanisms) {
