@@ -157,7 +157,7 @@ class RobotCheck {
     return pairs_[place];
   }
 
-  /// Of a pair of members; of several of their parts each has one that decides.
+  /// The most contacts of a pair of members that are listed.
   [[nodiscard]] std::size_t most_contacts() const {
     return options_.contacts.kind == ContactState::Kind::nearest ? options_.contacts.most
                                                                  : ContactState::all.most;
@@ -333,7 +333,7 @@ class RobotCheck {
     least_of_all_ = found->least.lower_bound;
   }
 
-  /// Of a pair that was searched no longer than until another one's contact.
+  /// Answers a pair that was searched only until another one's contact.
   void answer_whole_step(std::size_t pair) {
     PairAnswer& answer = answer_of(pair);
     const WorkCount work = answer.work;

@@ -63,7 +63,7 @@ void append_between(const Cone& left, const Cone& right, double rate,
   }
 }
 
-/// Of robots only the clearance is known: it holds until the result's t.
+/// Beside robots only the clearance is known: it holds until the result's t.
 std::vector<GapPoint> clearance_until(const SceneResult& result,
                                       std::span<const GapSample> samples) {
   std::vector<GapPoint> points;

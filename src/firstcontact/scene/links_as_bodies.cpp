@@ -42,7 +42,7 @@ Matrix3d moved_moments(const Matrix3d& about_C, double mass, const Vector3d& by)
   return about_C + mass * (by.squaredNorm() * Matrix3d::Identity() - by * by.transpose());
 }
 
-/// Of all pieces of a link, as solids of a density.
+/// The inertia of all geometries of a link, as solids of a density.
 LinkInertia inertia_of_solids(std::span<const MemberGeometry> geometries, double density) {
   LinkInertia sum;
   std::vector<std::pair<double, Vector3d>> centres;

@@ -84,7 +84,7 @@ bool is_inline(const BodyShape& shape) {
          (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
 }
 
-/// Of a file and of those that were read for it.
+/// The digest of a file and of those that were read for it.
 std::string digest_of(const std::filesystem::path& path, const std::vector<std::string>& also) {
   if (also.empty()) {
     return digest_of(path);

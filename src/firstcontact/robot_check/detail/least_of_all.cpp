@@ -91,7 +91,7 @@ class Search {
     return balls;
   }
 
-  /// Of each pair that is tested where its balls are nearest, the nearest pair first.
+  /// The place of each tested pair where its balls are nearest, the nearest pair first.
   std::vector<Place> nearest_places() {
     std::vector<Place> places(timeline_.pairs().size());
     for (std::size_t first = 0; first < timeline_.piece_count(); first += kBlock) {

@@ -23,7 +23,7 @@ LinkPart box_around(const Shape& shape) {
   return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
 }
 
-/// Of each joint; that of a screw slides, too. Empty if all are zero.
+/// The error of each joint; that of a screw slides, too. Empty if all are zero.
 std::vector<TrackingError> errors_of(const RobotScene& scene, std::size_t robot) {
   std::vector<TrackingError> errors = scene.tracking_errors(robot);
   const auto joints = scene.robot_motion(robot).model().joints();
