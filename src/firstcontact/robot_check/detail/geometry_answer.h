@@ -1,17 +1,17 @@
 /// @file
-/// When two parts are in contact.
+/// When two geometries are in contact.
 
 #pragma once
 
 #include <vector>
 
 #include <firstcontact/many_bodies/scene_result.h>
-#include <firstcontact/robot_check/detail/part_search.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 
 namespace firstcontact::detail {
 
 /// The answer of a candidate over its window.
-struct PartAnswer {
+struct GeometryAnswer {
   FirstContactResult first;  ///< With contacts in the world. When free, `t` is 1.
   std::vector<ContactInterval> intervals;
   WorkCount work;
@@ -20,11 +20,13 @@ struct PartAnswer {
 /// First contact in the window up to `horizon`.
 ///
 /// @param may_start_inside  whether the two were not tested just before the window
-[[nodiscard]] PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate,
-                                          double horizon, bool may_start_inside);
+[[nodiscard]] GeometryAnswer first_contact_of(GeometrySearch& search,
+                                              const GeometryCandidate& candidate, double horizon,
+                                              bool may_start_inside);
 
 /// All intervals of contact in the window, in order, with what the first of them is.
-[[nodiscard]] PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candidate,
-                                              double resolution);
+[[nodiscard]] GeometryAnswer contact_intervals_of(GeometrySearch& search,
+                                                  const GeometryCandidate& candidate,
+                                                  double resolution);
 
 }  // namespace firstcontact::detail
