@@ -243,7 +243,7 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.
     const double gap = touch.gap - hit.t * span_ * u_n;
-    ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap) / span_);
+    ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap, gap) / span_);
     closing = std::max(closing, -u_n);
     hit.ahead.push_back(std::move(ahead));
   }
