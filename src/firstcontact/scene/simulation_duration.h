@@ -15,8 +15,8 @@ struct Simulation;
 /// Sets the time for which a scene is simulated.
 ///
 /// Scripted bodies and bases of robots keep their rates: a run may end before they do, and in a
-/// longer one constant velocities and screws go on. A body that moves between two poses rests at the
-/// second.
+/// longer one constant velocities and screws go on. A body that moves between two poses rests at
+/// the second.
 ///
 /// @param duration  [s]  > 0
 /// @throws std::invalid_argument if there is no simulation, the duration is not > 0, or a body
