@@ -216,6 +216,21 @@ TEST(GapLowerBound, HoldsForBallsAndGetsNearThem) {
   }
 }
 
+// With a margin the clearance is proven up to the contact, and lost after it.
+TEST(GapLowerBound, ClaimsTheClearanceOnlyUntilTheContact) {
+  const LoadedScene loaded = load_text(test::scene(kPassing, R"("options": {"margin": 1})"));
+  const SceneResult result = check_all(loaded);
+  ASSERT_EQ(result.verdict, Verdict::contact);
+  EXPECT_NEAR(result.clearance, 1.0, 1e-5);
+  for (const std::size_t count : {2u, 5u, 50u}) {
+    const std::vector<GapPoint> bound =
+        gap_lower_bound(loaded, result, samples_of(loaded, even_times(count)));
+    for (const double t : even_times(1000)) {
+      EXPECT_LE(value_at(bound, t), passing_gap(t)) << count << " at " << t;
+    }
+  }
+}
+
 TEST(GapLowerBound, IsNothingWhereNoPairIsTested) {
   const LoadedScene loaded =
       load_text(test::scene(kPassing, R"("pairs": {"ignore": [["passes", "rests"]]})"));
