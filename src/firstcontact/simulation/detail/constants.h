@@ -59,6 +59,16 @@ inline constexpr std::ptrdiff_t kManyRecordedOfPair = 100;
 /// the normal of nearly parallel edges turns wildly.
 inline constexpr double kCrossingEdges = 0.1;
 
+// Seams between bodies.
+
+/// [-]  A body beside an edge leaves it a normal if the allowed part of the one found is longer.
+inline constexpr double kLeastLevel = 0.5;
+/// [-]  Normals that differ by less are not changed.
+inline constexpr double kTiltOfSeam = 1e-6;
+/// [-]  Along a changed normal there must be this part of the contact distance, or the body beside
+/// is a step.
+inline constexpr double kLeastGapOfSeam = 0.25;
+
 // Impacts.
 
 /// [steps]  Impacts slower than what gravity adds in so many steps do not bounce: bodies come to

@@ -83,6 +83,7 @@ class ImpactSearch {
   [[nodiscard]] std::optional<Impact> ask(Candidate& pair);
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
   [[nodiscard]] Impact hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
+  [[nodiscard]] Pose pose_at(std::size_t body, double t);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
   [[nodiscard]] SweptHull hull_of(std::size_t mover, double from, double to);
   [[nodiscard]] const SweptHull& whole_hull_of(std::size_t mover);

@@ -124,7 +124,7 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
   if (problem.contacts.size() >= kManyContactsOfIsland && state.size() < kHeapBodies) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
+  return {.tolerance = exact_tolerance(state)};
 }
 
 /// Free bodies that are hit within a plan need not be solved as exactly as those that an impact

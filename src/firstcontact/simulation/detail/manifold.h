@@ -27,6 +27,8 @@ struct ManifoldPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
   std::array<bool, 2> rolls = {false, false};  ///< Whether it is on the round side of A, of B.
+  std::array<bool, 2> faces = {false, false};  ///< Whether its normal goes with A, with B, as if
+                                               ///< it were that of a face.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 

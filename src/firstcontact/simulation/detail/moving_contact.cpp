@@ -55,13 +55,15 @@ SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const V
 
 /// The normal after both surfaces moved.
 ///
+/// @param faces     whether the normal goes with A, with B
 /// @param by        of each body
 /// @param apart     [m]  from the centre on A to that on B, there
 /// @param is_round  whether either has a radius
-Vector3d moved_normal(const Vector3d& n, const std::array<SurfaceThere, 2>& now,
-                      const std::array<Quaterniond, 2>& by, const Vector3d& apart, bool is_round) {
+Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
+                      const std::array<SurfaceThere, 2>& now, const std::array<Quaterniond, 2>& by,
+                      const Vector3d& apart, bool is_round) {
   for (std::size_t s = 0; s < 2; ++s) {
-    if (now[s].is_face) {
+    if (now[s].is_face || faces[s]) {
       return by[s] * n;
     }
   }
@@ -108,7 +110,7 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
   const bool is_round = std::ranges::any_of(sides, [](const ContactSide& side) {
     return side.round != nullptr || side.body->shape.radius() > 0.0;
   });
-  const Vector3d n_there = moved_normal(n, now, by, apart, is_round);
+  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, is_round);
   const Matrix3d turned = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
   std::array<Vector3d, 2> arms;
   for (std::size_t s = 0; s < 2; ++s) {

@@ -133,6 +133,15 @@ std::optional<RoundSide> find_round_side(const Shape& shape, double sag) {
   return std::nullopt;
 }
 
+Vector3d nearest_on_side(const PlacedRoundSide& body, const Vector3d& beside,
+                         const Vector3d& outwards) {
+  const Eigen::Quaterniond R = body.pose.rotation.normalized();
+  const Vector3d axis = R * body.side->axis_B;
+  const Vector3d centre = body.pose.position + R * body.side->centre_B;
+  return centre + (beside - centre).dot(axis) * axis +
+         body.side->radius * across_axis(outwards, axis).normalized();
+}
+
 std::array<bool, 2> make_round(const std::array<PlacedRoundSide, 2>& bodies, Contact& contact) {
   const std::array<Feature, 2> features{contact.feature_A, contact.feature_B};
   std::array<Vector3d, 2> points{contact.p_WA, contact.p_WB};

@@ -39,6 +39,11 @@ struct PlacedRoundSide {
   Pose pose = {};
 };
 
+/// [m]  The point of a round side that is farthest along a direction, beside a point of it.
+[[nodiscard]] Eigen::Vector3d nearest_on_side(const PlacedRoundSide& body,
+                                              const Eigen::Vector3d& beside,
+                                              const Eigen::Vector3d& outwards);
+
 /// Replaces the facets of a contact by the circles around them: its closest points, normal and
 /// distance become those of cylinders where features on a round side, or on its rim, are near the
 /// line that is nearest to the other body.
