@@ -9,7 +9,6 @@
 #include <firstcontact/simulation/detail/island_state.h>
 
 #include <firstcontact/simulation/detail/contact_distances.h>
-#include <firstcontact/simulation/detail/seams.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -239,10 +238,14 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
   }
   double closing = 0.0;
   bool passes = true;  // Over a seam, however near it is.
-  SeamFinder seams(state_, workspace_, [&](std::size_t body) { return pose_at(body, hit.t); });
+  seam_time_ = hit.t;
+  if (!seams_) {
+    seams_.emplace(state_, workspace_,
+                   [this](std::size_t body) { return pose_at(body, seam_time_); });
+  }
   for (ManifoldPoint& touch :
        touches_among(state_.model, hit.bodies, poses, pair.margin, answer_.contacts)) {
-    const bool is_seam = seams.level(touch);
+    const bool is_seam = seams_->level(touch);
     PredictedContact ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.

@@ -16,6 +16,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/seams.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 namespace firstcontact::detail {
@@ -101,6 +102,8 @@ class ImpactSearch {
   std::vector<Mover> movers_ = {};  // The members, then bodies around the island.
   std::unordered_map<std::size_t, std::size_t> around_ = {};  // Where these are among the movers.
   std::vector<Candidate> candidates_ = {};
+  std::optional<SeamFinder> seams_ = {};  // From the first hit on,
+  double seam_time_ = 0.0;                // [-]  at this time of the plan.
   FirstContactResult answer_;
   double clearance_ = 0.0;
 };

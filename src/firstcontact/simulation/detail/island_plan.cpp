@@ -120,12 +120,16 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   ActingContact made;
   made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
   made.now.guess *= span_ / state_.start.h;
+  made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
+  made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
+  made.least = least - drift_along(touch.bodies, made.now) / span_;
+  if (most_change(made.now, sides, span_) <= kLeastTolerance) {
+    return made;
+  }
   const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
   made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
   made.change = moved_contact(touch, made.now, distance, sides, span_).velocity(sides) -
                 made.halfway.velocity(sides);
-  made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
-  made.least = least - drift_along(touch.bodies, made.now) / span_;
   return made;
 }
 
@@ -298,18 +302,12 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
   return slides && friction.norm() < 0.5 * most;
 }
 
-/// Whether a contact changes with the way of its bodies.
-bool IslandPlanner::turns(std::size_t k) const {
-  return acting_[k].change.cwiseAbs().maxCoeff() > projection_options(state_, problem_).tolerance;
-}
-
+/// Whether any contact changes with the way of its bodies.
 bool IslandPlanner::any_turns() const {
-  for (std::size_t k = 0; k < first_ahead_; ++k) {
-    if (turns(k)) {
-      return true;
-    }
-  }
-  return false;
+  const double tolerance = projection_options(state_, problem_).tolerance;
+  return std::ranges::any_of(acting_, [&](const ActingContact& acting) {
+    return acting.change.cwiseAbs().maxCoeff() > tolerance;
+  });
 }
 
 /// The velocities that lead from the begin of a plan to its end. Where contacts turn, those at the

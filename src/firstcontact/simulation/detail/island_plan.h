@@ -90,7 +90,6 @@ class IslandPlanner {
   [[nodiscard]] bool mean_is_allowed() const;
   [[nodiscard]] bool stops_early(std::size_t first, std::size_t end) const;
   [[nodiscard]] bool any_turns() const;
-  [[nodiscard]] bool turns(std::size_t k) const;
   [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
   void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,

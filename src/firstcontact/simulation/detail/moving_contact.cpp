@@ -87,10 +87,31 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
   return between.dot(n) > 0.0 ? between.stableNormalized() : n;
 }
 
+bool is_round(const ContactSide& side) {
+  return side.round != nullptr || side.body->shape.radius() > 0.0;
+}
+
 }  // namespace
 
 Vector3d MovedContact::velocity(const std::array<ContactSide, 2>& sides) const {
   return frame * (sides[1].v + sides[1].w.cross(arms[1]) - sides[0].v - sides[0].w.cross(arms[0]));
+}
+
+double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
+                   double time) {
+  const std::array<double, 2> arms{contact.arm_A.norm(), contact.arm_B.norm()};
+  double speed = 0.0;  // [m/s]  At the contact, of both.
+  double turning = 0.0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const double w = sides[s].w.norm();
+    speed += sides[s].v.norm() + w * arms[s];
+    turning += w;
+    // Lines between centres turn about the smaller arm.
+    if (is_round(sides[s]) && arms[s] > 0.0) {
+      turning += (sides[0].v - sides[1].v).norm() / arms[s];
+    }
+  }
+  return 2.0 * time * turning * speed;
 }
 
 MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& contact, double distance,
@@ -107,10 +128,8 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
   }
   const Vector3d apart = sides[1].p_WC + time * sides[1].v + centres[1] -
                          (sides[0].p_WC + time * sides[0].v + centres[0]);
-  const bool is_round = std::ranges::any_of(sides, [](const ContactSide& side) {
-    return side.round != nullptr || side.body->shape.radius() > 0.0;
-  });
-  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, is_round);
+  const bool any_round = is_round(sides[0]) || is_round(sides[1]);
+  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, any_round);
   const Matrix3d turned = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
   std::array<Vector3d, 2> arms;
   for (std::size_t s = 0; s < 2; ++s) {

@@ -38,6 +38,10 @@ struct MovedContact {
   [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
 };
 
+/// [m/s]  A bound of how much moving a contact for a time [s] changes the velocity at it.
+[[nodiscard]] double most_change(const ContactPoint& contact,
+                                 const std::array<ContactSide, 2>& sides, double time);
+
 /// Moves a contact with the velocities that its bodies have now.
 ///
 /// A point of a body goes on its circle. A round surface (a ball, a capsule, the side of a cylinder

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -57,6 +58,18 @@ Vector3d point_towards(const SimBody& body, const RoundSide* round, const Pose& 
 
 }  // namespace
 
+SeamFinder::SeamFinder(IslandState& state, Workspace& workspace,
+                       std::function<Pose(std::size_t)> pose_of)
+    : state_(state), workspace_(workspace), pose_of_(std::move(pose_of)) {
+  for (const auto& [pair, manifold] : state.manifolds) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      if (state.model.bodies[pair[1 - s]].kind == BodyKind::free) {
+        touching_[pair[s]].push_back(pair[1 - s]);
+      }
+    }
+  }
+}
+
 bool SeamFinder::level(ManifoldPoint& touch) {
   const bool first = lean(touch, 0);
   const bool second = lean(touch, 1);
@@ -76,12 +89,10 @@ std::vector<std::size_t> SeamFinder::bodies_near(const Vector3d& point,
     }
   };
   state_.around.for_each_overlap(box, add);
-  for (const auto& [bodies, manifold] : state_.manifolds) {
-    for (std::size_t s = 0; s < 2; ++s) {
-      if ((bodies[s] == pair[0] || bodies[s] == pair[1]) &&
-          state_.model.bodies[bodies[1 - s]].kind == BodyKind::free) {
-        add(bodies[1 - s]);
-      }
+  for (const std::size_t body : pair) {
+    const auto beside = touching_.find(body);
+    if (beside != touching_.end()) {
+      std::ranges::for_each(beside->second, add);
     }
   }
   std::ranges::sort(near);

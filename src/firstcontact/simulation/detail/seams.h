@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,8 +31,7 @@ struct IslandState;
 class SeamFinder {
  public:
   /// @param pose_of  where a body is
-  SeamFinder(IslandState& state, Workspace& workspace, std::function<Pose(std::size_t)> pose_of)
-      : state_(state), workspace_(workspace), pose_of_(std::move(pose_of)) {}
+  SeamFinder(IslandState& state, Workspace& workspace, std::function<Pose(std::size_t)> pose_of);
 
   /// Returns whether the touch was changed.
   bool level(ManifoldPoint& touch);
@@ -49,6 +49,7 @@ class SeamFinder {
   IslandState& state_;
   Workspace& workspace_;
   std::function<Pose(std::size_t)> pose_of_;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> touching_ = {};  // Members.
   std::vector<Contact> contacts_ = {};
 };
 
