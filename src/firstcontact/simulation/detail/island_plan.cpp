@@ -60,7 +60,55 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
     }
   }
   first_ahead_ = touches_.size();
-  free_robots_ = state_.robots.fly(problem_, state_.start.time + state_.reached, span_);
+  robots_by_end_.assign(state_.robots.size(), false);
+  if (!state_.robots.empty()) {
+    choose_rules();
+    fly_robots();
+  }
+}
+
+/// [m/s]  Velocities this much too small are allowed by a contact.
+double IslandPlanner::slack() const { return 2.0 * projection_options(state_, problem_).tolerance; }
+
+/// Velocities at the end will lead the robots in contact where a contact that pressed before closes
+/// now: then the mean of both ends would close it.
+void IslandPlanner::choose_rules() {
+  const double least = slack();
+  const auto closes = [&](const ContactPoint& contact) {
+    return contact.guess[0] > 0.0 &&
+           normal_velocity(contact, bodies_.bodies()) < contact.least_normal_velocity - 2.0 * least;
+  };
+  if (std::ranges::none_of(problem_.contacts, closes)) {
+    return;
+  }
+  for (const ContactPoint& contact : problem_.contacts) {
+    for (const std::size_t place : contact.bodies) {
+      if (place < state_.size() && state_.member(place).piece) {
+        robots_by_end_[state_.robots.robot_of(place)] = true;
+      }
+    }
+  }
+}
+
+void IslandPlanner::fly_robots() {
+  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, flights_);
+  state_.robots.set(flights_, problem_);
+}
+
+/// Flies robots anew where that has to be. Returns whether there were any.
+bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
+  std::vector<bool> led = state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end,
+                                                   state_.start.time + state_.reached, span_);
+  for (std::size_t r = 0; r < led.size(); ++r) {
+    led[r] = led[r] || robots_by_end_[r];
+  }
+  if (led == robots_by_end_) {
+    return false;
+  }
+  robots_by_end_ = std::move(led);
+  fly_robots();
+  last_.reset();
+  return true;
 }
 
 /// Those of the problem, with their free velocities. Others that contacts ahead bring come last.
@@ -156,13 +204,20 @@ void IslandPlanner::solve() {
 
 Plan IslandPlanner::plan() {
   solve();
+  std::vector<bool> by_end = led_by_end();
+  if (!state_.robots.empty() && lead_robots_by_end(by_end)) {
+    solve();
+    by_end = led_by_end();
+  }
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
-  const std::vector<bool> by_end = led_by_end();
   set_moves(by_end, made);
-  made.robots = state_.robots.plan(problem_, solution, free_robots_, by_end, span_);
+  made.robots = state_.robots.plan(problem_, solution, flights_, by_end,
+                                   state_.start.time + state_.reached, span_);
   push_apart(made);
+  state_.robots.keep_momenta(outer_impulses(problem_, *last_, bodies_, state_.robots.size()), span_,
+                             made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;
 }
@@ -201,10 +256,10 @@ std::vector<bool> IslandPlanner::led_by_end() const {
     mean[b].v = 0.5 * (before[b].v + mean[b].v);
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
-  const double slack = 2.0 * projection_options(state_, problem_).tolerance;
+  const double least = slack();
   const bool mean_is_allowed =
       std::ranges::all_of(problem_.contacts, [&](const ContactPoint& contact) {
-        return normal_velocity(contact, mean) >= contact.least_normal_velocity - slack;
+        return normal_velocity(contact, mean) >= contact.least_normal_velocity - least;
       });
   std::vector<bool> by_end(before.size(), false);
   if (!mean_is_allowed) {

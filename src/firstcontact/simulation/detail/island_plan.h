@@ -68,6 +68,10 @@ class IslandPlanner {
   };
 
   [[nodiscard]] FreeFlight free_flight() const;
+  [[nodiscard]] double slack() const;
+  void choose_rules();
+  void fly_robots();
+  [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ContactPoint contact_of(const ManifoldPoint& touch, double least) const;
   void append(const ManifoldPoint& touch, const ContactPoint& contact);
@@ -89,7 +93,8 @@ class IslandPlanner {
   std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
-  std::vector<RobotPlan> free_robots_;
+  std::vector<RobotFlight> flights_;            // Of the robots,
+  std::vector<bool> robots_by_end_;             // and which of them velocities at the end lead.
   std::optional<PlanSolution> last_ = {};
   std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
   std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.

@@ -1,7 +1,9 @@
 #include <firstcontact/simulation/detail/island_response.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/simulation/detail/constants.h>
@@ -44,6 +46,29 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
   return sum;
 }
 
+/// Whether a problem has a solution that was found.
+bool is_solved(const IslandState& state, const ContactSolution& solution) {
+  const double left = state.robots.empty() ? solution.allowed : 0.0;
+  return solution.residual <=
+         std::max({left, of_gravity(state, kUnsolved), kUnsolvedOfSpeed * fastest(solution)});
+}
+
+/// The problem with motors that yield a little to what is stronger than anything: to contacts and
+/// limits that leave no room for the velocities that they want. Nothing where none is so strong.
+std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem) {
+  std::optional<ContactProblem> yielding;
+  for (std::size_t k = 0; k < problem.drives.size(); ++k) {
+    const JointDrive& drive = problem.drives[k];
+    if (drive.compliance == 0.0 && std::isinf(drive.least) && std::isinf(drive.greatest)) {
+      yielding = yielding ? std::move(yielding) : std::optional(problem);
+      const auto c = static_cast<Eigen::Index>(drive.coordinate);
+      yielding->drives[k].compliance =
+          kYield * problem.mechanisms[drive.mechanism].inverse_mass(c, c);
+    }
+  }
+  return yielding;
+}
+
 /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
 /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
 /// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
@@ -54,10 +79,8 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const double left = state.robots.empty() ? solution.allowed : 0.0;
-  const bool is_solved = solution.residual <= std::max({left, of_gravity(state, kUnsolved),
-                                                        kUnsolvedOfSpeed * fastest(solution)});
-  if (is_solved && state.robots.has_motors()) {
+  const bool has_solution = is_solved(state, solution);
+  if (has_solution && state.robots.has_motors()) {
     return false;
   }
   const double before =
@@ -79,7 +102,7 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   }
   const double along = speed * std::sqrt(0.5 * mass);
   const double allowed =
-      is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
+      has_solution ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
   if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
     return false;
   }
@@ -131,6 +154,11 @@ PlanSolution project_plan(const IslandState& state, const ContactProblem& proble
     return {unchanged(problem)};
   }
   PlanSolution plan{project_on_contacts(problem, plan_options(state, problem))};
+  if (!is_solved(state, plan.velocities)) {
+    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
+      plan.velocities = project_on_contacts(*yielding, plan_options(state, problem));
+    }
+  }
   plan.is_limited = limit_energy(state, problem, plan.velocities);
   return plan;
 }
@@ -152,16 +180,56 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
   return plan;
 }
 
-ContactSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
-                                  const std::vector<double>& restitution) {
-  ContactSolution solution = project_impact(
-      problem, restitution, state.size(),
-      [&](const auto& moving, const auto& mechanisms) {
-        return energy_of(state, problem, moving, mechanisms);
-      },
-      projection_options(state, problem));
-  limit_energy(state, problem, solution);
-  return solution;
+PlanSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
+                               const std::vector<double>& restitution) {
+  const auto project = [&](const ContactProblem& given) {
+    return project_impact(
+        given, restitution, state.size(),
+        [&](const auto& moving, const auto& mechanisms) {
+          return energy_of(state, given, moving, mechanisms);
+        },
+        projection_options(state, given));
+  };
+  PlanSolution impact{project(problem)};
+  if (!is_solved(state, impact.velocities)) {
+    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
+      impact.velocities = project(*yielding);
+    }
+  }
+  impact.is_limited = limit_energy(state, problem, impact.velocities);
+  return impact;
+}
+
+std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
+                                         const PlanSolution& solution, const ProblemBodies& bodies,
+                                         std::size_t robots) {
+  std::vector<OuterImpulse> outer(robots);
+  for (std::size_t k = 0; k < problem.contacts.size() && robots > 0; ++k) {
+    const ContactPoint& contact = problem.contacts[k];
+    const std::array<const std::optional<MechanismLink>*, 2> links{
+        &problem.bodies[contact.bodies[0]].link, &problem.bodies[contact.bodies[1]].link};
+    const Vector3d impulse = contact.frame.transpose() * solution.velocities.impulses[k];
+    const bool is_inner =
+        *links[0] && *links[1] && (*links[0])->mechanism == (*links[1])->mechanism;
+    if (is_inner || impulse.isZero(0.0)) {
+      continue;
+    }
+    const std::array<Vector3d, 2> points{bodies.centre(contact.bodies[0]) + contact.arm_A,
+                                         bodies.centre(contact.bodies[1]) + contact.arm_B};
+    for (int side = 0; side < 2; ++side) {
+      if (*links[side]) {
+        const Vector3d point =
+            *links[1 - side] ? Vector3d(0.5 * (points[0] + points[1])) : points[1 - side];
+        const Vector3d on = side == 0 ? Vector3d(-impulse) : impulse;
+        OuterImpulse& sum = outer[(*links[side])->mechanism];
+        sum.linear += on;
+        sum.angular += point.cross(on);
+        sum.acts = true;
+        sum.is_known = !solution.is_limited;
+      }
+    }
+  }
+  return outer;
 }
 
 }  // namespace firstcontact::detail
