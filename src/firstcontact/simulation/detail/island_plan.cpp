@@ -213,11 +213,12 @@ Plan IslandPlanner::plan() {
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   set_moves(by_end, made);
-  made.robots = state_.robots.plan(problem_, solution, flights_, by_end,
+  const std::vector<OuterImpulse> outer =
+      outer_impulses(problem_, *last_, bodies_, state_.robots.size());
+  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, outer,
                                    state_.start.time + state_.reached, span_);
   push_apart(made);
-  state_.robots.keep_momenta(outer_impulses(problem_, *last_, bodies_, state_.robots.size()), span_,
-                             made.robots);
+  state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;
 }

@@ -111,6 +111,12 @@ double IslandRobots::longest_span() const {
   return fastest > 0.0 ? kMostTurnOfLinks / fastest : std::numeric_limits<double>::infinity();
 }
 
+std::optional<Vector3d> IslandRobots::free_base(std::size_t r) const {
+  return robots_[r].robot->mechanism.has_free_base()
+             ? std::optional<Vector3d>(robots_[r].state.positions.head<3>())
+             : std::nullopt;
+}
+
 const IslandRobots::PiecePlace& IslandRobots::piece_of(std::size_t member) const {
   const auto& [robot, piece] = place_[member];
   return robots_[robot].now.pieces[piece];
@@ -337,6 +343,21 @@ VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
   return impulses;
 }
 
+/// The velocities that contacts make where the flight leads, with the momenta that impulses from
+/// outside make. Arms are those of the begin: the two sides of a contact are apart where the flight
+/// leads, and their impulses would turn the robot as a whole.
+VectorXd IslandRobots::balanced(std::size_t r, const RobotFlight& flight, const OuterImpulse& outer,
+                                const VectorXd& v) const {
+  const Mechanism& mechanism = robots_[r].robot->mechanism;
+  if (!mechanism.has_free_base() || !outer.is_known || !outer.touches) {
+    return v;
+  }
+  const MechanismMechanics before =
+      mechanism.mechanics({flight.end.positions, flight.velocities}, model_.gravity);
+  return mechanism.with_momenta({flight.end.positions, v}, before.linear_momentum + outer.linear,
+                                before.angular_momentum + outer.angular);
+}
+
 /// Where the mean of the velocities at both ends leads.
 VectorXd IslandRobots::mean_positions(std::size_t r, const RobotFlight& flight, const VectorXd& v,
                                       double span) const {
@@ -409,14 +430,15 @@ std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
 std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
                                           const ContactSolution& solution,
                                           const std::vector<RobotFlight>& flights,
-                                          const std::vector<bool>& by_end, double from,
+                                          const std::vector<bool>& by_end,
+                                          const std::vector<OuterImpulse>& outer, double from,
                                           double span) const {
   std::vector<RobotPlan> plans;
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
     const RobotFlight& flight = flights[r];
     const Mechanism& mechanism = robot.robot->mechanism;
-    const VectorXd& v = solution.mechanisms[r];
+    const VectorXd v = balanced(r, flight, outer[r], solution.mechanisms[r]);
     const bool end_leads =
         std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
     const VectorXd changed = v - flight.end.velocities;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,8 +60,9 @@ struct RobotFlight {
 struct OuterImpulse {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]  About the origin.
-  bool acts = false;
-  bool is_known = true;
+  bool acts = false;                                  ///< Any does.
+  bool is_known = true;  ///< Of velocities that were limited they are not.
+  bool touches = false;  ///< Contacts act, with what is not of it or between its own links.
 };
 
 /// Where a plan leads a robot, and how fast it is there.
@@ -106,6 +108,9 @@ class IslandRobots {
 
   [[nodiscard]] std::size_t size() const { return robots_.size(); }
 
+  /// [m]  Where the free base of a robot is; nothing of one that is held.
+  [[nodiscard]] std::optional<Eigen::Vector3d> free_base(std::size_t robot) const;
+
   /// The robot of a member that is a piece of a link, here.
   [[nodiscard]] std::size_t robot_of(std::size_t member) const { return place_[member][0]; }
 
@@ -145,7 +150,8 @@ class IslandRobots {
   [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
                                             const ContactSolution& solution,
                                             const std::vector<RobotFlight>& flights,
-                                            const std::vector<bool>& by_end, double from,
+                                            const std::vector<bool>& by_end,
+                                            const std::vector<OuterImpulse>& outer, double from,
                                             double span) const;
 
   /// Gives robots with a free base the momenta that gravity and impulses from outside make of
@@ -212,6 +218,8 @@ class IslandRobots {
   [[nodiscard]] Eigen::VectorXd impulses_of(std::size_t robot, std::size_t motors,
                                             const ContactProblem& problem,
                                             const ContactSolution& solution) const;
+  [[nodiscard]] Eigen::VectorXd balanced(std::size_t robot, const RobotFlight& flight,
+                                         const OuterImpulse& outer, const Eigen::VectorXd& v) const;
   [[nodiscard]] Eigen::VectorXd mean_positions(std::size_t robot, const RobotFlight& flight,
                                                const Eigen::VectorXd& v, double span) const;
   [[nodiscard]] Eigen::VectorXd placement(std::size_t robot, const RobotFlight& flight,
