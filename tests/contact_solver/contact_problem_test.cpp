@@ -200,6 +200,29 @@ TEST(ProjectOnContacts, SticksInsideTheConeAndSlidesOutside) {
   EXPECT_NEAR(speed_after(0.49), 0.01, 1e-9);
 }
 
+TEST(ProjectOnContacts, SticksToABeltAsToAGroundThatMoves) {
+  for (const ProjectionSpace space : {ProjectionSpace::contact, ProjectionSpace::motion}) {
+    ContactProblem belt;
+    ContactBody body = cube(2.0, {0.3, -0.1, -1.0});
+    belt.bodies = {ContactBody{}, body};
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        belt.contacts.push_back(on_ground(x, y, 0.4));
+      }
+    }
+    ContactProblem ground = belt;
+    ground.bodies[0].v = {0.5, 0.2, 0.0};
+    for (ContactPoint& contact : belt.contacts) {
+      contact.sticking_velocity = {0.5, 0.2};  // The tangents of on_ground() are x and y.
+    }
+    const ContactSolution on_belt = solve(belt, space);
+    EXPECT_LE(contact_residual(belt, on_belt), kTolerance);
+    const ContactSolution on_moving = solve(ground, space);
+    EXPECT_LE((on_belt.bodies[1].v - on_moving.bodies[1].v).norm(), 1e-8);
+    EXPECT_LE((on_belt.bodies[1].w - on_moving.bodies[1].w).norm(), 1e-8);
+  }
+}
+
 TEST(ProjectOnContacts, TakesAThousandRedundantContacts) {
   ContactProblem problem;
   problem.bodies = {{}, cube(1.0, {0.2, 0.1, -1.0})};

@@ -31,6 +31,10 @@ struct ContactPoint {
   /// It is 0 at a resting contact, that of Newton's law at an impact, and negative where the bodies
   /// still have a way to go.
   double least_normal_velocity = 0.0;
+  /// [m/s]  The tangential velocity at which the contact sticks, along the two tangents.
+  ///
+  /// It is 0 between surfaces that move with their bodies. Friction acts on u_t minus it.
+  Eigen::Vector2d sticking_velocity = Eigen::Vector2d::Zero();
   Eigen::Vector3d guess = Eigen::Vector3d::Zero();  ///< [N s]  To start from.
 };
 
@@ -122,7 +126,8 @@ struct ContactSolution {
 /// 2002). Its multipliers are the normal impulses: M (v - v_free) = J^T r, 0 <= r_n, complementary
 /// to u_n - least_normal_velocity >= 0. With friction an impulse lies in Coulomb's cone |r_t| <= mu
 /// r_n, the round one. Where it is on the side of the cone, u_t points against r_t; where u_t is
-/// not 0, it is on the side. All contacts count at once: impacts are simultaneous.
+/// not 0, it is on the side. Here u_t is the tangential velocity minus `sticking_velocity`. All
+/// contacts count at once: impacts are simultaneous.
 ///
 /// Drives are projected along with the contacts: their impulses lie between their bounds, and the
 /// energy of their compliances adds to what is least.
@@ -156,8 +161,8 @@ project_on_contacts(const ContactProblem& problem, const ProjectionOptions& opti
 ///
 /// It is the greatest over contacts of |r - proj_K(r - rho (u' + mu |u_t| n))| / rho.
 /// There rho is the inverse of the contact's greatest response to an impulse (the largest of the
-/// diagonal), and u' = u - least_normal_velocity n. Drives count in the same way, with the interval
-/// of their bounds as K. It is 0 exactly where all laws hold.
+/// diagonal), and u' = u - (least_normal_velocity, sticking_velocity). Drives count in the same
+/// way, with the interval of their bounds as K. It is 0 exactly where all laws hold.
 [[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
                                                        const ContactSolution& solution);
 

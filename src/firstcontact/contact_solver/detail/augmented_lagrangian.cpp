@@ -192,7 +192,7 @@ void project_by_augmented_lagrangian(const ContactProblem& problem, const Contac
   for (int k = 0; k < kMostRounds && least > options.tolerance && waited < kPatience; ++k) {
     for (std::size_t i = 0; i < rows.contacts.size(); ++i) {
       const ContactRow& row = rows.contacts[i];
-      round.bias[i] = row.friction * row.velocity(V).tail<2>().norm();
+      round.bias[i] = row.friction * row.excess_velocity(V).tail<2>().norm();
     }
     Lagrangian::Point point = lagrangian.at(round, std::move(x));
     const double precision =

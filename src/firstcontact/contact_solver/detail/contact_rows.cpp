@@ -120,7 +120,9 @@ ContactRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
   for (RowSide& side : sides) {
     turn(own.turn(), side);
   }
-  return {std::move(sides), own, contact.friction, contact.least_normal_velocity};
+  const Vector3d target(contact.least_normal_velocity, contact.sticking_velocity.x(),
+                        contact.sticking_velocity.y());
+  return {std::move(sides), own, contact.friction, own.turn() * target};
 }
 
 double residual_of(const ContactRow& row, const Vector3d& impulse, const VectorXd& V) {

@@ -62,7 +62,7 @@ struct ContactRow {
   std::array<RowSide, 2> sides;
   ContactResponse own;  // To its own impulse, J M^-1 J^T.
   double friction;
-  double least;  // [m/s]  Normal velocity.
+  Eigen::Vector3d target;  // [m/s]  The least normal velocity, and the one at which it sticks.
 
   [[nodiscard]] double greatest() const { return own.greatest(); }
   [[nodiscard]] Eigen::Vector3d velocity(const Eigen::VectorXd& V) const {
@@ -72,11 +72,8 @@ struct ContactRow {
     sides[0].apply(impulse, V);
     sides[1].apply(impulse, V);
   }
-  /// u - least n
   [[nodiscard]] Eigen::Vector3d excess_velocity(const Eigen::VectorXd& V) const {
-    Eigen::Vector3d u = velocity(V);
-    u[0] -= least;
-    return u;
+    return velocity(V) - target;
   }
 };
 

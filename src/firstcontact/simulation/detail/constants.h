@@ -51,6 +51,10 @@ inline constexpr double kNeighbourhood = 0.1;
 /// with thousands.
 inline constexpr std::ptrdiff_t kManyRecordedOfPair = 100;
 
+/// [-]  Edges cross where the sine between them is greater: their normal is that of both. Smaller:
+/// the normal of nearly parallel edges turns wildly.
+inline constexpr double kCrossingEdges = 0.1;
+
 // Impacts.
 
 /// [steps]  Impacts slower than what gravity adds in so many steps do not bounce: bodies come to
@@ -97,6 +101,14 @@ inline constexpr double kRoomOfWay = 0.1;
 /// [-]  Where no plane keeps two hulls apart for a whole plan, planes for parts of it often do: it
 /// is halved so many times. A first contact takes as long as thirty planes.
 inline constexpr int kSplitsOfPlan = 3;
+
+/// [-]  Contacts that turn with their bodies may come nearer by this part of the contact distance
+/// in a plan that the mean of velocities leads: what such a plan leaves is of third order.
+inline constexpr double kSlackOfTurning = 0.02;
+
+/// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
+/// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
+inline constexpr double kBackToRest = 0.5;
 
 // Pushing apart what is too near.
 

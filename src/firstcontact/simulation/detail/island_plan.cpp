@@ -15,6 +15,36 @@ namespace {
 
 using Eigen::Vector3d;
 
+ContactPoint moved(const ContactPoint& contact, const MovedContact& to) {
+  ContactPoint there = contact;
+  there.arm_A = to.arms[0];
+  there.arm_B = to.arms[1];
+  there.frame = to.frame;
+  return there;
+}
+
+/// The contact for a plan in which the mean of the velocities at both ends leads (the midpoint
+/// rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006, II.1.1):
+/// impulses act halfway. What is held is so at the end, J_end v_end = 0: then the mean goes along
+/// the surface halfway. Of J_end v_end the part J_half v_end is unknown, and the rest is near to
+/// that of now.
+ContactPoint by_mean(const ActingContact& acting) {
+  ContactPoint contact = moved(acting.now, acting.halfway);
+  contact.least_normal_velocity = acting.least;
+  if (acting.is_held) {
+    contact.least_normal_velocity = kBackToRest * acting.least - acting.change[0];
+    contact.sticking_velocity -= acting.change.tail<2>();
+  }
+  return contact;
+}
+
+/// The contact for the way of a plan that one velocity leads from its begin to its end.
+ContactPoint along_way(const ActingContact& acting) {
+  ContactPoint contact = moved(acting.now, acting.halfway);
+  contact.least_normal_velocity = acting.least;
+  return contact;
+}
+
 }  // namespace
 
 IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
@@ -55,7 +85,8 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        append(touch, contact_of(touch, -state_.model.distances.way_to_rest(touch.gap) / span_));
+        acting_.push_back(acting(touch, -state_.model.distances.way_to_rest(touch.gap) / span_));
+        append(touch, by_mean(acting_.back()));
       }
     }
   }
@@ -67,32 +98,44 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
 }
 
-/// [m/s]  Velocities this much too small are allowed by a contact.
-double IslandPlanner::slack() const { return 2.0 * projection_options(state_, problem_).tolerance; }
-
 /// Velocities at the end will lead the robots in contact where a contact that pressed before closes
 /// now: then the mean of both ends would close it.
 void IslandPlanner::choose_rules() {
-  const double least = slack();
-  const auto closes = [&](const ContactPoint& contact) {
-    return contact.guess[0] > 0.0 &&
-           normal_velocity(contact, bodies_.bodies()) < contact.least_normal_velocity - 2.0 * least;
-  };
-  if (std::ranges::none_of(problem_.contacts, closes)) {
-    return;
+  bool closes = false;
+  for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const double mean =
+        0.5 * (normal_velocity(contact, bodies_.bodies()) + contact.least_normal_velocity);
+    closes = contact.guess[0] > 0.0 && mean < least_of_mean(k);
   }
   for (const ContactPoint& contact : problem_.contacts) {
     for (const std::size_t place : contact.bodies) {
-      if (place < state_.size() && state_.member(place).piece) {
+      if (closes && is_piece(place)) {
         robots_by_end_[state_.robots.robot_of(place)] = true;
       }
     }
   }
 }
 
+bool IslandPlanner::is_piece(std::size_t place) const {
+  return place < state_.size() && state_.member(place).piece;
+}
+
+/// Contacts of robots that velocities at the end lead are of the way of the plan.
 void IslandPlanner::fly_robots() {
   state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, flights_);
   state_.robots.set(flights_, problem_);
+  for (std::size_t k = 0; k < first_ahead_; ++k) {
+    ContactPoint& contact = problem_.contacts[k];
+    const bool by_end = std::ranges::any_of(contact.bodies, [&](std::size_t place) {
+      return is_piece(place) && robots_by_end_[state_.robots.robot_of(place)];
+    });
+    if (by_end && !acting_[k].is_replaced) {
+      const Vector3d guess = contact.guess;
+      contact = along_way(acting_[k]);
+      contact.guess = guess;
+    }
+  }
 }
 
 /// Flies robots anew where that has to be. Returns whether there were any.
@@ -118,13 +161,25 @@ void IslandPlanner::set_bodies() {
   }
 }
 
+ContactSide IslandPlanner::side_of(std::size_t body) const {
+  const ContactBody& moving = bodies_.bodies()[bodies_.place(body)];
+  return {&state_.model.bodies[body], state_.pose_of(body).rotation.normalized().toRotationMatrix(),
+          bodies_.centre(bodies_.place(body)), moving.v, moving.w};
+}
+
 /// Its guess is the impulse of the touch, of a whole step.
-ContactPoint IslandPlanner::contact_of(const ManifoldPoint& touch, double least) const {
-  ContactPoint contact =
-      contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
-  contact.guess *= span_ / state_.start.h;
-  contact.least_normal_velocity -= drift_along(touch.bodies, contact) / span_;
-  return contact;
+ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
+  const std::array<ContactSide, 2> sides{side_of(touch.bodies[0]), side_of(touch.bodies[1])};
+  ActingContact made;
+  made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
+  made.now.guess *= span_ / state_.start.h;
+  const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
+  made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
+  made.change = moved_contact(touch, made.now, distance, sides, span_).velocity(sides) -
+                made.halfway.velocity(sides);
+  made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
+  made.least = least - drift_along(touch.bodies, made.now) / span_;
+  return made;
 }
 
 void IslandPlanner::append(const ManifoldPoint& touch, const ContactPoint& contact) {
@@ -181,6 +236,8 @@ void IslandPlanner::add(const PredictedContact& ahead) {
   }
   if (*k >= first_ahead_) {
     keep_push_from(contact);
+  } else {
+    acting_[*k].is_replaced = true;
   }
   const ContactPoint& before = problem_.contacts[*k];
   contact.guess = contact.frame * (before.frame.transpose() * before.guess);
@@ -204,15 +261,17 @@ void IslandPlanner::solve() {
 
 Plan IslandPlanner::plan() {
   solve();
-  std::vector<bool> by_end = led_by_end();
-  if (!state_.robots.empty() && lead_robots_by_end(by_end)) {
+  by_end_ = by_end_ || !mean_is_allowed();
+  if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
     solve();
-    by_end = led_by_end();
+    by_end_ = by_end_ || !mean_is_allowed();
   }
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
-  set_moves(by_end, made);
+  const std::vector<bool> by_end = led_by_end();
+  const bool by_chords = by_end_ && state_.robots.empty() && any_turns();
+  set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
   const std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size());
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, outer,
@@ -247,23 +306,100 @@ double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& cont
   return way;
 }
 
-/// The mean of the velocities at both ends is exact under constant forces; where it would break a
-/// constraint, as at one that only begins to act, or somewhere in nearly any heap, those at the end
-/// lead the bodies in contact.
-std::vector<bool> IslandPlanner::led_by_end() const {
+/// Whether the mean of the velocities at both ends keeps every constraint. It is exact under
+/// constant forces. A constraint that only begins to act breaks it, and one does somewhere in
+/// nearly any heap.
+bool IslandPlanner::mean_is_allowed() const {
   const std::vector<ContactBody>& before = bodies_.bodies();
   std::vector<ContactBody> mean = last_->velocities.bodies;
   for (std::size_t b = 0; b < mean.size(); ++b) {
     mean[b].v = 0.5 * (before[b].v + mean[b].v);
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
-  const double least = slack();
-  const bool mean_is_allowed =
-      std::ranges::all_of(problem_.contacts, [&](const ContactPoint& contact) {
-        return normal_velocity(contact, mean) >= contact.least_normal_velocity - least;
-      });
-  std::vector<bool> by_end(before.size(), false);
-  if (!mean_is_allowed) {
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k))) {
+      return false;
+    }
+  }
+  std::size_t end = 0;
+  for (std::size_t first = 0; first < first_ahead_; first = end) {
+    while (end < first_ahead_ && touches_[end].bodies == touches_[first].bodies) {
+      ++end;
+    }
+    if (stops_early(first, end)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// [m/s]  The least normal velocity that the mean may have at a contact.
+double IslandPlanner::least_of_mean(std::size_t k) const {
+  double least = problem_.contacts[k].least_normal_velocity;
+  double slack = 2.0 * projection_options(state_, problem_).tolerance;
+  if (k < first_ahead_) {
+    least = acting_[k].least;
+    if (turns(k)) {
+      slack += kSlackOfTurning * state_.model.distances.least / span_;
+    }
+  }
+  return least - slack;
+}
+
+/// Whether a pair that slides now sticks from the first half of the plan on: the mean would let it
+/// slide for half of the plan.
+///
+/// @param first,end  the contacts of the pair
+bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
+  const double slow = kSlackOfTurning * state_.model.distances.least / span_;
+  Vector3d friction = Vector3d::Zero();
+  double most = 0.0;
+  bool slides = false;
+  for (std::size_t k = first; k < end; ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const Vector3d& impulse = last_->velocities.impulses[k];
+    const Vector3d at_end = relative_velocity(contact, last_->velocities.bodies);
+    if ((at_end.tail<2>() - contact.sticking_velocity).norm() > slow) {
+      return false;
+    }
+    const Vector3d now = relative_velocity(acting_[k].now, bodies_.bodies());
+    slides = slides || (impulse[0] > 0.0 && now.tail<2>().norm() > slow);
+    friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
+    most += contact.friction * impulse[0];
+  }
+  return slides && friction.norm() < 0.5 * most;
+}
+
+/// Whether a contact changes with the way of its bodies.
+bool IslandPlanner::turns(std::size_t k) const {
+  return acting_[k].change.cwiseAbs().maxCoeff() > projection_options(state_, problem_).tolerance;
+}
+
+bool IslandPlanner::any_turns() const {
+  for (std::size_t k = 0; k < first_ahead_; ++k) {
+    if (turns(k)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The velocities that lead from the begin of a plan to its end. Where contacts turn, those at the
+/// end point along their circles there, and others lead along the chords.
+ContactSolution IslandPlanner::along_chords() const {
+  ContactProblem problem = problem_;
+  for (std::size_t k = 0; k < first_ahead_; ++k) {
+    const Vector3d guess = problem.contacts[k].guess;
+    problem.contacts[k] = along_way(acting_[k]);
+    problem.contacts[k].guess = guess;
+  }
+  return project_plan(state_, problem).velocities;
+}
+
+/// Of the problem's bodies, those that the velocities at the end lead.
+std::vector<bool> IslandPlanner::led_by_end() const {
+  std::vector<bool> by_end(bodies_.bodies().size(), false);
+  if (by_end_) {
     for (const ContactPoint& contact : problem_.contacts) {
       by_end[contact.bodies[0]] = true;
       by_end[contact.bodies[1]] = true;
@@ -273,9 +409,12 @@ std::vector<bool> IslandPlanner::led_by_end() const {
 }
 
 /// Those of pieces of links are their robots' matter.
-void IslandPlanner::set_moves(const std::vector<bool>& by_end, Plan& plan) const {
+///
+/// @param by_end  whether the velocities at the end lead a body, or the mean of those at both ends
+/// @param after   at the end
+void IslandPlanner::set_moves(const std::vector<bool>& by_end,
+                              const std::vector<ContactBody>& after, Plan& plan) const {
   const std::vector<ContactBody>& before = bodies_.bodies();
-  const std::vector<ContactBody>& after = last_->velocities.bodies;
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const Vector3d& w_free = flight_.at_end[k].w;
     const Vector3d& w = after[k].w;

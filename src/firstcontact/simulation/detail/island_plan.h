@@ -16,6 +16,7 @@
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/moving_contact.h>
 #include <firstcontact/simulation/detail/response.h>
 
 namespace firstcontact::detail {
@@ -27,6 +28,17 @@ struct PredictedContact {
   ManifoldPoint touch;
   ContactPoint contact;  ///< With the arms of its time.
   double least = 0.0;    ///< [m/s]  Normal velocity that keeps the pair apart until the end.
+};
+
+/// A contact that acts when a plan begins, as the plan's two rules want it.
+struct ActingContact {
+  ContactPoint now = {};
+  MovedContact halfway = {};
+  /// [m/s]  How much the geometry changes the velocities of now from halfway to the end.
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();
+  bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
+  double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
+  bool is_replaced = false;  ///< A contact ahead has taken its place.
 };
 
 /// The motions of the bodies over the plan's span: the rest of the step, or less.
@@ -68,19 +80,27 @@ class IslandPlanner {
   };
 
   [[nodiscard]] FreeFlight free_flight() const;
-  [[nodiscard]] double slack() const;
+  [[nodiscard]] double least_of_mean(std::size_t k) const;
+  [[nodiscard]] bool is_piece(std::size_t place) const;
   void choose_rules();
   void fly_robots();
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
-  [[nodiscard]] ContactPoint contact_of(const ManifoldPoint& touch, double least) const;
+  [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
+  [[nodiscard]] ContactSide side_of(std::size_t body) const;
   void append(const ManifoldPoint& touch, const ContactPoint& contact);
   [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;
   [[nodiscard]] std::optional<std::size_t> find(const PredictedContact& ahead) const;
   void solve();
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
+  [[nodiscard]] bool mean_is_allowed() const;
+  [[nodiscard]] bool stops_early(std::size_t first, std::size_t end) const;
+  [[nodiscard]] bool any_turns() const;
+  [[nodiscard]] bool turns(std::size_t k) const;
+  [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
-  void set_moves(const std::vector<bool>& by_end, Plan& plan) const;
+  void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,
+                 Plan& plan) const;
   void push_apart(Plan& plan);
   void keep_push_from(const ContactPoint& contact);
   [[nodiscard]] ContactSolution find_push() const;
@@ -91,6 +111,8 @@ class IslandPlanner {
   FreeFlight flight_;
   ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
   std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
+  std::vector<ActingContact> acting_;           // Those of touches of now.
+  bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
   std::vector<RobotFlight> flights_;            // Of the robots,

@@ -77,11 +77,14 @@ ContactPoint contact_at(const ManifoldPoint& touch, const ProblemBodies& bodies,
   return contact;
 }
 
-double normal_velocity(const ContactPoint& contact, const std::vector<ContactBody>& bodies) {
+Vector3d relative_velocity(const ContactPoint& contact, const std::vector<ContactBody>& bodies) {
   const ContactBody& A = bodies[contact.bodies[0]];
   const ContactBody& B = bodies[contact.bodies[1]];
-  const Vector3d u = B.v + B.w.cross(contact.arm_B) - A.v - A.w.cross(contact.arm_A);
-  return contact.frame.row(0).dot(u);
+  return contact.frame * (B.v + B.w.cross(contact.arm_B) - A.v - A.w.cross(contact.arm_A));
+}
+
+double normal_velocity(const ContactPoint& contact, const std::vector<ContactBody>& bodies) {
+  return relative_velocity(contact, bodies)[0];
 }
 
 ContactSolution project_impact(

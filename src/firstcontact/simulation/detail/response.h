@@ -39,7 +39,11 @@ class ProblemBodies {
 [[nodiscard]] ContactPoint contact_at(const ManifoldPoint& touch, const ProblemBodies& bodies,
                                       double friction, double least_normal_velocity);
 
-/// [m/s]  Of B relative to A along the normal.
+/// [m/s]  Of B's point relative to A's, in the contact's frame.
+[[nodiscard]] Eigen::Vector3d relative_velocity(const ContactPoint& contact,
+                                                const std::vector<ContactBody>& bodies);
+
+/// [m/s]  Its part along the normal.
 [[nodiscard]] double normal_velocity(const ContactPoint& contact,
                                      const std::vector<ContactBody>& bodies);
 

@@ -1,0 +1,56 @@
+/// @file
+/// How a contact moves with its bodies over a plan.
+
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/simulation/detail/manifold.h>
+
+namespace firstcontact {
+struct Pose;
+}
+
+namespace firstcontact::detail {
+
+struct SimBody;
+
+/// A body of a contact as the contact finds it.
+struct ContactSide {
+  const SimBody* body = nullptr;
+  Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();     ///< [m/s]    Of C, now.
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();     ///< [rad/s]  Now.
+};
+
+/// Where a contact is after both bodies moved.
+struct MovedContact {
+  std::array<Eigen::Vector3d, 2> arms = {};             ///< [m]  From the centres of mass there.
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< Rows: normal, two tangents.
+
+  /// [m/s]  The velocity of B's point relative to A's there, in the frame, with those of now.
+  [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
+};
+
+/// Moves a contact with the velocities that its bodies have now.
+///
+/// A point of a body goes on its circle. A round surface (a ball, a capsule) keeps its centre or
+/// axis, and the contact stays where the normal leaves it. The normal turns with the face that it
+/// belongs to, with both of two edges that cross, or with the line between two centres. So the
+/// result is right to first order in the time.
+///
+/// Between two corners, or a corner and an edge, without radius the normal stays: it would turn
+/// about a point at the distance of the gap.
+///
+/// @param contact   at the touch now
+/// @param distance  [m]  between the surfaces
+/// @param time      [s]
+[[nodiscard]] MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& contact,
+                                         double distance, const std::array<ContactSide, 2>& sides,
+                                         double time);
+
+}  // namespace firstcontact::detail
