@@ -287,6 +287,20 @@ void Mechanism::lay_out(bool free_base) {
       }
     }
   }
+  moved_by_.resize(model_.links().size());
+  for (const std::size_t link : order_) {
+    const std::optional<std::size_t> joint = model_.parent_joint(link);
+    std::vector<Index>& own = moved_by_[link];
+    if (joint) {
+      own = moved_by_[model_.parent_link(*joint)];
+    }
+    const std::size_t block = joint ? parts_[*joint].block : (free_base ? 0 : kFixed);
+    if (block != kFixed && std::ranges::find(own, blocks_[block].velocity) == own.end()) {
+      for (Index k = 0; k < blocks_[block].velocities; ++k) {
+        own.push_back(blocks_[block].velocity + k);
+      }
+    }
+  }
 }
 
 void Mechanism::require_inertias() const {
@@ -427,7 +441,22 @@ MatrixXd Mechanism::mass_matrix(const MechanismInstant& instant) const {
   for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
     if (const auto& inertia = model_.links()[l].inertia) {
       const Jacobian& J = instant.J[l];
-      M += J.transpose() * spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * J;
+      const Eigen::Matrix<double, 6, 6> I =
+          spatial_inertia(*inertia, instant.X_WL[l], instant.reference);
+      const std::vector<Index>& moving = moved_by_[l];
+      for (std::size_t i = 0; i < moving.size(); ++i) {
+        const Spatial momentum = I * J.col(moving[i]);
+        for (std::size_t k = 0; k <= i; ++k) {
+          M(moving[k], moving[i]) += momentum.dot(Spatial(J.col(moving[k])));
+        }
+      }
+    }
+  }
+  // Velocities of a link are not in their order: those of a mimic come where its joint is.
+  for (Index i = 0; i < size_; ++i) {
+    for (Index k = 0; k < i; ++k) {
+      M(k, i) += M(i, k);
+      M(i, k) = M(k, i);
     }
   }
   return M;

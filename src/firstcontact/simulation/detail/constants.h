@@ -132,7 +132,7 @@ inline constexpr double kMostBeyondLimit = 1e-3;
 
 /// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
 /// the contact distance. Beyond it velocities at the end of a plan lead the robot.
-inline constexpr double kUnseenPlacement = 0.01;
+inline constexpr double kUnseenPlacement = 0.1;
 
 // How exactly contact problems are solved, by what gravity adds in a step.
 

@@ -93,27 +93,32 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   first_ahead_ = touches_.size();
   robots_by_end_.assign(state_.robots.size(), false);
   if (!state_.robots.empty()) {
-    choose_rules();
     fly_robots();
   }
 }
 
-/// Velocities at the end will lead the robots in contact where a contact that pressed before closes
-/// now: then the mean of both ends would close it.
+/// Velocities at the end will lead the robots in contact where a contact will act that closes now:
+/// the mean of both ends would close it. So most plans are solved once.
 void IslandPlanner::choose_rules() {
   bool closes = false;
   for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
     const ContactPoint& contact = problem_.contacts[k];
-    const double mean =
-        0.5 * (normal_velocity(contact, bodies_.bodies()) + contact.least_normal_velocity);
-    closes = contact.guess[0] > 0.0 && mean < least_of_mean(k);
+    const double least = contact.least_normal_velocity;
+    const double mean = 0.5 * (normal_velocity(contact, bodies_.bodies()) + least);
+    closes = mean < least_of_mean(k) &&
+             (contact.guess[0] > 0.0 || normal_velocity(contact, problem_.bodies) < least);
   }
+  std::vector<bool> by_end = robots_by_end_;
   for (const ContactPoint& contact : problem_.contacts) {
     for (const std::size_t place : contact.bodies) {
       if (closes && is_piece(place)) {
-        robots_by_end_[state_.robots.robot_of(place)] = true;
+        by_end[state_.robots.robot_of(place)] = true;
       }
     }
+  }
+  if (by_end != robots_by_end_) {
+    robots_by_end_ = std::move(by_end);
+    fly_robots();
   }
 }
 
@@ -260,6 +265,9 @@ void IslandPlanner::solve() {
 }
 
 Plan IslandPlanner::plan() {
+  if (!state_.robots.empty()) {
+    choose_rules();
+  }
   solve();
   by_end_ = by_end_ || !mean_is_allowed();
   if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
