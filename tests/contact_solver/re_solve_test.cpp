@@ -141,7 +141,8 @@ TEST(ReSolve, StopsAfterSoManySweeps) {
   const auto residual = [&](int sweeps) {
     return re_solve(c.problem, c.solution, {0}, {.tolerance = 1e-300, .sweeps = sweeps}).residual;
   };
-  EXPECT_LT(residual(1), 0.05);  // As it was at first.
+  EXPECT_GT(residual(1), 1e-3);  // One sweep hands it on to the contacts beside.
+  EXPECT_LT(residual(3), 0.05);  // As it was at first.
   EXPECT_LT(residual(100), 0.1 * residual(1));
 }
 

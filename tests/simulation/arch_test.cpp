@@ -1,4 +1,4 @@
-// An arch of 25 stones.
+// Arches of 25 stones and more.
 
 #include <cmath>
 #include <numbers>
@@ -48,6 +48,16 @@ Simulator arch(double thick, int stones = 25) {
 TEST(Arch, StandsWhereItIsThickEnough) {
   Simulator s = arch(0.11);
   expect_rest(drift(s, 1.0));
+}
+
+// However many stones it has.
+TEST(Arch, OfManyStonesStandsAsFewDo) {
+  for (const int stones : {29, 35, 51, 101}) {
+    Simulator s = arch(0.15, stones);
+    expect_rest(drift(s, 0.5));
+    Simulator thin = arch(0.1, stones);
+    EXPECT_GE(drift(thin, 0.15).moved, 1e-3) << stones;
+  }
 }
 
 // More stones than sweeps over the contacts could ever make agree.

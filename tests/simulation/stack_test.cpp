@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,28 @@ TEST(Stack, OfFiveBlocksStands) {
 TEST(Stack, OfTenBlocksStands) {
   Simulator s = stack(10, 0.0);
   expect_rest(drift(s, 2.0));
+}
+
+// From 30 blocks on there are more than 120 contacts.
+TEST(Stack, OfManyBlocksStandsAsFewDo) {
+  for (const int count : {29, 31, 60, 100}) {
+    Simulator s = stack(count, 0.0);
+    expect_rest(drift(s, 1.0));
+  }
+}
+
+TEST(Stack, OfHeavyBlocksOnLightOnesStands) {
+  for (const std::vector<double>& densities : std::vector<std::vector<double>>{
+           {1.0, 1e7}, {1.0, 1e8}, {1.0, 1e2, 1e4, 1e6}, {1.0, 1e8, 1.0, 1e8}, {1e8, 1.0}}) {
+    std::string bodies = kFloor;
+    for (std::size_t k = 0; k < densities.size(); ++k) {
+      bodies += "," + body("cube " + std::to_string(k), box("[0.2, 0.2, 0.2]"),
+                           numbers({0.0, 0.0, 0.1 + kGap + static_cast<double>(k) * (0.2 + kGap)}),
+                           R"(, "dynamics": {"density": )" + std::to_string(densities[k]) + "}");
+    }
+    Simulator s = simulator(bodies, settings(0.01, 0.5, kGap));
+    expect_rest(drift(s, 1.0));
+  }
 }
 
 // Of five blocks the four upper ones overhang by 5/2 shifts at most: beyond half a block they tip.

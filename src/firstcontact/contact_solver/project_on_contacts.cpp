@@ -210,8 +210,20 @@ class Solver {
   ContactSolution by_multipliers() {
     const Projection before = projection_;
     detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
+    if (!is_solved(projection_) && is_automatic_ && !has_interior_ && problem_.drives.empty()) {
+      by_interior_point_after_all();
+    }
     return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)
                                                   : solution(projection_, ProjectionSpace::motion);
+  }
+
+  /// Where masses differ by more than a million, multipliers stop short of few contacts, too.
+  void by_interior_point_after_all() {
+    Projection inner = projection_;
+    detail::project_by_interior_point(problem_, rows_, options_, inner);
+    if (inner.residual < projection_.residual) {
+      projection_ = std::move(inner);
+    }
   }
 
   const ContactProblem& problem_;

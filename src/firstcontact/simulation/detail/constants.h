@@ -29,6 +29,8 @@ inline constexpr double kPushedOfDistance = 0.9;
 /// [-]  Bodies come to rest so many tolerances beyond 1, before a contact would be found: the way
 /// there is straight and that of a point is not.
 inline constexpr double kRestOfTolerance = 1.5;
+/// [-]  Gaps that differ by less are equal, or what the solver leaves would be a velocity.
+inline constexpr double kSameGap = 0.05;
 /// [-]  A pair that is nearer than 1 is held to this share of its gap...
 inline constexpr double kHeldShare = 0.5;
 /// [-]  ... and one nearer than this is jammed, and held to that share: what cannot yield, as a
@@ -43,6 +45,8 @@ inline constexpr double kSamePlace = 1e-3;
 inline constexpr double kSameNormal = 1.0 - 1e-5;
 /// [-]  A touch takes the impulse of one of the step before that is nearer than this.
 inline constexpr double kCloseBy = 0.01;
+/// [-]  Facets of a round side within this cosine of the nearest line of its circle are that line.
+inline constexpr double kNearLine = 0.94;
 /// [contacts]  A pair with more of them keeps the nearest one of each neighbourhood...
 inline constexpr std::size_t kVeryManyContacts = 500;
 /// [-]  ... which is about as wide as this.
@@ -54,6 +58,16 @@ inline constexpr std::ptrdiff_t kManyRecordedOfPair = 100;
 /// [-]  Edges cross where the sine between them is greater: their normal is that of both. Smaller:
 /// the normal of nearly parallel edges turns wildly.
 inline constexpr double kCrossingEdges = 0.1;
+
+// Seams between bodies.
+
+/// [-]  A body beside an edge leaves it a normal if the allowed part of the one found is longer.
+inline constexpr double kLeastLevel = 0.5;
+/// [-]  Normals that differ by less are not changed.
+inline constexpr double kTiltOfSeam = 1e-6;
+/// [-]  Along a changed normal there must be this part of the contact distance, or the body beside
+/// is a step.
+inline constexpr double kLeastGapOfSeam = 0.25;
 
 // Impacts.
 
@@ -102,9 +116,10 @@ inline constexpr double kRoomOfWay = 0.1;
 /// is halved so many times. A first contact takes as long as thirty planes.
 inline constexpr int kSplitsOfPlan = 3;
 
-/// [-]  Contacts that turn with their bodies may come nearer by this part of the contact distance
-/// in a plan that the mean of velocities leads: what such a plan leaves is of third order.
-inline constexpr double kSlackOfTurning = 0.02;
+/// [-]  In a plan that the mean of velocities leads, pairs may come nearer by this part of the
+/// contact distance than constraints ask. Smaller: velocities at the end lead more plans, which
+/// are of first order.
+inline constexpr double kSlackOfMean = 0.02;
 
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
@@ -146,6 +161,9 @@ inline constexpr double kHeapTolerance = 1e-3;
 /// many contacts.
 inline constexpr std::size_t kHeapContacts = 120;
 inline constexpr std::size_t kHeapBodies = 20;
+/// [-]  A heap whose points all are slower than this part of what gravity adds in a step stands: it
+/// is solved as exactly as few bodies, however large it is, or it would creep.
+inline constexpr double kStandsOfGravity = 0.3;
 /// [contacts]  A problem with so many is solved as a heap's, whatever its bodies.
 inline constexpr std::size_t kManyContactsOfIsland = 1000;
 /// [-]  So much sweeps of a heap may leave, after at most so many: where that brings bodies too

@@ -20,11 +20,18 @@ struct ContactDistances {
         band(kBandOfDistance * contact_distance),
         pushed(kPushedOfDistance * contact_distance) {}
 
-  /// [m]  How much nearer a pair may come before it rests: a little before a contact would be
-  /// found, for the way there is straight and that of a point is not. Where it is about to rest it
-  /// does, or every rounding of a gap would be a velocity.
-  [[nodiscard]] double way_to_rest(double gap) const {
-    return gap > touching ? gap - (least + kRestOfTolerance * tolerance) : 0.0;
+  /// [m]  How much nearer a touch may come before its pair rests.
+  ///
+  /// A pair that touches rests on its nearest touch, and all others may come as near: what rolls
+  /// and what leans does not stand on features ahead. Another rests a little before a contact would
+  /// be found, for the way there is straight and that of a point is not.
+  ///
+  /// @param gap     [m]  of the touch
+  /// @param lowest  [m]  the least gap of the pair's touches
+  [[nodiscard]] double way_to_rest(double gap, double lowest) const {
+    const double at_rest = lowest <= touching ? lowest : least + kRestOfTolerance * tolerance;
+    const double way = gap - at_rest;
+    return way > kSameGap * least ? way : 0.0;
   }
 
   double least;      ///< [m]

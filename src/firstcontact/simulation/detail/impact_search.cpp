@@ -237,19 +237,35 @@ Impact ImpactSearch::hit_of(const Candidate& pair, const std::array<Pose, 2>& po
                centre_of_mass(state_.model.bodies[body].inertia, poses[side]));
   }
   double closing = 0.0;
+  bool passes = true;  // Over a seam, however near it is.
+  seam_time_ = hit.t;
+  if (!seams_) {
+    seams_.emplace(state_, workspace_,
+                   [this](std::size_t body) { return pose_at(body, seam_time_); });
+  }
   for (ManifoldPoint& touch :
        touches_among(state_.model, hit.bodies, poses, pair.margin, answer_.contacts)) {
+    const bool is_seam = seams_->level(touch);
     PredictedContact ahead{.touch = touch, .contact = contact_at(touch, bodies, 0.0, 0.0)};
     const double u_n = normal_velocity(ahead.contact, bodies.bodies());
     // From the gap of the start, were it straight to there.
     const double gap = touch.gap - hit.t * span_ * u_n;
-    ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap) / span_);
+    ahead.least = std::min(0.0, -state_.model.distances.way_to_rest(gap, gap) / span_);
     closing = std::max(closing, -u_n);
+    passes = passes && is_seam && u_n >= ahead.least;
     hit.ahead.push_back(std::move(ahead));
   }
-  hit.is_slight = !hit.ahead.empty() && !state_.bounces(hit.bodies, closing) &&
+  hit.is_slight = !hit.ahead.empty() && !passes && !state_.bounces(hit.bodies, closing) &&
                   closing * span_ <= kSlightApproach * smaller_free_reach(hit.bodies);
   return hit;
+}
+
+/// Where a body is in the plan.
+Pose ImpactSearch::pose_at(std::size_t body, double t) {
+  const Move move = state_.model.bodies[body].kind == BodyKind::free
+                        ? movers_[state_.place.at(body)].move
+                        : state_.start.scripted[body].part(span_ / state_.start.h);
+  return motion_of(state_.model.bodies[body], state_.pose_of(body), move).pose(t);
 }
 
 double ImpactSearch::smaller_free_reach(const BodyPair& pair) const {

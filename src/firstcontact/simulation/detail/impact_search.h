@@ -16,6 +16,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation/detail/seams.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 namespace firstcontact::detail {
@@ -83,6 +84,7 @@ class ImpactSearch {
   [[nodiscard]] std::optional<Impact> ask(Candidate& pair);
   [[nodiscard]] bool cannot_reach(const Candidate& pair, double distance);
   [[nodiscard]] Impact hit_of(const Candidate& pair, const std::array<Pose, 2>& poses);
+  [[nodiscard]] Pose pose_at(std::size_t body, double t);
   [[nodiscard]] double smaller_free_reach(const BodyPair& pair) const;
   [[nodiscard]] SweptHull hull_of(std::size_t mover, double from, double to);
   [[nodiscard]] const SweptHull& whole_hull_of(std::size_t mover);
@@ -100,6 +102,8 @@ class ImpactSearch {
   std::vector<Mover> movers_ = {};  // The members, then bodies around the island.
   std::unordered_map<std::size_t, std::size_t> around_ = {};  // Where these are among the movers.
   std::vector<Candidate> candidates_ = {};
+  std::optional<SeamFinder> seams_ = {};  // From the first hit on,
+  double seam_time_ = 0.0;                // [-]  at this time of the plan.
   FirstContactResult answer_;
   double clearance_ = 0.0;
 };

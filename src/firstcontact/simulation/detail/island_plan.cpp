@@ -81,11 +81,13 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
   set_bodies();
   for (const auto& [pair, manifold] : state_.manifolds) {
+    const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        acting_.push_back(acting(touch, -state_.model.distances.way_to_rest(touch.gap) / span_));
+        acting_.push_back(
+            acting(touch, -state_.model.distances.way_to_rest(touch.gap, lowest) / span_));
         append(touch, by_mean(acting_.back()));
       }
     }
@@ -111,8 +113,9 @@ void IslandPlanner::choose_rules() {
   std::vector<bool> by_end = robots_by_end_;
   for (const ContactPoint& contact : problem_.contacts) {
     for (const std::size_t place : contact.bodies) {
-      if (closes && is_piece(place)) {
-        by_end[state_.robots.robot_of(place)] = true;
+      if (is_piece(place)) {
+        const std::size_t r = state_.robots.robot_of(place);
+        by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
       }
     }
   }
@@ -120,6 +123,12 @@ void IslandPlanner::choose_rules() {
     robots_by_end_ = std::move(by_end);
     fly_robots();
   }
+}
+
+/// Whether a robot would leave where it is, were it not for what it touches: then its flight and
+/// the forces of its motors there say little about the plan.
+bool IslandPlanner::leaves(std::size_t robot) const {
+  return state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
 }
 
 bool IslandPlanner::is_piece(std::size_t place) const {
@@ -166,24 +175,33 @@ void IslandPlanner::set_bodies() {
   }
 }
 
-ContactSide IslandPlanner::side_of(std::size_t body) const {
+ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side) const {
+  const std::size_t body = touch.bodies[side];
   const ContactBody& moving = bodies_.bodies()[bodies_.place(body)];
-  return {&state_.model.bodies[body], state_.pose_of(body).rotation.normalized().toRotationMatrix(),
-          bodies_.centre(bodies_.place(body)), moving.v, moving.w};
+  return {&state_.model.bodies[body],
+          touch.rolls[side] ? state_.model.round_sides[body].get() : nullptr,
+          state_.pose_of(body).rotation.normalized().toRotationMatrix(),
+          bodies_.centre(bodies_.place(body)),
+          moving.v,
+          moving.w};
 }
 
 /// Its guess is the impulse of the touch, of a whole step.
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
-  const std::array<ContactSide, 2> sides{side_of(touch.bodies[0]), side_of(touch.bodies[1])};
+  const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
   made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
   made.now.guess *= span_ / state_.start.h;
+  made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
+  made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
+  made.least = least - drift_along(touch.bodies, made.now) / span_;
+  if (most_change(made.now, sides, span_) <= kLeastTolerance) {
+    return made;
+  }
   const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
   made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
   made.change = moved_contact(touch, made.now, distance, sides, span_).velocity(sides) -
                 made.halfway.velocity(sides);
-  made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
-  made.least = least - drift_along(touch.bodies, made.now) / span_;
   return made;
 }
 
@@ -343,14 +361,10 @@ bool IslandPlanner::mean_is_allowed() const {
 
 /// [m/s]  The least normal velocity that the mean may have at a contact.
 double IslandPlanner::least_of_mean(std::size_t k) const {
-  double least = problem_.contacts[k].least_normal_velocity;
-  double slack = 2.0 * projection_options(state_, problem_).tolerance;
-  if (k < first_ahead_) {
-    least = acting_[k].least;
-    if (turns(k)) {
-      slack += kSlackOfTurning * state_.model.distances.least / span_;
-    }
-  }
+  const double slack = 2.0 * projection_options(state_, problem_).tolerance +
+                       kSlackOfMean * state_.model.distances.least / span_;
+  const double least =
+      k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
   return least - slack;
 }
 
@@ -359,7 +373,7 @@ double IslandPlanner::least_of_mean(std::size_t k) const {
 ///
 /// @param first,end  the contacts of the pair
 bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
-  const double slow = kSlackOfTurning * state_.model.distances.least / span_;
+  const double slow = kSlackOfMean * state_.model.distances.least / span_;
   Vector3d friction = Vector3d::Zero();
   double most = 0.0;
   bool slides = false;
@@ -378,18 +392,12 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
   return slides && friction.norm() < 0.5 * most;
 }
 
-/// Whether a contact changes with the way of its bodies.
-bool IslandPlanner::turns(std::size_t k) const {
-  return acting_[k].change.cwiseAbs().maxCoeff() > projection_options(state_, problem_).tolerance;
-}
-
+/// Whether any contact changes with the way of its bodies.
 bool IslandPlanner::any_turns() const {
-  for (std::size_t k = 0; k < first_ahead_; ++k) {
-    if (turns(k)) {
-      return true;
-    }
-  }
-  return false;
+  const double tolerance = projection_options(state_, problem_).tolerance;
+  return std::ranges::any_of(acting_, [&](const ActingContact& acting) {
+    return acting.change.cwiseAbs().maxCoeff() > tolerance;
+  });
 }
 
 /// The velocities that lead from the begin of a plan to its end. Where contacts turn, those at the

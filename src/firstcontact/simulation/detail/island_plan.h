@@ -81,13 +81,14 @@ class IslandPlanner {
 
   [[nodiscard]] FreeFlight free_flight() const;
   [[nodiscard]] double least_of_mean(std::size_t k) const;
+  [[nodiscard]] bool leaves(std::size_t robot) const;
   [[nodiscard]] bool is_piece(std::size_t place) const;
   void choose_rules();
   void fly_robots();
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
-  [[nodiscard]] ContactSide side_of(std::size_t body) const;
+  [[nodiscard]] ContactSide side_of(const ManifoldPoint& touch, std::size_t side) const;
   void append(const ManifoldPoint& touch, const ContactPoint& contact);
   [[nodiscard]] bool is_at(const PredictedContact& ahead, std::size_t contact) const;
   [[nodiscard]] std::optional<std::size_t> find(const PredictedContact& ahead) const;
@@ -96,7 +97,6 @@ class IslandPlanner {
   [[nodiscard]] bool mean_is_allowed() const;
   [[nodiscard]] bool stops_early(std::size_t first, std::size_t end) const;
   [[nodiscard]] bool any_turns() const;
-  [[nodiscard]] bool turns(std::size_t k) const;
   [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
   void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,

@@ -236,12 +236,24 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   return true;
 }
 
+/// Whether no member moves by more than what the solver may leave.
+bool stands(const IslandState& state) {
+  const double slow = of_gravity(state, kStandsOfGravity);
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const RigidState& member = state.states[k];
+    if (!(member.v_WC.norm() + state.member(k).reach * member.w_WB.norm() <= slow)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
 bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies;
+  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies && !stands(state);
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
@@ -251,10 +263,10 @@ ProjectionOptions projection_options(const IslandState& state, const ContactProb
             .sweeps = kHeapSweeps,
             .rounds = kRoundsOfMany};
   }
-  if (problem.contacts.size() >= kManyContactsOfIsland) {
+  if (problem.contacts.size() >= kManyContactsOfIsland && state.size() < kHeapBodies) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = exact_tolerance(state), .rounds = kRoundsOfMany};
+  return {.tolerance = exact_tolerance(state)};
 }
 
 /// Free bodies that are hit within a plan need not be solved as exactly as those that an impact

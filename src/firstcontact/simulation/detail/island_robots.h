@@ -121,6 +121,13 @@ class IslandRobots {
   void fly(double from, double span, const std::vector<bool>& by_end,
            std::vector<RobotFlight>& flights) const;
 
+  /// [rad or m]  How far the changes of velocities in a flight lead a coordinate, at most.
+  [[nodiscard]] double change_of_way(std::size_t robot, const RobotFlight& flight,
+                                     double span) const {
+    const Eigen::VectorXd change = flight.end.velocities - robots_[robot].state.velocities;
+    return 0.5 * span * change.cwiseAbs().maxCoeff();
+  }
+
   /// Sets velocities of mechanisms and of their links, and what drives joints.
   ///
   /// They hold where flights end, and so do masses and Jacobians: coordinates of a link that a

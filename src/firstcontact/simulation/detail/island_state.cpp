@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/seams.h>
 #include <firstcontact/simulation/detail/swept_hull.h>
 
 namespace firstcontact::detail {
@@ -101,6 +102,12 @@ void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Works
       manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
     }
   });
+  SeamFinder seams(*this, workspace, [&](std::size_t body) { return pose_of(body); });
+  for (auto& [pair, manifold] : manifolds) {
+    for (ManifoldPoint& touch : manifold.touches) {
+      seams.level(touch);
+    }
+  }
 }
 
 }  // namespace firstcontact::detail

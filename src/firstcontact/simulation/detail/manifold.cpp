@@ -15,6 +15,7 @@
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/round_side.h>
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/surface_neighbours.h>
 
@@ -121,14 +122,34 @@ class FacingBodies {
   Eigen::Quaterniond R_BW_;
 };
 
-ManifoldPoint make_touch(const BodyPair& bodies, double margin, const Contact& contact) {
-  return {.bodies = bodies,
-          .feature_A = contact.feature_A,
-          .feature_B = contact.feature_B,
-          .point = 0.5 * (contact.p_WA + contact.p_WB),
-          .normal = *contact.n_AB_W,
-          .gap = contact.distance - margin};
-}
+/// A pair whose contacts become touches.
+struct TouchMaker {
+  TouchMaker(const SimulationModel& model, const BodyPair& pair, const std::array<Pose, 2>& poses,
+             double its_margin)
+      : bodies(pair), margin(its_margin) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      round[s] = {&model.bodies[pair[s]].shape, model.round_sides[pair[s]].get(), poses[s]};
+    }
+  }
+
+  [[nodiscard]] ManifoldPoint make(Contact contact) const {
+    std::array<bool, 2> rolls{false, false};
+    if (round[0].side != nullptr || round[1].side != nullptr) {
+      rolls = make_round(round, contact);
+    }
+    return {.bodies = bodies,
+            .feature_A = contact.feature_A,
+            .feature_B = contact.feature_B,
+            .point = 0.5 * (contact.p_WA + contact.p_WB),
+            .normal = *contact.n_AB_W,
+            .gap = contact.distance - margin,
+            .rolls = rolls};
+  }
+
+  BodyPair bodies;
+  double margin;  // [m]
+  std::array<PlacedRoundSide, 2> round;
+};
 
 /// Which of some contacts count where there are very many: of those beside each other that face
 /// alike the nearest, of bulging ones. The motion of a rigid body hardly differs between them, and
@@ -195,9 +216,8 @@ void keep_once(const ManifoldPoint& touch, double size, SpatialHash& by_place,
 }
 
 /// @param beside  [m]
-std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const BodyPair& bodies,
-                                              double margin, const std::vector<Contact>& contacts,
-                                              double beside) {
+std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const TouchMaker& maker,
+                                              const std::vector<Contact>& contacts, double beside) {
   NearestOfMany nearest(beside);
   for (const Contact& contact : contacts) {
     if (contact.n_AB_W) {
@@ -206,7 +226,7 @@ std::vector<ManifoldPoint> touches_among_many(const FacingBodies& facing, const 
   }
   std::vector<ManifoldPoint> touches;
   for (const Contact* contact : nearest.take()) {
-    touches.push_back(make_touch(bodies, margin, *contact));
+    touches.push_back(maker.make(*contact));
   }
   return touches;
 }
@@ -222,9 +242,10 @@ std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const Bod
                                          const std::array<Pose, 2>& poses, double margin,
                                          const std::vector<Contact>& contacts) {
   const FacingBodies facing(model, bodies, poses);
+  const TouchMaker maker(model, bodies, poses, margin);
   if (contacts.size() > kVeryManyContacts) {
-    std::vector<ManifoldPoint> few = touches_among_many(
-        facing, bodies, margin, contacts, kNeighbourhood * smaller_reach(model, bodies));
+    std::vector<ManifoldPoint> few =
+        touches_among_many(facing, maker, contacts, kNeighbourhood * smaller_reach(model, bodies));
     if (!few.empty()) {
       return few;
     }
@@ -242,16 +263,24 @@ std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const Bod
   if (!outermost.empty()) {
     touches.reserve(std::min(outermost.size(), kUsualTouches));
     for (const Contact* contact : outermost) {
-      keep_once(make_touch(bodies, margin, *contact), size, by_place, touches);
+      keep_once(maker.make(*contact), size, by_place, touches);
     }
     return touches;
   }
   for (const Contact& contact : contacts) {
     if (contact.n_AB_W) {
-      keep_once(make_touch(bodies, margin, contact), size, by_place, touches);
+      keep_once(maker.make(contact), size, by_place, touches);
     }
   }
   return touches;
+}
+
+double least_gap(const Manifold& manifold) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ManifoldPoint& touch : manifold.touches) {
+    least = std::min(least, touch.gap);
+  }
+  return least;
 }
 
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,9 @@ struct ManifoldPoint {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
+  std::array<bool, 2> rolls = {false, false};  ///< Whether it is on the round side of A, of B.
+  std::array<bool, 2> faces = {false, false};  ///< Whether its normal goes with A, with B, as if
+                                               ///< it were that of a face.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 
@@ -47,6 +51,9 @@ struct Manifold {
   double gap = 0.0;  ///< [m]  Infinite where nothing is within the band.
   std::vector<ManifoldPoint> touches = {};
 };
+
+/// [m]  Of its touches; infinite where there is none.
+[[nodiscard]] double least_gap(const Manifold& manifold);
 
 /// Finds the manifolds of many pairs in memory that they share.
 class ManifoldFinder {

@@ -1,11 +1,13 @@
 #include <firstcontact/simulation/detail/moving_contact.h>
 
+#include <algorithm>
 #include <optional>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation/detail/round_side.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 
 namespace firstcontact::detail {
@@ -20,12 +22,25 @@ struct SurfaceThere {
   Vector3d centre;                     // [m]  p_CP_W: of the point that goes with the body.
   double radius = 0.0;                 // [m]  Of the surface about it, and half of the gap beyond.
   std::optional<Vector3d> along = {};  // Of an edge.
+  double ring = 0.0;                   // [m]  Radius about that line, towards the other body.
   bool is_face = false;
 };
+
+/// Without its part along a line.
+Vector3d across(Vector3d v, const std::optional<Vector3d>& along) {
+  return along ? Vector3d(v - v.dot(*along) * *along) : v;
+}
 
 SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const Vector3d& arm,
                         const Vector3d& outwards, double distance) {
   const Shape& shape = side.body->shape;
+  if (side.round != nullptr) {
+    const Vector3d axis = side.R_WB * side.round->axis_B;
+    SurfaceThere found{
+        .centre = arm, .radius = 0.5 * distance, .along = axis, .ring = side.round->radius};
+    found.centre -= found.radius * outwards + found.ring * across(outwards, axis).normalized();
+    return found;
+  }
   SurfaceThere found{.centre = arm,
                      .radius = shape.radius() + 0.5 * distance,
                      .is_face = feature.type == FeatureType::face};
@@ -38,20 +53,17 @@ SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const V
   return found;
 }
 
-/// Without its part along a line.
-Vector3d across(Vector3d v, const std::optional<Vector3d>& along) {
-  return along ? Vector3d(v - v.dot(*along) * *along) : v;
-}
-
 /// The normal after both surfaces moved.
 ///
+/// @param faces     whether the normal goes with A, with B
 /// @param by        of each body
 /// @param apart     [m]  from the centre on A to that on B, there
 /// @param is_round  whether either has a radius
-Vector3d moved_normal(const Vector3d& n, const std::array<SurfaceThere, 2>& now,
-                      const std::array<Quaterniond, 2>& by, const Vector3d& apart, bool is_round) {
+Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
+                      const std::array<SurfaceThere, 2>& now, const std::array<Quaterniond, 2>& by,
+                      const Vector3d& apart, bool is_round) {
   for (std::size_t s = 0; s < 2; ++s) {
-    if (now[s].is_face) {
+    if (now[s].is_face || faces[s]) {
       return by[s] * n;
     }
   }
@@ -75,10 +87,31 @@ Vector3d moved_normal(const Vector3d& n, const std::array<SurfaceThere, 2>& now,
   return between.dot(n) > 0.0 ? between.stableNormalized() : n;
 }
 
+bool is_round(const ContactSide& side) {
+  return side.round != nullptr || side.body->shape.radius() > 0.0;
+}
+
 }  // namespace
 
 Vector3d MovedContact::velocity(const std::array<ContactSide, 2>& sides) const {
   return frame * (sides[1].v + sides[1].w.cross(arms[1]) - sides[0].v - sides[0].w.cross(arms[0]));
+}
+
+double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
+                   double time) {
+  const std::array<double, 2> arms{contact.arm_A.norm(), contact.arm_B.norm()};
+  double speed = 0.0;  // [m/s]  At the contact, of both.
+  double turning = 0.0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const double w = sides[s].w.norm();
+    speed += sides[s].v.norm() + w * arms[s];
+    turning += w;
+    // Lines between centres turn about the smaller arm.
+    if (is_round(sides[s]) && arms[s] > 0.0) {
+      turning += (sides[0].v - sides[1].v).norm() / arms[s];
+    }
+  }
+  return 2.0 * time * turning * speed;
 }
 
 MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& contact, double distance,
@@ -95,11 +128,18 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
   }
   const Vector3d apart = sides[1].p_WC + time * sides[1].v + centres[1] -
                          (sides[0].p_WC + time * sides[0].v + centres[0]);
-  const bool is_round = sides[0].body->shape.radius() > 0.0 || sides[1].body->shape.radius() > 0.0;
-  const Vector3d n_there = moved_normal(n, now, by, apart, is_round);
+  const bool any_round = is_round(sides[0]) || is_round(sides[1]);
+  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, any_round);
   const Matrix3d turned = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
-  return {{centres[0] + now[0].radius * n_there, centres[1] - now[1].radius * n_there},
-          contact.frame * turned.transpose()};
+  std::array<Vector3d, 2> arms;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Vector3d outwards = s == 0 ? n_there : Vector3d(-n_there);
+    arms[s] = centres[s] + now[s].radius * outwards;
+    if (now[s].ring > 0.0) {
+      arms[s] += now[s].ring * across(outwards, by[s] * *now[s].along).normalized();
+    }
+  }
+  return {arms, contact.frame * turned.transpose()};
 }
 
 }  // namespace firstcontact::detail

@@ -16,11 +16,13 @@ struct Pose;
 
 namespace firstcontact::detail {
 
+struct RoundSide;
 struct SimBody;
 
 /// A body of a contact as the contact finds it.
 struct ContactSide {
   const SimBody* body = nullptr;
+  const RoundSide* round = nullptr;  ///< Where the contact is on it; null elsewhere.
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< [m]
   Eigen::Vector3d v = Eigen::Vector3d::Zero();     ///< [m/s]    Of C, now.
@@ -36,9 +38,14 @@ struct MovedContact {
   [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
 };
 
+/// [m/s]  A bound of how much moving a contact for a time [s] changes the velocity at it.
+[[nodiscard]] double most_change(const ContactPoint& contact,
+                                 const std::array<ContactSide, 2>& sides, double time);
+
 /// Moves a contact with the velocities that its bodies have now.
 ///
-/// A point of a body goes on its circle. A round surface (a ball, a capsule) keeps its centre or
+/// A point of a body goes on its circle. A round surface (a ball, a capsule, the side of a cylinder
+/// and its rim) keeps its centre or
 /// axis, and the contact stays where the normal leaves it. The normal turns with the face that it
 /// belongs to, with both of two edges that cross, or with the line between two centres. So the
 /// result is right to first order in the time.

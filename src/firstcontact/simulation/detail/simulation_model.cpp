@@ -1,7 +1,9 @@
 #include <firstcontact/simulation/detail/simulation_model.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/scene/links_as_bodies.h>
@@ -25,6 +27,23 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
   return all;
 }
 
+/// Facets that stand out by less than the tolerance of contacts make no polygon.
+std::vector<std::shared_ptr<const RoundSide>> round_sides_of(const std::vector<SimBody>& bodies,
+                                                             double sag) {
+  std::unordered_map<const Hierarchy*, std::shared_ptr<const RoundSide>> known;
+  std::vector<std::shared_ptr<const RoundSide>> all;
+  for (const SimBody& body : bodies) {
+    const auto [entry, is_new] = known.try_emplace(&body.shape.hierarchy());
+    if (is_new) {
+      if (std::optional<RoundSide> side = find_round_side(body.shape, sag)) {
+        entry->second = std::make_shared<const RoundSide>(std::move(*side));
+      }
+    }
+    all.push_back(entry->second);
+  }
+  return all;
+}
+
 }  // namespace
 
 SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies& linked)
@@ -33,6 +52,7 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       laws(linked.loaded),
       distances(contact_distance_of(*loaded.scene.simulation, bodies)),
       neighbours(neighbours_of(bodies, distances.band)),
+      round_sides(round_sides_of(bodies, distances.tolerance)),
       gravity(loaded.scene.simulation->gravity),
       events(loaded.scene.simulation->events) {}
 

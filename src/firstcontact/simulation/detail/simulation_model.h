@@ -11,6 +11,7 @@
 
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/simulation/detail/contact_distances.h>
+#include <firstcontact/simulation/detail/round_side.h>
 #include <firstcontact/simulation/detail/sim_body.h>
 #include <firstcontact/simulation/detail/sim_robot.h>
 #include <firstcontact/simulation/detail/surface_neighbours.h>
@@ -31,6 +32,7 @@ struct SimulationModel {
   PairLaws laws;
   ContactDistances distances;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
+  std::vector<std::shared_ptr<const RoundSide>> round_sides;         ///< Of each body; null: none.
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
   std::size_t events;                                                ///< In a step, at most.
 };

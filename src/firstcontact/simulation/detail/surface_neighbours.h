@@ -36,6 +36,15 @@ class SurfaceNeighbours {
     return feature.type == FeatureType::edge && is_flat_[feature.index];
   }
 
+  /// Calls use(way) for the ways [m] from an edge or a vertex to the ends of its neighbours.
+  template <class Use>
+  void for_each_way(const Feature& feature, const Use& use) const {
+    const Ways& ways = feature.type == FeatureType::edge ? edges_ : vertices_;
+    for (const Way& way : ways.of(feature.index)) {
+      use(way.way);
+    }
+  }
+
  private:
   /// From a feature to the end of a neighbour.
   struct Way {
