@@ -106,6 +106,7 @@ std::string options_text(const Arguments& arguments) {
   text += question.contacts ? " --contacts " + contacts_text(*question.contacts) : "";
   text += question.closest ? " --closest" : "";
   text += question.all_pairs ? " --all-pairs" : "";
+  text += question.all_contacts_in_time ? " --all-contacts-in-time" : "";
   return text.empty() ? " none" : text;
 }
 
@@ -135,6 +136,7 @@ class Batch {
         {.threads = arguments_.threads,
          .closest = question.closest,
          .all_pairs = question.all_pairs,
+         .all_contacts_in_time = question.all_contacts_in_time,
          .reading = question.reading(),
          .stop = interrupt_.token(),
          .adjust = [&](SceneOptions& options) { override_options(question, options); }});

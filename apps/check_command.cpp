@@ -168,7 +168,7 @@ class Check {
   void take_answer(const SceneSource& source, const SceneAnswer& answer) {
     ++answered_;
     status_ = worse(status_, status_of(answer.result.verdict));
-    write_json(result_text(answer, question_.all_pairs, source.line));
+    write_json(result_text(answer, question_.writes_pairs(), source.line));
     const std::string title = title_of(source, answer);
     if (!json_on_stdout()) {
       say(describe(title, answer,
@@ -288,8 +288,6 @@ void add_check_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--threads", question.threads,
                    "At most so many; 0, the default, for one on each core. The answer is the same")
       ->check(CLI::Range(0, 1024));
-  command->add_flag("--all-contacts-in-time", question.all_contacts_in_time,
-                    "Also from when to when each pair is in contact");
   command->add_flag("--strict", question.strict, "A robot beyond its joint limits is an error");
   add_robot_options(*command, arguments->robot);
   command->footer(kFooter);

@@ -25,7 +25,7 @@ inline constexpr ExitStatus kSuccess = ExitStatus::free;
   return ExitStatus::undecided;
 }
 
-/// Of several scenes the worst counts: bad input, then undecided, contact, free.
+/// The status of several scenes, the worst: bad input, then undecided, contact, free.
 [[nodiscard]] inline ExitStatus worse(ExitStatus a, ExitStatus b) {
   const auto badness = [](ExitStatus status) {
     return status == ExitStatus::bad_input ? 4 : static_cast<int>(status);

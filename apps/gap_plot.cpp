@@ -101,8 +101,8 @@ class Plot {
   [[nodiscard]] static double x(double t) { return kLeft + t * (kWidth - kLeft - kRight); }
 
   [[nodiscard]] double y(double distance) const {
-    const double part = std::min(distance / (gap_.end * gap_.unit.size), 1.0);
-    return kHeight - kBottom - part * (kHeight - kTop - kBottom);
+    const double share = std::min(distance / (gap_.end * gap_.unit.size), 1.0);
+    return kHeight - kBottom - share * (kHeight - kTop - kBottom);
   }
 
   void region(double from, double to, const char* colour) {

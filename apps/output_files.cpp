@@ -41,8 +41,8 @@ void add_files(const BodyShape& shape, std::vector<std::filesystem::path>& files
 }
 
 void add_files(std::span<const LinkGeometry> geometry, std::vector<std::filesystem::path>& files) {
-  for (const LinkGeometry& piece : geometry) {
-    if (const auto* mesh = std::get_if<MeshGeometry>(&piece.source)) {
+  for (const LinkGeometry& one : geometry) {
+    if (const auto* mesh = std::get_if<MeshGeometry>(&one.source)) {
       files.push_back(mesh->path);
     }
   }

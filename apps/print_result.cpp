@@ -117,7 +117,7 @@ class Description {
     }
   }
 
-  /// Of the pair that decides, or else of all.
+  /// The enclosure error of the pair that decides, or else of all.
   void enclosure() {
     const double error =
         result_.first ? result_.pairs[*result_.first].enclosure_error : result_.enclosure_error;
@@ -126,7 +126,7 @@ class Description {
     }
   }
 
-  /// Of continuous joints, whose numbers leave it open which way they go.
+  /// The turns of continuous joints, whose numbers leave it open which way they go.
   void turns() {
     for (const SceneRobot& robot : scene_.robots) {
       for (const JointTurn& turn : joint_turns(robot.model, robot.trajectory)) {

@@ -67,6 +67,8 @@ void add_question_options(CLI::App& command, Question& question) {
       ->type_name("none|first|all|N");
   command.add_flag("--closest", question.closest, "Also the closest approach over the whole step");
   command.add_flag("--all-pairs", question.all_pairs, "Also the answer of every pair of bodies");
+  command.add_flag("--all-contacts-in-time", question.all_contacts_in_time,
+                   "Also from when to when each pair is in contact");
 }
 
 }  // namespace firstcontact::app

@@ -13,7 +13,8 @@
 
 namespace firstcontact::app {
 
-/// Adds --margin, --tolerance, --deadline, --lenient, --contacts, --closest and --all-pairs.
+/// Adds --margin, --tolerance, --deadline, --lenient, --contacts, --closest, --all-pairs and
+/// --all-contacts-in-time.
 void add_question_options(CLI::App& command, Question& question);
 
 /// "none", "first", "all" or a number: as on the command line.

@@ -30,7 +30,7 @@ class RunFile {
   static RunFile resume(const std::string& path, const RunHeader& header,
                         const std::function<void(const RunStep&)>& each);
 
-  /// Of a run that is resumed, if it has any.
+  /// The last step of a run that is resumed, if it has any.
   [[nodiscard]] const std::optional<RunStep>& last() const { return last_; }
 
   /// Appends a step; it is in the file when this returns.

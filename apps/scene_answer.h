@@ -34,6 +34,8 @@ struct Question {
   std::function<void(std::string)> doing;  ///< Called with what is being done.
 
   [[nodiscard]] ReadingOptions reading() const { return {.lenient = lenient}; }
+  /// Whether the result as JSON has every pair: intervals of contact are with their pairs.
+  [[nodiscard]] bool writes_pairs() const { return all_pairs || all_contacts_in_time; }
 };
 
 /// Puts what the command line says in the place of what the scene says.

@@ -24,7 +24,7 @@ struct SceneSource {
 [[nodiscard]] bool is_json_lines(const std::filesystem::path& file);
 
 /// Visits the scenes of a file in order until a visit returns false. Blank lines are no scenes.
-/// Of standard input, "-": one scene, or one in each line where the first line is a whole one.
+/// Standard input, "-", has one scene, or one in each line where the first line is a whole one.
 ///
 /// @param reading  how the scenes are read
 void for_each_scene(const std::filesystem::path& file, const ReadingOptions& reading,

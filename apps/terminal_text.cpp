@@ -11,7 +11,7 @@
 namespace firstcontact::app {
 namespace {
 
-/// Of one character that is UTF-8.
+/// The code point of one character that is UTF-8.
 std::uint32_t code_point(std::string_view character) {
   const auto byte = [&](std::size_t k) { return static_cast<std::uint8_t>(character[k]); };
   std::uint32_t code = character.size() == 1 ? byte(0) : byte(0) & (0x7fu >> character.size());

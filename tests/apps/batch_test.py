@@ -126,6 +126,23 @@ class Answers(BatchTest):
         self.assertEqual(self.batch(*options).returncode, 1)
         self.assertEqual(self.results().decode(), self.run_tool("check", jobs, *options).stdout)
 
+    def test_have_every_contact_in_time(self):
+        # Two balls of 1 m across at a distance of |3 - 6 t| m, there and back.
+        poses = [{"position": [x, 0, 0]} for x in (3, -3, 3)]
+        ball = {"shape": {"sphere": {"radius": 0.5}}}
+        jobs = self.file("jobs.jsonl", scenes.scene(
+            {"name": "a", **ball},
+            {"name": "b", **ball, "motion": {"type": "waypoints", "times": [0, 1, 2], "poses": poses}}))
+        self.assertEqual(self.batch("--all-contacts-in-time").returncode, 1)
+        line = self.results().decode()
+        self.assertEqual(line, self.run_tool("check", jobs, "--all-contacts-in-time").stdout)
+        (pair,) = json.loads(line)["pairs"]
+        times = [(i["enter_time"], i["leave_time"]) for i in pair["intervals"]]
+        for (enter, leave), truth in zip(times, ((1 / 3, 2 / 3), (4 / 3, 5 / 3)), strict=True):
+            self.assertLessEqual(enter, truth[0])
+            self.assertAlmostEqual(enter, truth[0], places=5)
+            self.assertAlmostEqual(leave, truth[1], places=2)
+
     def test_name_the_bad_lines_and_do_the_rest(self):
         self.file("cut.obj", "v 0 0\n")
         mesh = scenes.scene({"name": "a", "shape": {"mesh": "cut.obj"}})
@@ -258,6 +275,7 @@ class Resume(BatchTest):
                 ("jobs jobs.jsonl, ", [], {"jobs": "other.jsonl"}),
                 ("options none, not of the options --margin 0.1", ["--margin", "0.1"], {}),
                 ("options none, not of the options --closest --all-pairs", ["--closest", "--all-pairs"], {}),
+                ("options none, not of the options --all-contacts-in-time", ["--all-contacts-in-time"], {}),
                 ("shard 1/1, not of the shard 1/2", ["--shard", "1/2"], {})]:
             result = self.batch("--resume", *arguments, **more)
             self.assertEqual(result.returncode, 2)

@@ -147,6 +147,69 @@ TEST(PairCounts, OfASimulationLeaveOutWhatIsNotFree) {
   }
 }
 
+/// A scene with one arm and two bodies; `arm` and `more` are other keys.
+LoadedScene loaded_arm(const test::ArmFolder& folder, const std::string& arm,
+                       const std::string& more = "") {
+  return loaded_of(
+      R"({"firstcontact": 1, "bodies": [)" + body("a") + "," + body("b", falling("9", "-1")) +
+          R"(], "robots": [{"name": "arm", "urdf": "arm.urdf", "trajectory": "move.csv")" + arm +
+          "}]" + more + "}",
+      folder.path() / "s.json");
+}
+
+// Only over the whole step: a pair that is tested for a part of it is tested.
+TEST(PairCounts, IgnoreWhatALinkHoldsAllTheTime) {
+  const test::ArmFolder folder;
+  const std::string held = R"(, "attached": [{"body": "b", "link": "tip", "touch_links": ["bar"])";
+  const PairCounts always = loaded_arm(folder, held + "}]").pair_counts;
+  EXPECT_EQ(count_of(always, WhyUntested::held), 2u);
+  EXPECT_EQ(count_of(always, WhyUntested::joined_links), 1u);
+  EXPECT_EQ(always.tested, 3u);  // a with b, bar and tip.
+  expect_complete(always);
+  for (const char* times : {R"(, "from_time": 1}])", R"(, "to_time": 3}])"}) {
+    const PairCounts for_a_while = loaded_arm(folder, held + times).pair_counts;
+    EXPECT_EQ(count_of(for_a_while, WhyUntested::held), 0u) << times;
+    EXPECT_EQ(for_a_while.tested, 5u) << times;
+    expect_complete(for_a_while);
+  }
+}
+
+// Each pair counts once, for the first of its reasons.
+TEST(PairCounts, CountAPairForItsFirstReason) {
+  const test::ArmFolder folder;
+  folder.write("arm2.srdf",
+               R"(<robot name="arm"><disable_collisions link1="bar" link2="tip"/></robot>)");
+  const std::string rules =
+      R"(, "pairs": {"ignore": [["arm/bar", "arm/tip"], ["b", "arm/tip"], ["a", "b"]]})";
+  LoadedScene loaded = loaded_arm(
+      folder, R"(, "srdf": "arm2.srdf", "attached": [{"body": "b", "link": "tip"}])", rules);
+  const PairCounts counts = loaded.pair_counts;
+  EXPECT_EQ(count_of(counts, WhyUntested::joined_links), 1u);
+  EXPECT_EQ(count_of(counts, WhyUntested::srdf), 0u);
+  EXPECT_EQ(count_of(counts, WhyUntested::held), 1u);
+  EXPECT_EQ(count_of(counts, WhyUntested::rule), 1u);
+  expect_complete(counts);
+  loaded.scene.allowed_pairs = {{0, 1}};  // As a planning scene has them.
+  const PairCounts allowed = count_checked_pairs(loaded);
+  EXPECT_EQ(count_of(allowed, WhyUntested::allowed_collisions), 1u);
+  EXPECT_EQ(count_of(allowed, WhyUntested::rule), 0u);
+  EXPECT_EQ(allowed.tested, counts.tested);
+  expect_complete(allowed);
+}
+
+TEST(PairCounts, AreInWords) {
+  EXPECT_EQ(pairs_text(0), "no pair");
+  EXPECT_EQ(pairs_text(1), "1 pair");
+  EXPECT_EQ(pairs_text(12), "12 pairs");
+  EXPECT_EQ(describe({.why = WhyUntested::srdf, .count = 5, .first = {{"a", "b"}}}),
+            "5 by the SRDF: a and b, and 4 more");
+  EXPECT_EQ(describe({.why = WhyUntested::joined_links, .count = 2}),
+            "2 of links that joints connect");
+  EXPECT_EQ(std::string(word(WhyUntested::both_scripted)), "both_scripted");
+  EXPECT_TRUE(is_ignored(WhyUntested::held));
+  EXPECT_FALSE(is_ignored(WhyUntested::both_rest));
+}
+
 TEST(PairCounts, OfRobotsAgreeWithTheSceneOfMembers) {
   const test::ArmFolder folder;
   folder.write("arm2.srdf",

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,8 +16,8 @@
 
 namespace firstcontact::test {
 
-/// The numbers of a scene as their bits, and its words; without the digest of its text. Of robots
-/// their names and dynamics.
+/// The numbers of a scene as their bits, and its words; without the digest of its text and without
+/// what the files of robots hold.
 class SceneBits {
  public:
   explicit SceneBits(const Scene& scene) {
@@ -34,8 +35,7 @@ class SceneBits {
       add(body.surface);
     }
     for (const SceneRobot& robot : scene.robots) {
-      add(robot.name);
-      add(robot.dynamics);
+      add(robot);
     }
     for (const BodyPair& pair : scene.ignored_pairs) {
       add(pair);
@@ -253,6 +253,64 @@ class SceneBits {
     }
   }
 
+  void add(const Trajectory& trajectory) {
+    if (trajectory.joint_names.empty()) {
+      return;  // Its points move nothing.
+    }
+    for (const std::string& joint : trajectory.joint_names) {
+      add(joint);
+    }
+    add(static_cast<double>(trajectory.turning));
+    for (const TrajectoryPoint& point : trajectory.points) {
+      add(point.time);
+      for (const auto& numbers : {point.positions, point.velocities, point.accelerations}) {
+        add(static_cast<double>(numbers.size()));
+        for (const double number : numbers) {
+          add(number);
+        }
+      }
+    }
+  }
+  void add(const SceneAttachment& attached) {
+    add(static_cast<double>(attached.body));
+    add(static_cast<double>(attached.link));
+    add(attached.from_time);
+    add(attached.to_time);
+    for (const std::size_t link : attached.touch_links) {
+      add(static_cast<double>(link));
+    }
+    add(attached.pose);
+  }
+  void add(const SceneRobot& robot) {
+    add(robot.name);
+    add(robot.file.urdf.string());
+    add(robot.srdf.string());
+    for (const std::filesystem::path& root : robot.file.package_roots) {
+      add(root.string());
+    }
+    add(static_cast<double>(robot.file.surface));
+    add(static_cast<double>(robot.base.index()));
+    std::visit([this](const auto& motion) { add(motion); }, robot.base);
+    add(robot.trajectory);
+    for (const auto& [coordinate, position] : robot.state) {
+      add(coordinate);
+      add(position);
+    }
+    for (const SceneAttachment& attached : robot.attached) {
+      add(attached);
+    }
+    for (const auto& [link, padding] : robot.padding) {
+      add(static_cast<double>(link));
+      add(padding);
+    }
+    for (const auto& [joint, error] : robot.tracking_error) {
+      add(static_cast<double>(joint));
+      add(error.angle);
+      add(error.distance);
+    }
+    add(robot.dynamics);
+  }
+
   void add(const SceneOptions& options) {
     add(options.tolerance);
     add(options.margin);
@@ -261,6 +319,7 @@ class SceneBits {
     add(static_cast<double>(options.start_contacts));
     add(options.contact_band);
     add(options.deadline.value_or(-1.0));
+    add(options.lenient ? 1.0 : 0.0);
   }
 
   std::vector<std::uint64_t> bits_;

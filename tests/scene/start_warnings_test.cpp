@@ -83,6 +83,36 @@ TEST_F(StartWarnings, SayNothingOfSolidsIgnoredPairsAndOpenMeshes) {
   EXPECT_EQ(warnings(ball("can") + "," + mesh("table")), "");
 }
 
+// Both geometries of the link have the can inside: it is one body inside of one link.
+TEST_F(StartWarnings, NameEachBodyOnceInsideOfALink) {
+  write_box("inner.off", {1.0, 1.0, 0.9});
+  write_box("outer.off", {2.0, 2.0, 1.0});
+  std::ofstream(folder_ / "bot.urdf") << R"(<robot name="bot"><link name="shell">
+    <collision><geometry><mesh filename="inner.off"/></geometry></collision>
+    <collision><geometry><mesh filename="outer.off"/></geometry></collision></link></robot>)";
+  const std::string robots = R"(, "robots": [{"name": "bot", "urdf": "bot.urdf"}])";
+  const std::string surface =
+      " inside the closed mesh of \"bot/shell\", a surface that only its triangles touch\n";
+  EXPECT_EQ(warnings(ball("can"), robots), "\"can\" begins" + surface);
+  EXPECT_EQ(warnings(ball("a") + "," + ball("b"), robots), "\"a\", \"b\" begin" + surface);
+  EXPECT_EQ(warnings(ball("a") + "," + ball("b") + "," + ball("c") + "," + ball("d"), robots),
+            "\"a\", \"b\", \"c\" and 1 more begin" + surface);
+}
+
+// Links of 100 m and bodies of 1,000 m; what is said in numbers may have any size.
+TEST_F(StartWarnings, AskOfWhatIsImplausiblyLarge) {
+  write_box("plate.off", {2000.0, 1.0, 1.0});
+  EXPECT_NE(warnings(mesh("plate", R"(, "solid": true)")).find("body \"plate\" is 2000 m across"),
+            std::string::npos);
+  std::ofstream(folder_ / "bot.urdf") << R"(<robot name="bot"><link name="mast">
+    <collision><geometry><sphere radius="51"/></geometry></collision></link></robot>)";
+  const std::string said =
+      warnings(ball("far", "9"), R"(, "robots": [{"name": "bot", "urdf": "bot.urdf",
+                                     "base": {"position": [0, 0, 500]}}])");
+  EXPECT_EQ(said, "bot: link \"mast\" is 102 m across: is its unit right?\n");
+  EXPECT_EQ(warnings(ball("globe", "6e6")), "");
+}
+
 // Most STL files are written in millimetres; read as metres a post is 50 m thick.
 TEST_F(StartWarnings, JudgeUnitsBesideTheOthers) {
   write_box("post.off", {50.0, 50.0, 600.0});

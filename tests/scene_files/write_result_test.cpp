@@ -115,6 +115,62 @@ TEST(WriteResult, SaysMoreWhereMoreIsAsked) {
             R"({"rate":240,"samples":2,"in_contact":1,"least_distance":0,"time":0})");
 }
 
+// Normalised times, and beside them seconds: the scene lasts 3 s.
+TEST(WriteResult, ListsEveryIntervalInSeconds) {
+  const std::string bounces =
+      R"("motion": {"type": "waypoints", "times": [0, 1.5, 3], "poses": [{"position": [0.1, 0.1, 1]},
+         {"position": [0.1, 0.1, -1]}, {"position": [0.1, 0.1, 1]}]})";
+  const Written written =
+      write(scene(body("floor") + "," + body("stone", bounces)), {.all_contacts_in_time = true},
+            {.all_pairs = true, .sampling = {}});
+  const auto& pair = std::get<JsonObject>(std::get<JsonArray>(written.at("pairs").value)[0].value);
+  const auto& intervals = std::get<JsonArray>(find(pair, "intervals")->value);
+  ASSERT_EQ(intervals.size(), 2u);
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    const auto& interval = std::get<JsonObject>(intervals[k].value);
+    const auto number = [&](const char* key) {
+      return std::get<double>(find(interval, key)->value);
+    };
+    const ContactInterval& found = written.result.pairs[0].intervals[k];
+    EXPECT_EQ(number("enter"), found.enter);
+    EXPECT_EQ(number("leave"), found.leave);
+    EXPECT_EQ(number("enter_time"), found.enter * 3.0);
+    EXPECT_EQ(number("leave_time"), found.leave * 3.0);
+    EXPECT_EQ(detail::write_json(*find(interval, "reason")), "null");
+  }
+}
+
+TEST(WriteResult, CountsThePairsThatItIsAbout) {
+  const Written written =
+      write(scene(body("a") + "," + body("b") + "," + body("c", falling("5", "-1")),
+                  R"("pairs": {"ignore": [["a", "b"]]})"));
+  EXPECT_EQ(detail::write_json(written.at("pair_counts")),
+            R"({"tested":2,"ignored":1,"left_out":0,"untested":[{"why":"rule","count":1,)"
+            R"("first":[["a","b"]]}]})");
+  EXPECT_EQ(find(written.json, "warnings"), nullptr);
+  const Written alone = write(scene(body("a")));
+  EXPECT_EQ(detail::write_json(alone.at("warnings")),
+            R"(["no pair is tested: this answer says nothing about contact; there is only one )"
+            R"(body"])");
+}
+
+TEST(WriteResult, NamesTheLineThatItAnswers) {
+  const Written written = write(kFall, {}, {.line = 12, .sampling = {}});
+  EXPECT_EQ(written.number("line"), 12.0);
+  EXPECT_EQ(written.json.at(1).key, "line");  // Behind the id.
+}
+
+TEST(ReportSampling, TakesTheFirstOfTheLeastSamples) {
+  const std::vector<GapSample> samples = {{.t = 0.0, .distance = 2.0},
+                                          {.t = 0.25, .distance = 1.0, .contact = true},
+                                          {.t = 0.5, .distance = 1.0, .contact = true}};
+  const SamplingReport report = report_sampling(4.0, samples);
+  EXPECT_EQ(report.samples, 3u);
+  EXPECT_EQ(report.in_contact, 2u);
+  EXPECT_EQ(report.least->t, 0.25);
+  EXPECT_FALSE(report_sampling(4.0, {}).least);
+}
+
 TEST(WriteResult, IsTheSameOnEveryRun) {
   ShapeCache cache;
   const LoadedScene loaded = load_scene(parse_scene(kFall, "s"), cache);

@@ -21,7 +21,7 @@ import { length, scale, unit, zero } from "./motion/vector";
 import { angleAlong, motionAlong } from "./motion/way";
 import { Run } from "./run";
 
-/// A rigid piece of a body, in a frame of its own; or the whole of a body that deforms.
+/// A rigid geometry of a body, in a frame of its own; or the whole of a body that deforms.
 export interface Part {
   readonly mesh: MeshData;
   readonly pose: Pose; ///< In the body.
@@ -318,7 +318,7 @@ export class Model {
     return this.robots.length === 1 ? this.body(name).label : name;
   }
 
-  /// The piece of a body that touches.
+  /// The geometry of a body that touches.
   partOf(contact: Contact, side: 0 | 1): Part {
     return this.body(contact.bodies[side]).parts[contact.geometries?.[side] ?? 0]!;
   }

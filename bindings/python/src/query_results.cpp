@@ -56,7 +56,7 @@ py::tuple state_of(const ClosestApproach& found);
 py::tuple state_of(const ContactInterval& interval);
 using python::state_of;
 
-/// Of a value that may be missing.
+/// The state of a value that may be missing.
 template <typename T>
 py::object state_or_none(const std::optional<T>& value) {
   return value ? py::object(state_of(*value)) : py::none();
@@ -67,7 +67,7 @@ std::optional<T> value_or_none(const py::object& state, T (*from)(const py::tupl
   return state.is_none() ? std::nullopt : std::optional(from(state));
 }
 
-/// Of several values, in order.
+/// The states of several values, in order.
 template <typename T>
 py::tuple states_of(const std::vector<T>& values) {
   py::tuple states(values.size());

@@ -10,17 +10,13 @@
 
 #include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/motion/time_window.h>
-#include <firstcontact/page/write_page.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/robot/limit_report.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/scene/check_scene.h>
-#include <firstcontact/scene/gap_bound.h>
-#include <firstcontact/scene/gap_curve.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/pair_counts.h>
-#include <firstcontact/scene/parallel_sampling.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/trajectory.h>
@@ -180,56 +176,6 @@ std::string to_json(const HeldResult& result) {
 
 py::object to_dict(const HeldResult& result) {
   return py::module_::import("json").attr("loads")(to_json(result));
-}
-
-/// Samples of the gap and its proven lower bound.
-struct GapLines {
-  std::vector<GapSample> samples;
-  std::vector<GapPoint> lower_bound;
-};
-
-/// Without the GIL.
-GapLines gap_lines(const HeldResult& result, const std::stop_token& stop) {
-  const LoadedScene& loaded = result.scene->loaded();
-  GapLines lines;
-  lines.samples = gap_curve(loaded, time_of_interest(result.answer), stop);
-  lines.lower_bound = gap_lower_bound(loaded, result.answer, lines.samples);
-  return lines;
-}
-
-py::object gap_curve_of(const HeldResult& result) {
-  const GapLines lines =
-      run_query(nullptr, [&](const QueryStop& stop) { return gap_lines(result, stop.token()); });
-  std::vector<double> t;
-  std::vector<double> distance;
-  std::vector<double> lower_bound;
-  for (const GapSample& sample : lines.samples) {
-    t.push_back(sample.t);
-    distance.push_back(sample.distance);
-    lower_bound.push_back(sample.lower_bound);
-  }
-  std::vector<double> corner_t;
-  std::vector<double> corner_distance;
-  for (const GapPoint& point : lines.lower_bound) {
-    corner_t.push_back(point.t);
-    corner_distance.push_back(point.distance);
-  }
-  return py::make_tuple(
-      tuple_type("GapSamples")(owning(std::move(t)), owning(std::move(distance)),
-                               owning(std::move(lower_bound))),
-      tuple_type("GapPoints")(owning(std::move(corner_t)), owning(std::move(corner_distance))));
-}
-
-/// As the tool's --html.
-std::string fill_page(const HeldResult& result, const std::string& page_template) {
-  return run_query(nullptr, [&](const QueryStop& stop) {
-    const LoadedScene& loaded = result.scene->loaded();
-    const GapLines lines = gap_lines(result, stop.token());
-    return write_page(
-        page_template, loaded,
-        write_result(loaded, result.answer, {.all_pairs = true, .sampling = result.sampling}),
-        {lines.samples, lines.lower_bound});
-  });
 }
 
 std::string describe(const HeldResult& result) {
@@ -402,41 +348,13 @@ void bind_pair(py::module_& m) {
       .def(py::pickle([](const ScenePair& p) { return state_of(p); }, &scene_pair_from));
 }
 
-/// A method that firstcontact/_page.py has.
-template <typename... Arguments>
-py::object page_function(const char* name, const Arguments&... arguments) {
-  return py::module_::import("firstcontact._page").attr(name)(arguments...);
-}
-
-void bind_page(py::class_<HeldResult, std::shared_ptr<HeldResult>>& type) {
-  type.def(
-          "to_html", [](const py::object& self) { return page_function("to_html", self); },
-          R"(The page that plays this result: one file that needs nothing else.
-
-As `firstcontact check --html` makes it. FileNotFoundError where the package was built without it.)")
-      .def(
-          "save_html",
-          [](const py::object& self, const py::object& path) {
-            page_function("save_html", self, path);
-          },
-          py::arg("path"), "Writes to_html() to a file.")
-      .def("_fill_page", &fill_page, py::arg("template"))
-      .def("_repr_html_",
-           [](const py::object& self) { return page_function("notebook_view", self); })
-      .def("gap_curve", &gap_curve_of, R"(The gap over time, for plots: (GapSamples, GapPoints).
-
-Samples lie where the gap bends; they prove nothing between them. The points are corners of a
-polyline that the gap is proven not to be below, at any time.)");
-}
-
 }  // namespace
 
 void bind_result(py::module_& m) {
   bind_contact_of_scene(m);
   bind_closest(m);
   bind_pair(m);
-  py::class_<HeldResult, std::shared_ptr<HeldResult>> type(m, "Result",
-                                                           R"(The answer of a scene; never changes.
+  ResultClass type(m, "Result", R"(The answer of a scene; never changes.
 
 Times are normalised to the duration of the scene (t) or in seconds (time).)");
   type.def_property_readonly("id", [](const HeldResult& r) { return r.scene->scene().id; })
@@ -507,7 +425,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
       .def("__repr__", [](const HeldResult& r) { return describe(r); })
       .def(py::pickle([](const HeldResult& r) { return state_of(r); },
                       [](const py::tuple& state) { return result_from(state); }));
-  bind_page(type);
+  bind_result_page(type);
 }
 
 }  // namespace firstcontact::python

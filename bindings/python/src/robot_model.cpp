@@ -50,7 +50,7 @@ py::tuple link_names(const RobotModel& model) {
   return py::tuple(names);
 }
 
-/// Of joint `index`.
+/// The names of the coordinates of joint `index`.
 std::vector<std::string> coordinate_names(const RobotModel& model, std::size_t index) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < coordinate_count(model.joints()[index].type); ++k) {

@@ -368,7 +368,7 @@ void HeldRobotScene::note(const py::object& said) {
   scene_.text_digest = digest_after(scene_.text_digest, said);
 }
 
-/// Of a dict or of columns by joint.
+/// Makes a trajectory of a dict or of columns by joint.
 Trajectory trajectory_from(const py::object& value, const RobotModel& robot) {
   const py::object made =
       py::module_::import("firstcontact._trajectory").attr("trajectory_from")(value);

@@ -91,7 +91,7 @@ std::shared_ptr<HeldScene> parse(std::string_view text, const path& source,
   return hold(parse_scene(text, source, 1, {.lenient = lenient}), shapes);
 }
 
-/// Of bodies, or of robots.
+/// The names of bodies, or of robots.
 template <typename Named>
 py::tuple all_names(const std::vector<Named>& all) {
   py::list names;

@@ -65,4 +65,9 @@ struct HeldResult {
 /// HeldScene::loaded() for a thread that holds the GIL.
 const LoadedScene& loaded_without_gil(const HeldScene& scene);
 
+using ResultClass = pybind11::class_<HeldResult, std::shared_ptr<HeldResult>>;
+
+/// Adds what draws a result: its page and the curve of its gap.
+void bind_result_page(ResultClass& type);
+
 }  // namespace firstcontact::python

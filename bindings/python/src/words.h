@@ -34,7 +34,7 @@ struct Words<Verdict> {
   static constexpr const auto& kWords = kVerdictWords;
 };
 
-/// Of deforming features, which cannot say `contact_at_start`.
+/// The words of deforming features, which have no `contact_at_start`.
 template <>
 struct Words<LinearVerdict> {
   static constexpr const char* kName = "Verdict";
@@ -53,7 +53,7 @@ struct Words<StartContacts> {
   static constexpr const auto& kWords = kStartContactsWords;
 };
 
-/// Of those that are no number.
+/// The words of those that are no number.
 template <>
 struct Words<ContactState> {
   static constexpr const char* kName = "ContactState";

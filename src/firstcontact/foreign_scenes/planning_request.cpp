@@ -28,7 +28,7 @@ using detail::JsonObject;
 using detail::JsonReader;
 using detail::JsonValue;
 
-/// Of a request.
+/// Refuses attached objects in the start state of a request.
 void refuse_attached(const JsonValue& state, const JsonReader& read) {
   if (const JsonValue* attached = find_filled(state, "attached_collision_objects")) {
     read.fail(*attached, "expected no attached objects here; they belong to the planning scene");

@@ -317,8 +317,8 @@ class Builder {
     return bounds(items, best, 1);
   }
 
-  /// Of the eight ways to name the axes of a box with the longest last, takes the one with the
-  /// smallest rotation angle, at most 99 degrees, so that the scalar part of the quaternion follows
+  /// Takes the smallest rotation of the eight ways to name the axes of a box with the longest
+  /// last. Its angle is at most 99 degrees, so that the scalar part of the quaternion follows
   /// from the vector part.
   static Eigen::Quaterniond smallest_rotation(const Box& box) {
     const int longest = box.longest();

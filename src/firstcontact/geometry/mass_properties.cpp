@@ -96,7 +96,7 @@ std::array<Vector3d, 3> corners(const Mesh& mesh, const Triangle& t, const Vecto
           mesh.vertices[t[2]] - origin - offset};
 }
 
-/// Of each component of the mesh, at the number of its least vertex.
+/// The volume of each component of the mesh, at the number of its least vertex.
 std::vector<SixVolumes> component_volumes(const Mesh& mesh, const Vector3d& origin,
                                           DisjointSets& components) {
   std::vector<SixVolumes> volumes(mesh.vertices.size());

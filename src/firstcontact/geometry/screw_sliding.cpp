@@ -19,10 +19,10 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Fewer triangles are soon tested one by one.
 constexpr std::size_t kFewTriangles = 500;
 
-/// Of more than a million the bounds would take more memory and time than they save.
+/// The bounds of more than a million would take more memory and time than they save.
 constexpr std::size_t kManyTriangles = std::size_t{1} << 20;
 
-/// Of more, every so manieth is looked at.
+/// The number of triangles that are looked at, evenly among more.
 constexpr std::size_t kLookedAt = 12'000;
 
 /// [m]  Bounds are in single precision, with squares of lengths.
@@ -35,9 +35,9 @@ constexpr double kCoarse = 0.5;
 constexpr double kFine = 0.03;
 constexpr int kRounds = 12;
 
-/// Of the triangles, at least this part must slip.
+/// The least share of the triangles that must slip.
 constexpr double kSlipping = 0.5;
-/// A second motion slips as well where its residual is below this part of the greatest.
+/// A second motion slips as well where its residual is below this share of the greatest.
 constexpr double kUnique = 3e-3;
 
 /// A triangle, seen from the centre in units of the radius.
@@ -61,7 +61,7 @@ void weigh(std::vector<Facet>& facets) {
   }
 }
 
-/// Of some triangles, from all parts of the surface.
+/// The facets of some triangles, from all over the surface.
 std::vector<Facet> facets_of(const Hierarchy& hierarchy) {
   std::vector<Facet> facets;
   // Odd, as neighbours lie as two and two.

@@ -268,7 +268,7 @@ struct Column {
   std::size_t stride = 0;  ///< [byte]
 };
 
-/// Of points one after the other, or of fields one after the other.
+/// The columns of points one after the other, or of fields one after the other.
 std::array<Column, 3> find_columns(const Header& header, bool by_fields) {
   std::array<Column, 3> columns;
   std::size_t offset = 0;

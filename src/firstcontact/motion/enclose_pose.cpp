@@ -13,7 +13,7 @@ constexpr double kRotationError = 22.0 * 0x1p-53;
 constexpr double kAxisError = 0x1p-52;
 constexpr double kRateError = 0x1p-52;
 
-/// Of the double-double sums below: pivot(t) and precise_lever(t).
+/// The error of the double-double sums below: pivot(t) and precise_lever(t).
 constexpr double kPositionError = 0x1p-90;
 
 double size(const DoubleDoubleVector3& v) { return v.value().norm(); }

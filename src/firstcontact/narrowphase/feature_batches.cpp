@@ -41,7 +41,7 @@ HWY_INLINE std::uint64_t bits(hn::Mask<D> mask, std::size_t first) {
   return static_cast<std::uint64_t>(lanes[0]) << first;
 }
 
-/// Of the first lanes.
+/// The bits of the first lanes.
 HWY_INLINE std::uint64_t all_of(std::size_t count) { return (std::uint64_t{1} << count) - 1; }
 
 void PrepareEdges(EdgeBatch& edges) {

@@ -19,7 +19,7 @@ constexpr double kRounding = 0x1p-96;     // Of a gap or a rate, to its terms: s
 constexpr double kDifference = 0x1p-102;  // Of two positions, to their size.
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// Of two edges at a smaller angle the part across is but rounding.
+/// Two edges at a smaller angle have nothing across but rounding.
 constexpr double kParallel = 0x1p-80;
 
 /// Steps without an answer: features that slide along each other, nearer than doubles can tell.

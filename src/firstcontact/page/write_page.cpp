@@ -28,7 +28,7 @@ using detail::to_json;
 
 constexpr std::string_view kPlaceholder = "\"FIRSTCONTACT_RESULT\"";
 
-/// Of each body the number of its mesh.
+/// The number of the mesh of each body.
 JsonArray meshes_of_bodies(const LoadedScene& loaded, detail::PageMeshes& meshes) {
   JsonArray bodies;
   for (std::size_t body = 0; body < loaded.scene.bodies.size(); ++body) {

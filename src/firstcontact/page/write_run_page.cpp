@@ -23,7 +23,7 @@ void add_single(PageNumbers& row, const Eigen::Vector3d& v) {
 RunPage::RunPage(const RunHeader& header)
     : header_(header),
       centres_of_mass_(header.centres_of_mass),
-      ways_(header.centres_of_mass.size()) {}
+      polylines_(header.centres_of_mass.size()) {}
 
 void RunPage::add(const RunStep& step) {
   for (const RunBody& moved : step.bodies) {
@@ -33,7 +33,7 @@ void RunPage::add(const RunStep& step) {
     add(contact);
   }
   contacts_until_.add(contact_count_, 4);
-  // What ways and contacts hold is left out of the step.
+  // What polylines and contacts hold is left out of the step.
   RunStep rest = step;
   rest.bodies.clear();
   rest.contacts.clear();
@@ -41,33 +41,34 @@ void RunPage::add(const RunStep& step) {
   time_ = step.time;
 }
 
-void RunPage::add_place(Way& way, std::size_t body, double time, const Pose& X_WB) const {
-  way.times.add(time);
-  way.places.add(Eigen::Vector3d(X_WB.position + X_WB.rotation * centres_of_mass_[body]));
+void RunPage::add_place(Polyline& polyline, std::size_t body, double time, const Pose& X_WB) const {
+  polyline.times.add(time);
+  polyline.places.add(Eigen::Vector3d(X_WB.position + X_WB.rotation * centres_of_mass_[body]));
   const Eigen::Quaterniond& q = X_WB.rotation;
   for (const double coordinate : {q.w(), q.x(), q.y(), q.z()}) {
-    way.rotations.add(static_cast<float>(coordinate));
+    polyline.rotations.add(static_cast<float>(coordinate));
   }
 }
 
 void RunPage::begin_piece(std::size_t body, double time, const Pose& X_WB,
                           const Eigen::Vector3d& turn) {
-  add_place(ways_[body], body, time, X_WB);
-  add_single(ways_[body].turns, turn);
+  add_place(polylines_[body], body, time, X_WB);
+  add_single(polylines_[body].turns, turn);
 }
 
 void RunPage::add(const RunBody& moved) {
-  Way& way = ways_[moved.body];
+  Polyline& polyline = polylines_[moved.body];
   double from = time_;
-  if (way.times.size() > 0 && way.end < from) {  // Steps left it out: it stayed where it was.
-    begin_piece(moved.body, way.end, way.X_WB, Eigen::Vector3d::Zero());
+  if (polyline.times.size() > 0 && polyline.end < from) {
+    // Steps left it out: it stayed where it was.
+    begin_piece(moved.body, polyline.end, polyline.X_WB, Eigen::Vector3d::Zero());
   }
   for (const RunPiece& piece : moved.pieces) {
     begin_piece(moved.body, from, piece.X_WB, piece.rotation_vector);
     from = time_ + piece.to;
   }
-  way.end = from;
-  way.X_WB = moved.X_WB;
+  polyline.end = from;
+  polyline.X_WB = moved.X_WB;
 }
 
 void RunPage::add(const RunContact& contact) {
@@ -92,20 +93,20 @@ std::string RunPage::header_json(const Scene& linked) const {
   return write_run_header(header);
 }
 
-std::string RunPage::ways_json() const {
-  nlohmann::ordered_json ways = nlohmann::ordered_json::array();
-  for (std::size_t body = 0; body < ways_.size(); ++body) {
-    Way way = ways_[body];
-    if (way.times.size() > 0) {
-      add_place(way, body, way.end, way.X_WB);
-      ways.push_back({{"body", body},
-                      {"times", way.times.base64()},
-                      {"places", way.places.base64()},
-                      {"rotations", way.rotations.base64()},
-                      {"turns", way.turns.base64()}});
+std::string RunPage::polylines_json() const {
+  nlohmann::ordered_json polylines = nlohmann::ordered_json::array();
+  for (std::size_t body = 0; body < polylines_.size(); ++body) {
+    Polyline polyline = polylines_[body];
+    if (polyline.times.size() > 0) {
+      add_place(polyline, body, polyline.end, polyline.X_WB);
+      polylines.push_back({{"body", body},
+                           {"times", polyline.times.base64()},
+                           {"places", polyline.places.base64()},
+                           {"rotations", polyline.rotations.base64()},
+                           {"turns", polyline.turns.base64()}});
     }
   }
-  return ways.dump();
+  return polylines.dump();
 }
 
 std::string RunPage::contacts_json() const {
@@ -123,7 +124,8 @@ std::string RunPage::write(std::string_view page_template, const LoadedScene& lo
   }
   const LoadedScene linked = links_as_bodies(loaded).loaded;
   const std::string run = "{\"header\":" + header_json(linked.scene) + ",\"steps\":[" + steps_ +
-                          "],\"ways\":" + ways_json() + ",\"contacts\":" + contacts_json() + "}";
+                          "],\"ways\":" + polylines_json() + ",\"contacts\":" + contacts_json() +
+                          "}";
   return write_page(page_template, linked, {.name = "run", .json = run});
 }
 

@@ -40,9 +40,9 @@ class FIRSTCONTACT_API RunPage {
   [[nodiscard]] std::string write(std::string_view page_template, const LoadedScene& loaded) const;
 
  private:
-  /// A body's way: where each piece begins, and after the last one where it ends. The centre of
-  /// mass moves on a line from one place to the next, while the body turns about it.
-  struct Way {
+  /// The polyline of a body: where each piece begins, and after the last one where it ends. The
+  /// centre of mass moves on a line from one place to the next, while the body turns about it.
+  struct Polyline {
     PageNumbers times;      // [s]
     PageNumbers places;     // [m]  Of the centre of mass.
     PageNumbers rotations;  // w, x, y, z of R_WB
@@ -52,18 +52,18 @@ class FIRSTCONTACT_API RunPage {
   };
 
   void begin_piece(std::size_t body, double time, const Pose& X_WB, const Eigen::Vector3d& turn);
-  void add_place(Way& way, std::size_t body, double time, const Pose& X_WB) const;
+  void add_place(Polyline& polyline, std::size_t body, double time, const Pose& X_WB) const;
   void add(const RunBody& moved);
   void add(const RunContact& contact);
   [[nodiscard]] std::string header_json(const Scene& linked) const;
-  [[nodiscard]] std::string ways_json() const;
+  [[nodiscard]] std::string polylines_json() const;
   [[nodiscard]] std::string contacts_json() const;
 
   RunHeader header_;
   std::vector<Eigen::Vector3d> centres_of_mass_;
   double time_ = 0.0;  // [s]
   std::string steps_;
-  std::vector<Way> ways_;  // Of every body; of those at rest empty.
+  std::vector<Polyline> polylines_;  // Of every body; of those at rest empty.
   std::uint64_t contact_count_ = 0;
   PageNumbers contacts_until_;  // Of each step: how many there are with those before.
   PageNumbers contact_bodies_;

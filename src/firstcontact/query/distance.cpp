@@ -46,7 +46,7 @@ DistanceResult distance(const MovingShape& A, const MovingShape& B, double t,
                         Workspace& workspace) {
   const auto ask = [&](const MovingShape& first, const MovingShape& second) {
     const FloatEnvironmentGuard guard;
-    // Of the order of the rounding: the exact distance is asked for.
+    // Near the rounding: the exact distance is computed.
     const double resolution =
         1e-14 * (first.shape.hierarchy().radius + second.shape.hierarchy().radius);
     ConstantRatePair motion = detail::motion_of(first, second, resolution);

@@ -14,7 +14,8 @@
 
 namespace firstcontact {
 
-/// A part of a step in which a body's centre of mass moves on a line while the body turns about it.
+/// A piece of a step in which a body's centre of mass moves on a line while the body turns about
+/// it.
 ///
 /// Both go at constant rates: Motion::constant_rates with the centre of mass as pivot.
 struct RunPiece {

@@ -14,20 +14,20 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/geometry_answer.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 #include <firstcontact/robot_check/detail/least_clearance.h>
 #include <firstcontact/robot_check/detail/least_of_all.h>
 #include <firstcontact/robot_check/detail/pair_contacts.h>
 #include <firstcontact/robot_check/detail/pair_holds.h>
-#include <firstcontact/robot_check/detail/part_answer.h>
-#include <firstcontact/robot_check/detail/part_search.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 
 namespace firstcontact {
 namespace {
 
-using detail::PartAnswer;
-using detail::PartCandidate;
-using detail::PartSearch;
+using detail::GeometryAnswer;
+using detail::GeometryCandidate;
+using detail::GeometrySearch;
 
 /// Pieces of time looked at together, and searches done side by side with the same horizon: few at
 /// first, as a contact spares the others. Fixed, so that answers do not depend on the number of
@@ -152,12 +152,12 @@ class RobotCheck {
       place = pairs_.size();
       pairs_.push_back(free_answer(pair));
       contacts_.emplace_back(most_contacts());
-      deciding_parts_.emplace_back();
+      deciding_geometries_.emplace_back();
     }
     return pairs_[place];
   }
 
-  /// Of a pair of members; of several of their parts each has one that decides.
+  /// The most contacts of a pair of members that are listed.
   [[nodiscard]] std::size_t most_contacts() const {
     return options_.contacts.kind == ContactState::Kind::nearest ? options_.contacts.most
                                                                  : ContactState::all.most;
@@ -184,7 +184,7 @@ class RobotCheck {
     parallel_for(options_.threads, count, use);
   }
 
-  std::vector<PartCandidate> find_candidates(std::size_t first, std::size_t last) {
+  std::vector<GeometryCandidate> find_candidates(std::size_t first, std::size_t last) {
     std::function<bool(std::size_t)> wanted;
     if (only_) {
       wanted = [&](std::size_t pair) { return pair == *only_; };
@@ -192,21 +192,21 @@ class RobotCheck {
       wanted = [&](std::size_t pair) { return answer_of(pair).verdict == Verdict::free; };
     }
     const std::span<const double> held = holds_ ? holds_->greatest() : std::span<const double>();
-    std::vector<std::vector<PartCandidate>> found(last - first);
+    std::vector<std::vector<GeometryCandidate>> found(last - first);
     for_each(found.size(),
              [&](std::size_t k) { found[k] = candidates_.find(first + k, wanted, held); });
-    std::vector<PartCandidate> all;
-    for (const std::vector<PartCandidate>& of_piece : found) {
+    std::vector<GeometryCandidate> all;
+    for (const std::vector<GeometryCandidate>& of_piece : found) {
       all.insert(all.end(), of_piece.begin(), of_piece.end());
     }
     if (holds_) {
       std::for_each(all.begin(), all.end(),
-                    [&](PartCandidate& candidate) { holds_->apply(candidate); });
+                    [&](GeometryCandidate& candidate) { holds_->apply(candidate); });
     }
     return all;
   }
 
-  void search(std::span<const PartCandidate> left) {
+  void search(std::span<const GeometryCandidate> left) {
     std::size_t size = kFirstRound;
     while (!left.empty()) {
       const auto round = left.first(std::min(size, left.size()));
@@ -214,7 +214,7 @@ class RobotCheck {
       size = std::min(2 * size, kLargestRound);
       const double end = horizon();
       report(timeline_.piece(round.front().piece).begin);
-      std::vector<std::optional<PartAnswer>> answers(round.size());
+      std::vector<std::optional<GeometryAnswer>> answers(round.size());
       for_each(round.size(), [&](std::size_t k) {
         if (round[k].window.begin <= end) {
           answers[k] = ask(round[k], end);
@@ -228,8 +228,8 @@ class RobotCheck {
     }
   }
 
-  PartAnswer ask(const PartCandidate& candidate, double end) {
-    PartSearch search(timeline_, candidate, options_, workspaces_.local());
+  GeometryAnswer ask(const GeometryCandidate& candidate, double end) {
+    GeometrySearch search(timeline_, candidate, options_, workspaces_.local());
     if (options_.all_contacts_in_time) {
       return contact_intervals_of(search, candidate, options_.time_resolution);
     }
@@ -237,14 +237,14 @@ class RobotCheck {
   }
 
   /// Bodies that come to be tested may be inside of each other by then.
-  [[nodiscard]] bool is_tested_anew(const PartCandidate& candidate) const {
+  [[nodiscard]] bool is_tested_anew(const GeometryCandidate& candidate) const {
     return candidate.piece > 0 &&
            candidate.window.begin == timeline_.piece(candidate.piece).begin &&
            !timeline_.is_tested(timeline_.pairs()[candidate.pair], candidate.piece - 1);
   }
 
   /// A contact holds for the pair even beside an undecided search: nothing touches before it.
-  void take(const PartCandidate& candidate, PartAnswer&& answer) {
+  void take(const GeometryCandidate& candidate, GeometryAnswer&& answer) {
     PairAnswer& pair = answer_of(candidate.pair);
     const FirstContactResult& found = answer.first;
     detail::PairContacts& contacts = contacts_[place_of_[candidate.pair]];
@@ -258,11 +258,11 @@ class RobotCheck {
       pair.contact_count = found.contact_count;
       contacts.clear();
       contacts.add(found.contacts);
-      deciding_parts_[place_of_[candidate.pair]] = {candidate.parts};
+      deciding_geometries_[place_of_[candidate.pair]] = {candidate.geometries};
     } else if (adds) {
       pair.contact_count += found.contact_count;
       contacts.add(found.contacts);
-      deciding_parts_[place_of_[candidate.pair]].push_back(candidate.parts);
+      deciding_geometries_[place_of_[candidate.pair]].push_back(candidate.geometries);
     }
     if (found.verdict == Verdict::free) {
       return;
@@ -303,10 +303,11 @@ class RobotCheck {
         return;  // And so it stays: no pair asks for the balls any more.
       }
       const TimeWindow window = timeline_.piece(piece);
-      for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
-        balls[piece].push_back(detail::swept_ball(
-            timeline_.parts()[part].ball, timeline_.path(part, 0.5 * (window.begin + window.end)),
-            window, workspaces_.local().places));
+      for (std::size_t geometry = 0; geometry < timeline_.geometries().size(); ++geometry) {
+        balls[piece].push_back(
+            detail::swept_ball(timeline_.geometries()[geometry].ball,
+                               timeline_.path(geometry, 0.5 * (window.begin + window.end)), window,
+                               workspaces_.local().places));
       }
     });
     for_each(timeline_.pairs().size(), [&](std::size_t k) {
@@ -333,7 +334,7 @@ class RobotCheck {
     least_of_all_ = found->least.lower_bound;
   }
 
-  /// Of a pair that was searched no longer than until another one's contact.
+  /// Answers a pair that was searched only until another one's contact.
   void answer_whole_step(std::size_t pair) {
     PairAnswer& answer = answer_of(pair);
     const WorkCount work = answer.work;
@@ -398,19 +399,22 @@ class RobotCheck {
     }
   }
 
-  /// The features within the band of those parts that do not decide; of the others they are listed.
+  /// The features within the band of those geometries that do not decide; of the others they are
+  /// listed.
   void list_band(std::size_t index) {
     const std::size_t place = place_of_[index];
     PairAnswer& pair = pairs_[place];
-    const std::vector<std::array<std::size_t, 2>>& known = deciding_parts_[place];
+    const std::vector<std::array<std::size_t, 2>>& known = deciding_geometries_[place];
     const double band = pair.margin + pair.tolerance_used + options_.contact_band;
-    for (const std::array<std::size_t, 2>& parts : detail::parts_of(timeline_, index)) {
-      if (std::find(known.begin(), known.end(), parts) != known.end()) {
+    for (const std::array<std::size_t, 2>& geometries : detail::geometries_of(timeline_, index)) {
+      if (std::find(known.begin(), known.end(), geometries) != known.end()) {
         continue;
       }
-      const PartCandidate candidate{
-          .window = {pair.t, pair.t}, .pair = index, .parts = parts, .threshold = pair.margin};
-      PartSearch search(timeline_, candidate, options_, workspaces_.local());
+      const GeometryCandidate candidate{.window = {pair.t, pair.t},
+                                        .pair = index,
+                                        .geometries = geometries,
+                                        .threshold = pair.margin};
+      GeometrySearch search(timeline_, candidate, options_, workspaces_.local());
       const FirstContactResult found = search.features_within(pair.t, band);
       pair.work += found.work;
       if (found.verdict != Verdict::free) {
@@ -427,8 +431,8 @@ class RobotCheck {
   std::vector<std::size_t> place_of_;  // In pairs_, of each tested pair; or kNone.
   std::vector<PairAnswer> pairs_;
   std::vector<detail::PairContacts> contacts_;  // Of each of them, at its t.
-  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_parts_;  // That these are of.
-  std::optional<detail::PairHolds> holds_;                               // For keep_half.
+  std::vector<std::vector<std::array<std::size_t, 2>>> deciding_geometries_;  // That these are of.
+  std::optional<detail::PairHolds> holds_;                                    // For keep_half.
   double first_ = 1.0;                         // Before it all pairs are proven free.
   std::optional<detail::KnownNear> earliest_;  // The search that found it.
   double least_of_all_ = 0.0;                  // [m]  Of all pairs, where that was asked.

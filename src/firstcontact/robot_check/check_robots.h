@@ -35,17 +35,17 @@ struct RobotCheckOptions {
   bool closest = false;
   double time_resolution = 1e-3;  ///< [-]  Of contact intervals: see there; in (0, 1].
 
-  /// Called now and then from the calling thread with the part that is done, in [0, 1]; without
+  /// Called now and then from the calling thread with the share that is done, in [0, 1]; without
   /// all_pairs the time proven free so far. May be empty.
   std::function<void(double)> progress = {};
 };
 
 /// Finds the first contact of all members that are tested against each other.
 ///
-/// Before t every pair is farther apart than its margin, paddings included: proven for the exact motions that the
-/// input defines, and for all that stay within the tracking errors. At a contact the nominal
-/// motion's distance is no more than margin + tolerance. The same on every run and for every
-/// number of threads, as long as neither the deadline nor the stop token ends it.
+/// Before t every pair is farther apart than its margin, paddings included: proven for the exact
+/// motions that the input defines, and for all that stay within the tracking errors. At a contact
+/// the nominal motion's distance is no more than margin + tolerance. The same on every run and for
+/// every number of threads, as long as neither the deadline nor the stop token ends it.
 ///
 /// Method: the step is walked piece by piece of the trajectories, several at once, and left at the
 /// first contact.

@@ -31,8 +31,8 @@ bool in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window
   if (shapes != 0) {
     return shapes < 0;
   }
-  for (const double part : {0.0, 0.375, 1.0}) {
-    const double t = std::min(window.begin + part * (window.end - window.begin), window.end);
+  for (const double share : {0.0, 0.375, 1.0}) {
+    const double t = std::min(window.begin + share * (window.end - window.begin), window.end);
     const auto a = place_key(A.X_FS.at(t).pose(t));
     const auto b = place_key(B.X_FS.at(t).pose(t));
     if (a != b) {

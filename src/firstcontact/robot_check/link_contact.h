@@ -35,9 +35,9 @@ FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Wo
 first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
               const FirstContactOptions& options = {});
 
-/// Finds the first contact in a part of the step; before it the shapes are proven free.
+/// Finds the first contact in a window of the step; before it the shapes are proven free.
 ///
-/// The motions may have only the pieces that the part lies in. When free, `t` is its end.
+/// The motions may have only the pieces that the window lies in. When free, `t` is its end.
 FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B,
                                     const TimeWindow& window, Workspace& workspace,
                                     const FirstContactOptions& options, FirstContactResult& result);

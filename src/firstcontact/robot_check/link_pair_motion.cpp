@@ -36,17 +36,17 @@ double window_length(double speed, double jerk) {
   return jerk > 0.0 ? std::sqrt(0.5 * speed / jerk) : std::numeric_limits<double>::infinity();
 }
 
-/// The end of the smallest part of the piece, of those that halving makes, that begins before t and
-/// ends about a length after it. Windows end: they are a thousandth of the piece at least.
+/// The end of the smallest share of the piece, of those that halving makes, that begins before t
+/// and ends about a length after it. Windows end: they are a thousandth of the piece at least.
 double end_of_window(const TimeWindow& piece, double t, double length) {
   constexpr double kLeast = 0x1p-10;
   constexpr double kEnough = 0.75;
-  double part = 1.0;
-  while (part > kLeast && part * (piece.end - piece.begin) > length / kEnough) {
-    part *= 0.5;
+  double share = 1.0;
+  while (share > kLeast && share * (piece.end - piece.begin) > length / kEnough) {
+    share *= 0.5;
   }
   const double done = (t - piece.begin) / (piece.end - piece.begin);
-  const double next = (std::floor(done / part) + 1.0) * part;
+  const double next = (std::floor(done / share) + 1.0) * share;
   const double end = piece.begin + next * (piece.end - piece.begin);
   return end > t && next < 1.0 ? std::min(end, piece.end) : piece.end;
 }
@@ -83,7 +83,7 @@ Vector3d lever_of(const LinkState& link, const CentreMotion& centre, double radi
 
 }  // namespace
 
-/// One body's part of a RelativeState, positions from the pair's origin.
+/// One body's half of a RelativeState, positions from the pair's origin.
 struct LinkPairMotion::BodyState {
   Eigen::Matrix3d R;
   Vector3d centre;

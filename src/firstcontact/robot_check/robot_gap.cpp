@@ -15,11 +15,11 @@
 namespace firstcontact {
 namespace {
 
-/// Two parts, and how far apart balls around them are at least.
-struct NearParts {
+/// Two geometries, and how far apart balls around them are at least.
+struct NearGeometries {
   double bound = 0.0;      ///< [m]
   double threshold = 0.0;  ///< [m]
-  std::array<std::size_t, 2> parts = {};
+  std::array<std::size_t, 2> geometries = {};
 };
 
 class GapSampler {
@@ -28,17 +28,17 @@ class GapSampler {
 
   [[nodiscard]] RobotGap at(double t) {
     RobotGap gap;
-    for (const NearParts& near : by_distance(t)) {
+    for (const NearGeometries& near : by_distance(t)) {
       // What is farther than this says nothing.
       const double reach = gap.contact ? gap.distance : std::max(gap.distance, near.threshold);
-      const PartPair pair(timeline_, near.parts, t);
+      const GeometryPair pair(timeline_, near.geometries, t);
       if (near.bound > reach || is_farther(pair, t, reach)) {
         continue;
       }
       const DistanceResult found = detail::distance(pair.A(), pair.B(), t, workspace_);
       if (found.distance < gap.distance) {
         gap.distance = found.distance;
-        nearest_ = near.parts;
+        nearest_ = near.geometries;
       }
       gap.lower_bound = std::min(gap.lower_bound, found.lower_bound);
       gap.contact = gap.contact || found.distance <= near.threshold;
@@ -47,21 +47,21 @@ class GapSampler {
   }
 
  private:
-  /// Two parts with their motions about a time.
-  class PartPair {
+  /// Two geometries with their motions about a time.
+  class GeometryPair {
    public:
-    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
-             double t)
-        : PartPair(timeline, parts, timeline.paths(parts[0], parts[1], t)) {}
+    GeometryPair(const detail::RobotTimeline& timeline,
+                 const std::array<std::size_t, 2>& geometries, double t)
+        : GeometryPair(timeline, geometries, timeline.paths(geometries[0], geometries[1], t)) {}
 
     [[nodiscard]] MovingLink A() const { return {A_, X_FA_}; }
     [[nodiscard]] MovingLink B() const { return {B_, X_FB_}; }
 
    private:
-    PartPair(const detail::RobotTimeline& timeline, const std::array<std::size_t, 2>& parts,
-             const detail::PairPaths& paths)
-        : A_(*timeline.parts()[parts[0]].shape),
-          B_(*timeline.parts()[parts[1]].shape),
+    GeometryPair(const detail::RobotTimeline& timeline,
+                 const std::array<std::size_t, 2>& geometries, const detail::PairPaths& paths)
+        : A_(*timeline.geometries()[geometries[0]].shape),
+          B_(*timeline.geometries()[geometries[1]].shape),
           X_FA_(std::vector<LinkPath>{paths.A.X_FS}),
           X_FB_(std::vector<LinkPath>{paths.B.X_FS}) {}
 
@@ -72,7 +72,7 @@ class GapSampler {
   };
 
   /// Whether it can be proven so without the distance, which costs much more to know.
-  [[nodiscard]] bool is_farther(const PartPair& pair, double t, double distance) {
+  [[nodiscard]] bool is_farther(const GeometryPair& pair, double t, double distance) {
     if (!std::isfinite(distance)) {
       return false;
     }
@@ -102,45 +102,46 @@ class GapSampler {
 
   [[nodiscard]] std::vector<detail::SweptBall> balls_at(double t) {
     std::vector<detail::SweptBall> balls;
-    for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
-      balls.push_back(detail::swept_ball(timeline_.parts()[part].ball, timeline_.path(part, t),
-                                         {t, t}, workspace_.places));
+    for (std::size_t geometry = 0; geometry < timeline_.geometries().size(); ++geometry) {
+      balls.push_back(detail::swept_ball(timeline_.geometries()[geometry].ball,
+                                         timeline_.path(geometry, t), {t, t}, workspace_.places));
     }
     return balls;
   }
 
-  /// All parts of the pairs that are tested at t: those that were nearest before, then those with
-  /// the nearest balls.
-  [[nodiscard]] std::vector<NearParts> by_distance(double t) {
+  /// All geometries of the pairs that are tested at t: those that were nearest before, then those
+  /// with the nearest balls.
+  [[nodiscard]] std::vector<NearGeometries> by_distance(double t) {
     const std::vector<detail::SweptBall> balls = balls_at(t);
     const std::size_t piece = piece_at(t);
-    std::vector<NearParts> all;
+    std::vector<NearGeometries> all;
     for (const detail::TestedPair& pair : timeline_.pairs()) {
       if (!timeline_.is_tested(pair, piece)) {
         continue;
       }
       const auto [first, second] = pair.members;
-      for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
-        for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
-             ++b) {
+      for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
+           ++a) {
+        for (std::size_t b = timeline_.first_geometry(second);
+             b < timeline_.first_geometry(second + 1); ++b) {
           const double errors = balls[a].tracking_error + balls[b].tracking_error;
           all.push_back({detail::gap_bound(balls[a], balls[b]), pair.margin + errors, {a, b}});
         }
       }
     }
-    std::sort(all.begin(), all.end(), [this](const NearParts& x, const NearParts& y) {
-      const bool was_nearest = x.parts == nearest_;
-      if (was_nearest != (y.parts == nearest_)) {
+    std::sort(all.begin(), all.end(), [this](const NearGeometries& x, const NearGeometries& y) {
+      const bool was_nearest = x.geometries == nearest_;
+      if (was_nearest != (y.geometries == nearest_)) {
         return was_nearest;
       }
-      return x.bound != y.bound ? x.bound < y.bound : x.parts < y.parts;
+      return x.bound != y.bound ? x.bound < y.bound : x.geometries < y.geometries;
     });
     return all;
   }
 
   detail::RobotTimeline timeline_;
   detail::LinkWorkspace workspace_;
-  std::array<std::size_t, 2> nearest_ = {};  // Parts, at the time before.
+  std::array<std::size_t, 2> nearest_ = {};  // Geometries, at the time before.
 };
 
 }  // namespace

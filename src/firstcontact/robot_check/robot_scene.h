@@ -40,7 +40,7 @@ struct Attachment {
   std::optional<Pose> X_LB = {};              ///< Only with t_from = 0.
 };
 
-/// One piece of a member, in a frame G that is fixed in the member's frame M.
+/// One geometry of a member, in a frame G that is fixed in the member's frame M.
 struct MemberGeometry {
   Shape shape;
   Pose X_MG = {};
@@ -54,7 +54,7 @@ struct RobotLink {
   friend bool operator==(const RobotLink&, const RobotLink&) = default;
 };
 
-/// The motion of a body over a part of the step: as given, carried by a link, or at rest.
+/// The motion of a body over a window of the step: as given, carried by a link, or at rest.
 struct BodyStretch {
   struct Given {};
   struct Carried {

@@ -27,7 +27,7 @@ struct CheckOptions {
   int threads = 0;            ///< At most; 0 for one on each core. Answers do not depend on it.
   std::stop_token stop = {};  ///< Ends the check with what is proven so far.
   /// Called now and then from the calling thread with a number in [0, 1]; may be empty. Where each
-  /// pair is answered, that is the part that is done, else the time that is proven free so far.
+  /// pair is answered, that is the share that is done, else the time that is proven free so far.
   std::function<void(double done)> progress = {};
 };
 

@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <firstcontact/robot_check/robot_scene.h>
-
 #include <firstcontact/geometry/hierarchy.h>
-
-#include <firstcontact/motion/constant_rate_path.h>
-
 #include <firstcontact/many_bodies/body_set.h>
-
-#include <firstcontact/scene/sample_gap.h>
-
-#include <firstcontact/scene/loaded_scene.h>
-
+#include <firstcontact/motion/constant_rate_path.h>
 #include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/sample_gap.h>
 
 namespace firstcontact {
 namespace {
@@ -70,7 +63,7 @@ void append_between(const Cone& left, const Cone& right, double rate,
   }
 }
 
-/// Of robots only the clearance is known: it holds until the result's t.
+/// Beside robots only the clearance is known: it holds until the result's t.
 std::vector<GapPoint> clearance_until(const SceneResult& result,
                                       std::span<const GapSample> samples) {
   std::vector<GapPoint> points;

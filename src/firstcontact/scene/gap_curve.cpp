@@ -17,8 +17,8 @@ constexpr double kSeen = 2e-2;              // Of the height; half way the line 
 
 /// How far a sample is from the straight line between its neighbours.
 double bend(const GapSample& before, const GapSample& sample, const GapSample& after) {
-  const double part = (sample.t - before.t) / (after.t - before.t);
-  return std::abs(before.distance + part * (after.distance - before.distance) - sample.distance);
+  const double share = (sample.t - before.t) / (after.t - before.t);
+  return std::abs(before.distance + share * (after.distance - before.distance) - sample.distance);
 }
 
 /// The middles of the intervals beside each bend.

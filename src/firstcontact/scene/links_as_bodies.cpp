@@ -19,7 +19,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-std::string piece_name(const SceneRobot& robot, const Link& link, std::size_t geometry) {
+std::string geometry_name(const SceneRobot& robot, const Link& link, std::size_t geometry) {
   return robot.name + "/" + link.name + (geometry == 0 ? "" : "#" + std::to_string(geometry + 1));
 }
 
@@ -42,7 +42,7 @@ Matrix3d moved_moments(const Matrix3d& about_C, double mass, const Vector3d& by)
   return about_C + mass * (by.squaredNorm() * Matrix3d::Identity() - by * by.transpose());
 }
 
-/// Of all pieces of a link, as solids of a density.
+/// The inertia of all geometries of a link, as solids of a density.
 LinkInertia inertia_of_solids(std::span<const MemberGeometry> geometries, double density) {
   LinkInertia sum;
   std::vector<std::pair<double, Vector3d>> centres;
@@ -137,16 +137,16 @@ class Links {
     }
   }
 
-  /// What a run tells of a piece; the simulation moves it with its robot.
-  static FreeBody share_of(const Link& link, const Pose& X_LG, std::size_t pieces) {
+  /// The body that a run has for a geometry; the simulation moves it with its robot.
+  static FreeBody share_of(const Link& link, const Pose& X_LG, std::size_t geometries) {
     const LinkInertia inertia = link.inertia.value_or(LinkInertia{});
     const Matrix3d R_GL = X_LG.rotation.normalized().toRotationMatrix().transpose();
     FreeBody free{.density = {},
-                  .mass = inertia.mass / static_cast<double>(pieces),
+                  .mass = inertia.mass / static_cast<double>(geometries),
                   .centre_of_mass = R_GL * (inertia.p_LC - X_LG.position),
                   .inertia = {},
                   .forces = {}};
-    free.inertia = R_GL * inertia.about_C_L * R_GL.transpose() / static_cast<double>(pieces);
+    free.inertia = R_GL * inertia.about_C_L * R_GL.transpose() / static_cast<double>(geometries);
     return free;
   }
 
@@ -182,7 +182,7 @@ class Links {
     return bodies;
   }
 
-  /// All pairs of the pieces of two members.
+  /// All pairs of the geometries of two members.
   template <class Use>
   void for_each_pair(const BodyPair& members, const Use& use) const {
     for (const std::size_t a : bodies_of_[members[0]]) {
@@ -265,9 +265,9 @@ class Links {
                        .files = given_.files,
                        .pair_counts = {}};
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      const bool is_piece = b >= given_.scene.bodies.size();
-      loaded.bodies.add(is_piece ? std::get<Shape>(scene_.bodies[b].shape.source)
-                                 : robots_.geometries(b).front().shape,
+      const bool is_of_link = b >= given_.scene.bodies.size();
+      loaded.bodies.add(is_of_link ? std::get<Shape>(scene_.bodies[b].shape.source)
+                                   : robots_.geometries(b).front().shape,
                         normalised_motion(scene_.bodies[b].motion, scene_.duration));
     }
     loaded.scene = std::move(scene_);
@@ -299,7 +299,7 @@ std::vector<std::string> names_with_links(const Scene& scene) {
   for (const SceneRobot& robot : scene.robots) {
     for (const Link& link : robot.model.links()) {
       for (std::size_t g = 0; g < link.collision.size(); ++g) {
-        names.push_back(piece_name(robot, link, g));
+        names.push_back(geometry_name(robot, link, g));
       }
     }
   }

@@ -21,14 +21,14 @@ struct LinkPiece {
   Pose X_LG = {};
 };
 
-/// A scene without robots that has the pieces of their links behind its bodies, in the order of
-/// robots, links and geometries.
+/// A scene without robots that has the geometries of their links behind its bodies, in the order
+/// of robots, links and geometries.
 ///
-/// A piece is called "robot/link", all but the first of a link "robot/link#2" and so on. Of a robot
-/// with dynamics it is a free body, with its share of the link's mass; of another one it rests or
-/// has waypoints at every step of the simulation. Pairs that a robot leaves out are ignored, rules
-/// for links hold for all of their pieces, and margins contain the padding. Pairs are counted by
-/// links, not by their pieces, as a simulation looks at them (count_simulated_pairs).
+/// The first geometry of a link is called "robot/link", the others "robot/link#2" and so on. On a
+/// robot with dynamics it is a free body, with its share of the link's mass; on another one it
+/// rests or has waypoints at every step of the simulation. Pairs that a robot leaves out are
+/// ignored, rules for links hold for all of their geometries, and margins contain the padding.
+/// Pairs are counted by links, as a simulation looks at them (count_simulated_pairs).
 struct LinksAsBodies {
   LoadedScene loaded;
   std::vector<LinkPiece> pieces = {};  ///< Of the bodies behind those of the scene.
@@ -36,14 +36,14 @@ struct LinksAsBodies {
       {};  ///< Of each robot; links have the mass that a density gives.
 };
 
-/// Makes the pieces of links bodies of the scene.
+/// Makes the geometries of links bodies of the scene.
 ///
 /// @param loaded  with a simulation
 /// @throws std::invalid_argument  names the robot: it carries a body or has a tracking error, or
 ///         links to which a density is given are not closed
 [[nodiscard]] FIRSTCONTACT_API LinksAsBodies links_as_bodies(const LoadedScene& loaded);
 
-/// The names of a scene's bodies, with the pieces of links that are bodies then.
+/// The names of a scene's bodies, with the geometries of links that are bodies then.
 [[nodiscard]] FIRSTCONTACT_API std::vector<std::string> names_with_links(const Scene& scene);
 
 }  // namespace firstcontact

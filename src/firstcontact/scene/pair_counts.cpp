@@ -23,7 +23,7 @@ using Kind = detail::MemberKind;
 constexpr std::size_t kKinds = 4;
 constexpr std::size_t kReasons = 7;
 
-/// Of so many pairs the names are told.
+/// The number of pairs that are named.
 constexpr std::size_t kNamed = 3;
 
 /// After so many pairs the search for names ends.
@@ -103,7 +103,7 @@ class PairCounter {
     }
   }
 
-  /// Of bodies that a link holds from the start to the end.
+  /// The pairs of bodies that a link holds from the start to the end.
   void take_held() {
     const auto attachments =
         loaded_.robots ? loaded_.robots->attachments() : std::span<const Attachment>();
@@ -228,7 +228,7 @@ Kind kind_of_links(const SceneRobot& robot) {
                                                                        : Kind::rests;
 }
 
-/// Of links without geometry as well; without robots every member has some.
+/// Whether a member can touch: links may have no geometry, bodies have some.
 bool has_geometry(const LoadedScene& loaded, std::size_t member) {
   return !loaded.robots || !loaded.robots->geometries(member).empty();
 }

@@ -24,16 +24,16 @@ std::vector<double> every(std::span<const double> times, std::size_t first, std:
 std::vector<GapSample> sample_in_parallel(const LoadedScene& loaded, std::span<const double> times,
                                           const std::stop_token& stop) {
   const std::size_t count = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::future<std::vector<GapSample>>> parts;
+  std::vector<std::future<std::vector<GapSample>>> running;
   for (std::size_t k = 0; k < count; ++k) {
-    parts.push_back(std::async(std::launch::async, [&, k] {
+    running.push_back(std::async(std::launch::async, [&, k] {
       Workspace workspace;
       return sample_gap(loaded, every(times, k, count), workspace, stop);
     }));
   }
   std::vector<GapSample> samples;
-  for (auto& part : parts) {
-    const std::vector<GapSample> some = part.get();
+  for (auto& thread : running) {
+    const std::vector<GapSample> some = thread.get();
     samples.insert(samples.end(), some.begin(), some.end());
   }
   std::sort(samples.begin(), samples.end(),

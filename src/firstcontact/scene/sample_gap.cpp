@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/many_bodies/body_set.h>
@@ -86,6 +87,9 @@ std::vector<GapSample> sample_gap(const LoadedScene& loaded, std::span<const dou
   std::vector<GapSample> samples;
   samples.reserve(times.size());
   for (const double t : times) {
+    if (!(t >= 0.0 && t <= 1.0)) {
+      throw std::invalid_argument("sample_gap: t must be in [0, 1], got " + std::to_string(t));
+    }
     if (stop.stop_requested()) {
       break;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <fstream>
 #include <set>
 #include <string_view>
@@ -40,12 +41,8 @@ struct Numbers {
   List operator()(const SphereShape& sphere) const { return {sphere.radius}; }
   List operator()(const CapsuleShape& capsule) const { return {capsule.radius, capsule.length}; }
   List operator()(const BoxShape& box) const { return {box.size.x(), box.size.y(), box.size.z()}; }
-  List operator()(const CylinderShape& cylinder) const {
-    return {cylinder.radius, cylinder.length, cylinder.enclosure_error.value_or(0.0)};
-  }
-  List operator()(const ConeShape& cone) const {
-    return {cone.radius, cone.length, cone.enclosure_error.value_or(0.0)};
-  }
+  List operator()(const CylinderShape& cylinder) const { return round(cylinder); }
+  List operator()(const ConeShape& cone) const { return round(cone); }
   List operator()(const PointFile& file) const { return {file.scale}; }
   List operator()(const HeightFile& file) const { return {file.cell.x(), file.cell.y()}; }
   List operator()(const ConvexHullShape& hull) const {
@@ -56,7 +53,26 @@ struct Numbers {
   List operator()(const Inline&) const {
     return {};
   }
+
+ private:
+  template <class Round>
+  static List round(const Round& shape) {
+    List numbers{shape.radius, shape.length};
+    if (shape.enclosure_error) {
+      numbers.push_back(*shape.enclosure_error);
+    }
+    return numbers;
+  }
 };
+
+/// As bits, so that NaN is a number like others: no shape of the cache is taken for it.
+std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
+  std::vector<std::uint64_t> bits;
+  for (const double number : numbers) {
+    bits.push_back(std::bit_cast<std::uint64_t>(number));
+  }
+  return bits;
+}
 
 /// Not worth the comparison with what was made before.
 bool is_inline(const BodyShape& shape) {
@@ -68,7 +84,7 @@ bool is_inline(const BodyShape& shape) {
          (hull != nullptr && !std::holds_alternative<MeshFile>(hull->of));
 }
 
-/// Of a file and of those that were read for it.
+/// The digest of a file and of those that were read for it.
 std::string digest_of(const std::filesystem::path& path, const std::vector<std::string>& also) {
   if (also.empty()) {
     return digest_of(path);
@@ -134,7 +150,7 @@ CachedShape ShapeCache::load(const BodyShape& shape, const ReadingOptions& optio
   numbers.push_back(options.lenient ? 1.0 : 0.0);
   std::unique_lock map_lock(mutex_);
   Entry& entry =
-      shapes_[Key(shape.source.index(), file == nullptr ? "" : file->string(), std::move(numbers))];
+      shapes_[Key(shape.source.index(), file == nullptr ? "" : file->string(), bits_of(numbers))];
   map_lock.unlock();
   const std::scoped_lock lock(entry.making);
   if (!entry.shape) {

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -66,8 +68,8 @@ class FIRSTCONTACT_API ShapeCache {
   bool encloses_space(const Shape& shape, const BodyShape* source);
 
  private:
-  /// The kind of shape, the file, and all numbers.
-  using Key = std::tuple<std::size_t, std::string, std::vector<double>>;
+  /// The kind of shape, the file, and the bits of all numbers.
+  using Key = std::tuple<std::size_t, std::string, std::vector<std::uint64_t>>;
 
   struct Entry {
     std::mutex making;

@@ -45,7 +45,19 @@ struct FreeBody {
 struct Surface {
   std::optional<double> friction;     ///< [-]  Coulomb's coefficient, >= 0.
   std::optional<double> restitution;  ///< [-]  Newton's, in [0, 1].
+  /// [m/s]  How fast the surface runs along the body, as a conveyor belt does; axes of the body
+  /// frame. Its part along a contact's normal has no effect.
+  std::optional<Eigen::Vector3d> velocity = {};
 };
+
+/// What impacts do that happen at the same time.
+enum class ImpactLaw {
+  sequential,    ///< Pairs answer one after the other, the fastest first, until all part.
+  simultaneous,  ///< Newton's law holds for all contacts at once.
+};
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kImpactLawWords{"sequential", "simultaneous"};
 
 /// A number at a time.
 struct TimedNumber {
@@ -98,6 +110,7 @@ struct Simulation {
   Eigen::Vector3d gravity = {0.0, 0.0, -9.81};  ///< [m/s^2]
   double friction = 0.5;                        ///< [-]  >= 0
   double restitution = 0.0;                     ///< [-]  In [0, 1].
+  ImpactLaw impacts = ImpactLaw::sequential;
   /// [m]  > 0  The distance at which bodies that touch rest, up to one and a half of it.
   ///
   /// The default is 1e-3 of the radius of the smallest free body.

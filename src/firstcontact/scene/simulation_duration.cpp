@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 #include <variant>
-
-#include <firstcontact/scene/scene.h>
-
-#include <firstcontact/scene/simulation.h>
+#include <vector>
 
 #include <firstcontact/scene/body_motion.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/simulation.h>
 
 namespace firstcontact {
 namespace {
@@ -51,14 +52,21 @@ void set_simulation_duration(Scene& scene, double duration) {
   if (!scene.simulation || !(duration > 0.0)) {
     throw std::invalid_argument("set_simulation_duration: expected a simulation and a time > 0");
   }
+  if (duration > scene.duration) {
+    const LongerMotion longer{scene.duration, duration};
+    std::vector<BodyMotion> motions;  // All of them first: one may be refused.
+    for (const Body& body : scene.bodies) {
+      motions.push_back(std::visit(longer, body.motion));
+    }
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      scene.bodies[k].motion = std::move(motions[k]);
+    }
+    for (SceneRobot& robot : scene.robots) {
+      robot.base = std::visit(longer, robot.base);
+    }
+    scene.duration = duration;
+  }
   scene.simulation->duration = duration;
-  if (!(duration > scene.duration)) {
-    return;
-  }
-  for (Body& body : scene.bodies) {
-    body.motion = std::visit(LongerMotion{scene.duration, duration}, body.motion);
-  }
-  scene.duration = duration;
 }
 
 std::size_t simulation_step_count(const Simulation& simulation) {

@@ -50,7 +50,7 @@ std::optional<JointCoordinate> find_planar(const RobotModel& robot, std::string_
                                    : "did you mean " + detail::in_quotes(nearest) + "?"));
 }
 
-/// Of one coordinate of a trajectory, by points.
+/// The numbers of one coordinate of a trajectory, by points.
 std::vector<double> column(const Trajectory& trajectory, std::size_t k,
                            const std::vector<double> TrajectoryPoint::*numbers, double factor) {
   std::vector<double> result;

@@ -104,12 +104,15 @@ class LineChecker {
     const SceneResult result = check_scene(loaded, workspaces_.local(),
                                            {.all_pairs = options_.all_pairs,
                                             .closest = options_.closest,
+                                            .all_contacts_in_time = options_.all_contacts_in_time,
                                             .threads = 1,
                                             .stop = options_.stop,
                                             .progress = {}});
     answer.verdict = result.verdict;
-    answer.text = write_result(
-        loaded, result, {.all_pairs = options_.all_pairs, .line = answer.line, .sampling = {}});
+    answer.text = write_result(loaded, result,
+                               {.all_pairs = options_.all_pairs || options_.all_contacts_in_time,
+                                .line = answer.line,
+                                .sampling = {}});
   }
 
   const std::filesystem::path& file_;

@@ -19,9 +19,10 @@
 namespace firstcontact {
 
 struct CheckLinesOptions {
-  std::size_t threads = 0;  ///< 0: as many as there are processors.
-  bool closest = false;     ///< Also the closest approach of every pair.
-  bool all_pairs = false;   ///< Also the answer of every pair.
+  std::size_t threads = 0;            ///< 0: as many as there are processors.
+  bool closest = false;               ///< Also the closest approach of every pair.
+  bool all_pairs = false;             ///< Also the answer of every pair.
+  bool all_contacts_in_time = false;  ///< So too, with every interval of contact of each pair.
   ReadingOptions reading = {};
   std::stop_token stop = {};  ///< Ends the work early.
   /// Called with the options of each scene before it is answered, from any thread; may be empty.

@@ -80,7 +80,7 @@ BodyMotion read_pose_or_motion(const JsonObject& body, const JsonReader& read) {
   return FixedMotion{pose == nullptr ? Pose{} : detail::read_pose(*pose, read)};
 }
 
-/// Of a mesh in a file, load_scene compares the counts.
+/// The counts of a mesh in a file are compared by load_scene.
 void require_vertices(const Body& body, const JsonValue& motion, const JsonReader& read) {
   const auto* mesh = std::get_if<Mesh>(&body.shape.source);
   if (mesh == nullptr && !std::holds_alternative<MeshFile>(body.shape.source)) {
@@ -113,7 +113,11 @@ void read_dynamics_or_surface(const JsonObject& object, Body& body, const JsonRe
     detail::read_dynamics(*dynamics, body, read);
   }
   if (surface != nullptr) {
-    body.surface = detail::read_surface(read.object(*surface, {{"friction", "restitution"}}), read);
+    const JsonObject& given = read.object(*surface, {{"friction", "restitution", "velocity"}});
+    body.surface = detail::read_surface(given, read);
+    if (const JsonValue* velocity = find(given, "velocity")) {
+      body.surface.velocity = read.vector3(*velocity);
+    }
   }
 }
 

@@ -136,7 +136,7 @@ class SceneBuilder {
     add_warnings(request.warnings);
   }
 
-  /// Of motions between states.
+  /// The way of motions between states.
   [[nodiscard]] Turning turning() const { return question_.turning.value_or(Turning::shortest); }
 
   /// What the texts say of joints that move; a warning names the others.

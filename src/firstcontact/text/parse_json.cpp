@@ -347,7 +347,7 @@ class JsonParser {
     return digits.front() == '-' ? -0.0 : 0.0;
   }
 
-  /// Of "", "e5", "E+5", "e-5"; infinite where it fits no double.
+  /// The number of "", "e5", "E+5", "e-5"; infinite where it fits no double.
   static double exponent(std::string_view text) {
     if (text.empty()) {
       return 0.0;

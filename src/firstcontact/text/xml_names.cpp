@@ -53,7 +53,7 @@ std::string_view without_prefix(std::string_view name) {
 
 bool is_xacro(std::string_view name) { return name.starts_with("xacro:"); }
 
-/// Of XML itself.
+/// Whether an attribute is one of XML itself.
 bool is_declaration(std::string_view attribute) {
   return attribute == "xmlns" || attribute.starts_with("xmlns:") || attribute.starts_with("xml:") ||
          attribute.starts_with("xsi:");

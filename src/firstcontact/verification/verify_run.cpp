@@ -131,7 +131,7 @@ class Verification {
     result_.problem_at = at;
   }
 
-  /// Of two bodies that the script moves, or nobody, nothing was promised.
+  /// Nothing was promised of two bodies that the script moves, or nobody.
   [[nodiscard]] bool may_touch(const BodyPair& pair) const {
     return (members_[pair[0]].is_free || members_[pair[1]].is_free) &&
            loaded_.bodies.rules().margin(pair).has_value();

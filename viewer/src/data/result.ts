@@ -64,7 +64,7 @@ export interface Feature {
 
 export interface Contact {
   readonly bodies: Names;
-  /// Which piece of each, where links may have several.
+  /// Which geometry of each, where links may have several.
   readonly geometries?: readonly [number, number];
   readonly features: readonly [Feature, Feature];
   readonly triangles: readonly [number, number];

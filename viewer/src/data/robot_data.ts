@@ -2,7 +2,7 @@
 
 import type { PoseData, QuaternionWxyz, Vector3 } from "./result";
 
-/// A piece of a link, by the number of its mesh.
+/// A geometry of a link, by the number of its mesh.
 export interface GeometryData {
   readonly mesh: number;
   readonly pose: PoseData;

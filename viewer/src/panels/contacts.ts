@@ -13,8 +13,8 @@ const mostRows = 100;
 function featureText(model: Model, contact: Contact, side: 0 | 1): string {
   const { type, index } = contact.features[side];
   const several = model.body(contact.bodies[side]).parts.length > 1;
-  const piece = several ? ` of piece ${contact.geometries?.[side] ?? 0}` : "";
-  return `${model.shortName(contact.bodies[side])} ${type} ${index}${piece}`;
+  const geometry = several ? ` of geometry ${contact.geometries?.[side] ?? 0}` : "";
+  return `${model.shortName(contact.bodies[side])} ${type} ${index}${geometry}`;
 }
 
 function speedText(speed: number): string {

@@ -17,7 +17,7 @@ std::string without_slash(const std::string& name) {
   return name.starts_with('/') ? name.substr(1) : name;
 }
 
-/// Of a message with a header; may be null.
+/// The frame of a message with a header; may be null.
 const JsonValue* frame_name(const JsonValue& message) {
   const JsonValue* header = find_filled(message, "header");
   return header == nullptr ? nullptr : find_filled(*header, "frame_id");

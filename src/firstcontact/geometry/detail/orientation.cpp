@@ -47,7 +47,7 @@ class Expansion {
   [[nodiscard]] int sign() const { return size_ == 0 ? 0 : terms_[size_ - 1] > 0.0 ? 1 : -1; }
 
  private:
-  // Of a 3x3 determinant: 3 times 2 times 2 products of three sums of two terms, each with a tail.
+  // A 3x3 determinant: 3 times 2 times 2 products of three sums of two terms, each with a tail.
   static constexpr std::size_t kMostTerms = 3 * 2 * 2 * 2 * 2 * 4;
   std::array<double, kMostTerms + 1> terms_;
   std::size_t size_ = 0;

@@ -105,7 +105,7 @@ HWY_EXPORT(LeastRows);
 HWY_EXPORT(FarthestAlongOne);
 HWY_EXPORT(FarthestAlongThree);
 
-/// Of fewer corners than the vector kernels need.
+/// The farthest of fewer corners than the vector kernels need.
 Eigen::Index farthest_of_few(const PointRows& corners, const Eigen::Vector3d& n) {
   Eigen::Index best = 0;
   double most = -std::numeric_limits<double>::infinity();

@@ -22,7 +22,7 @@ Vector across(const Vector& d, const Vector& along) {
   return is_positive(square) ? d - (dot(d, along) / square) * along : d;
 }
 
-/// Of a corner over a face: the foot is p[0] + u (p[1] - p[0]) + v (p[2] - p[0]).
+/// The foot of a corner on a face: p[0] + u (p[1] - p[0]) + v (p[2] - p[0]).
 struct Foot {
   DoubleDouble height;  ///< Over the plane, of any unit.
   Vector point;

@@ -23,7 +23,7 @@ struct MovingCorners {
   std::size_t count = 3;  ///< Of corners that differ; a vertex or an edge has fewer.
   double slip = 0.0;      ///< [m per step]  Error of a velocity.
 
-  // Of a body that turns; else all zero.
+  // The turn of a body; else all zero.
   double rate = 0.0;
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   double reach = 0.0;  ///< [m]  Of any corner from the pivot, to the end of the step.

@@ -130,7 +130,7 @@ class RobotPage {
     return geometries;
   }
 
-  /// Of each visual; empty where the file has others than the model.
+  /// The color of each visual; empty where the file has others than the model.
   [[nodiscard]] std::vector<Color> colors_of(const Link& link) const {
     const auto found = colors_.find(link.name);
     return found == colors_.end() || found->second.size() != link.visual.size()

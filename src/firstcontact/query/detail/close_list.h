@@ -25,8 +25,8 @@ namespace firstcontact::detail {
 
 /// Takes pairs as they are found, some of them more than once. As long as there are few, all are
 /// listed. Of many only those that the list may be left with are kept, and their number counted.
-/// Of very many even counting would take long: it ends, and with it the search for those that are
-/// not among the nearest.
+/// Counting very many would take long: it ends, and with it the search for those that are not
+/// among the nearest.
 class CloseList {
  public:
   /// @param pairs  where the list is; what it holds is dropped

@@ -90,9 +90,9 @@ void for_each_close(const ContactFrame& frame, const TrianglePair& triangles, co
   }
 }
 
-/// Of surfaces that screw_sliding on each other, most pairs of boxes are near each other, as boxes
-/// of curved patches are thicker than the gap. Begins the list anew. False where they do not
-/// screw_sliding.
+/// Most pairs of boxes of surfaces that slide on a screw are near each other, as boxes of curved
+/// patches are thicker than the gap. Begins the list anew. False where they do not slide on a
+/// screw.
 bool find_close_by_screw_sliding(const ContactFrame& frame, const RelativeState& state,
                                  const CloseBand& band, WorkspaceData& workspace, CloseList& list) {
   const MovingPair& pair = frame.pair;

@@ -65,7 +65,7 @@ Vector3d rate_at(const Triangle& T, const Triangle& rates, const TriangleFeature
   return weight(0) * rates[0] + weight(1) * rates[1] + weight(2) * rates[2];
 }
 
-/// Of B's point relative to A's.
+/// The velocity of B's point relative to A's.
 Vector3d closest_velocity(const MovingPair& pair, const RelativeState& state,
                           std::uint32_t triangle_A, std::uint32_t triangle_B,
                           const ClosestFeatures& closest) {
@@ -147,7 +147,7 @@ void keep_most(std::size_t most, std::vector<CloseKey>& keys) {
   keys.resize(kept.size());
 }
 
-/// Of the pairs that are listed by their keys, each once.
+/// Appends the contacts of the pairs that are listed by their keys, each once.
 ContactCount append_contacts(const ContactFrame& frame, const RelativeState& state,
                              std::size_t most, std::vector<CloseKey>& keys,
                              std::vector<Contact>& contacts) {

@@ -47,7 +47,7 @@ OwnBox own_box(const HierarchyNode& node, int slot) {
 /// How a ray meets a triangle.
 enum class Crossing { none, leaving, entering, unsure };
 
-/// Of a point with an error bound, in the solid's frame and unit.
+/// The turns about a point with an error bound, in the solid's frame and unit.
 class WindingNumber {
  public:
   WindingNumber(const Hierarchy& solid, double t, const Vector3d& point, double error)

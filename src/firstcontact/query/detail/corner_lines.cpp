@@ -47,7 +47,7 @@ class Lines {
   [[nodiscard]] double position_error() const { return position_error_; }
 
  private:
-  /// Of a body point that rests in the body, at a time.
+  /// The place of a point that rests in the body, at a time.
   DoubleDoubleVector3 place(const Vector3d& p_BC, double t) {
     const ConstantRatePath path = body_.X_WS.path(0, p_BC);
     position_error_ = std::max(position_error_, path.position_error());

@@ -27,7 +27,7 @@ std::int32_t Prove(std::int32_t* codes, const float* time, float shift, unsigned
     const auto before =
         hn::Mul(hn::Add(hn::BitCast(df, hn::AndNot(lane_bits, code)), hn::Set(df, shift)),
                 hn::Set(df, 1.0f - 0x1p-22f));
-    // Of numbers that are not negative the codes sort like the numbers.
+    // The codes of numbers that are not negative sort like the numbers.
     const auto longest =
         hn::Max(hn::BitCast(d, before), hn::BitCast(d, hn::Load(df, time + first)));
     const auto lane = hn::Iota(d, static_cast<std::int32_t>(first));

@@ -81,7 +81,7 @@ class MovingPair {
   /// The directions are those of the centre line and of each box's axes. A triangle's box counts as
   /// its triangle only. The first direction that lasts for `enough` is not improved on.
   ///
-  /// Of a body that deforms, the boxes grow. Derivation: were the body not to turn, all vertices
+  /// The boxes of a body that deforms grow. Derivation: were the body not to turn, all vertices
   /// would stay in the interpolated box, whose reach n . c + sum |n . a_k| h_k along n is linear in
   /// time. Turning adds the velocities of where the vertices are now, and the accelerations of
   /// advance_deforming().

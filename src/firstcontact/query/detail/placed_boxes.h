@@ -56,7 +56,7 @@ struct alignas(64) Placed {
   float own_turn[2][kPlaces];       // w |n x u| of the box's own body
   float turn_of_other[2][kPlaces];  // and of the other one
   float swing[2][kPlaces];          // rate of the box's own extent, as it turns
-  // Of bodies that deform:
+  // For bodies that deform:
   float drift[3][kPlaces];   // velocity of the centre as its body sees it, in the frame's axes
   float growth[3][kPlaces];  // rate of the extent
 };

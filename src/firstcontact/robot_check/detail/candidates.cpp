@@ -7,25 +7,25 @@
 #include <tuple>
 #include <utility>
 
-#include <firstcontact/robot_check/detail/placed_part.h>
+#include <firstcontact/robot_check/detail/placed_geometry.h>
 
 namespace firstcontact::detail {
 namespace {
 
 constexpr double kUp = 1.0 + 0x1p-40;
 
-/// [-]  A bound of tracking errors over a window may exceed that at its middle by this part of it.
+/// [-]  A bound of tracking errors over a window may exceed that at its middle by this share of it.
 constexpr double kLooseError = 0.05;
 constexpr int kErrorDepth = 8;
 
-/// [-]  A gap of this part of the distance at a window's middle is near enough: better ones cost
+/// [-]  A gap of this share of the distance at a window's middle is near enough: better ones cost
 /// more than the windows that they spare.
 constexpr double kNear = 0.5;
 
-/// Two parts that are still in question.
+/// Two geometries that are still in question.
 struct Question {
   std::size_t pair = 0;
-  std::array<std::size_t, 2> parts = {};
+  std::array<std::size_t, 2> geometries = {};
   std::optional<std::array<std::size_t, 2>> placed = {};  // In a frame that carries both.
   Eigen::Vector3d n = Eigen::Vector3d::Zero();            // Between the two, found last.
   double middle = 0.0;                                    // [m]  Gap at the middle of the window.
@@ -36,8 +36,8 @@ class Search {
  public:
   /// @param distance  [m]  in place of all thresholds, where it is given
   Search(const RobotTimeline& timeline, std::size_t piece, const std::vector<RobotTree>& trees,
-         const std::vector<std::optional<SweptPart>>& resting, std::span<const double> held = {},
-         const std::optional<double>& distance = std::nullopt)
+         const std::vector<std::optional<SweptGeometry>>& resting,
+         std::span<const double> held = {}, const std::optional<double>& distance = std::nullopt)
       : timeline_(timeline),
         piece_(piece),
         grid_{timeline.piece(piece)},
@@ -51,12 +51,12 @@ class Search {
         in_world_(resting.size()),
         in_frames_(resting.size()) {}
 
-  std::vector<PartCandidate> run(const std::function<bool(std::size_t)>& wanted) {
+  std::vector<GeometryCandidate> run(const std::function<bool(std::size_t)>& wanted) {
     narrow({}, near_by_boxes(wanted));
     join_windows();
-    std::vector<PartCandidate> whole;
+    std::vector<GeometryCandidate> whole;
     whole.swap(found_);
-    for (PartCandidate& candidate : whole) {
+    for (GeometryCandidate& candidate : whole) {
       if (has_tracking_errors_) {
         add_thresholds(candidate, 0);
       } else {
@@ -69,7 +69,7 @@ class Search {
   }
 
  private:
-  /// Where a part is in the piece, tracking errors included.
+  /// Where a geometry is in the piece, tracking errors included.
   struct Box {
     Eigen::Vector3d low;
     Eigen::Vector3d high;
@@ -81,7 +81,7 @@ class Search {
     return held_.empty() ? margin : std::max(margin, held_[pair]);
   }
 
-  /// Those of the tested parts whose boxes are not farther apart than their margins.
+  /// Those of the tested geometries whose boxes are not farther apart than their margins.
   std::vector<Question> near_by_boxes(const std::function<bool(std::size_t)>& wanted) {
     const std::vector<Box> boxes = boxes_of_piece();
     std::vector<Question> near;
@@ -91,12 +91,13 @@ class Search {
         continue;
       }
       const auto [first, second] = pair.members;
-      for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
-        for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
-             ++b) {
+      for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
+           ++a) {
+        for (std::size_t b = timeline_.first_geometry(second);
+             b < timeline_.first_geometry(second + 1); ++b) {
           const auto gap = (boxes[b].low - boxes[a].high).cwiseMax(boxes[a].low - boxes[b].high);
           if (!(gap.maxCoeff() > margin_of(k) * kUp)) {
-            near.push_back({.pair = k, .parts = {a, b}});
+            near.push_back({.pair = k, .geometries = {a, b}});
           }
         }
       }
@@ -107,11 +108,11 @@ class Search {
   std::vector<Box> boxes_of_piece() {
     std::vector<Box> boxes;
     boxes.reserve(resting_.size());
-    for (std::size_t part = 0; part < resting_.size(); ++part) {
-      const SweptPart& swept = in_world(part, {});
+    for (std::size_t geometry = 0; geometry < resting_.size(); ++geometry) {
+      const SweptGeometry& swept = in_world(geometry, {});
       Box box{swept.low, swept.high};
       if (has_tracking_errors_) {
-        const Eigen::Vector3d more = Eigen::Vector3d::Constant(tracking_bound(part) * kUp);
+        const Eigen::Vector3d more = Eigen::Vector3d::Constant(tracking_bound(geometry) * kUp);
         box.low -= more;
         box.high += more;
       }
@@ -126,11 +127,11 @@ class Search {
       if (is_far(question, window)) {
         continue;
       }
-      // Shorter windows help where the parts are apart at the middle of this one.
+      // Shorter windows help where the geometries are apart at the middle of this one.
       if (window.can_be_halved() && question.apart) {
         open.push_back(question);
       } else {
-        found_.push_back({grid_.at(window), piece_, question.pair, question.parts, 0.0,
+        found_.push_back({grid_.at(window), piece_, question.pair, question.geometries, 0.0,
                           question.middle - margin_of(question.pair)});
       }
     }
@@ -142,10 +143,10 @@ class Search {
 
   /// Whether the two are proven farther apart than their threshold throughout the window.
   bool is_far(Question& question, const GridWindow& window) {
-    const auto [first, second] = question.parts;
+    const auto [first, second] = question.geometries;
     if (!question.placed) {
-      const SweptPart& A = in_world(first, window);
-      const SweptPart& B = in_world(second, window);
+      const SweptGeometry& A = in_world(first, window);
+      const SweptGeometry& B = in_world(second, window);
       const double threshold = threshold_of(question, window);
       if (boxes_are_far(question, A, B, threshold)) {
         return true;
@@ -159,13 +160,13 @@ class Search {
       question.placed = {in_frame(first, *frame), in_frame(second, *frame)};
       question.n.setZero();
     }
-    const SweptPart& A = placed_[(*question.placed)[0]].over(window);
-    const SweptPart& B = placed_[(*question.placed)[1]].over(window);
+    const SweptGeometry& A = placed_[(*question.placed)[0]].over(window);
+    const SweptGeometry& B = placed_[(*question.placed)[1]].over(window);
     const double threshold = threshold_of(question, window);
     return boxes_are_far(question, A, B, threshold) || hulls_are_far(question, A, B, threshold);
   }
 
-  static bool boxes_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+  static bool boxes_are_far(Question& question, const SweptGeometry& A, const SweptGeometry& B,
                             double threshold) {
     const SweptGap gap = gap_of_boxes(A, B);
     if (question.n.isZero(0.0)) {
@@ -175,7 +176,7 @@ class Search {
     return gap.bound > threshold;
   }
 
-  static bool hulls_are_far(Question& question, const SweptPart& A, const SweptPart& B,
+  static bool hulls_are_far(Question& question, const SweptGeometry& A, const SweptGeometry& B,
                             double threshold) {
     const SweptGap middle = gap_at_middle(A, B, threshold, question.n, kNear);
     question.n = middle.n;
@@ -189,35 +190,36 @@ class Search {
     if (has_tracking_errors_) {
       for (std::size_t k = 0; k < 2; ++k) {
         threshold += question.placed ? placed_[(*question.placed)[k]].tracking_bound(window)
-                                     : tracking_bound(question.parts[k], window);
+                                     : tracking_bound(question.geometries[k], window);
       }
     }
     return threshold * kUp;
   }
 
-  double tracking_bound(std::size_t part, const GridWindow& window = {}) {
-    return resting_[part] ? 0.0 : placed_[place_in_world(part)].tracking_bound(window);
+  double tracking_bound(std::size_t geometry, const GridWindow& window = {}) {
+    return resting_[geometry] ? 0.0 : placed_[place_in_world(geometry)].tracking_bound(window);
   }
 
-  const SweptPart& in_world(std::size_t part, const GridWindow& window) {
-    return resting_[part] ? *resting_[part] : placed_[place_in_world(part)].over(window);
+  const SweptGeometry& in_world(std::size_t geometry, const GridWindow& window) {
+    return resting_[geometry] ? *resting_[geometry]
+                              : placed_[place_in_world(geometry)].over(window);
   }
 
-  std::size_t place_in_world(std::size_t part) {
-    if (!in_world_[part]) {
-      in_world_[part] = place(part, std::nullopt);
+  std::size_t place_in_world(std::size_t geometry) {
+    if (!in_world_[geometry]) {
+      in_world_[geometry] = place(geometry, std::nullopt);
     }
-    return *in_world_[part];
+    return *in_world_[geometry];
   }
 
-  std::size_t in_frame(std::size_t part, const RobotLink& frame) {
-    for (const auto& [known, index] : in_frames_[part]) {
+  std::size_t in_frame(std::size_t geometry, const RobotLink& frame) {
+    for (const auto& [known, index] : in_frames_[geometry]) {
       if (known == frame) {
         return index;
       }
     }
-    in_frames_[part].emplace_back(frame, place(part, frame));
-    return in_frames_[part].back().second;
+    in_frames_[geometry].emplace_back(frame, place(geometry, frame));
+    return in_frames_[geometry].back().second;
   }
 
   /// The last link that carries both, where it moves.
@@ -246,34 +248,36 @@ class Search {
     return *course;
   }
 
-  PartMount mount(std::size_t part) {
-    const auto [link, path] = timeline_.seat_of(part, middle_);
+  GeometryMount mount(std::size_t geometry) {
+    const auto [link, path] = timeline_.seat_of(geometry, middle_);
     if (link) {
-      return {timeline_.parts()[part], robot(link->robot),
+      return {timeline_.geometries()[geometry], robot(link->robot),
               trees_[link->robot].node_of_link[link->link], *path};
     }
     bodies_.emplace_back(std::vector<TreePoses::Node>{{TreePoses::kWorld, path}}, grid_);
-    return {timeline_.parts()[part], bodies_.back()};
+    return {timeline_.geometries()[geometry], bodies_.back()};
   }
 
-  std::size_t place(std::size_t part, const std::optional<RobotLink>& frame) {
+  std::size_t place(std::size_t geometry, const std::optional<RobotLink>& frame) {
     placed_.emplace_back(
-        timeline_.parts()[part], mount(part),
+        timeline_.geometries()[geometry], mount(geometry),
         frame ? trees_[frame->robot].node_of_link[frame->link] : TreePoses::kWorld, grid_,
-        has_tracking_errors_ ? std::optional(timeline_.path(part, middle_, frame)) : std::nullopt);
+        has_tracking_errors_ ? std::optional(timeline_.path(geometry, middle_, frame))
+                             : std::nullopt);
     return placed_.size() - 1;
   }
 
   void join_windows() {
-    const auto key = [](const PartCandidate& c) {
-      return std::tuple(c.pair, c.parts, c.window.begin);
+    const auto key = [](const GeometryCandidate& c) {
+      return std::tuple(c.pair, c.geometries, c.window.begin);
     };
-    std::sort(found_.begin(), found_.end(),
-              [&](const PartCandidate& x, const PartCandidate& y) { return key(x) < key(y); });
-    std::vector<PartCandidate> joined;
-    for (const PartCandidate& c : found_) {
+    std::sort(
+        found_.begin(), found_.end(),
+        [&](const GeometryCandidate& x, const GeometryCandidate& y) { return key(x) < key(y); });
+    std::vector<GeometryCandidate> joined;
+    for (const GeometryCandidate& c : found_) {
       const bool follows = !joined.empty() && joined.back().pair == c.pair &&
-                           joined.back().parts == c.parts &&
+                           joined.back().geometries == c.geometries &&
                            joined.back().window.end == c.window.begin;
       if (follows) {
         joined.back().window.end = c.window.end;
@@ -286,22 +290,22 @@ class Search {
   }
 
   /// Windows so short that the bound of tracking errors is tight.
-  void add_thresholds(const PartCandidate& candidate, int depth) {
-    const auto& [window, piece, pair, parts, unused, gap, no_hold] = candidate;
+  void add_thresholds(const GeometryCandidate& candidate, int depth) {
+    const auto& [window, piece, pair, geometries, unused, gap, no_hold] = candidate;
     const double middle = 0.5 * (window.begin + window.end);
-    const PairPaths paths = timeline_.paths(parts[0], parts[1], middle);
-    const auto error_over = [&, &parts = candidate.parts](const TimeWindow& part) {
-      return (paths.A.tracking_bound(timeline_.parts()[parts[0]].ball, part) +
-              paths.B.tracking_bound(timeline_.parts()[parts[1]].ball, part)) *
+    const PairPaths paths = timeline_.paths(geometries[0], geometries[1], middle);
+    const auto error_over = [&, &geometries = candidate.geometries](const TimeWindow& stretch) {
+      return (paths.A.tracking_bound(timeline_.geometries()[geometries[0]].ball, stretch) +
+              paths.B.tracking_bound(timeline_.geometries()[geometries[1]].ball, stretch)) *
              kUp;
     };
     const double error = error_over(window);
     if (depth < kErrorDepth && error > (1.0 + kLooseError) * error_over({middle, middle})) {
-      add_thresholds({{window.begin, middle}, piece, pair, parts, 0.0, gap}, depth + 1);
-      add_thresholds({{middle, window.end}, piece, pair, parts, 0.0, gap}, depth + 1);
+      add_thresholds({{window.begin, middle}, piece, pair, geometries, 0.0, gap}, depth + 1);
+      add_thresholds({{middle, window.end}, piece, pair, geometries, 0.0, gap}, depth + 1);
       return;
     }
-    found_.push_back({window, piece, pair, parts, margin_of(pair) + error, gap});
+    found_.push_back({window, piece, pair, geometries, margin_of(pair) + error, gap});
   }
 
   const RobotTimeline& timeline_;
@@ -312,13 +316,13 @@ class Search {
   std::optional<double> distance_;
   bool has_tracking_errors_;
   const std::vector<RobotTree>& trees_;
-  const std::vector<std::optional<SweptPart>>& resting_;
+  const std::vector<std::optional<SweptGeometry>>& resting_;
   std::vector<std::optional<TreePoses>> robots_;
   std::deque<TreePoses> bodies_;
-  std::deque<PlacedPart> placed_;
-  std::vector<std::optional<std::size_t>> in_world_;  // Of each part, where placed.
+  std::deque<PlacedGeometry> placed_;
+  std::vector<std::optional<std::size_t>> in_world_;  // Of each geometry, where placed.
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
-  std::vector<PartCandidate> found_;
+  std::vector<GeometryCandidate> found_;
 };
 
 }  // namespace
@@ -342,27 +346,29 @@ RobotTree::RobotTree(const RobotModel& model) : nodes{{}}, node_of_link(model.li
 }
 
 CandidateSearch::CandidateSearch(const RobotTimeline& timeline)
-    : timeline_(timeline), resting_(timeline.parts().size()) {
+    : timeline_(timeline), resting_(timeline.geometries().size()) {
   for (std::size_t robot = 0; robot < timeline.scene().robot_count(); ++robot) {
     trees_.emplace_back(timeline.scene().robot_motion(robot).model());
   }
   const TimeGrid step{{0.0, 1.0}};
   for (std::size_t k = 0; k < resting_.size(); ++k) {
-    const Part& part = timeline.parts()[k];
-    if (part.rests) {
+    const BoundedGeometry& geometry = timeline.geometries()[k];
+    if (geometry.rests) {
       TreePoses course({{TreePoses::kWorld, timeline.seat_of(k, 0.5).path}}, step);
-      resting_[k] = PartTrack(part, PartMount(part, course), TreePoses::kWorld).rest();
+      resting_[k] =
+          GeometryTrack(geometry, GeometryMount(geometry, course), TreePoses::kWorld).rest();
     }
   }
 }
 
-std::vector<PartCandidate> CandidateSearch::find(std::size_t piece,
-                                                 const std::function<bool(std::size_t)>& wanted,
-                                                 std::span<const double> held) const {
+std::vector<GeometryCandidate> CandidateSearch::find(std::size_t piece,
+                                                     const std::function<bool(std::size_t)>& wanted,
+                                                     std::span<const double> held) const {
   return Search(timeline_, piece, trees_, resting_, held).run(wanted);
 }
 
-std::vector<PartCandidate> CandidateSearch::find_within(std::size_t piece, double distance) const {
+std::vector<GeometryCandidate> CandidateSearch::find_within(std::size_t piece,
+                                                            double distance) const {
   return Search(timeline_, piece, trees_, resting_, {}, distance).run({});
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which parts of a scene may touch in a piece of time.
+/// Which geometries of a scene may touch in a piece of time.
 
 #pragma once
 
@@ -16,24 +16,24 @@
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/query/shape_pair.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
-#include <firstcontact/robot_check/detail/swept_part.h>
+#include <firstcontact/robot_check/detail/swept_geometry.h>
 
 namespace firstcontact::detail {
 
-/// Two parts that may touch in a window of time.
-struct PartCandidate {
+/// Two geometries that may touch in a window of time.
+struct GeometryCandidate {
   TimeWindow window;
   std::size_t piece = 0;
-  std::size_t pair = 0;                   ///< Index among the tested pairs.
-  std::array<std::size_t, 2> parts = {};  ///< Of its members, in their order.
+  std::size_t pair = 0;                        ///< Index among the tested pairs.
+  std::array<std::size_t, 2> geometries = {};  ///< Of its members, in their order.
   double threshold = 0.0;  ///< [m]  Margin, paddings, and tracking errors over the window.
   double gap = 0.0;        ///< [m]  A bound of how far apart they are at some time of the window.
   std::optional<Hold> hold = {};  ///< In place of the threshold, where keep_half is asked.
 
   /// By pieces; in each the nearest first, whose contact may spare the search for others.
-  friend bool operator<(const PartCandidate& x, const PartCandidate& y) {
-    const auto key = [](const PartCandidate& c) {
-      return std::tuple(c.piece, c.gap, c.window.begin, c.pair, c.parts);
+  friend bool operator<(const GeometryCandidate& x, const GeometryCandidate& y) {
+    const auto key = [](const GeometryCandidate& c) {
+      return std::tuple(c.piece, c.gap, c.window.begin, c.pair, c.geometries);
     };
     return key(x) < key(y);
   }
@@ -51,28 +51,29 @@ struct RobotTree {
   explicit RobotTree(const RobotModel& model);
 };
 
-/// Finds the parts that may touch, piece by piece. Thread-safe.
+/// Finds the geometries that may touch, piece by piece. Thread-safe.
 class CandidateSearch {
  public:
   explicit CandidateSearch(const RobotTimeline& timeline);
 
   /// In order; outside of their windows all pairs that are tested in the piece are farther apart
-  /// than their thresholds. Of one pair of parts the windows do not overlap.
+  /// than their thresholds. Of one pair of geometries the windows do not overlap.
   ///
   /// @param wanted  whether a tested pair is of interest, by index; empty where all are
   /// @param held    [m]  a distance for each tested pair, for which a lesser threshold does not
   ///                count; empty where all thresholds do
-  [[nodiscard]] std::vector<PartCandidate> find(std::size_t piece,
-                                                const std::function<bool(std::size_t)>& wanted,
-                                                std::span<const double> held = {}) const;
+  [[nodiscard]] std::vector<GeometryCandidate> find(std::size_t piece,
+                                                    const std::function<bool(std::size_t)>& wanted,
+                                                    std::span<const double> held = {}) const;
 
   /// The same of all pairs that are tested, with one distance [m] in place of their thresholds.
-  [[nodiscard]] std::vector<PartCandidate> find_within(std::size_t piece, double distance) const;
+  [[nodiscard]] std::vector<GeometryCandidate> find_within(std::size_t piece,
+                                                           double distance) const;
 
  private:
   const RobotTimeline& timeline_;
-  std::vector<RobotTree> trees_;                   // Of each robot.
-  std::vector<std::optional<SweptPart>> resting_;  // Of each part that rests over the step.
+  std::vector<RobotTree> trees_;                       // Of each robot.
+  std::vector<std::optional<SweptGeometry>> resting_;  // Of each geometry that rests over the step.
 };
 
 }  // namespace firstcontact::detail

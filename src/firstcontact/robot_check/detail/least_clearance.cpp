@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <limits>
 
+#include <firstcontact/robot_check/detail/geometry_search.h>
 #include <firstcontact/robot_check/detail/least_descent.h>
-#include <firstcontact/robot_check/detail/part_search.h>
 
 namespace firstcontact::detail {
 namespace {
 
-/// Two parts in one piece of time, and how far apart balls say that they are.
+/// Two geometries in one piece of time, and how far apart balls say that they are.
 struct Place {
-  PartCandidate candidate;
+  GeometryCandidate candidate;
   double bound = 0.0;  ///< [m]
 };
 
@@ -24,8 +24,10 @@ std::vector<Place> places_by_distance(const RobotTimeline& timeline, const Balls
     if (!timeline.is_tested(pair, piece)) {
       continue;
     }
-    for (std::size_t a = timeline.first_part(first); a < timeline.first_part(first + 1); ++a) {
-      for (std::size_t b = timeline.first_part(second); b < timeline.first_part(second + 1); ++b) {
+    for (std::size_t a = timeline.first_geometry(first); a < timeline.first_geometry(first + 1);
+         ++a) {
+      for (std::size_t b = timeline.first_geometry(second); b < timeline.first_geometry(second + 1);
+           ++b) {
         places.push_back({{timeline.piece(piece), piece, index, {a, b}, 0.0},
                           gap_bound(balls[piece][a], balls[piece][b])});
       }
@@ -42,10 +44,10 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
                                    std::size_t pair, const RobotCheckOptions& options,
                                    LinkWorkspace& workspace) {
   constexpr std::size_t kLooks = 8;  // What is near half way is likely to be nearest.
-  const double tolerance = kPartOfTolerance * options.tolerance;
+  const double tolerance = kShareOfTolerance * options.tolerance;
   const std::vector<Place> places = places_by_distance(timeline, balls, pair);
   const auto search_of = [&](const Place& place) {
-    return PartSearch(timeline, place.candidate, options, workspace);
+    return GeometrySearch(timeline, place.candidate, options, workspace);
   };
   ClosestApproach best;
   LeastDescent descent(options, best);
@@ -54,7 +56,7 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
   const std::size_t looks =
       spent(options.budget) == UndecidedReason::none ? std::min(kLooks, places.size()) : 0;
   for (std::size_t k = 0; k < looks && places[k].bound < least; ++k) {
-    PartSearch search = search_of(places[k]);
+    GeometrySearch search = search_of(places[k]);
     const TimeWindow& window = places[k].candidate.window;
     const double distance = descent.look(search, 0.5 * (window.begin + window.end));
     if (distance < least) {
@@ -64,7 +66,7 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
   }
   if (nearest != nullptr) {
     const TimeWindow& window = nearest->candidate.window;
-    PartSearch search = search_of(*nearest);
+    GeometrySearch search = search_of(*nearest);
     descent.descend(search, window, 0.5 * (window.begin + window.end));
   }
   double unproven = std::numeric_limits<double>::infinity();  // [m]  Where the budget ended it.
@@ -72,7 +74,7 @@ ClosestApproach least_clearance_of(const RobotTimeline& timeline, const BallsOfP
     if (place.bound >= best.distance - tolerance || best.distance <= tolerance) {
       break;
     }
-    PartSearch search = search_of(place);
+    GeometrySearch search = search_of(place);
     descent.run(search, place.candidate.window);
     if (best.reason != UndecidedReason::none) {
       unproven = place.bound;  // Those that come later are no nearer.

@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// The balls around each part throughout each piece of time.
+/// The balls around each geometry throughout each piece of time.
 using BallsOfPieces = std::vector<std::vector<SweptBall>>;
 
 /// The least distance of a tested pair over all pieces in which it is tested.

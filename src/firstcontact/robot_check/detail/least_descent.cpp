@@ -52,7 +52,7 @@ double narrow(Bracket times, const Distance& distance) {
 
 }  // namespace
 
-double LeastDescent::look(PartSearch& search, double t) {
+double LeastDescent::look(GeometrySearch& search, double t) {
   const DistanceResult found = search.nearest(t);
   if (found.distance < best_.distance) {
     best_.distance = found.distance;
@@ -62,12 +62,12 @@ double LeastDescent::look(PartSearch& search, double t) {
   return found.distance;
 }
 
-bool LeastDescent::improve(PartSearch& search, double t) {
+bool LeastDescent::improve(GeometrySearch& search, double t) {
   const double before = best_.distance;
   return !search.is_farther(t, before) && look(search, t) < before;
 }
 
-void LeastDescent::descend(PartSearch& search, const TimeWindow& window, double t) {
+void LeastDescent::descend(GeometrySearch& search, const TimeWindow& window, double t) {
   constexpr int kMostPairs = 6;
   constexpr int kSamples = 16;
   double before = look(search, t);
@@ -86,13 +86,13 @@ void LeastDescent::descend(PartSearch& search, const TimeWindow& window, double 
   }
 }
 
-void LeastDescent::sample(PartSearch& search, const TimeWindow& window) {
+void LeastDescent::sample(GeometrySearch& search, const TimeWindow& window) {
   constexpr int kSamples = 4;
   const auto distance = [&](double time) { return look(search, time); };
   (void)narrow(bracket(window, kSamples, distance), distance);
 }
 
-void LeastDescent::run(PartSearch& search, const TimeWindow& window) {
+void LeastDescent::run(GeometrySearch& search, const TimeWindow& window) {
   double t = window.begin;
   while (best_.distance > tolerance_ && best_.reason == UndecidedReason::none) {
     best_.reason = spent(options_.budget);

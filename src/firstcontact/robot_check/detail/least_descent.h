@@ -1,43 +1,43 @@
 /// @file
-/// How close two parts come in a piece of time: finds a lesser distance, or proves that there is
-/// none.
+/// How close two geometries come in a piece of time: finds a lesser distance, or proves that there
+/// is none.
 
 #pragma once
 
 #include <firstcontact/motion/time_window.h>
 #include <firstcontact/robot_check/check_robots.h>
-#include <firstcontact/robot_check/detail/part_search.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 
 namespace firstcontact::detail {
 
-/// [-]  The part of the tolerance that leaves room for the rounding of differences.
-inline constexpr double kPartOfTolerance = 0.999;
+/// [-]  The share of the tolerance that leaves room for the rounding of differences.
+inline constexpr double kShareOfTolerance = 0.999;
 
-/// Lowers a distance that is known already, of these parts or of others.
+/// Lowers a distance that is known already, of these geometries or of others.
 class LeastDescent {
  public:
   /// @param best  its distance, t, closest and reason are set
   LeastDescent(const RobotCheckOptions& options, ClosestApproach& best)
-      : options_(options), tolerance_(kPartOfTolerance * options.tolerance), best_(best) {}
+      : options_(options), tolerance_(kShareOfTolerance * options.tolerance), best_(best) {}
 
   /// [m]  The distance at a time of the piece.
-  double look(PartSearch& search, double t);
+  double look(GeometrySearch& search, double t);
 
   /// Whether it is less than the best distance; if so, it is the best now.
-  bool improve(PartSearch& search, double t);
+  bool improve(GeometrySearch& search, double t);
 
   /// Goes down from a time of the window, along the distance of the two triangles that are closest
   /// there.
   ///
   /// That distance costs little to know. The descent goes on as long as it leads on.
-  void descend(PartSearch& search, const TimeWindow& window, double t);
+  void descend(GeometrySearch& search, const TimeWindow& window, double t);
 
   /// Proves that the two are farther apart than the best distance less the tolerance, or finds a
   /// lesser one for which that holds.
-  void run(PartSearch& search, const TimeWindow& window);
+  void run(GeometrySearch& search, const TimeWindow& window);
 
  private:
-  void sample(PartSearch& search, const TimeWindow& window);
+  void sample(GeometrySearch& search, const TimeWindow& window);
 
   const RobotCheckOptions& options_;
   double tolerance_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 #include <firstcontact/robot_check/detail/least_descent.h>
-#include <firstcontact/robot_check/detail/part_search.h>
 #include <firstcontact/robot_check/detail/swept_ball.h>
 
 namespace firstcontact::detail {
@@ -23,9 +23,9 @@ constexpr std::size_t kLooks = 32;
 constexpr std::size_t kBlock = 32;
 constexpr std::size_t kLargestRound = 32;
 
-/// Two parts in one piece of time, and how far apart balls say that they are.
+/// Two geometries in one piece of time, and how far apart balls say that they are.
 struct Place {
-  PartCandidate candidate;
+  GeometryCandidate candidate;
   double bound = std::numeric_limits<double>::infinity();  // [m]
 
   [[nodiscard]] double middle() const {
@@ -58,7 +58,7 @@ class Search {
   }
 
  private:
-  [[nodiscard]] double tolerance() const { return kPartOfTolerance * options_.tolerance; }
+  [[nodiscard]] double tolerance() const { return kShareOfTolerance * options_.tolerance; }
 
   [[nodiscard]] bool is_ended() const { return found_.least.reason != UndecidedReason::none; }
 
@@ -71,8 +71,8 @@ class Search {
   }
 
   /// Whether the two are nearer at t than all that was found so far.
-  bool look(const PartCandidate& candidate, double t) {
-    PartSearch search(timeline_, candidate, options_, workspaces_.local());
+  bool look(const GeometryCandidate& candidate, double t) {
+    GeometrySearch search(timeline_, candidate, options_, workspaces_.local());
     const bool is_nearer = LeastDescent(options_, found_.least).improve(search, t);
     if (is_nearer) {
       found_.pair = candidate.pair;
@@ -83,15 +83,15 @@ class Search {
   [[nodiscard]] std::vector<SweptBall> balls_of(std::size_t piece) {
     const TimeWindow window = timeline_.piece(piece);
     std::vector<SweptBall> balls;
-    for (std::size_t part = 0; part < timeline_.parts().size(); ++part) {
-      balls.push_back(swept_ball(timeline_.parts()[part].ball,
-                                 timeline_.path(part, 0.5 * (window.begin + window.end)), window,
-                                 workspaces_.local().places));
+    for (std::size_t geometry = 0; geometry < timeline_.geometries().size(); ++geometry) {
+      balls.push_back(swept_ball(timeline_.geometries()[geometry].ball,
+                                 timeline_.path(geometry, 0.5 * (window.begin + window.end)),
+                                 window, workspaces_.local().places));
     }
     return balls;
   }
 
-  /// Of each pair that is tested where its balls are nearest, the nearest pair first.
+  /// The place of each tested pair where its balls are nearest, the nearest pair first.
   std::vector<Place> nearest_places() {
     std::vector<Place> places(timeline_.pairs().size());
     for (std::size_t first = 0; first < timeline_.piece_count(); first += kBlock) {
@@ -120,9 +120,10 @@ class Search {
       return;
     }
     const auto [first, second] = pair.members;
-    for (std::size_t a = timeline_.first_part(first); a < timeline_.first_part(first + 1); ++a) {
-      for (std::size_t b = timeline_.first_part(second); b < timeline_.first_part(second + 1);
-           ++b) {
+    for (std::size_t a = timeline_.first_geometry(first); a < timeline_.first_geometry(first + 1);
+         ++a) {
+      for (std::size_t b = timeline_.first_geometry(second);
+           b < timeline_.first_geometry(second + 1); ++b) {
         const double bound = gap_bound(balls[a], balls[b]);
         if (bound < nearest.bound) {
           nearest = {{timeline_.piece(piece), piece, index, {a, b}}, bound};
@@ -143,7 +144,7 @@ class Search {
       }
     }
     if (nearest != nullptr && !is_done()) {
-      PartSearch search(timeline_, nearest->candidate, options_, workspaces_.local());
+      GeometrySearch search(timeline_, nearest->candidate, options_, workspaces_.local());
       LeastDescent(options_, found_.least)
           .descend(search, nearest->candidate.window, nearest->middle());
     }
@@ -153,20 +154,20 @@ class Search {
   void prove_all() {
     for (std::size_t first = 0; first < timeline_.piece_count() && !is_done(); first += kBlock) {
       const std::size_t last = std::min(first + kBlock, timeline_.piece_count());
-      std::vector<std::vector<PartCandidate>> of_pieces(last - first);
+      std::vector<std::vector<GeometryCandidate>> of_pieces(last - first);
       const double distance = found_.least.distance - tolerance();
       parallel_for(options_.threads, of_pieces.size(), [&](std::size_t k) {
         of_pieces[k] = candidates_.find_within(first + k, distance);
       });
-      std::vector<PartCandidate> all;
-      for (const std::vector<PartCandidate>& of_piece : of_pieces) {
+      std::vector<GeometryCandidate> all;
+      for (const std::vector<GeometryCandidate>& of_piece : of_pieces) {
         all.insert(all.end(), of_piece.begin(), of_piece.end());
       }
       prove(all);
     }
   }
 
-  void prove(std::span<const PartCandidate> left) {
+  void prove(std::span<const GeometryCandidate> left) {
     std::size_t size = 1;
     while (!left.empty() && !is_done()) {
       const auto round = left.first(std::min(size, left.size()));
@@ -174,7 +175,7 @@ class Search {
       size = std::min(2 * size, kLargestRound);
       std::vector<ClosestApproach> bests(round.size(), found_.least);
       parallel_for(options_.threads, round.size(), [&](std::size_t k) {
-        PartSearch search(timeline_, round[k], options_, workspaces_.local());
+        GeometrySearch search(timeline_, round[k], options_, workspaces_.local());
         LeastDescent(options_, bests[k]).run(search, round[k].window);
       });
       for (std::size_t k = 0; k < round.size(); ++k) {
@@ -183,7 +184,7 @@ class Search {
     }
   }
 
-  void take(const PartCandidate& candidate, const ClosestApproach& best) {
+  void take(const GeometryCandidate& candidate, const ClosestApproach& best) {
     const UndecidedReason reason = is_ended() ? found_.least.reason : best.reason;
     if (best.distance < found_.least.distance) {
       found_ = {candidate.pair, best};

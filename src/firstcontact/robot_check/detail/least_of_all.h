@@ -22,18 +22,19 @@ struct LeastOfAll {
   ClosestApproach least;  ///< Its lower bound holds for all pairs.
 };
 
-/// Two parts at a time at which they are known to be near each other.
+/// Two geometries at a time at which they are known to be near each other.
 struct KnownNear {
-  PartCandidate candidate;
+  GeometryCandidate candidate;
   double t = 0.0;
 };
 
 /// The least distance of all tested pairs over all pieces in which they are tested.
 ///
-/// Looks at the parts of each pair that balls around them say are nearest, and goes down from the
-/// least distance found. Then candidates for coming nearer than that are searched, piece by piece,
-/// as those for contacts are; what one of them finds holds for the next ones. Several are searched
-/// at a time, always so many by the same distance, so that the number of threads changes nothing.
+/// Looks at the geometries of each pair that balls around them say are nearest, and goes down from
+/// the least distance found. Then candidates for coming nearer than that are searched, piece by
+/// piece, as those for contacts are; what one of them finds holds for the next ones. Several are
+/// searched at a time, always so many by the same distance, so that the number of threads changes
+/// nothing.
 ///
 /// None where no pair is tested.
 [[nodiscard]] std::optional<LeastOfAll> least_of_all(const RobotTimeline& timeline,

@@ -1,5 +1,5 @@
 /// @file
-/// The contacts of two members at one time, which may be those of several of their parts.
+/// The contacts of two members at one time, which may be those of several of their geometries.
 
 #pragma once
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include <firstcontact/parallel/parallel_for.h>
-#include <firstcontact/robot_check/detail/part_search.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -15,13 +15,13 @@ HeldStretch stretch_from(const RobotTimeline& timeline, std::size_t pair, std::s
   const double margin = timeline.pairs()[pair].margin;
   HeldStretch stretch{.first_piece = piece, .hold = {}, .work = {}};
   StartGap start;
-  for (const auto& parts : parts_of(timeline, pair)) {
-    const PartCandidate candidate{.window = timeline.piece(piece),
-                                  .piece = piece,
-                                  .pair = pair,
-                                  .parts = parts,
-                                  .threshold = margin};
-    PartSearch search(timeline, candidate, options, workspace);
+  for (const auto& geometries : geometries_of(timeline, pair)) {
+    const GeometryCandidate candidate{.window = timeline.piece(piece),
+                                      .piece = piece,
+                                      .pair = pair,
+                                      .geometries = geometries,
+                                      .threshold = margin};
+    GeometrySearch search(timeline, candidate, options, workspace);
     start = nearer(start, search.start_gap(stretch.work));
   }
   stretch.hold = keep_half(start, margin);
@@ -44,11 +44,14 @@ std::vector<HeldStretch> stretches_of(const RobotTimeline& timeline, std::size_t
 
 }  // namespace
 
-std::vector<std::array<std::size_t, 2>> parts_of(const RobotTimeline& timeline, std::size_t pair) {
+std::vector<std::array<std::size_t, 2>> geometries_of(const RobotTimeline& timeline,
+                                                      std::size_t pair) {
   const auto [first, second] = timeline.pairs()[pair].members;
   std::vector<std::array<std::size_t, 2>> all;
-  for (std::size_t a = timeline.first_part(first); a < timeline.first_part(first + 1); ++a) {
-    for (std::size_t b = timeline.first_part(second); b < timeline.first_part(second + 1); ++b) {
+  for (std::size_t a = timeline.first_geometry(first); a < timeline.first_geometry(first + 1);
+       ++a) {
+    for (std::size_t b = timeline.first_geometry(second); b < timeline.first_geometry(second + 1);
+         ++b) {
       all.push_back({a, b});
     }
   }
@@ -78,7 +81,7 @@ double PairHolds::least(std::size_t pair) const {
   return std::isfinite(least) ? least : timeline_.pairs()[pair].margin;
 }
 
-void PairHolds::apply(PartCandidate& candidate) const {
+void PairHolds::apply(GeometryCandidate& candidate) const {
   for (const HeldStretch& stretch : stretches_[candidate.pair]) {
     if (stretch.first_piece <= candidate.piece) {
       candidate.hold = stretch.hold;

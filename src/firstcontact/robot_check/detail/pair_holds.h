@@ -19,7 +19,7 @@ namespace firstcontact::detail {
 /// A stretch of time in which a pair is tested, and how near it may come in it.
 struct HeldStretch {
   std::size_t first_piece = 0;
-  Hold hold;  ///< By the least distance of all parts where the stretch begins.
+  Hold hold;  ///< By the least distance of all geometries where the stretch begins.
   WorkCount work;
 };
 
@@ -41,7 +41,7 @@ class PairHolds {
   }
 
   /// Holds a candidate as its pair is held in its piece, with the margin in place of the greatest.
-  void apply(PartCandidate& candidate) const;
+  void apply(GeometryCandidate& candidate) const;
 
  private:
   const RobotTimeline& timeline_;
@@ -49,8 +49,8 @@ class PairHolds {
   std::vector<double> greatest_;
 };
 
-/// Each two parts of a tested pair.
-[[nodiscard]] std::vector<std::array<std::size_t, 2>> parts_of(const RobotTimeline& timeline,
-                                                               std::size_t pair);
+/// Each two geometries of a tested pair.
+[[nodiscard]] std::vector<std::array<std::size_t, 2>> geometries_of(const RobotTimeline& timeline,
+                                                                    std::size_t pair);
 
 }  // namespace firstcontact::detail

@@ -23,7 +23,7 @@ LinkPart box_around(const Shape& shape) {
   return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
 }
 
-/// Of each joint; that of a screw slides, too. Empty if all are zero.
+/// The error of each joint; that of a screw slides, too. Empty if all are zero.
 std::vector<TrackingError> errors_of(const RobotScene& scene, std::size_t robot) {
   std::vector<TrackingError> errors = scene.tracking_errors(robot);
   const auto joints = scene.robot_motion(robot).model().joints();
@@ -47,7 +47,7 @@ bool is_at_rest(const std::vector<std::shared_ptr<const JointPath>>& pieces) {
 
 }  // namespace
 
-double PartPath::tracking_bound(const LinkPart& ball, const TimeWindow& window) const {
+double GeometryPath::tracking_bound(const LinkPart& ball, const TimeWindow& window) const {
   if (errors.empty()) {
     return rest_error;
   }
@@ -61,10 +61,10 @@ RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
     joint_errors_.push_back(errors_of(scene, robot));
   }
   for (std::size_t member = 0; member < scene.size(); ++member) {
-    first_part_.push_back(parts_.size());
-    add_parts(member);
+    first_geometry_.push_back(geometries_.size());
+    add_geometries(member);
   }
-  first_part_.push_back(parts_.size());
+  first_geometry_.push_back(geometries_.size());
   add_pairs();
   for (const TestedPair& pair : pairs_) {
     least_margin_ = std::min(least_margin_, pair.margin);
@@ -74,32 +74,33 @@ RobotTimeline::RobotTimeline(const RobotScene& scene) : scene_(scene) {
 
 void RobotTimeline::follow_motions() {
   for (const Attachment& attachment : scene_.attachments()) {
-    for (std::size_t part = first_part_[attachment.body]; part < first_part_[attachment.body + 1];
-         ++part) {
-      seats_[part] = seats_of_body(attachment.body);
+    for (std::size_t geometry = first_geometry_[attachment.body];
+         geometry < first_geometry_[attachment.body + 1]; ++geometry) {
+      seats_[geometry] = seats_of_body(attachment.body);
     }
   }
   find_breaks();
 }
 
-void RobotTimeline::add_parts(std::size_t member) {
+void RobotTimeline::add_geometries(std::size_t member) {
   const std::optional<RobotLink> link = scene_.robot_link(member);
   const auto geometries = scene_.geometries(member);
   for (std::size_t g = 0; g < geometries.size(); ++g) {
-    Part part{member,
-              g,
-              &geometries[g].shape,
-              ball_around(geometries[g].shape),
-              box_around(geometries[g].shape),
-              (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
+    BoundedGeometry geometry{
+        member,
+        g,
+        &geometries[g].shape,
+        ball_around(geometries[g].shape),
+        box_around(geometries[g].shape),
+        (geometries[g].shape.bounds().reach + geometries[g].shape.radius()) * kUp};
     if (link) {
       seats_.push_back({seat_on_link(*link, scene_.paths(member)[g], 1.0)});
     } else {
       seats_.push_back(seats_of_body(member));
       const std::vector<Seat>& seats = seats_.back();
-      part.rests = seats.size() == 1 && !seats[0].link && is_at_rest(seats[0].pieces);
+      geometry.rests = seats.size() == 1 && !seats[0].link && is_at_rest(seats[0].pieces);
     }
-    parts_.push_back(part);
+    geometries_.push_back(geometry);
   }
 }
 
@@ -152,7 +153,9 @@ std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member
 void RobotTimeline::add_pairs() {
   for (std::size_t first = 0; first < scene_.size(); ++first) {
     for (std::size_t second = first + 1; second < scene_.size(); ++second) {
-      const auto is_empty = [&](std::size_t m) { return first_part_[m] == first_part_[m + 1]; };
+      const auto is_empty = [&](std::size_t m) {
+        return first_geometry_[m] == first_geometry_[m + 1];
+      };
       if (is_empty(first) || is_empty(second)) {
         continue;
       }
@@ -218,8 +221,8 @@ std::size_t RobotTimeline::Seat::piece(double t) const {
   return static_cast<std::size_t>(std::lower_bound(ends.begin(), ends.end() - 1, t) - ends.begin());
 }
 
-const RobotTimeline::Seat& RobotTimeline::seat(std::size_t part, double t) const {
-  const std::vector<Seat>& seats = seats_[part];
+const RobotTimeline::Seat& RobotTimeline::seat(std::size_t geometry, double t) const {
+  const std::vector<Seat>& seats = seats_[geometry];
   const auto ends_before = [](const Seat& seat, double time) { return seat.t_end < time; };
   return *std::lower_bound(seats.begin(), seats.end() - 1, t, ends_before);
 }
@@ -237,7 +240,8 @@ std::vector<TrackingError> RobotTimeline::errors_along(const RobotLink& link,
   return along;
 }
 
-PartPath RobotTimeline::path(const Seat& seat, double t, std::optional<std::size_t> frame) const {
+GeometryPath RobotTimeline::path(const Seat& seat, double t,
+                                 std::optional<std::size_t> frame) const {
   if (!seat.link) {
     const std::size_t k = seat.piece(t);
     const double t_begin = k == 0 ? 0.0 : seat.ends[k - 1];
@@ -245,7 +249,7 @@ PartPath RobotTimeline::path(const Seat& seat, double t, std::optional<std::size
   }
   const RobotMotion& motion = scene_.robot_motion(seat.link->robot);
   const std::size_t link = seat.link->link;
-  PartPath path{
+  GeometryPath path{
       (frame ? motion.path(*frame, link, t) : motion.path(link, t)).then(seat.X_LS), {}, 0.0};
   if (!joint_errors_[seat.link->robot].empty()) {
     path.errors = errors_along(*seat.link, frame.value_or(motion.model().root()));
@@ -257,17 +261,17 @@ PartPath RobotTimeline::path(const Seat& seat, double t, std::optional<std::size
   return path;
 }
 
-PartPath RobotTimeline::path(std::size_t part, double t) const {
-  return path(seat(part, t), t, std::nullopt);
+GeometryPath RobotTimeline::path(std::size_t geometry, double t) const {
+  return path(seat(geometry, t), t, std::nullopt);
 }
 
-PartPath RobotTimeline::path(std::size_t part, double t,
-                             const std::optional<RobotLink>& frame) const {
-  return path(seat(part, t), t, frame ? std::optional(frame->link) : std::nullopt);
+GeometryPath RobotTimeline::path(std::size_t geometry, double t,
+                                 const std::optional<RobotLink>& frame) const {
+  return path(seat(geometry, t), t, frame ? std::optional(frame->link) : std::nullopt);
 }
 
-PartCarrier RobotTimeline::seat_of(std::size_t part, double t) const {
-  const Seat& at = seat(part, t);
+GeometryCarrier RobotTimeline::seat_of(std::size_t geometry, double t) const {
+  const Seat& at = seat(geometry, t);
   return {at.link, at.link ? at.X_LS.get() : at.pieces[at.piece(t)].get()};
 }
 

@@ -1,6 +1,6 @@
 /// @file
-/// A robot scene laid out in time: its parts, the pairs that are tested, and the paths of both in a
-/// frame that they share.
+/// A robot scene laid out in time: its geometries, the pairs that are tested, and the paths of both
+/// in a frame that they share.
 
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace firstcontact::detail {
 
-/// One geometry of a member.
-struct Part {
+/// One geometry of a member, with its bounds.
+struct BoundedGeometry {
   std::size_t member = 0;
-  std::size_t geometry = 0;  ///< Index among those of the member.
+  std::size_t index = 0;  ///< Among the geometries of the member.
   const Shape* shape = nullptr;
   LinkPart ball;       ///< Around the shape, thickening included, in its frame S.
   LinkPart box;        ///< So too.
@@ -37,8 +37,8 @@ struct TestedPair {
   std::vector<TimeWindow> pauses = {};
 };
 
-/// X_FS(t) of a part over a piece of time, and how well it is followed.
-struct PartPath {
+/// X_FS(t) of a geometry over a piece of time, and how well it is followed.
+struct GeometryPath {
   LinkPath X_FS;
   std::vector<TrackingError> errors;  ///< One for each joint of the path; empty if all are zero.
   double rest_error = 0.0;            ///< [m]  Of a body that was put down.
@@ -47,16 +47,16 @@ struct PartPath {
   [[nodiscard]] double tracking_bound(const LinkPart& ball, const TimeWindow& window) const;
 };
 
-/// The seat of a part over a piece of time: a link, or its own path in the world.
-struct PartCarrier {
+/// The seat of a geometry over a piece of time: a link, or its own path in the world.
+struct GeometryCarrier {
   std::optional<RobotLink> link;    ///< As the root of those that are fixed to each other.
   const JointPath* path = nullptr;  ///< X_LS, which rests; or X_WS.
 };
 
-/// Both parts of a pair in one frame F: the world, or a link that carries both.
+/// Both geometries of a pair in one frame F: the world, or a link that carries both.
 struct PairPaths {
-  PartPath A;
-  PartPath B;
+  GeometryPath A;
+  GeometryPath B;
   std::optional<RobotLink> frame;  ///< None: the world.
 };
 
@@ -70,9 +70,11 @@ class RobotTimeline {
 
   [[nodiscard]] const RobotScene& scene() const { return scene_; }
 
-  [[nodiscard]] std::span<const Part> parts() const { return parts_; }
-  /// The parts of a member are first_part(member), ... below first_part(member + 1).
-  [[nodiscard]] std::size_t first_part(std::size_t member) const { return first_part_[member]; }
+  [[nodiscard]] std::span<const BoundedGeometry> geometries() const { return geometries_; }
+  /// The geometries of a member are first_geometry(member), ... below first_geometry(member + 1).
+  [[nodiscard]] std::size_t first_geometry(std::size_t member) const {
+    return first_geometry_[member];
+  }
   [[nodiscard]] std::span<const TestedPair> pairs() const { return pairs_; }  ///< In order.
   /// [m]  Of all pairs; infinite where there are none.
   [[nodiscard]] double least_margin() const { return least_margin_; }
@@ -87,22 +89,22 @@ class RobotTimeline {
   [[nodiscard]] bool is_tested(const TestedPair& pair, std::size_t piece) const;
 
   /// In the world, over the piece around t.
-  [[nodiscard]] PartPath path(std::size_t part, double t) const;
+  [[nodiscard]] GeometryPath path(std::size_t geometry, double t) const;
 
-  /// In a link that carries the part, or in the world where there is none.
-  [[nodiscard]] PartPath path(std::size_t part, double t,
-                              const std::optional<RobotLink>& frame) const;
+  /// In a link that carries the geometry, or in the world where there is none.
+  [[nodiscard]] GeometryPath path(std::size_t geometry, double t,
+                                  const std::optional<RobotLink>& frame) const;
 
   /// Over the piece around t; valid as long as this, and the motions.
-  [[nodiscard]] PartCarrier seat_of(std::size_t part, double t) const;
+  [[nodiscard]] GeometryCarrier seat_of(std::size_t geometry, double t) const;
 
-  /// @param a, b  parts
+  /// @param a, b  geometries
   [[nodiscard]] PairPaths paths(std::size_t a, std::size_t b, double t) const;
 
  private:
-  /// The seat of a part until t_end: a link, as the root of those that are fixed to each other.
+  /// The seat of a geometry until t_end: a link, as the root of those that are fixed to each other.
   ///
-  /// Or it is the world, in which the part follows pieces of its own.
+  /// Or it is the world, in which the geometry follows pieces of its own.
   struct Seat {
     double t_end = 1.0;
     std::optional<RobotLink> link;
@@ -115,22 +117,23 @@ class RobotTimeline {
     [[nodiscard]] std::size_t piece(double t) const;
   };
 
-  void add_parts(std::size_t member);
+  void add_geometries(std::size_t member);
   void add_pairs();
   void find_breaks();
   [[nodiscard]] std::vector<Seat> seats_of_body(std::size_t member) const;
   [[nodiscard]] Seat seat_on_link(const RobotLink& link, std::shared_ptr<const JointPath> X_RS,
                                   double t_end) const;
   [[nodiscard]] Seat carried_seat(const BodyStretch::Carried& carried, double t_end) const;
-  [[nodiscard]] const Seat& seat(std::size_t part, double t) const;
-  [[nodiscard]] PartPath path(const Seat& seat, double t, std::optional<std::size_t> frame) const;
+  [[nodiscard]] const Seat& seat(std::size_t geometry, double t) const;
+  [[nodiscard]] GeometryPath path(const Seat& seat, double t,
+                                  std::optional<std::size_t> frame) const;
   [[nodiscard]] std::vector<TrackingError> errors_along(const RobotLink& link,
                                                         std::size_t frame) const;
 
   const RobotScene& scene_;
-  std::vector<Part> parts_;
-  std::vector<std::vector<Seat>> seats_;  // Of each part, in order of time.
-  std::vector<std::size_t> first_part_;
+  std::vector<BoundedGeometry> geometries_;
+  std::vector<std::vector<Seat>> seats_;  // Of each geometry, in order of time.
+  std::vector<std::size_t> first_geometry_;
   std::vector<TestedPair> pairs_;
   double least_margin_ = std::numeric_limits<double>::infinity();
   std::vector<double> breaks_;

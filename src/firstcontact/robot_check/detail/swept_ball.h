@@ -1,6 +1,6 @@
 /// @file
-/// A ball around a part wherever it is in a window of time: a little that is kept for every piece
-/// of a long trajectory. SweptPart says more, at ten times the memory.
+/// A ball around a geometry wherever it is in a window of time: a little that is kept for every
+/// piece of a long trajectory. SweptGeometry says more, at ten times the memory.
 
 #pragma once
 
@@ -12,17 +12,18 @@
 
 namespace firstcontact::detail {
 
-/// A ball around a part wherever it is in a window.
+/// A ball around a geometry wherever it is in a window.
 struct SweptBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< [m]  In the world.
   double radius = 0.0;                               ///< [m]
-  double tracking_error = 0.0;  ///< [m]  Bounds that of the part; not in the radius.
+  double tracking_error = 0.0;  ///< [m]  Bounds that of the geometry; not in the radius.
 };
 
-[[nodiscard]] SweptBall swept_ball(const LinkPart& ball, const PartPath& path,
+[[nodiscard]] SweptBall swept_ball(const LinkPart& ball, const GeometryPath& path,
                                    const TimeWindow& window, LinkScratch& scratch);
 
-/// [m]  A proven lower bound of the distance of two parts throughout the window; may be negative.
+/// [m]  A proven lower bound of the distance of two geometries throughout the window; may be
+/// negative.
 [[nodiscard]] double gap_bound(const SweptBall& a, const SweptBall& b);
 
 }  // namespace firstcontact::detail

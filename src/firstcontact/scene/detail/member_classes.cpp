@@ -9,7 +9,7 @@ namespace {
 
 using Groups = std::vector<std::size_t>;  // In order, each once.
 
-/// Of each member the groups that rules ignore.
+/// The groups of each member that rules ignore.
 std::vector<Groups> ignored_groups_of(const Scene& scene, std::size_t members) {
   std::set<std::size_t> used;
   for (const GroupPair& rule : scene.ignored_groups) {

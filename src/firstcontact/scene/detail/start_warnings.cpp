@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,7 +76,8 @@ std::string warning(const Scene& scene, const std::vector<std::size_t>& inside,
 
 void warn_of_begins_inside(LoadedScene& loaded, ShapeCache& cache) {
   const Placed placed = place(loaded);
-  std::map<std::size_t, std::vector<std::size_t>> inside_of;
+  // Each once: geometries of one link may have the same ones inside.
+  std::map<std::size_t, std::set<std::size_t>> inside_of;
   for (const BeginsInside& found : find_begins_inside(placed.shapes)) {
     const std::size_t around = placed.members[found.around];
     const std::size_t inside = placed.members[found.inside];
@@ -83,14 +85,11 @@ void warn_of_begins_inside(LoadedScene& loaded, ShapeCache& cache) {
         around < loaded.scene.bodies.size() ? &loaded.scene.bodies[around].shape : nullptr;
     if (is_tested(loaded, inside, around) &&
         cache.encloses_space(*placed.shapes[found.around].shape, source)) {
-      std::vector<std::size_t>& named = inside_of[around];
-      if (named.empty() || named.back() != inside) {
-        named.push_back(inside);
-      }
+      inside_of[around].insert(inside);
     }
   }
   for (const auto& [around, inside] : inside_of) {
-    loaded.warnings.push_back(warning(loaded.scene, inside, around));
+    loaded.warnings.push_back(warning(loaded.scene, {inside.begin(), inside.end()}, around));
   }
 }
 

@@ -13,7 +13,7 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Of printed numbers: what is nearer than this to symmetric, or to a flat body, is meant so.
+/// Printed numbers that are nearer than this to symmetric, or to a flat body, are meant so.
 constexpr double kPrinted = 1e-9;  // [-]
 
 Eigen::Matrix3d read_matrix3(const JsonValue& value, const JsonReader& read) {

@@ -62,7 +62,7 @@ class ShapeReader {
   ShapeReader(const SceneFolders& folders, const JsonReader& read)
       : folders_(folders), read_(read) {}
 
-  /// Of each kind: the key that names it, what may stand beside that, and how it is read.
+  /// A kind of shape: the key that names it, what may stand beside that, and how it is read.
   struct Kind {
     std::string_view key;
     std::vector<std::string_view> beside;

@@ -64,7 +64,7 @@ std::vector<PairSurface> read_pairs(const JsonValue& value, const Scene& scene,
 
 Simulation read_simulation(const JsonValue& value, const Scene& scene, const JsonReader& read) {
   const JsonObject& object =
-      read.object(value, {{"duration", "step", "gravity", "friction", "restitution",
+      read.object(value, {{"duration", "step", "gravity", "friction", "restitution", "impacts",
                            "contact_distance", "events", "pairs"}});
   Simulation simulation;
   if (const JsonValue* duration = find(object, "duration")) {
@@ -81,6 +81,9 @@ Simulation read_simulation(const JsonValue& value, const Scene& scene, const Jso
   }
   if (const JsonValue* restitution = find(object, "restitution")) {
     simulation.restitution = read_restitution(*restitution, read);
+  }
+  if (const JsonValue* impacts = find(object, "impacts")) {
+    simulation.impacts = read.enumerator<ImpactLaw>(*impacts, kImpactLawWords);
   }
   if (const JsonValue* distance = find(object, "contact_distance")) {
     simulation.contact_distance = read.positive(*distance);

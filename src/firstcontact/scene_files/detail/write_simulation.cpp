@@ -48,6 +48,7 @@ void add_given(const char* key, const std::optional<T>& value, JsonObject& objec
 void add_surface(const Surface& surface, JsonObject& object) {
   add_given("friction", surface.friction, object);
   add_given("restitution", surface.restitution, object);
+  add_given("velocity", surface.velocity, object);
 }
 
 JsonObject dynamics(const FreeBody& free, const Surface& surface) {
@@ -118,7 +119,7 @@ JsonValue robot_dynamics_to_json(const SceneRobot& robot) {
 void add_dynamics(const Body& body, JsonObject& object) {
   if (body.free) {
     object.push_back({"dynamics", {.value = dynamics(*body.free, body.surface)}});
-  } else if (body.surface.friction || body.surface.restitution) {
+  } else if (body.surface.friction || body.surface.restitution || body.surface.velocity) {
     JsonObject surface;
     add_surface(body.surface, surface);
     object.push_back({"surface", {.value = std::move(surface)}});
@@ -132,6 +133,10 @@ JsonValue simulation_to_json(const Scene& scene) {
                     {"gravity", to_json(simulation.gravity)},
                     {"friction", to_json(simulation.friction)},
                     {"restitution", to_json(simulation.restitution)}};
+  if (simulation.impacts != ImpactLaw::sequential) {
+    object.push_back(
+        {"impacts", to_json(kImpactLawWords[static_cast<std::size_t>(simulation.impacts)])});
+  }
   add_given("contact_distance", simulation.contact_distance, object);
   object.push_back({"events", to_json(simulation.events)});
   JsonArray pairs;

@@ -74,6 +74,10 @@ inline constexpr double kLeastGapOfSeam = 0.25;
 /// [steps]  Impacts slower than what gravity adds in so many steps do not bounce: bodies come to
 /// rest.
 inline constexpr double kStepsWithoutBounce = 2.0;
+/// [answers]  So many a pair may have, in the mean, in a sequence of impacts.
+inline constexpr std::size_t kAnswersOfPair = 100;
+/// [-]  Pairs that close more slowly than this part of the fastest impact end the sequence.
+inline constexpr double kSlowOfFirst = 1e-6;
 /// [-]  A contact ahead is slight, and becomes a constraint, if the bodies approach by less than
 /// this over the plan, by the radius of the smaller one, and would not bounce. Larger: fewer
 /// impacts, and more motion that is not straight.

@@ -200,7 +200,7 @@ class Island {
     ProblemBodies bodies = state_.problem_bodies();
     ContactProblem problem;
     std::vector<const ManifoldPoint*> touches;
-    std::vector<double> restitution;
+    std::vector<BodyPair> pairs;
     for (const auto& [pair, manifold] : state_.manifolds) {
       for (const ManifoldPoint& touch : manifold.touches) {
         if (touch.gap > state_.model.distances.touching) {
@@ -209,12 +209,9 @@ class Island {
         state_.add_others(pair, bodies);
         ManifoldPoint unknown = touch;
         unknown.impulse.setZero();
-        problem.contacts.push_back(
-            contact_at(unknown, bodies, state_.model.laws.friction(pair), 0.0));
+        problem.contacts.push_back(state_.contact(unknown, bodies, 0.0));
         touches.push_back(&touch);
-        const double closing = -normal_velocity(problem.contacts.back(), bodies.bodies());
-        restitution.push_back(state_.bounces(pair, closing) ? state_.model.laws.restitution(pair)
-                                                            : 0.0);
+        pairs.push_back(pair);
       }
     }
     if (problem.contacts.empty()) {
@@ -223,8 +220,8 @@ class Island {
     problem.bodies = bodies.bodies();
     state_.robots.add_mechanisms(problem);
     state_.robots.add_drives_at_impact(problem);
-    const PlanSolution impact = project_impact_of(state_, problem, restitution);
-    const ContactSolution& solution = impact.velocities;
+    const ContactSolution solution = project_impact_of(state_, problem, pairs);
+    const PlanSolution impact{solution, !is_solved(state_, solution)};
     state_.robots.take_velocities(solution,
                                   outer_impulses(problem, impact, bodies, state_.robots.size()));
     for (std::size_t k = 0; k < touches.size(); ++k) {

@@ -135,21 +135,9 @@ bool IslandPlanner::is_piece(std::size_t place) const {
   return place < state_.size() && state_.member(place).piece;
 }
 
-/// Contacts of robots that velocities at the end lead are of the way of the plan.
 void IslandPlanner::fly_robots() {
   state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, flights_);
   state_.robots.set(flights_, problem_);
-  for (std::size_t k = 0; k < first_ahead_; ++k) {
-    ContactPoint& contact = problem_.contacts[k];
-    const bool by_end = std::ranges::any_of(contact.bodies, [&](std::size_t place) {
-      return is_piece(place) && robots_by_end_[state_.robots.robot_of(place)];
-    });
-    if (by_end && !acting_[k].is_replaced) {
-      const Vector3d guess = contact.guess;
-      contact = along_way(acting_[k]);
-      contact.guess = guess;
-    }
-  }
 }
 
 /// Flies robots anew where that has to be. Returns whether there were any.
@@ -190,7 +178,7 @@ ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side)
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
   const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
-  made.now = contact_at(touch, bodies_, state_.model.laws.friction(touch.bodies), least);
+  made.now = state_.contact(touch, bodies_, least);
   made.now.guess *= span_ / state_.start.h;
   made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
   made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
@@ -259,8 +247,6 @@ void IslandPlanner::add(const PredictedContact& ahead) {
   }
   if (*k >= first_ahead_) {
     keep_push_from(contact);
-  } else {
-    acting_[*k].is_replaced = true;
   }
   const ContactPoint& before = problem_.contacts[*k];
   contact.guess = contact.frame * (before.frame.transpose() * before.guess);

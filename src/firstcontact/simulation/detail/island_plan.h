@@ -36,9 +36,8 @@ struct ActingContact {
   MovedContact halfway = {};
   /// [m/s]  How much the geometry changes the velocities of now from halfway to the end.
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
-  bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
-  double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
-  bool is_replaced = false;  ///< A contact ahead has taken its place.
+  bool is_held = false;  ///< It presses, or bodies rest there: it goes on with them.
+  double least = 0.0;    ///< [m/s]  Of the mean normal velocity over the plan.
 };
 
 /// The motions of the bodies over the plan's span: the rest of the step, or less.

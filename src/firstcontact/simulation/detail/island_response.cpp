@@ -11,6 +11,7 @@
 #include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation/detail/sequential_impacts.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -48,13 +49,6 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
     }
   }
   return sum;
-}
-
-/// Whether a problem has a solution that was found.
-bool is_solved(const IslandState& state, const ContactSolution& solution) {
-  const double left = state.robots.empty() ? solution.allowed : 0.0;
-  return solution.residual <=
-         std::max({left, of_gravity(state, kUnsolved), kUnsolvedOfSpeed * fastest(solution)});
 }
 
 /// The problem with motors that yield a little to what is stronger than anything: to contacts and
@@ -186,10 +180,10 @@ void shorten_within(const IslandState& state, const ContactProblem& problem, dou
 
 /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
 /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
-/// its own speed twice. Of a problem without solution, as of a body that is crushed, the solver's
-/// answer is anything: it is shortened to what there was before, or to what moves with the
-/// script. An island on which nothing outside acts keeps its momenta.
-/// Motors add what they want, as long as there is a solution.
+/// its own speed twice, and so does a belt. Of a problem without solution, as of a body that is
+/// crushed, the solver's answer is anything: it is shortened to what there was before, or to what
+/// moves with the script. An island on which nothing outside acts keeps its momenta. Motors add
+/// what they want, as long as there is a solution.
 ///
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
@@ -207,6 +201,7 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   }
   double speed = 0.0;
   for (const ContactPoint& contact : problem.contacts) {
+    speed = std::max(speed, contact.sticking_velocity.norm());
     for (int side = 0; side < 2; ++side) {
       const ContactBody& body = problem.bodies[contact.bodies[side]];
       if (contact.bodies[side] >= state.size()) {
@@ -249,6 +244,12 @@ bool stands(const IslandState& state) {
 }
 
 }  // namespace
+
+bool is_solved(const IslandState& state, const ContactSolution& solution) {
+  const double left = state.robots.empty() ? solution.allowed : 0.0;
+  return solution.residual <=
+         std::max({left, of_gravity(state, kUnsolved), kUnsolvedOfSpeed * fastest(solution)});
+}
 
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
@@ -311,8 +312,30 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
   return plan;
 }
 
-PlanSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
-                               const std::vector<double>& restitution) {
+ContactSolution project_impact_of(const IslandState& state, const ContactProblem& problem,
+                                  const std::vector<BodyPair>& pairs) {
+  std::vector<double> restitution;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    restitution.push_back(restitution_of(state, pairs[k], problem.contacts[k], problem.bodies));
+  }
+  const bool bounces = std::ranges::any_of(restitution, [](double e) { return e > 0.0; });
+  return bounces && state.model.impacts == ImpactLaw::sequential
+             ? project_sequential_impacts(state, problem, pairs)
+             : project_simultaneous_impact(state, problem, restitution);
+}
+
+double slowest_bounce(const IslandState& state) {
+  return kStepsWithoutBounce * state.model.gravity.norm() * state.start.h;
+}
+
+double restitution_of(const IslandState& state, const BodyPair& pair, const ContactPoint& contact,
+                      const std::vector<ContactBody>& bodies) {
+  return state.bounces(pair, -normal_velocity(contact, bodies)) ? state.model.laws.restitution(pair)
+                                                                : 0.0;
+}
+
+ContactSolution project_simultaneous_impact(const IslandState& state, const ContactProblem& problem,
+                                            const std::vector<double>& restitution) {
   const auto project = [&](const ContactProblem& given) {
     return project_impact(
         given, restitution, state.size(),
@@ -321,14 +344,14 @@ PlanSolution project_impact_of(const IslandState& state, const ContactProblem& p
         },
         projection_options(state, given));
   };
-  PlanSolution impact{project(problem)};
-  if (!is_solved(state, impact.velocities)) {
+  ContactSolution solution = project(problem);
+  if (!is_solved(state, solution)) {
     if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
-      impact.velocities = project(*yielding);
+      solution = project(*yielding);
     }
   }
-  impact.is_limited = limit_energy(state, problem, impact.velocities);
-  return impact;
+  limit_energy(state, problem, solution);
+  return solution;
 }
 
 std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,

@@ -39,13 +39,31 @@ struct PlanSolution {
     const IslandState& state, const ContactProblem& problem, const PlanSolution& before,
     const std::vector<std::size_t>& changed);
 
-/// Those after an impact, by project_impact(). Neither adds energy, but for what motors and
-/// scripted bodies do.
+/// Those after an impact, by the scene's law for impacts at the same time.
+///
+/// @param pairs  the bodies of each contact
+[[nodiscard]] ContactSolution project_impact_of(const IslandState& state,
+                                                const ContactProblem& problem,
+                                                const std::vector<BodyPair>& pairs);
+
+/// [m/s]  Impacts that are slower do not bounce.
+[[nodiscard]] double slowest_bounce(const IslandState& state);
+
+/// [-]  The restitution of a contact that meets with these velocities.
+[[nodiscard]] double restitution_of(const IslandState& state, const BodyPair& pair,
+                                    const ContactPoint& contact,
+                                    const std::vector<ContactBody>& bodies);
+
+/// Those after an impact of all contacts at once, by project_impact(). It adds no energy, but for
+/// what motors and scripted bodies do.
 ///
 /// @param restitution  of each contact
-[[nodiscard]] PlanSolution project_impact_of(const IslandState& state,
-                                             const ContactProblem& problem,
-                                             const std::vector<double>& restitution);
+[[nodiscard]] ContactSolution project_simultaneous_impact(const IslandState& state,
+                                                          const ContactProblem& problem,
+                                                          const std::vector<double>& restitution);
+
+/// Whether a problem has a solution that was found.
+[[nodiscard]] bool is_solved(const IslandState& state, const ContactSolution& solution);
 
 /// The impulses on each robot of what is not of it.
 ///

@@ -68,6 +68,20 @@ void IslandState::add_others(const BodyPair& pair, ProblemBodies& bodies) {
   }
 }
 
+ContactPoint IslandState::contact(const ManifoldPoint& touch, const ProblemBodies& bodies,
+                                  double least_normal_velocity) {
+  ContactPoint made =
+      contact_at(touch, bodies, model.laws.friction(touch.bodies), least_normal_velocity);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Eigen::Vector3d& belt = model.laws.belt(touch.bodies[s]);
+    if (belt.any()) {
+      const Eigen::Vector3d running = pose_of(touch.bodies[s]).rotation.normalized() * belt;
+      made.sticking_velocity += (s == 0 ? 1.0 : -1.0) * (made.frame * running).tail<2>();
+    }
+  }
+  return made;
+}
+
 bool IslandState::bounces(const BodyPair& pair, double closing) const {
   return model.laws.restitution(pair) > 0.0 &&
          closing > kStepsWithoutBounce * model.gravity.norm() * start.h;

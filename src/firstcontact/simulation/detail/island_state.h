@@ -54,6 +54,10 @@ struct IslandState {
   /// Adds those of the pair that are around the island.
   void add_others(const BodyPair& pair, ProblemBodies& bodies);
 
+  /// A contact of the problem at a touch, with its impulse as guess, its friction and its belts.
+  [[nodiscard]] ContactPoint contact(const ManifoldPoint& touch, const ProblemBodies& bodies,
+                                     double least_normal_velocity);
+
   /// Whether a pair that closes so fast [m/s] does.
   [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const;
 

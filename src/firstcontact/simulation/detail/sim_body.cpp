@@ -120,6 +120,7 @@ PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {
   for (const Body& body : loaded.scene.bodies) {
     friction_.push_back(body.surface.friction.value_or(simulation.friction));
     restitution_.push_back(body.surface.restitution.value_or(simulation.restitution));
+    belts_.push_back(body.surface.velocity.value_or(Vector3d::Zero()));
   }
   for (const PairSurface& pair : simulation.pairs) {
     pairs_[key({std::min(pair.bodies[0], pair.bodies[1]),

@@ -74,6 +74,8 @@ class PairLaws {
   [[nodiscard]] double greatest_margin() const { return greatest_margin_; }
   [[nodiscard]] double friction(const BodyPair& pair) const;
   [[nodiscard]] double restitution(const BodyPair& pair) const;
+  /// [m/s]  How fast the surface of a body runs along it; axes of the body frame.
+  [[nodiscard]] const Eigen::Vector3d& belt(std::size_t body) const { return belts_[body]; }
 
  private:
   [[nodiscard]] const Surface* of_pair(const BodyPair& pair) const;
@@ -82,6 +84,7 @@ class PairLaws {
   double greatest_margin_ = 0.0;
   std::vector<double> friction_;     // Of each body.
   std::vector<double> restitution_;  // Of each body.
+  std::vector<Eigen::Vector3d> belts_;
   std::unordered_map<std::uint64_t, Surface> pairs_;
 };
 

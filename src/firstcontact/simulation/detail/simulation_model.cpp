@@ -54,6 +54,7 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       neighbours(neighbours_of(bodies, distances.band)),
       round_sides(round_sides_of(bodies, distances.tolerance)),
       gravity(loaded.scene.simulation->gravity),
+      impacts(loaded.scene.simulation->impacts),
       events(loaded.scene.simulation->events) {}
 
 double smaller_reach(const SimulationModel& model, const BodyPair& bodies) {

@@ -34,7 +34,8 @@ struct SimulationModel {
   std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
   std::vector<std::shared_ptr<const RoundSide>> round_sides;         ///< Of each body; null: none.
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
-  std::size_t events;                                                ///< In a step, at most.
+  ImpactLaw impacts;
+  std::size_t events;  ///< In a step, at most.
 };
 
 /// [m]  Of two bodies, how far the smaller one reaches.

@@ -18,7 +18,7 @@ double clamped(double numerator, double denominator) {
 
 PointPair pair_of(const Vector3d& a, const Vector3d& b) { return {a, b, (b - a).norm()}; }
 
-/// Of two segments: the lines' closest points, each put back into its segment in turn.
+/// The closest points of two segments: those of the lines, each put back into its segment.
 PointPair closest(const Vector3d& a, const Vector3d& a_to, const Vector3d& b,
                   const Vector3d& b_to) {
   const Vector3d u = a_to - a;

@@ -17,13 +17,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of what was promised.
+/// The relative error of what was promised.
 constexpr double kPromiseError = 0x1p-20;
 
 /// How closely the least distance is found.
 constexpr double kPrecision = 0.05;
 
-/// Of a distance, what a direction has to show of it to be the one of the closest points.
+/// The share of a distance that the direction of the closest points has to show.
 constexpr double kPrecise = 0.999;
 
 /// So often a step is halved to find the least distance; and to prove what was promised.
@@ -57,7 +57,7 @@ struct Moving {
         speed(now.velocity.norm() + now.spin.norm() * whole_reach) {}
 
   [[nodiscard]] Vector3d position(const Vector3d& y) const { return now.pivot + now.R * y; }
-  /// Of a point at Y = R y.
+  /// The velocity of a point at Y = R y.
   [[nodiscard]] Vector3d velocity(const Vector3d& Y) const {
     return now.velocity + now.spin.cross(Y);
   }
@@ -369,7 +369,7 @@ class Cover {
     return best;
   }
 
-  /// Of each two corners, as each moves on its own.
+  /// The least gap of each two corners, as each moves on its own.
   [[nodiscard]] GapBound triangle_gap_along(const Vector3d& n, const PlacedTriangle& A,
                                             const PlacedTriangle& B, const Setting& s) const {
     const double bend = s.A.bend(n, A.reach) + s.B.bend(n, B.reach);

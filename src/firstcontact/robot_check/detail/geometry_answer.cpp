@@ -1,4 +1,4 @@
-#include <firstcontact/robot_check/detail/part_answer.h>
+#include <firstcontact/robot_check/detail/geometry_answer.h>
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,7 @@ namespace firstcontact::detail {
 namespace {
 
 /// A contact without a search: one of the two starts inside of the other.
-FirstContactResult inside_at(PartSearch& search, double t) {
+FirstContactResult inside_at(GeometrySearch& search, double t) {
   FirstContactResult result;
   result.verdict = t == 0.0 ? Verdict::contact_at_start : Verdict::contact;
   result.t = t;
@@ -19,7 +19,7 @@ FirstContactResult inside_at(PartSearch& search, double t) {
   return result;
 }
 
-void finish(PartSearch& search, PartAnswer& answer) {
+void finish(GeometrySearch& search, GeometryAnswer& answer) {
   answer.first.contacts = search.in_world(answer.first.contacts, answer.first.t);
   if (answer.first.verdict == Verdict::free) {
     answer.first.t = 1.0;
@@ -28,9 +28,9 @@ void finish(PartSearch& search, PartAnswer& answer) {
 
 }  // namespace
 
-PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate, double horizon,
-                            bool may_start_inside) {
-  PartAnswer answer;
+GeometryAnswer first_contact_of(GeometrySearch& search, const GeometryCandidate& candidate,
+                                double horizon, bool may_start_inside) {
+  GeometryAnswer answer;
   const auto [begin, end] = candidate.window;
   answer.first = may_start_inside && search.is_inside(begin)
                      ? inside_at(search, begin)
@@ -40,9 +40,9 @@ PartAnswer first_contact_of(PartSearch& search, const PartCandidate& candidate, 
   return answer;
 }
 
-PartAnswer contact_intervals_of(PartSearch& search, const PartCandidate& candidate,
-                                double resolution) {
-  PartAnswer answer = first_contact_of(search, candidate, candidate.window.end, true);
+GeometryAnswer contact_intervals_of(GeometrySearch& search, const GeometryCandidate& candidate,
+                                    double resolution) {
+  GeometryAnswer answer = first_contact_of(search, candidate, candidate.window.end, true);
   const ContactQueries queries{
       .first_contact = [&](const TimeWindow& window) { return search.first_contact(window); },
       .distance = [&](double t) { return search.distance(t); }};

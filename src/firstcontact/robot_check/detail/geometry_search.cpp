@@ -1,4 +1,4 @@
-#include <firstcontact/robot_check/detail/part_search.h>
+#include <firstcontact/robot_check/detail/geometry_search.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,8 +11,8 @@
 namespace firstcontact::detail {
 namespace {
 
-const Shape& shape_of(const RobotTimeline& timeline, std::size_t part) {
-  return *timeline.parts()[part].shape;
+const Shape& shape_of(const RobotTimeline& timeline, std::size_t geometry) {
+  return *timeline.geometries()[geometry].shape;
 }
 
 }  // namespace
@@ -25,27 +25,27 @@ UndecidedReason spent(const WorkBudget& budget) {
   return late ? UndecidedReason::deadline : UndecidedReason::none;
 }
 
-PartSearch::PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
-                       const RobotCheckOptions& options, LinkWorkspace& workspace)
+GeometrySearch::GeometrySearch(const RobotTimeline& timeline, const GeometryCandidate& candidate,
+                               const RobotCheckOptions& options, LinkWorkspace& workspace)
     : timeline_(timeline),
       candidate_(candidate),
       options_(options),
       workspace_(workspace),
-      paths_(timeline.paths(candidate.parts[0], candidate.parts[1],
+      paths_(timeline.paths(candidate.geometries[0], candidate.geometries[1],
                             0.5 * (candidate.window.begin + candidate.window.end))),
       X_FA_(std::vector<LinkPath>{paths_.A.X_FS}),
       X_FB_(std::vector<LinkPath>{paths_.B.X_FS}),
-      A_(shape_of(timeline, candidate.parts[0])),
-      B_(shape_of(timeline, candidate.parts[1])) {}
+      A_(shape_of(timeline, candidate.geometries[0])),
+      B_(shape_of(timeline, candidate.geometries[1])) {}
 
-FirstContactResult PartSearch::ask(const TimeWindow& window, FirstContactOptions query) {
+FirstContactResult GeometrySearch::ask(const TimeWindow& window, FirstContactOptions query) {
   query.budget = options_.budget;
   FirstContactResult result;
   detail::first_contact({A_, X_FA_}, {B_, X_FB_}, window, workspace_, query, result);
   return result;
 }
 
-FirstContactOptions PartSearch::options_of_candidate() const {
+FirstContactOptions GeometrySearch::options_of_candidate() const {
   return {.margin = candidate_.threshold,
           .tolerance = options_.tolerance,
           .contacts = options_.contacts,
@@ -53,7 +53,7 @@ FirstContactOptions PartSearch::options_of_candidate() const {
           .budget = options_.budget};
 }
 
-FirstContactResult PartSearch::first_contact(const TimeWindow& window) {
+FirstContactResult GeometrySearch::first_contact(const TimeWindow& window) {
   FirstContactResult result;
   if (candidate_.hold) {
     detail::first_contact_held({A_, X_FA_}, {B_, X_FB_}, window, *candidate_.hold, workspace_,
@@ -65,28 +65,28 @@ FirstContactResult PartSearch::first_contact(const TimeWindow& window) {
   return result;
 }
 
-StartGap PartSearch::start_gap(WorkCount& work) {
+StartGap GeometrySearch::start_gap(WorkCount& work) {
   return detail::start_gap({A_, X_FA_}, {B_, X_FB_}, candidate_.window.begin, workspace_,
                            options_of_candidate(), work);
 }
 
-FirstContactResult PartSearch::features_within(double t, double distance) {
+FirstContactResult GeometrySearch::features_within(double t, double distance) {
   const double tolerance = std::min(options_.tolerance, 0.5 * distance);
   return ask(
       {t, t},
       {.margin = distance - tolerance, .tolerance = tolerance, .contacts = options_.contacts});
 }
 
-FirstContactResult PartSearch::first_contact(const TimeWindow& window, double margin,
-                                             double tolerance) {
+FirstContactResult GeometrySearch::first_contact(const TimeWindow& window, double margin,
+                                                 double tolerance) {
   return ask(window, {.margin = margin, .tolerance = tolerance, .contacts = ContactState::none});
 }
 
-DistanceResult PartSearch::nearest(double t) {
+DistanceResult GeometrySearch::nearest(double t) {
   return detail::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_);
 }
 
-double PartSearch::distance_of_triangles(const Contact& contact, double t) const {
+double GeometrySearch::distance_of_triangles(const Contact& contact, double t) const {
   const auto placed = [t](const Shape& shape, const LinkMotion& X_FS, std::uint32_t triangle) {
     const LinkPose pose = X_FS.at(t).pose(t);
     const Mesh& mesh = shape.mesh();
@@ -102,22 +102,23 @@ double PartSearch::distance_of_triangles(const Contact& contact, double t) const
   return std::max(0.0, distance - A_.radius() - B_.radius());
 }
 
-bool PartSearch::is_farther(double t, double distance) {
+bool GeometrySearch::is_farther(double t, double distance) {
   if (!std::isfinite(distance)) {
     return false;
   }
   return first_contact({t, t}, distance, 1e-9 + 1e-3 * distance).verdict == Verdict::free;
 }
 
-bool PartSearch::is_inside(double t) {
+bool GeometrySearch::is_inside(double t) {
   return (A_.is_solid() || B_.is_solid()) && distance(t) == 0.0;
 }
 
-Contact PartSearch::in_world(const Contact& contact, double t) const {
+Contact GeometrySearch::in_world(const Contact& contact, double t) const {
   return placed(contact, frame_at(t));
 }
 
-std::vector<Contact> PartSearch::in_world(const std::vector<Contact>& contacts, double t) const {
+std::vector<Contact> GeometrySearch::in_world(const std::vector<Contact>& contacts,
+                                              double t) const {
   const LinkPose X_WF = frame_at(t);
   std::vector<Contact> all;
   all.reserve(contacts.size());
@@ -127,7 +128,7 @@ std::vector<Contact> PartSearch::in_world(const std::vector<Contact>& contacts, 
   return all;
 }
 
-LinkPose PartSearch::frame_at(double t) const {
+LinkPose GeometrySearch::frame_at(double t) const {
   if (!paths_.frame) {
     return {};
   }
@@ -135,11 +136,11 @@ LinkPose PartSearch::frame_at(double t) const {
   return motion.path(paths_.frame->link, t).pose(t);
 }
 
-Contact PartSearch::placed(const Contact& contact, const LinkPose& X_WF) const {
-  const auto parts = timeline_.parts();
-  const auto& [a, b] = candidate_.parts;
+Contact GeometrySearch::placed(const Contact& contact, const LinkPose& X_WF) const {
+  const auto geometries = timeline_.geometries();
+  const auto& [a, b] = candidate_.geometries;
   Contact placed = contact;
-  placed.geometries = {parts[a].geometry, parts[b].geometry};
+  placed.geometries = {geometries[a].index, geometries[b].index};
   placed.p_WA = X_WF.p_OL + X_WF.R_FL * contact.p_WA;
   placed.p_WB = X_WF.p_OL + X_WF.R_FL * contact.p_WB;
   if (contact.n_AB_W) {

@@ -1,5 +1,5 @@
 /// @file
-/// A part at the times of a grid, and in the windows between them.
+/// A geometry at the times of a grid, and in the windows between them.
 
 #pragma once
 
@@ -11,19 +11,19 @@
 #include <vector>
 
 #include <firstcontact/robot_check/detail/robot_timeline.h>
-#include <firstcontact/robot_check/detail/swept_part.h>
+#include <firstcontact/robot_check/detail/swept_geometry.h>
 #include <firstcontact/robot_check/detail/time_grid.h>
 #include <firstcontact/robot_check/detail/tree_poses.h>
 
 namespace firstcontact::detail {
 
-/// A part in one frame over a piece of time. Windows that share times share the places there.
-class PlacedPart {
+/// A geometry in one frame over a piece of time. Windows that share times share the places there.
+class PlacedGeometry {
  public:
   /// @param path  the same in F, where it is asked for tracking errors
-  PlacedPart(const Part& part, const PartMount& mount, std::size_t frame, const TimeGrid& grid,
-             std::optional<PartPath> path)
-      : part_(&part), track_(part, mount, frame), grid_(grid), path_(std::move(path)) {
+  PlacedGeometry(const BoundedGeometry& geometry, const GeometryMount& mount, std::size_t frame,
+                 const TimeGrid& grid, std::optional<GeometryPath> path)
+      : geometry_(&geometry), track_(geometry, mount, frame), grid_(grid), path_(std::move(path)) {
     known_.fill(-1);
     if (track_.rests()) {
       swept_ = track_.rest();
@@ -33,10 +33,10 @@ class PlacedPart {
   }
 
   /// Valid until the next call.
-  const SweptPart& over(const GridWindow& window) {
+  const SweptGeometry& over(const GridWindow& window) {
     if (!track_.rests() && !(window == window_)) {
-      const PartPlace begin = place(window.begin);
-      const PartPlace middle = place(window.middle());
+      const GeometryPlace begin = place(window.begin);
+      const GeometryPlace middle = place(window.middle());
       swept_ = track_.sweep(grid_.at(window), begin, middle, place(window.end));
       window_ = window;
     }
@@ -45,13 +45,13 @@ class PlacedPart {
 
   /// [m]  How far any point may be from its place in the window.
   [[nodiscard]] double tracking_bound(const GridWindow& window) const {
-    return path_ ? path_->tracking_bound(part_->box, grid_.at(window)) : 0.0;
+    return path_ ? path_->tracking_bound(geometry_->box, grid_.at(window)) : 0.0;
   }
 
  private:
   static constexpr std::size_t kFewPlaces = 5;  // Of the piece and its halves.
 
-  const PartPlace& place(int k) {
+  const GeometryPlace& place(int k) {
     std::int16_t& index = known_[static_cast<std::size_t>(k)];
     if (index < 0) {
       index = static_cast<std::int16_t>(places_.size());
@@ -60,15 +60,15 @@ class PlacedPart {
     return places_[static_cast<std::size_t>(index)];
   }
 
-  const Part* part_;
-  PartTrack track_;
+  const BoundedGeometry* geometry_;
+  GeometryTrack track_;
   TimeGrid grid_;
-  std::optional<PartPath> path_;
+  std::optional<GeometryPath> path_;
   std::array<std::int16_t, GridWindow::kSize + 1> known_ =
       {};  // Where in places_; < 0 for nowhere.
-  std::vector<PartPlace> places_;
+  std::vector<GeometryPlace> places_;
   GridWindow window_ = {0, 0};  // Of swept_.
-  SweptPart swept_;
+  SweptGeometry swept_;
 };
 
 }  // namespace firstcontact::detail

@@ -1,5 +1,5 @@
 /// @file
-/// The questions of a check about two parts, in a piece of time.
+/// The questions of a check about two geometries, in a piece of time.
 
 #pragma once
 
@@ -17,11 +17,11 @@ namespace firstcontact::detail {
 /// Why a check has to end now; none if it need not. Of the steps each search takes care itself.
 [[nodiscard]] UndecidedReason spent(const WorkBudget& budget);
 
-/// Two parts in one window of time. Refers to all that it is made of.
-class PartSearch {
+/// Two geometries in one window of time. Refers to all that it is made of.
+class GeometrySearch {
  public:
-  PartSearch(const RobotTimeline& timeline, const PartCandidate& candidate,
-             const RobotCheckOptions& options, LinkWorkspace& workspace);
+  GeometrySearch(const RobotTimeline& timeline, const GeometryCandidate& candidate,
+                 const RobotCheckOptions& options, LinkWorkspace& workspace);
 
   /// First contact in a window, before which the two are proven free and not inside of each other;
   /// when free, `t` is its end. With the candidate's threshold or hold and the tolerance of the
@@ -46,7 +46,7 @@ class PartSearch {
   [[nodiscard]] double distance(double t) { return nearest(t).distance; }
 
   /// [m]  At a time of the piece, of the triangles that a contact of the two names: no less than
-  /// that of the parts.
+  /// that of the geometries.
   [[nodiscard]] double distance_of_triangles(const Contact& contact, double t) const;
 
   /// Whether the two are proven farther apart at t, which costs less to know than the distance.
@@ -68,7 +68,7 @@ class PartSearch {
   [[nodiscard]] Contact placed(const Contact& contact, const LinkPose& X_WF) const;
 
   const RobotTimeline& timeline_;
-  const PartCandidate& candidate_;
+  const GeometryCandidate& candidate_;
   const RobotCheckOptions& options_;
   LinkWorkspace& workspace_;
   PairPaths paths_;

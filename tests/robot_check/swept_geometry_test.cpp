@@ -1,5 +1,5 @@
-// How far apart parts stay over a window of time: a bound that holds at every time, and is tight in
-// short windows.
+// How far apart geometries stay over a window of time: a bound that holds at every time, and is
+// tight in short windows.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <firstcontact/geometry/convex_hull.h>
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/robot/precise_transform.h>
-#include <firstcontact/robot_check/detail/swept_part.h>
+#include <firstcontact/robot_check/detail/swept_geometry.h>
 #include <firstcontact/robot_check/detail/tree_poses.h>
 
 #include "robot/chain_case.h"
@@ -24,7 +24,7 @@ namespace firstcontact::test {
 namespace {
 
 using detail::SweptGap;
-using detail::SweptPart;
+using detail::SweptGeometry;
 using Eigen::Vector3d;
 using oracle::Wide;
 
@@ -84,23 +84,23 @@ struct Case {
   }
 };
 
-detail::Part part_of(const Shape& shape) {
+detail::BoundedGeometry geometry_of(const Shape& shape) {
   const ShapeBounds& bounds = shape.bounds();
-  detail::Part part;
-  part.shape = &shape;
-  part.box = {bounds.centre, bounds.axes, bounds.half_extents, shape.radius()};
-  part.reach = bounds.reach + shape.radius();
-  return part;
+  detail::BoundedGeometry geometry;
+  geometry.shape = &shape;
+  geometry.box = {bounds.centre, bounds.axes, bounds.half_extents, shape.radius()};
+  geometry.reach = bounds.reach + shape.radius();
+  return geometry;
 }
 
-/// A part over a window that is the whole grid of its piece.
+/// A geometry over a window that is the whole grid of its piece.
 class Followed {
  public:
   /// The tip of the chain.
   Followed(const Shape& shape, const ChainCase& chain, const TimeWindow& window)
-      : part_(part_of(shape)),
+      : geometry_(geometry_of(shape)),
         course_(nodes_of(chain.motion, 0.5 * (window.begin + window.end)), {window}),
-        track_(part_, mount_on_tip(chain.motion.model()), detail::TreePoses::kWorld) {
+        track_(geometry_, mount_on_tip(chain.motion.model()), detail::TreePoses::kWorld) {
     const auto place = [&](int k) { return track_.place(k); };
     swept_ = track_.sweep(window, place(0), place(detail::TimeGrid::kMiddle),
                           place(detail::GridWindow::kSize));
@@ -108,16 +108,16 @@ class Followed {
 
   /// At rest.
   Followed(const Shape& shape, const Vector3d& p_WB)
-      : part_(part_of(shape)),
+      : geometry_(geometry_of(shape)),
         path_(JointPath::rigid(precise(Pose{p_WB, Eigen::Quaterniond::Identity()}))),
         course_({{detail::TreePoses::kWorld, &path_}}, {{0.0, 1.0}}),
-        track_(part_, detail::PartMount(part_, course_), detail::TreePoses::kWorld),
+        track_(geometry_, detail::GeometryMount(geometry_, course_), detail::TreePoses::kWorld),
         swept_(track_.rest()) {}
 
   Followed(const Followed&) = delete;
   Followed& operator=(const Followed&) = delete;
 
-  [[nodiscard]] const SweptPart& swept() const { return swept_; }
+  [[nodiscard]] const SweptGeometry& swept() const { return swept_; }
 
  private:
   static std::vector<detail::TreePoses::Node> nodes_of(const RobotMotion& motion, double t) {
@@ -132,20 +132,20 @@ class Followed {
     return nodes;
   }
 
-  detail::PartMount mount_on_tip(const RobotModel& model) {
+  detail::GeometryMount mount_on_tip(const RobotModel& model) {
     const std::size_t tip = model.links().size() - 1;
-    return {part_, course_, course_.size() - 1,
+    return {geometry_, course_, course_.size() - 1,
             model.tail(tip) ? *model.tail(tip) : JointPath::rigid({})};
   }
 
-  detail::Part part_;
+  detail::BoundedGeometry geometry_;
   JointPath path_ = JointPath::rigid({});
   detail::TreePoses course_;
-  detail::PartTrack track_;
-  SweptPart swept_;
+  detail::GeometryTrack track_;
+  SweptGeometry swept_;
 };
 
-TEST(SweptPart, GapsHoldAtAllTimesOfTheWindow) {
+TEST(SweptGeometry, GapsHoldAtAllTimesOfTheWindow) {
   int proven = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Case c = Case::random(seed);
@@ -174,7 +174,7 @@ TEST(SweptPart, GapsHoldAtAllTimesOfTheWindow) {
 }
 
 /// What a window's length costs falls with it.
-TEST(SweptPart, ShortWindowsAreTight) {
+TEST(SweptGeometry, ShortWindowsAreTight) {
   int apart = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Case c = Case::random(seed);
@@ -196,7 +196,7 @@ TEST(SweptPart, ShortWindowsAreTight) {
 }
 
 /// Two that a common frame carries: what it does cancels.
-TEST(SweptPart, LinksAreSeenFromTheOneThatCarriesThem) {
+TEST(SweptGeometry, LinksAreSeenFromTheOneThatCarriesThem) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const ChainCase chain = random_chain(seed, {.joints = 2});
     const RobotMotion& motion = chain.motion;
@@ -204,7 +204,7 @@ TEST(SweptPart, LinksAreSeenFromTheOneThatCarriesThem) {
     const detail::TimeGrid grid{{motion.breaks()[0], motion.breaks()[1]}};
     const double middle = grid.at(detail::TimeGrid::kMiddle);
     const Shape shape = some_hull(random);
-    const detail::Part part = part_of(shape);
+    const detail::BoundedGeometry geometry = geometry_of(shape);
     std::vector<detail::TreePoses::Node> nodes = {
         {detail::TreePoses::kWorld, &motion.base_path(middle)}};
     for (const std::size_t joint :
@@ -216,14 +216,16 @@ TEST(SweptPart, LinksAreSeenFromTheOneThatCarriesThem) {
     detail::TreePoses course(nodes, grid);
     const JointPath none = JointPath::rigid({});
     const std::size_t last = course.size() - 1;
-    const detail::PartTrack carried(part, {part, course, last, none}, last);
+    const detail::GeometryTrack carried(geometry, {geometry, course, last, none}, last);
     ASSERT_TRUE(carried.rests()) << seed;
-    const detail::PartTrack in_frame(part, {part, course, last, none}, course.parent(last));
-    const detail::PartTrack in_world(part, {part, course, last, none}, detail::TreePoses::kWorld);
+    const detail::GeometryTrack in_frame(geometry, {geometry, course, last, none},
+                                         course.parent(last));
+    const detail::GeometryTrack in_world(geometry, {geometry, course, last, none},
+                                         detail::TreePoses::kWorld);
     for (const int k : {0, 5, detail::GridWindow::kSize}) {
       const detail::FramePlace& F = course.place(course.parent(last), k);
-      const detail::PartPlace near = in_frame.place(k);
-      const detail::PartPlace far = in_world.place(k);
+      const detail::GeometryPlace near = in_frame.place(k);
+      const detail::GeometryPlace far = in_world.place(k);
       ASSERT_LE((F.p + F.R * near.centre - far.centre).norm(), 1e-12) << seed;
       ASSERT_LE((F.R * near.R_FS - far.R_FS).norm(), 1e-12) << seed;
       ASSERT_LE(near.error, 1e-9) << seed;

@@ -1,4 +1,4 @@
-#include <firstcontact/robot_check/detail/swept_part.h>
+#include <firstcontact/robot_check/detail/swept_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ constexpr double kRounding = 0x1p-46;
 /// A middle of two times, twice, that is rounded.
 constexpr double kTimeRounding = 0x1p-51;
 
-void enclose(SweptPart& swept, std::span<const PartPlace> places) {
-  const LinkPart& box = swept.part->box;
+void enclose(SweptGeometry& swept, std::span<const GeometryPlace> places) {
+  const LinkPart& box = swept.geometry->box;
   swept.low = Vector3d::Constant(std::numeric_limits<double>::infinity());
   swept.high = -swept.low;
-  for (const PartPlace& place : places) {
+  for (const GeometryPlace& place : places) {
     const Vector3d extent = (place.R_FS * box.axes.transpose()).cwiseAbs() * box.half_extents;
     swept.low = swept.low.cwiseMin(place.centre - extent);
     swept.high = swept.high.cwiseMax(place.centre + extent);
@@ -36,44 +36,45 @@ void enclose(SweptPart& swept, std::span<const PartPlace> places) {
   swept.high += more;
 }
 
-PlacedPolytope hull(const SweptPart& swept, const PartPlace& place) {
-  return {swept.part->shape->bounds().corners, place.R_FS, place.centre};
+PlacedPolytope hull(const SweptGeometry& swept, const GeometryPlace& place) {
+  return {swept.geometry->shape->bounds().corners, place.R_FS, place.centre};
 }
 
-double thickness(const SweptPart& A, const SweptPart& B, double error) {
-  return (A.part->box.radius + B.part->box.radius + error) * kUp;
+double thickness(const SweptGeometry& A, const SweptGeometry& B, double error) {
+  return (A.geometry->box.radius + B.geometry->box.radius + error) * kUp;
 }
 
 }  // namespace
 
-PartMount::PartMount(const Part& part, TreePoses& given_course, std::size_t given_node,
-                     const JointPath& X_LS)
+GeometryMount::GeometryMount(const BoundedGeometry& geometry, TreePoses& given_course,
+                             std::size_t given_node, const JointPath& X_LS)
     : course(&given_course), node(given_node) {
   const JointState& rest = *X_LS.rest();
   const Vector3d p_LS = rest.p_PQ.value() + rest.p_QL;
   R_LS = rest.R_PL;
-  p_LC = p_LS + R_LS * part.box.centre;
-  far = (p_LS.norm() + part.box.centre.norm() + part.box.reach()) * kUp;
+  p_LC = p_LS + R_LS * geometry.box.centre;
+  far = (p_LS.norm() + geometry.box.centre.norm() + geometry.box.reach()) * kUp;
 }
 
-PartMount::PartMount(const Part& part, TreePoses& given_course)
+GeometryMount::GeometryMount(const BoundedGeometry& geometry, TreePoses& given_course)
     : course(&given_course),
-      p_LC(part.box.centre),
-      far((part.box.centre.norm() + part.box.reach()) * kUp) {}
+      p_LC(geometry.box.centre),
+      far((geometry.box.centre.norm() + geometry.box.reach()) * kUp) {}
 
-PartTrack::PartTrack(const Part& part, const PartMount& mount, std::size_t frame)
-    : part_(&part), mount_(mount), frame_(frame) {
-  const auto bounds = mount.course->bounds(mount.node, mount.p_LC, part.reach, frame);
+GeometryTrack::GeometryTrack(const BoundedGeometry& geometry, const GeometryMount& mount,
+                             std::size_t frame)
+    : geometry_(&geometry), mount_(mount), frame_(frame) {
+  const auto bounds = mount.course->bounds(mount.node, mount.p_LC, geometry.reach, frame);
   speed_ = bounds.rate;
   jerk_ = bounds.jerk;
 }
 
-PartPlace PartTrack::place(int k) const {
+GeometryPlace GeometryTrack::place(int k) const {
   const FramePlace& L = mount_.course->place(mount_.node, k);
-  PartPlace place{L.R * mount_.R_LS, L.p + L.R * mount_.p_LC, 0.0};
+  GeometryPlace place{L.R * mount_.R_LS, L.p + L.R * mount_.p_LC, 0.0};
   place.error =
       (L.position_error + L.rounding + (L.rotation_error + 2.0 * kRotationStep) * mount_.far +
-       part_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
+       geometry_->shape->bounds().error + kRounding * (place.centre.norm() + mount_.far)) *
       kUp;
   if (frame_ != TreePoses::kWorld) {
     const FramePlace& F = mount_.course->place(frame_, k);
@@ -87,10 +88,10 @@ PartPlace PartTrack::place(int k) const {
   return place;
 }
 
-SweptPart PartTrack::sweep(const TimeWindow& window, const PartPlace& begin,
-                           const PartPlace& middle, const PartPlace& end) const {
-  SweptPart swept;
-  swept.part = part_;
+SweptGeometry GeometryTrack::sweep(const TimeWindow& window, const GeometryPlace& begin,
+                                   const GeometryPlace& middle, const GeometryPlace& end) const {
+  SweptGeometry swept;
+  swept.geometry = geometry_;
   swept.controls = {begin,
                     {2.0 * middle.R_FS - 0.5 * (begin.R_FS + end.R_FS),
                      2.0 * middle.centre - 0.5 * (begin.centre + end.centre)},
@@ -104,9 +105,9 @@ SweptPart PartTrack::sweep(const TimeWindow& window, const PartPlace& begin,
   return swept;
 }
 
-SweptPart PartTrack::rest() const {
-  SweptPart swept;
-  swept.part = part_;
+SweptGeometry GeometryTrack::rest() const {
+  SweptGeometry swept;
+  swept.geometry = geometry_;
   swept.middle = place(TimeGrid::kMiddle);
   swept.controls.fill(swept.middle);
   swept.rests = true;
@@ -115,7 +116,7 @@ SweptPart PartTrack::rest() const {
   return swept;
 }
 
-SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B) {
+SweptGap gap_of_boxes(const SweptGeometry& A, const SweptGeometry& B) {
   const Vector3d forth = B.low - A.high;
   const Vector3d back = A.low - B.high;
   Eigen::Index axis = 0;
@@ -123,15 +124,16 @@ SweptGap gap_of_boxes(const SweptPart& A, const SweptPart& B) {
   return {most, (forth[axis] >= back[axis] ? 1.0 : -1.0) * Vector3d::Unit(axis)};
 }
 
-SweptGap gap_at_middle(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n,
-                       double near) {
+SweptGap gap_at_middle(const SweptGeometry& A, const SweptGeometry& B, double enough,
+                       const Vector3d& n, double near) {
   const double thick = thickness(A, B, A.middle.error + B.middle.error);
   const Separation found =
       separate(hull(A, A.middle), hull(B, B.middle), n, {.least = thick + enough, .near = near});
   return {found.gap - thick, found.n};
 }
 
-SweptGap gap_throughout(const SweptPart& A, const SweptPart& B, double enough, const Vector3d& n) {
+SweptGap gap_throughout(const SweptGeometry& A, const SweptGeometry& B, double enough,
+                        const Vector3d& n) {
   const std::array<PlacedPolytope, 3> hulls_A = {hull(A, A.controls[0]), hull(A, A.controls[1]),
                                                  hull(A, A.controls[2])};
   const std::array<PlacedPolytope, 3> hulls_B = {hull(B, B.controls[0]), hull(B, B.controls[1]),

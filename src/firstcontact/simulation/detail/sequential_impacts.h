@@ -1,0 +1,31 @@
+/// @file
+/// Impacts at the same time, one pair after the other.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+
+namespace firstcontact::detail {
+
+struct IslandState;
+
+/// Velocities after an impact in which pairs answer one after the other: the pair that closes
+/// fastest is next, by project_impact(), until no pair closes faster than an impact that does not
+/// bounce, or very slowly. What still closes then is held by all contacts together. Pairs without
+/// restitution have no turn: they hold in each answer, as if they were one body.
+///
+/// Each answer keeps momentum and adds no energy, so the sum does neither. A row of equal balls in
+/// touch passes a hit on to its last one (Newton's cradle; V. Acary, B. Brogliato, "Concerning the
+/// multiple impacts modelling in the Newton's cradle", INRIA report 5064 (2003)).
+///
+/// Of many pairs that pass a hit to and fro only so many answers are taken, some for each pair.
+///
+/// @param pairs  the bodies of each contact
+[[nodiscard]] ContactSolution project_sequential_impacts(const IslandState& state,
+                                                         const ContactProblem& problem,
+                                                         const std::vector<BodyPair>& pairs);
+
+}  // namespace firstcontact::detail

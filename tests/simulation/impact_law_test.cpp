@@ -1,0 +1,113 @@
+// The laws of impacts at the same time, and surfaces that run along their bodies.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_run.h"
+
+#include <firstcontact/record/run_step.h>
+
+namespace firstcontact {
+namespace {
+
+using test::ball;
+using test::body;
+using test::box;
+using test::kFloor;
+using test::numbers;
+using test::run;
+using test::settings;
+using test::simulator;
+
+/// The velocities after `coming` of six equal balls hit the others, which touch.
+std::vector<double> cradle(int coming, double restitution, const std::string& law) {
+  std::string bodies;
+  for (int k = 0; k < 6; ++k) {
+    const double x = 0.2001 * k - (k < coming ? 0.05 : 0.0);
+    bodies += (k == 0 ? "" : ", ") +
+              body("ball " + std::to_string(k), ball("0.1"), numbers({x, 0.0, 0.0}),
+                   k < coming ? R"(, "dynamics": {"linear_velocity": [1, 0, 0]})"
+                              : R"(, "dynamics": {})");
+  }
+  Simulator s = simulator(bodies, settings(0.01, 0.3, 1e-4) + R"(, "gravity": [0, 0, 0],
+      "restitution": )" + std::to_string(restitution) +
+                                      law);
+  const RunStep end = run(s, 20).back();
+  std::vector<double> velocities;
+  for (const RunBody& ball : end.bodies) {
+    velocities.push_back(ball.linear_velocity.x());
+  }
+  return velocities;
+}
+
+TEST(ImpactLaw, ACradleInTouchSendsOffAsManyAsCome) {
+  for (const int coming : {1, 2, 3}) {
+    const std::vector<double> v = cradle(coming, 1.0, "");
+    for (int k = 0; k < 6; ++k) {
+      EXPECT_NEAR(v[static_cast<std::size_t>(k)], k < 6 - coming ? 0.0 : 1.0, 1e-6)
+          << coming << " " << k;
+    }
+  }
+}
+
+TEST(ImpactLaw, BothKeepMomentumAndAddNoEnergy) {
+  for (const double restitution : {0.0, 0.3, 0.8, 1.0}) {
+    for (const std::string law : {"", R"(, "impacts": "simultaneous")"}) {
+      double momentum = 0.0;
+      double energy = 0.0;
+      for (const double v : cradle(2, restitution, law)) {
+        momentum += v;
+        energy += v * v;
+      }
+      EXPECT_NEAR(momentum, 2.0, 1e-7) << restitution << law;
+      EXPECT_LE(energy, 2.0 * (1.0 + 1e-9)) << restitution << law;
+    }
+  }
+}
+
+TEST(ImpactLaw, SimultaneousImpactsShareTheHit) {
+  const std::vector<double> v = cradle(1, 1.0, R"(, "impacts": "simultaneous")");
+  EXPECT_LT(v[0], -0.1);
+  EXPECT_NEAR(v[4], v[5], 1e-6);
+}
+
+TEST(Belt, CarriesABlockUpToItsSpeed) {
+  // Friction speeds it up by mu g, until it goes with the belt, 0.5 m/s along the belt's x.
+  const std::string belt =
+      R"({"name": "belt", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -0.5],
+      "rpy": [0, 0, 0.5]}, "surface": {"velocity": [0.5, 0, 0], "friction": 0.4}})";
+  for (const double step : {0.01, 0.003}) {
+    Simulator s = simulator(belt + ", " +
+                                body("block", box("[0.2, 0.2, 0.1]"), "[0, 0, 0.0501]",
+                                     R"(, "dynamics": {"friction": 0.4})"),
+                            settings(step, 0.4, 1e-4));
+    const double speeding = 0.5 / (0.4 * 9.81);
+    const auto steps = run(s, static_cast<std::size_t>(std::lround(1.0 / step)));
+    const RunBody& end = steps.back().bodies[0];
+    EXPECT_NEAR(end.linear_velocity.x(), 0.5 * std::cos(0.5), 1e-6);
+    EXPECT_NEAR(end.linear_velocity.y(), 0.5 * std::sin(0.5), 1e-6);
+    const double way = 0.5 * (steps.back().time - 0.5 * speeding);
+    EXPECT_NEAR(end.X_WB.position.head<2>().norm(), way, 0.4 * 9.81 * step * step) << step;
+    EXPECT_NEAR(end.angular_velocity.norm(), 0.0, 1e-6);
+  }
+}
+
+TEST(Belt, HoldsAWheelThatRollsAgainstIt) {
+  // On a belt that runs at -v a ball that spins at v / r stays where it is.
+  const std::string belt =
+      R"({"name": "belt", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -0.5]},
+      "surface": {"velocity": [-0.6, 0, 0]}})";
+  Simulator s = simulator(belt + ", " +
+                              body("ball", ball("0.1"), "[0, 0, 0.1001]",
+                                   R"(, "dynamics": {"angular_velocity": [0, 6, 0]})"),
+                          settings(0.01, 0.5, 1e-4));
+  const RunBody end = run(s, 100).back().bodies[0];
+  EXPECT_NEAR(end.X_WB.position.x(), 0.0, 1e-3);
+  EXPECT_NEAR(end.angular_velocity.y(), 6.0, 1e-2);
+}
+
+}  // namespace
+}  // namespace firstcontact
