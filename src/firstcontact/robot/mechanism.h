@@ -185,8 +185,8 @@ class FIRSTCONTACT_API Mechanism {
   RobotModel model_;
   Pose X_WR_;
   std::vector<MechanismJoint> blocks_;
-  std::vector<Part> parts_;         // Of each joint.
-  std::vector<std::size_t> order_;  // Links, parents first.
+  std::vector<Part> parts_;                          // Of each joint.
+  std::vector<std::size_t> order_;                   // Links, parents first.
   std::vector<std::vector<Eigen::Index>> moved_by_;  // Of each link: the velocities that move it.
   Eigen::Index size_ = 0;
   Eigen::Index position_count_ = 0;
