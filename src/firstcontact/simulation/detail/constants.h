@@ -155,6 +155,10 @@ inline constexpr double kAtLimit = 1e-9;
 /// yields as little has no solution together with it, and then neither law is kept.
 inline constexpr double kMostBeyondLimit = 1e-3;
 
+/// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
+/// the contact distance. Beyond it velocities at the end of a plan lead the robot.
+inline constexpr double kUnseenPlacement = 0.1;
+
 // How exactly contact problems are solved, by what gravity adds in a step.
 
 /// [-]  The residual of problems of few contacts.
@@ -193,6 +197,10 @@ inline constexpr int kAroundSweeps = 2;
 inline constexpr double kUnsolved = 1e-2;
 /// [-]  The same by the velocities, where there is no gravity: well above rounding.
 inline constexpr double kUnsolvedOfSpeed = 1e-9;
+
+/// [-]  Motors without bound yield by this part of what impulses do to their coordinates, where a
+/// problem has no solution without that. Smaller: they press harder on what stops them.
+inline constexpr double kYield = 1e-3;
 
 // Sleep.
 

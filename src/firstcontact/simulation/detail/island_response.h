@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/response.h>
 
 namespace firstcontact::detail {
 
@@ -63,5 +65,17 @@ struct PlanSolution {
 [[nodiscard]] ContactSolution project_simultaneous_impact(const IslandState& state,
                                                           const ContactProblem& problem,
                                                           const std::vector<double>& restitution);
+
+/// Whether a problem has a solution that was found.
+[[nodiscard]] bool is_solved(const IslandState& state, const ContactSolution& solution);
+
+/// The impulses on each robot of what is not of it.
+///
+/// They act where the other body has the contact, so that what the one gets the other one loses,
+/// the moment about the origin too. They are not known where velocities were limited.
+[[nodiscard]] std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
+                                                       const PlanSolution& solution,
+                                                       const ProblemBodies& bodies,
+                                                       std::size_t robots);
 
 }  // namespace firstcontact::detail
