@@ -223,7 +223,7 @@ class Island {
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
     const PlanSolution impact{solution, !is_solved(state_, solution)};
     state_.robots.take_velocities(solution,
-                                  outer_impulses(problem, impact, bodies, state_.robots.size()));
+                                  outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0));
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (!solution.impulses[k].isZero(0.0)) {
         track_.impacts.push_back({state_.reached, touches[k]->bodies, touches[k]->point,

@@ -286,7 +286,7 @@ Plan IslandPlanner::plan() {
       by_end_ && state_.robots.empty() && !is_heap(state_, problem_) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
   const std::vector<OuterImpulse> outer =
-      outer_impulses(problem_, *last_, bodies_, state_.robots.size());
+      outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, outer,
                                    state_.start.time + state_.reached, span_);
   push_apart(made);

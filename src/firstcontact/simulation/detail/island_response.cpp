@@ -379,7 +379,7 @@ ContactSolution project_simultaneous_impact(const IslandState& state, const Cont
 
 std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
                                          const PlanSolution& solution, const ProblemBodies& bodies,
-                                         std::size_t robots) {
+                                         std::size_t robots, double span) {
   std::vector<OuterImpulse> outer(robots);
   for (std::size_t k = 0; k < problem.contacts.size() && robots > 0; ++k) {
     const ContactPoint& contact = problem.contacts[k];
@@ -399,12 +399,20 @@ std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
     if (is_inner) {
       continue;
     }
-    const std::array<Vector3d, 2> points{bodies.centre(contact.bodies[0]) + contact.arm_A,
-                                         bodies.centre(contact.bodies[1]) + contact.arm_B};
+    const auto halfway = [&](int side) {
+      const std::size_t place = contact.bodies[side];
+      const Vector3d mean = 0.5 * (bodies.bodies()[place].v + solution.velocities.bodies[place].v);
+      return Vector3d(bodies.centre(place) + 0.5 * span * mean +
+                      (side == 0 ? contact.arm_A : contact.arm_B));
+    };
+    const std::array<Vector3d, 2> points{halfway(0), halfway(1)};
+    const auto is_free = [&](int side) {
+      return problem.bodies[contact.bodies[side]].inverse_inertia.mass.any();
+    };
     for (int side = 0; side < 2; ++side) {
       if (*links[side]) {
-        const Vector3d point =
-            *links[1 - side] ? Vector3d(0.5 * (points[0] + points[1])) : points[1 - side];
+        const Vector3d point = *links[1 - side] ? Vector3d(0.5 * (points[0] + points[1]))
+                                                : points[is_free(1 - side) ? 1 - side : side];
         const Vector3d on = side == 0 ? Vector3d(-impulse) : impulse;
         OuterImpulse& sum = outer[(*links[side])->mechanism];
         sum.linear += on;

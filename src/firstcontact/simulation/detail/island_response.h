@@ -71,11 +71,14 @@ struct PlanSolution {
 
 /// The impulses on each robot of what is not of it.
 ///
-/// They act where the other body has the contact, so that what the one gets the other one loses,
-/// the moment about the origin too. They are not known where velocities were limited.
+/// They act where the contact is halfway through the span. Where the other body is free it is that
+/// body's point, so that what the one gets the other one loses, the moment about the origin too.
+/// They are not known where velocities were limited.
+///
+/// @param span  [s]  over which they act; 0 at an impact
 [[nodiscard]] std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
                                                        const PlanSolution& solution,
                                                        const ProblemBodies& bodies,
-                                                       std::size_t robots);
+                                                       std::size_t robots, double span);
 
 }  // namespace firstcontact::detail
