@@ -50,7 +50,7 @@ struct Surface {
   std::optional<Eigen::Vector3d> velocity = {};
 };
 
-/// What impacts do that happen at the same time.
+/// The law of impacts that happen at the same time.
 enum class ImpactLaw {
   sequential,    ///< Pairs answer one after the other, the fastest first, until all part.
   simultaneous,  ///< Newton's law holds for all contacts at once.
