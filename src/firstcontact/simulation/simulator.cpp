@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -93,6 +95,9 @@ class Simulator::Implementation {
     const Scene& scene = loaded_.scene;
     header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
     header_.scene.simulation->contact_distance = model_.distances.least;
+    std::ranges::copy(
+        detail::check_contact_distance(model_.distances.least, loaded_, model_.bodies),
+        std::back_inserter(linked_.loaded.warnings));
     for (const detail::SimRobot& robot : model_.robots) {
       state_.robots.push_back(robot.start);
     }

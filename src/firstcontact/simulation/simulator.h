@@ -35,8 +35,9 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
   /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
-  ///         bodies meet at the start (names them), a body's mass cannot be found, or a robot
-  ///         cannot be simulated (gives the reason)
+  ///         bodies meet at the start (names them), a body's mass cannot be found, a robot cannot
+  ///         be simulated (gives the reason), or the contact distance is larger than the smallest
+  ///         free body or too small to be proven
   explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;

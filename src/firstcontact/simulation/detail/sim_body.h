@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -60,6 +61,15 @@ struct SimBody {
 /// Where there are links only, the radius is that of the smallest of them.
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
+
+/// What one should know of a contact distance: it is large for the smallest free body, or so small
+/// that steps take long.
+///
+/// @throws std::invalid_argument, with the mend, if it is larger than that body, or so small that
+///         coordinates round by too much of it for a proof
+[[nodiscard]] std::vector<std::string> check_contact_distance(double contact_distance,
+                                                              const LoadedScene& linked,
+                                                              const std::vector<SimBody>& bodies);
 
 /// Friction, restitution and separation of pairs.
 class PairLaws {
