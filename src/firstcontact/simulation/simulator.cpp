@@ -70,6 +70,61 @@ std::string wrong_state(const Mechanism& mechanism, const MechanismState& state)
   return {};
 }
 
+/// The first thing that is wrong with a surface; empty if nothing is.
+std::string wrong_surface(const Surface& surface) {
+  if (!(surface.friction.value_or(0.0) >= 0.0) || !std::isfinite(surface.friction.value_or(0.0))) {
+    return "friction must be >= 0 and finite";
+  }
+  const double restitution = surface.restitution.value_or(0.0);
+  if (!(restitution >= 0.0 && restitution <= 1.0)) {
+    return "restitution must be in [0, 1]";
+  }
+  if (surface.velocity && !surface.velocity->allFinite()) {
+    return "velocity must be finite";
+  }
+  return {};
+}
+
+/// The first thing that is wrong with a motor; empty if nothing is.
+std::string wrong_motor(const JointMotor& motor) {
+  if (motor.target.empty()) {
+    return "expected a target";
+  }
+  for (std::size_t k = 0; k < motor.target.size(); ++k) {
+    const TimedNumber& at = motor.target[k];
+    if (!std::isfinite(at.number) || !std::isfinite(at.time)) {
+      return "a target must be finite";
+    }
+    if (k > 0 && !(motor.target[k - 1].time < at.time)) {
+      return "the times of a target must increase";
+    }
+  }
+  const bool is_spring = motor.kind == JointMotor::Kind::position && motor.stiffness;
+  if (motor.stiffness && !is_spring) {
+    return "stiffness is for a position";
+  }
+  if (is_spring && !(*motor.stiffness > 0.0 && std::isfinite(*motor.stiffness))) {
+    return "stiffness must be > 0 and finite";
+  }
+  if (!(motor.damping >= 0.0 && std::isfinite(motor.damping))) {
+    return "damping must be >= 0 and finite";
+  }
+  if (motor.damping > 0.0 && !is_spring) {
+    return "damping needs a position with stiffness";
+  }
+  if (motor.effort && !(*motor.effort >= 0.0 && std::isfinite(*motor.effort))) {
+    return "effort must be >= 0 and finite";
+  }
+  return {};
+}
+
+/// @throws std::invalid_argument unless nothing is wrong
+void require_right(const char* call, const std::string& wrong) {
+  if (!wrong.empty()) {
+    throw std::invalid_argument(std::string(call) + ": " + wrong);
+  }
+}
+
 /// The rotation vector over a part of a motion: of one piece with all its turns, over several by
 /// the shortest way.
 Vector3d rotation_between(const Motion& motion, double from, double to) {
@@ -180,6 +235,66 @@ class Simulator::Implementation {
     state_.rests.assign(state_.states.size(), false);
   }
 
+  void apply_force(std::size_t body, const Vector3d& force, const Vector3d& torque,
+                   const std::optional<Vector3d>& p_WP) {
+    require_free("apply_force", body, "drive its joints with set_motor");
+    const Vector3d p_WC = centre_of_mass(model_.bodies[body].inertia, state_.states[body].X_WB);
+    const Vector3d about_C = torque + (p_WP.value_or(p_WC) - p_WC).cross(force);
+    if (!force.allFinite() || !about_C.allFinite()) {
+      throw std::invalid_argument("apply_force: numbers must be finite");
+    }
+    applied_.push_back(body);
+    model_.bodies[body].forces.push_back({.from = -std::numeric_limits<double>::infinity(),
+                                          .to = std::numeric_limits<double>::infinity(),
+                                          .force = force,
+                                          .torque = about_C});
+    state_.rests[body] = false;  // Wakes all that it touches.
+  }
+
+  void set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor) {
+    detail::JointLaw& law = law_of("set_motor", robot, joint);
+    require_right("set_motor", wrong_motor(motor));
+    // A new law: nothing of what led the motor before stays.
+    law = detail::JointLaw{.position = law.position,
+                           .velocity = law.velocity,
+                           .limits = law.limits,
+                           .damping = law.damping,
+                           .friction = law.friction,
+                           .motor = motor};
+    wake();
+  }
+
+  std::optional<JointMotor> motor(std::size_t robot, std::string_view joint) {
+    return law_of("motor", robot, joint).motor;
+  }
+
+  void set_gravity(const Vector3d& gravity) {
+    if (!gravity.allFinite()) {
+      throw std::invalid_argument("set_gravity: numbers must be finite");
+    }
+    model_.gravity = gravity;
+    wake();
+  }
+
+  void set_surface(std::size_t body, const Surface& surface) {
+    require_body("set_surface", body);
+    require_right("set_surface", wrong_surface(surface));
+    model_.laws.set_surface(body, surface);
+    wake();
+  }
+
+  void set_pair_surface(const BodyPair& bodies, const Surface& surface) {
+    require_body("set_pair_surface", bodies[0]);
+    require_body("set_pair_surface", bodies[1]);
+    if (bodies[0] == bodies[1]) {
+      throw std::invalid_argument("set_pair_surface: expected two bodies, got one twice");
+    }
+    require_right("set_pair_surface",
+                  surface.velocity ? "a pair has no velocity" : wrong_surface(surface));
+    model_.laws.set_pair_surface(bodies, surface);
+    wake();
+  }
+
   void resume(const RunStep& step) {
     std::vector<MechanismState> robots = robots_of(step);
     std::vector<RigidState> states = state_.states;
@@ -214,10 +329,62 @@ class Simulator::Implementation {
     if (!tracks) {
       return std::nullopt;
     }
-    return detail::record_step(model_, start, *tracks, state_);
+    RunStep done = detail::record_step(model_, start, *tracks, state_);
+    end_forces(done);
+    return done;
   }
 
  private:
+  void require_body(const char* call, std::size_t body) const {
+    if (body >= model_.bodies.size()) {
+      throw std::invalid_argument(std::string(call) + ": there is no body " + std::to_string(body));
+    }
+  }
+
+  /// @param mend  for a link
+  void require_free(const char* call, std::size_t body, const char* mend) const {
+    require_body(call, body);
+    const std::string at = std::string(call) + ": body " + std::to_string(body);
+    if (model_.bodies[body].kind != BodyKind::free) {
+      throw std::invalid_argument(at + " is not free");
+    }
+    if (model_.bodies[body].piece) {
+      throw std::invalid_argument(at + " is a link; " + mend);
+    }
+  }
+
+  detail::JointLaw& law_of(const char* call, std::size_t robot, std::string_view joint) {
+    if (robot >= model_.robots.size()) {
+      throw std::invalid_argument(std::string(call) + ": there is no robot " +
+                                  std::to_string(robot) + " with dynamics");
+    }
+    detail::SimRobot& found = model_.robots[robot];
+    const auto joints = linked_.models[found.number].joints();
+    for (const MechanismJoint& block : found.mechanism.joints()) {
+      if (block.joint < joints.size() && joints[block.joint].name == joint &&
+          block.positions == 1) {
+        return *std::ranges::find(found.laws, block.velocity, &detail::JointLaw::velocity);
+      }
+    }
+    throw std::invalid_argument(std::string(call) + ": robot \"" + found.name +
+                                "\" has no joint of one coordinate that is named \"" +
+                                std::string(joint) + '"');
+  }
+
+  /// What was held may move.
+  void wake() { state_.rests.assign(state_.states.size(), false); }
+
+  /// A body that came to rest under a force that ends is not at rest: it is looked at again, by a
+  /// run that is resumed here, too.
+  void end_forces(RunStep& done) {
+    for (const std::size_t b : applied_) {
+      model_.bodies[b].forces.pop_back();
+      state_.rests[b] = false;
+      std::ranges::find(done.bodies, b, &RunBody::body)->rests = false;
+    }
+    applied_.clear();
+  }
+
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
   [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
     std::vector<ManifoldPoint> touches;
@@ -339,6 +506,7 @@ class Simulator::Implementation {
   SimulationModel model_;
   RunHeader header_;
   detail::SimulationState state_;
+  std::vector<std::size_t> applied_;  // Bodies whose last forces are for the next step alone.
   Workspace workspace_;
 };
 
@@ -361,6 +529,23 @@ void Simulator::set_robot_state(std::size_t robot, const MechanismState& state) 
 }
 void Simulator::set_state(std::size_t body, const RigidState& state) {
   implementation_->set_state(body, state);
+}
+void Simulator::apply_force(std::size_t body, const Vector3d& force, const Vector3d& torque,
+                            const std::optional<Vector3d>& p_WP) {
+  implementation_->apply_force(body, force, torque, p_WP);
+}
+void Simulator::set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor) {
+  implementation_->set_motor(robot, joint, motor);
+}
+std::optional<JointMotor> Simulator::motor(std::size_t robot, std::string_view joint) const {
+  return implementation_->motor(robot, joint);
+}
+void Simulator::set_gravity(const Vector3d& gravity) { implementation_->set_gravity(gravity); }
+void Simulator::set_surface(std::size_t body, const Surface& surface) {
+  implementation_->set_surface(body, surface);
+}
+void Simulator::set_pair_surface(const BodyPair& bodies, const Surface& surface) {
+  implementation_->set_pair_surface(bodies, surface);
 }
 void Simulator::resume(const RunStep& step) { implementation_->resume(step); }
 std::optional<RunStep> Simulator::step(const std::stop_token& stop) {

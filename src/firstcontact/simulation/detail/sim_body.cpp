@@ -180,6 +180,18 @@ PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {
   }
 }
 
+void PairLaws::set_surface(std::size_t body, const Surface& surface) {
+  friction_[body] = surface.friction.value_or(friction_[body]);
+  restitution_[body] = surface.restitution.value_or(restitution_[body]);
+  belts_[body] = surface.velocity.value_or(belts_[body]);
+}
+
+void PairLaws::set_pair_surface(const BodyPair& pair, const Surface& surface) {
+  Surface& own = pairs_[key({std::min(pair[0], pair[1]), std::max(pair[0], pair[1])})];
+  own.friction = surface.friction ? surface.friction : own.friction;
+  own.restitution = surface.restitution ? surface.restitution : own.restitution;
+}
+
 const Surface* PairLaws::of_pair(const BodyPair& pair) const {
   const auto found = pairs_.find(key(pair));
   return found == pairs_.end() ? nullptr : &found->second;

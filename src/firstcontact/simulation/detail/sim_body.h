@@ -87,6 +87,10 @@ class PairLaws {
   /// [m/s]  How fast the surface of a body runs along it; axes of the body frame.
   [[nodiscard]] const Eigen::Vector3d& belt(std::size_t body) const { return belts_[body]; }
 
+  /// Change what is given.
+  void set_surface(std::size_t body, const Surface& surface);
+  void set_pair_surface(const BodyPair& pair, const Surface& surface);
+
  private:
   [[nodiscard]] const Surface* of_pair(const BodyPair& pair) const;
 
