@@ -21,15 +21,20 @@
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/wrong_commands.h>
 
 namespace firstcontact {
 
 using detail::BodyKind;
+using detail::is_rotation;
 using detail::IslandTrack;
 using detail::ManifoldPoint;
 using detail::SimBody;
 using detail::SimulationModel;
 using detail::StepStart;
+using detail::wrong_motor;
+using detail::wrong_state;
+using detail::wrong_surface;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -47,75 +52,6 @@ void require_simulation(const LoadedScene& loaded) {
                                   "\": a deforming body is not simulated; leave it out");
     }
   }
-}
-
-/// Whether a quaternion can be made a unit one.
-bool is_rotation(const Eigen::Vector4d& q) { return q.norm() > 0.0 && std::isfinite(q.norm()); }
-
-/// What keeps a mechanism from being in a state; empty if nothing does.
-std::string wrong_state(const Mechanism& mechanism, const MechanismState& state) {
-  if (state.positions.size() != mechanism.position_count() ||
-      state.velocities.size() != mechanism.size() || !state.positions.allFinite() ||
-      !state.velocities.allFinite()) {
-    return "expected " + std::to_string(mechanism.position_count()) + " positions and " +
-           std::to_string(mechanism.size()) + " velocities, all finite";
-  }
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const std::optional<Eigen::Index> at = joint.quaternion();
-    if (at && !is_rotation(state.positions.segment<4>(*at))) {
-      return "positions " + std::to_string(*at) + " to " + std::to_string(*at + 3) +
-             " are a quaternion, which must not be zero";
-    }
-  }
-  return {};
-}
-
-/// The first thing that is wrong with a surface; empty if nothing is.
-std::string wrong_surface(const Surface& surface) {
-  if (!(surface.friction.value_or(0.0) >= 0.0) || !std::isfinite(surface.friction.value_or(0.0))) {
-    return "friction must be >= 0 and finite";
-  }
-  const double restitution = surface.restitution.value_or(0.0);
-  if (!(restitution >= 0.0 && restitution <= 1.0)) {
-    return "restitution must be in [0, 1]";
-  }
-  if (surface.velocity && !surface.velocity->allFinite()) {
-    return "velocity must be finite";
-  }
-  return {};
-}
-
-/// The first thing that is wrong with a motor; empty if nothing is.
-std::string wrong_motor(const JointMotor& motor) {
-  if (motor.target.empty()) {
-    return "expected a target";
-  }
-  for (std::size_t k = 0; k < motor.target.size(); ++k) {
-    const TimedNumber& at = motor.target[k];
-    if (!std::isfinite(at.number) || !std::isfinite(at.time)) {
-      return "a target must be finite";
-    }
-    if (k > 0 && !(motor.target[k - 1].time < at.time)) {
-      return "the times of a target must increase";
-    }
-  }
-  const bool is_spring = motor.kind == JointMotor::Kind::position && motor.stiffness;
-  if (motor.stiffness && !is_spring) {
-    return "stiffness is for a position";
-  }
-  if (is_spring && !(*motor.stiffness > 0.0 && std::isfinite(*motor.stiffness))) {
-    return "stiffness must be > 0 and finite";
-  }
-  if (!(motor.damping >= 0.0 && std::isfinite(motor.damping))) {
-    return "damping must be >= 0 and finite";
-  }
-  if (motor.damping > 0.0 && !is_spring) {
-    return "damping needs a position with stiffness";
-  }
-  if (motor.effort && !(*motor.effort >= 0.0 && std::isfinite(*motor.effort))) {
-    return "effort must be >= 0 and finite";
-  }
-  return {};
 }
 
 /// @throws std::invalid_argument unless nothing is wrong
