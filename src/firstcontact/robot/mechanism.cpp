@@ -121,6 +121,55 @@ std::string wrong_inertia(const LinkInertia& inertia) {
   return {};
 }
 
+/// Whether a matrix with a positive diagonal is definite, beyond rounding.
+bool is_definite(const MatrixXd& M) {
+  constexpr double kSingular = 1e-13;  // [-]  Rounding of correlations.
+  const VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixXd correlations = scale.asDiagonal() * M * scale.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(correlations, Eigen::EigenvaluesOnly)
+             .eigenvalues()[0] > kSingular;
+}
+
+/// Solves with a mass matrix, or with a definite one near a singular one.
+template <class Forces>
+Forces solve_mass(const MatrixXd& M, const Forces& forces) {
+  const Eigen::LLT<MatrixXd> factor(M);
+  if (factor.info() == Eigen::Success) {
+    return factor.solve(forces);
+  }
+  constexpr double kAdded = 1e-12;  // [-]
+  const double added = kAdded * M.diagonal().maxCoeff();
+  return (M + added * MatrixXd::Identity(M.rows(), M.cols())).llt().solve(forces);
+}
+
+/// Accelerations and the forces on driven coordinates.
+struct Response {
+  VectorXd accelerations;
+  VectorXd forces;
+};
+
+/// Solves M a = forces, but for the driven coordinates, whose accelerations are given.
+Response respond(const MatrixXd& M, const VectorXd& forces, const std::vector<Index>& driven,
+                 const VectorXd& given) {
+  if (driven.empty()) {
+    return {solve_mass(M, forces), VectorXd()};
+  }
+  std::vector<Index> others;
+  for (Index k = 0; k < M.rows(); ++k) {
+    if (std::ranges::find(driven, k) == driven.end()) {
+      others.push_back(k);
+    }
+  }
+  Response response{VectorXd::Zero(M.rows()), VectorXd()};
+  response.accelerations(driven) = given;
+  if (!others.empty()) {
+    const VectorXd left = forces(others) - M(others, driven) * given;
+    response.accelerations(others) = solve_mass(MatrixXd(M(others, others)), left);
+  }
+  response.forces = (M * response.accelerations - forces)(driven);
+  return response;
+}
+
 /// How a joint moves its child now, about a reference point.
 struct JointPlace {
   Vector3d p_WL;
@@ -195,7 +244,7 @@ Mechanism::Mechanism(RobotModel model, const Pose& X_WR, bool free_base)
       X_WR_{X_WR.position, X_WR.rotation.normalized()},
       free_base_(free_base) {
   lay_out(free_base);
-  require_mass();
+  require_inertias();
 }
 
 void Mechanism::lay_out(bool free_base) {
@@ -238,16 +287,33 @@ void Mechanism::lay_out(bool free_base) {
       }
     }
   }
+  moved_by_.resize(model_.links().size());
+  for (const std::size_t link : order_) {
+    const std::optional<std::size_t> joint = model_.parent_joint(link);
+    std::vector<Index>& own = moved_by_[link];
+    if (joint) {
+      own = moved_by_[model_.parent_link(*joint)];
+    }
+    const std::size_t block = joint ? parts_[*joint].block : (free_base ? 0 : kFixed);
+    if (block != kFixed && std::ranges::find(own, blocks_[block].velocity) == own.end()) {
+      for (Index k = 0; k < blocks_[block].velocities; ++k) {
+        own.push_back(blocks_[block].velocity + k);
+      }
+    }
+  }
 }
 
-void Mechanism::require_mass() const {
+void Mechanism::require_inertias() const {
   for (const Link& link : model_.links()) {
     const std::string wrong = link.inertia ? wrong_inertia(*link.inertia) : std::string();
     if (!wrong.empty()) {
       throw std::invalid_argument("link \"" + link.name + "\": " + wrong);
     }
   }
-  const MatrixXd M = mass_matrix(at(rest()));
+}
+
+void Mechanism::require_mass(const VectorXd& positions) const {
+  const MatrixXd M = mass_matrix(at({positions, VectorXd::Zero(size_)}));
   const double size = M.size() > 0 ? M.diagonal().maxCoeff() : 0.0;
   for (const MechanismJoint& block : blocks_) {
     const auto mass = M.diagonal().segment(block.velocity, block.velocities);
@@ -260,10 +326,11 @@ void Mechanism::require_mass() const {
           "\"dynamics\" a \"density\"");
     }
   }
-  if (M.size() > 0 && Eigen::LLT<MatrixXd>(M).info() != Eigen::Success) {
+  if (M.size() > 0 && !is_definite(M)) {
     throw std::invalid_argument(
         "robot \"" + model_.name() +
-        "\": some of its joints together move no mass: give the links between them an <inertial>");
+        "\": some of its joints together move no mass where it starts: give the links between them "
+        "an <inertial>, or the robot another \"state\"");
   }
 }
 
@@ -364,12 +431,32 @@ MechanismInstant Mechanism::at(const MechanismState& state) const {
   return instant;
 }
 
+MatrixXd Mechanism::inverse_mass(const MatrixXd& mass_matrix) {
+  return solve_mass<MatrixXd>(mass_matrix,
+                              MatrixXd::Identity(mass_matrix.rows(), mass_matrix.cols()));
+}
+
 MatrixXd Mechanism::mass_matrix(const MechanismInstant& instant) const {
   MatrixXd M = MatrixXd::Zero(size_, size_);
   for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
     if (const auto& inertia = model_.links()[l].inertia) {
       const Jacobian& J = instant.J[l];
-      M += J.transpose() * spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * J;
+      const Eigen::Matrix<double, 6, 6> I =
+          spatial_inertia(*inertia, instant.X_WL[l], instant.reference);
+      const std::vector<Index>& moving = moved_by_[l];
+      for (std::size_t i = 0; i < moving.size(); ++i) {
+        const Spatial momentum = I * J.col(moving[i]);
+        for (std::size_t k = 0; k <= i; ++k) {
+          M(moving[k], moving[i]) += momentum.dot(Spatial(J.col(moving[k])));
+        }
+      }
+    }
+  }
+  // Velocities of a link are not in their order: those of a mimic come where its joint is.
+  for (Index i = 0; i < size_; ++i) {
+    for (Index k = 0; k < i; ++k) {
+      M(k, i) += M(i, k);
+      M(i, k) = M(k, i);
     }
   }
   return M;
@@ -389,31 +476,74 @@ VectorXd Mechanism::bias_forces(const MechanismInstant& instant, const Vector3d&
   return forces;
 }
 
+/// How fast a displacement grows. The turn of a pose is the one that the displacement's rotation
+/// vector d makes and then some more: d' = w - d x w / 2 + d x (d x w) / 12, to fourth order.
+VectorXd Mechanism::rates(const VectorXd& displacement, const VectorXd& velocities) const {
+  VectorXd result = velocities;
+  for (const MechanismJoint& block : blocks_) {
+    if (block.quaternion()) {
+      const Index turns = block.velocity + block.velocities - 3;
+      const Vector3d d = displacement.segment<3>(turns);
+      const Vector3d w = velocities.segment<3>(turns);
+      const Vector3d across = d.cross(w);
+      result.segment<3>(turns) += d.cross(across) / 12.0 - 0.5 * across;
+    }
+  }
+  return result;
+}
+
 MechanismState Mechanism::after_free_motion(const MechanismState& state, const Vector3d& gravity,
                                             double dt) const {
-  const auto acceleration = [&](const MechanismState& s) -> VectorXd {
+  return after_driven_motion(state, gravity, {}, dt).end;
+}
+
+MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, const Vector3d& gravity,
+                                               const MechanismDrive& drive, double dt) const {
+  const auto response = [&](const MechanismState& s) {
     const MechanismInstant instant = at(s);
-    return -mass_matrix(instant).llt().solve(bias_forces(instant, gravity));
+    VectorXd forces = -bias_forces(instant, gravity);
+    if (drive.forces.size() > 0) {
+      forces += drive.forces;
+    }
+    return respond(mass_matrix(instant), forces, drive.driven, drive.accelerations);
   };
-  const double way =
-      dt * (state.velocities.size() > 0 ? state.velocities.cwiseAbs().maxCoeff() : 0.0);
+  VectorXd fastest = state.velocities.cwiseAbs();
+  for (std::size_t k = 0; k < drive.driven.size(); ++k) {
+    const double end =
+        state.velocities[drive.driven[k]] + dt * drive.accelerations[static_cast<Index>(k)];
+    fastest[drive.driven[k]] = std::max(fastest[drive.driven[k]], std::abs(end));
+  }
+  const double way = dt * (fastest.size() > 0 ? fastest.maxCoeff() : 0.0);
   const int count = static_cast<int>(
       std::clamp(std::ceil(way / kSubStep), 1.0, static_cast<double>(kMostSubSteps)));
   const double h = dt / count;
-  MechanismState now = state;
+  MechanismMotion motion{state, VectorXd::Zero(static_cast<Index>(drive.driven.size()))};
+  MechanismState& now = motion.end;
   for (int k = 0; k < count; ++k) {
+    // Displacements d, their rates r, velocities v and accelerations a.
     const VectorXd& v1 = now.velocities;
-    const VectorXd a1 = acceleration(now);
-    const VectorXd v2 = v1 + 0.5 * h * a1;
-    const VectorXd a2 = acceleration({moved(now.positions, 0.5 * h * v1), v2});
-    const VectorXd v3 = v1 + 0.5 * h * a2;
-    const VectorXd a3 = acceleration({moved(now.positions, 0.5 * h * v2), v3});
-    const VectorXd v4 = v1 + h * a3;
-    const VectorXd a4 = acceleration({moved(now.positions, h * v3), v4});
-    now = {moved(now.positions, h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4)),
-           v1 + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)};
+    const Response a1 = response(now);
+    const VectorXd d2 = 0.5 * h * v1;
+    const VectorXd v2 = v1 + 0.5 * h * a1.accelerations;
+    const VectorXd r2 = rates(d2, v2);
+    const Response a2 = response({moved(now.positions, d2), v2});
+    const VectorXd d3 = 0.5 * h * r2;
+    const VectorXd v3 = v1 + 0.5 * h * a2.accelerations;
+    const VectorXd r3 = rates(d3, v3);
+    const Response a3 = response({moved(now.positions, d3), v3});
+    const VectorXd d4 = h * r3;
+    const VectorXd v4 = v1 + h * a3.accelerations;
+    const VectorXd r4 = rates(d4, v4);
+    const Response a4 = response({moved(now.positions, d4), v4});
+    now = {moved(now.positions, h / 6.0 * (v1 + 2.0 * r2 + 2.0 * r3 + r4)),
+           v1 + h / 6.0 *
+                    (a1.accelerations + 2.0 * a2.accelerations + 2.0 * a3.accelerations +
+                     a4.accelerations)};
+    if (!drive.driven.empty()) {
+      motion.impulses += h / 6.0 * (a1.forces + 2.0 * a2.forces + 2.0 * a3.forces + a4.forces);
+    }
   }
-  return now;
+  return motion;
 }
 
 VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positions) const {
@@ -439,9 +569,27 @@ VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positio
     momenta +=
         to.J[l].transpose() * spatial(linear, angular + (centre(to) - to.reference).cross(linear));
   }
-  const VectorXd velocities = mass_matrix(to).llt().solve(momenta);
+  const VectorXd velocities = solve_mass(mass_matrix(to), momenta);
   const double found = velocities.dot(momenta);
   return found > 0.0 ? VectorXd(std::sqrt(energy / found) * velocities) : velocities;
+}
+
+VectorXd Mechanism::with_momenta(const MechanismState& state, const Vector3d& linear,
+                                 const Vector3d& angular) const {
+  const MechanismInstant instant = at(state);
+  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
+  Spatial momentum = Spatial::Zero();
+  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
+    if (const auto& of_link = model_.links()[l].inertia) {
+      const auto I = spatial_inertia(*of_link, instant.X_WL[l], instant.reference);
+      inertia += I;
+      momentum += I * instant.velocity[l];
+    }
+  }
+  const Spatial wanted = spatial(linear, angular - instant.reference.cross(linear));
+  VectorXd velocities = state.velocities;
+  velocities.head<6>() += inertia.llt().solve(wanted - momentum);
+  return velocities;
 }
 
 MechanismMechanics Mechanism::mechanics(const MechanismState& state,
@@ -456,11 +604,16 @@ MechanismMechanics Mechanism::mechanics(const MechanismState& state,
     const Spatial& V = instant.velocity[l];
     const Spatial momentum = spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * V;
     const Vector3d p_WC = instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
+    sum.mass += inertia->mass;
+    sum.p_WC += inertia->mass * p_WC;
     sum.kinetic_energy += 0.5 * V.dot(momentum);
     sum.potential_energy -= inertia->mass * gravity.dot(p_WC);
     sum.linear_momentum += momentum.head<3>();
     sum.angular_momentum +=
         momentum.tail<3>() + instant.reference.cross(Vector3d(momentum.head<3>()));
+  }
+  if (sum.mass > 0.0) {
+    sum.p_WC /= sum.mass;
   }
   return sum;
 }

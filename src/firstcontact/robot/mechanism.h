@@ -53,8 +53,24 @@ struct MechanismInstant {
 struct MechanismMechanics {
   double kinetic_energy = 0.0;                                 ///< [J]
   double potential_energy = 0.0;                               ///< [J]  0 at the world's origin.
+  double mass = 0.0;                                           ///< [kg]
+  Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();              ///< [m]  0 without mass.
   Eigen::Vector3d linear_momentum = Eigen::Vector3d::Zero();   ///< [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
+};
+
+/// Forces along the coordinates of a mechanism besides gravity, and coordinates that are driven.
+struct MechanismDrive {
+  Eigen::VectorXd forces = {};  ///< (size)  [N m or N]  Constant; empty: none.
+  /// Coordinates whose velocity changes at a given rate, by whatever forces that takes.
+  std::vector<Eigen::Index> driven = {};
+  Eigen::VectorXd accelerations = {};  ///< (driven)  [rad/s^2 or m/s^2]  Constant.
+};
+
+/// The end of a motion under forces.
+struct MechanismMotion {
+  MechanismState end;
+  Eigen::VectorXd impulses;  ///< (driven)  [N m s or N s]  On the driven coordinates, in all.
 };
 
 /// A tree of links under forces, M(q) dv/dt + b(q, v) = forces along the coordinates. Immutable.
@@ -69,8 +85,7 @@ class FIRSTCONTACT_API Mechanism {
   /// @param model      every link whose motion nothing heavier shares has its inertia
   /// @param X_WR       of the root link; where a free base starts from
   /// @param free_base  the root link is held by nothing
-  /// @throws std::invalid_argument  names the link with an inertia that no body has, or the joint
-  ///         that moves no mass
+  /// @throws std::invalid_argument  names the link with an inertia that no body has
   Mechanism(RobotModel model, const Pose& X_WR, bool free_base);
 
   [[nodiscard]] const RobotModel& model() const { return model_; }
@@ -78,6 +93,15 @@ class FIRSTCONTACT_API Mechanism {
   [[nodiscard]] Eigen::Index position_count() const { return position_count_; }
   /// All joints that have numbers, in their order; the free base first.
   [[nodiscard]] const std::vector<MechanismJoint>& joints() const { return blocks_; }
+
+  [[nodiscard]] bool has_free_base() const { return free_base_; }
+
+  /// Requires that the mass matrix is definite at these positions.
+  ///
+  /// At others it may be singular, as where the axes of a wrist without masses between them align.
+  ///
+  /// @throws std::invalid_argument  names the joint that moves no mass
+  void require_mass(const Eigen::VectorXd& positions) const;
 
   /// The state with all coordinates 0, all poses the identity, the free base where it starts from.
   [[nodiscard]] MechanismState rest() const;
@@ -95,6 +119,9 @@ class FIRSTCONTACT_API Mechanism {
   /// The mass matrix M(q), (size, size).
   [[nodiscard]] Eigen::MatrixXd mass_matrix(const MechanismInstant& instant) const;
 
+  /// The inverse of a mass matrix (size, size). Of a singular one, that of a definite one nearby.
+  [[nodiscard]] static Eigen::MatrixXd inverse_mass(const Eigen::MatrixXd& mass_matrix);
+
   /// The forces along the coordinates that keep all rates constant, (size)  [N m or N].
   ///
   /// @param gravity  [m/s^2]
@@ -103,11 +130,18 @@ class FIRSTCONTACT_API Mechanism {
 
   /// The state after a time in which gravity and inertia alone act.
   ///
-  /// Method: Runge and Kutta's rule of fourth order in sub-steps (of second order for poses).
+  /// Method: Runge and Kutta's rule of fourth order in sub-steps. Of poses it integrates the
+  /// rotation vector from where the sub-step began (H. Munthe-Kaas, "High order Runge-Kutta methods
+  /// on manifolds", Applied Numerical Mathematics 29 (1999)).
   ///
   /// @param dt  [s]
   [[nodiscard]] MechanismState after_free_motion(const MechanismState& state,
                                                  const Eigen::Vector3d& gravity, double dt) const;
+
+  /// As after_free_motion(), under other forces too.
+  [[nodiscard]] MechanismMotion after_driven_motion(const MechanismState& state,
+                                                    const Eigen::Vector3d& gravity,
+                                                    const MechanismDrive& drive, double dt) const;
 
   /// The velocities at other positions, nearby, with which every link goes on as it does in the
   /// state.
@@ -118,6 +152,17 @@ class FIRSTCONTACT_API Mechanism {
   /// it, the same numbers at other positions are another motion.
   [[nodiscard]] Eigen::VectorXd carried(const MechanismState& state,
                                         const Eigen::VectorXd& positions) const;
+
+  /// The velocities with which a free base gives the mechanism these momenta; joints have those of
+  /// the state.
+  ///
+  /// The change moves all links as one rigid body.
+  ///
+  /// @param linear   [kg m/s]
+  /// @param angular  [kg m^2/s]  About the origin.
+  [[nodiscard]] Eigen::VectorXd with_momenta(const MechanismState& state,
+                                             const Eigen::Vector3d& linear,
+                                             const Eigen::Vector3d& angular) const;
 
   [[nodiscard]] MechanismMechanics mechanics(const MechanismState& state,
                                              const Eigen::Vector3d& gravity) const;
@@ -132,14 +177,17 @@ class FIRSTCONTACT_API Mechanism {
   static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
 
   void lay_out(bool free_base);
-  void require_mass() const;
+  void require_inertias() const;
+  [[nodiscard]] Eigen::VectorXd rates(const Eigen::VectorXd& displacement,
+                                      const Eigen::VectorXd& velocities) const;
   void place(const MechanismState& state, std::size_t link, MechanismInstant& instant) const;
 
   RobotModel model_;
   Pose X_WR_;
   std::vector<MechanismJoint> blocks_;
-  std::vector<Part> parts_;         // Of each joint.
-  std::vector<std::size_t> order_;  // Links, parents first.
+  std::vector<Part> parts_;                          // Of each joint.
+  std::vector<std::size_t> order_;                   // Links, parents first.
+  std::vector<std::vector<Eigen::Index>> moved_by_;  // Of each link: the velocities that move it.
   Eigen::Index size_ = 0;
   Eigen::Index position_count_ = 0;
   bool free_base_;

@@ -112,20 +112,10 @@ CachedShape make(const BodyShape& shape, const ReadingOptions& options) {
 
 /// The robot with what can touch as its collision geometry.
 RobotReading read_touching(const RobotFile& file, const ReadingOptions& options) {
-  RobotReading reading = read_robot(file.urdf, {.package_roots = file.package_roots,
-                                                .shapes = LoadShapes::collision,
-                                                .surface = file.surface,
-                                                .reading = options});
-  const auto is_empty = [](const Link& link) { return link.collision.empty(); };
-  const auto links = reading.model.links();
-  if (std::all_of(links.begin(), links.end(), is_empty)) {
-    throw ParseError(file.urdf.string(),
-                     file.surface != RobotSurface::collision
-                         ? "expected links with <visual> geometry, none has any"
-                         : "expected links with <collision> geometry, none has any; surface "
-                           "\"visual\" (--visual) takes what they look like");
-  }
-  return reading;
+  return read_robot(file.urdf, {.package_roots = file.package_roots,
+                                .shapes = LoadShapes::collision,
+                                .surface = file.surface,
+                                .reading = options});
 }
 
 std::string digest_of(const RobotFile& file, const RobotReading& reading) {

@@ -152,6 +152,11 @@ class Simulator::Implementation {
     if (!wrong.empty()) {
       throw std::invalid_argument("set_robot_state: " + wrong);
     }
+    try {
+      mechanism.require_mass(mechanism.moved(state.positions, VectorXd::Zero(mechanism.size())));
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(std::string("set_robot_state: ") + error.what());
+    }
     std::vector<MechanismState> robots = state_.robots;
     // A displacement of zero makes quaternions unit ones.
     robots[robot] = {mechanism.moved(state.positions, VectorXd::Zero(mechanism.size())),

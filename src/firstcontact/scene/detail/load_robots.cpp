@@ -1,5 +1,6 @@
 #include <firstcontact/scene/detail/load_robots.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -12,12 +13,28 @@
 #include <firstcontact/scene/detail/add_report.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/brief_list.h>
+#include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/quantity.h>
 #include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
 namespace {
+
+/// A robot that is only checked has to have something that can touch.
+///
+/// @throws ParseError
+void require_geometry(const SceneRobot& robot, const RobotModel& model) {
+  const auto is_empty = [](const Link& link) { return link.collision.empty(); };
+  const auto links = model.links();
+  if (!robot.dynamics && std::all_of(links.begin(), links.end(), is_empty)) {
+    throw ParseError(robot.file.urdf.string(),
+                     robot.file.surface != RobotSurface::collision
+                         ? "expected links with <visual> geometry, none has any"
+                         : "expected links with <collision> geometry, none has any; surface "
+                           "\"visual\" (--visual) takes what they look like");
+  }
+}
 
 class RobotLoader {
  public:
@@ -64,6 +81,7 @@ class RobotLoader {
 
   void add(const SceneRobot& robot) {
     CachedRobot cached = cache_.load(robot.file, reading());
+    require_geometry(robot, cached.model);
     digests_ += cached.digest + '\n' + robot.srdf_digest + '\n';
     for (const FileReport& report : *cached.files) {
       add_report(report, loaded_);

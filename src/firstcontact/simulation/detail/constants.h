@@ -73,6 +73,8 @@ inline constexpr double kCrossingEdges = 0.1;
 inline constexpr double kLeastLevel = 0.5;
 /// [-]  Normals that differ by less are not changed.
 inline constexpr double kTiltOfSeam = 1e-6;
+/// [-]  The sine between a normal and a face below which it is that of the face.
+inline constexpr double kTiltOfFace = 1e-4;
 /// [-]  Along a changed normal there must be this part of the contact distance, or the body beside
 /// is a step.
 inline constexpr double kLeastGapOfSeam = 0.25;
@@ -133,6 +135,10 @@ inline constexpr int kSplitsOfPlan = 3;
 /// are of first order.
 inline constexpr double kSlackOfMean = 0.02;
 
+/// [-]  Where the way of a plan is solved by itself, pairs may come nearer by this part of the
+/// contact distance, or what so many sweeps leave: where that is too near, the proof finds it.
+inline constexpr double kToleranceOfWay = 2e-3;
+inline constexpr int kSweepsOfWay = 50;
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
 inline constexpr double kBackToRest = 0.5;
@@ -156,6 +162,10 @@ inline constexpr double kAtLimit = 1e-9;
 /// [rad or m]  A plan may lead so far beyond a limit. What pushes a link against its limit and
 /// yields as little has no solution together with it, and then neither law is kept.
 inline constexpr double kMostBeyondLimit = 1e-3;
+
+/// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
+/// the contact distance. Beyond it velocities at the end of a plan lead the robot.
+inline constexpr double kUnseenPlacement = 0.1;
 
 // How exactly contact problems are solved, by what gravity adds in a step.
 
@@ -195,6 +205,10 @@ inline constexpr int kAroundSweeps = 2;
 inline constexpr double kUnsolved = 1e-2;
 /// [-]  The same by the velocities, where there is no gravity: well above rounding.
 inline constexpr double kUnsolvedOfSpeed = 1e-9;
+
+/// [-]  Motors without bound yield by this part of what impulses do to their coordinates, where a
+/// problem has no solution without that. Smaller: they press harder on what stops them.
+inline constexpr double kYield = 1e-3;
 
 // Sleep.
 

@@ -18,8 +18,9 @@ namespace {
 
 class Island {
  public:
-  Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace)
-      : state_(step, std::move(members)),
+  Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace,
+         const std::vector<std::size_t>& bare_robots)
+      : state_(step, std::move(members), bare_robots),
         guesses_(step.guesses),
         stop_(step.stop),
         workspace_(workspace),
@@ -128,7 +129,7 @@ class Island {
     const bool is_last = planned >= state_.start.h - state_.reached;
     const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned;
     t = to > state_.reached ? t : 0.0;
-    state_.robots.move_to(plan.robots, t, to);
+    state_.robots.move_to(plan.robots, t, planned, to);
     for (std::size_t k = 0; k < state_.size(); ++k) {
       const RigidState begin = state_.states[k];
       RigidState& end = state_.states[k];
@@ -220,7 +221,9 @@ class Island {
     state_.robots.add_mechanisms(problem);
     state_.robots.add_drives_at_impact(problem);
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
-    state_.robots.take_velocities(solution);
+    const PlanSolution impact{solution, !is_solved(state_, solution)};
+    state_.robots.take_velocities(solution,
+                                  outer_impulses(problem, impact, bodies, state_.robots.size()));
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (!solution.impulses[k].isZero(0.0)) {
         track_.impacts.push_back({state_.reached, touches[k]->bodies, touches[k]->point,
@@ -228,8 +231,10 @@ class Island {
       }
     }
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      state_.states[k].v_WC = solution.bodies[k].v;
-      state_.states[k].w_WB = solution.bodies[k].w;
+      const bool is_piece = state_.member(k).piece.has_value();
+      const ContactBody& body = is_piece ? state_.robots.body(k) : solution.bodies[k];
+      state_.states[k].v_WC = body.v;
+      state_.states[k].w_WB = body.w;
     }
     track_.residual = std::max(track_.residual, solution.residual);
   }
@@ -247,8 +252,9 @@ class Island {
 }  // namespace
 
 std::optional<IslandTrack> advance_island(const StepContext& step, std::vector<std::size_t> members,
-                                          Workspace& workspace) {
-  return Island(step, std::move(members), workspace).run();
+                                          Workspace& workspace,
+                                          const std::vector<std::size_t>& bare_robots) {
+  return Island(step, std::move(members), workspace, bare_robots).run();
 }
 
 }  // namespace firstcontact::detail

@@ -57,9 +57,10 @@ struct IslandTrack {
 /// until it, and the impact is projected there. Where that brings a pair nearer than where it
 /// rests, less than the rest of the step is planned at a time.
 ///
+/// @param bare_robots  robots of the island without geometry; they touch nothing
 /// @returns  nothing if it was stopped
-[[nodiscard]] std::optional<IslandTrack> advance_island(const StepContext& step,
-                                                        std::vector<std::size_t> members,
-                                                        Workspace& workspace);
+[[nodiscard]] std::optional<IslandTrack> advance_island(
+    const StepContext& step, std::vector<std::size_t> members, Workspace& workspace,
+    const std::vector<std::size_t>& bare_robots = {});
 
 }  // namespace firstcontact::detail

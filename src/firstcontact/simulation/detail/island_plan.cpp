@@ -93,7 +93,67 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
     }
   }
   first_ahead_ = touches_.size();
-  free_robots_ = state_.robots.fly(problem_, state_.start.time + state_.reached, span_);
+  robots_by_end_.assign(state_.robots.size(), false);
+  if (!state_.robots.empty()) {
+    fly_robots();
+  }
+}
+
+/// Velocities at the end will lead the robots in contact where a contact will act that closes now:
+/// the mean of both ends would close it. So most plans are solved once.
+void IslandPlanner::choose_rules() {
+  bool closes = false;
+  for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    const double least = contact.least_normal_velocity;
+    const double mean = 0.5 * (normal_velocity(contact, bodies_.bodies()) + least);
+    closes = mean < least_of_mean(k) &&
+             (contact.guess[0] > 0.0 || normal_velocity(contact, problem_.bodies) < least);
+  }
+  std::vector<bool> by_end = robots_by_end_;
+  for (const ContactPoint& contact : problem_.contacts) {
+    for (const std::size_t place : contact.bodies) {
+      if (is_piece(place)) {
+        const std::size_t r = state_.robots.robot_of(place);
+        by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
+      }
+    }
+  }
+  if (by_end != robots_by_end_) {
+    robots_by_end_ = std::move(by_end);
+    fly_robots();
+  }
+}
+
+/// Whether a robot would leave where it is, were it not for what it touches: then its flight and
+/// the forces of its motors there say little about the plan.
+bool IslandPlanner::leaves(std::size_t robot) const {
+  return state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
+}
+
+bool IslandPlanner::is_piece(std::size_t place) const {
+  return place < state_.size() && state_.member(place).piece;
+}
+
+void IslandPlanner::fly_robots() {
+  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, flights_);
+  state_.robots.set(flights_, problem_);
+}
+
+/// Flies robots anew where that has to be. Returns whether there were any.
+bool IslandPlanner::lead_robots_by_end(const std::vector<bool>& by_end) {
+  std::vector<bool> led = state_.robots.led_by_end(problem_, last_->velocities, flights_, by_end,
+                                                   state_.start.time + state_.reached, span_);
+  for (std::size_t r = 0; r < led.size(); ++r) {
+    led[r] = led[r] || robots_by_end_[r];
+  }
+  if (led == robots_by_end_) {
+    return false;
+  }
+  robots_by_end_ = std::move(led);
+  fly_robots();
+  last_.reset();
+  return true;
 }
 
 /// Those of the problem, with their free velocities. Others that contacts ahead bring come last.
@@ -209,16 +269,28 @@ void IslandPlanner::solve() {
 }
 
 Plan IslandPlanner::plan() {
+  if (!state_.robots.empty()) {
+    choose_rules();
+  }
   solve();
   by_end_ = by_end_ || !mean_is_allowed();
+  if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
+    solve();
+    by_end_ = by_end_ || !mean_is_allowed();
+  }
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
-  const bool by_chords = by_end_ && state_.robots.empty() && any_turns();
+  const bool by_chords =
+      by_end_ && state_.robots.empty() && !is_heap(state_, problem_) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
-  made.robots = state_.robots.plan(problem_, solution, free_robots_, by_end, span_);
+  const std::vector<OuterImpulse> outer =
+      outer_impulses(problem_, *last_, bodies_, state_.robots.size());
+  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, outer,
+                                   state_.start.time + state_.reached, span_);
   push_apart(made);
+  state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;
 }
@@ -257,12 +329,8 @@ bool IslandPlanner::mean_is_allowed() const {
     mean[b].v = 0.5 * (before[b].v + mean[b].v);
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
-  const double slack = 2.0 * projection_options(state_, problem_).tolerance +
-                       kSlackOfMean * state_.model.distances.least / span_;
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    const double least =
-        k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
-    if (!(normal_velocity(problem_.contacts[k], mean) >= least - slack)) {
+    if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k))) {
       return false;
     }
   }
@@ -276,6 +344,15 @@ bool IslandPlanner::mean_is_allowed() const {
     }
   }
   return true;
+}
+
+/// [m/s]  The least normal velocity that the mean may have at a contact.
+double IslandPlanner::least_of_mean(std::size_t k) const {
+  const double slack = 2.0 * projection_options(state_, problem_).tolerance +
+                       kSlackOfMean * state_.model.distances.least / span_;
+  const double least =
+      k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
+  return least - slack;
 }
 
 /// Whether a pair that slides now sticks from the first half of the plan on: the mean would let it
@@ -319,7 +396,7 @@ ContactSolution IslandPlanner::along_chords() const {
     problem.contacts[k] = along_way(acting_[k]);
     problem.contacts[k].guess = guess;
   }
-  return project_plan(state_, problem).velocities;
+  return project_way(state_, problem, span_).velocities;
 }
 
 /// Of the problem's bodies, those that the velocities at the end lead.

@@ -79,6 +79,12 @@ class IslandPlanner {
   };
 
   [[nodiscard]] FreeFlight free_flight() const;
+  [[nodiscard]] double least_of_mean(std::size_t k) const;
+  [[nodiscard]] bool leaves(std::size_t robot) const;
+  [[nodiscard]] bool is_piece(std::size_t place) const;
+  void choose_rules();
+  void fly_robots();
+  [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
   [[nodiscard]] ContactSide side_of(const ManifoldPoint& touch, std::size_t side) const;
@@ -108,7 +114,8 @@ class IslandPlanner {
   bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
-  std::vector<RobotPlan> free_robots_;
+  std::vector<RobotFlight> flights_;            // Of the robots,
+  std::vector<bool> robots_by_end_;             // and which of them velocities at the end lead.
   std::optional<PlanSolution> last_ = {};
   std::vector<std::size_t> changed_ = {};     // Contacts, since the last plan.
   std::optional<ContactSolution> push_ = {};  // Of plans from now, until it is in the way.

@@ -1,7 +1,11 @@
 #include <firstcontact/simulation/detail/island_response.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
+
+#include <Eigen/Cholesky>
 
 #include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/simulation/detail/constants.h>
@@ -13,6 +17,8 @@ namespace firstcontact::detail {
 namespace {
 
 using Eigen::Vector3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// [m/s, rad/s]  The greatest part of any velocity.
 double fastest(const ContactSolution& solution) {
@@ -45,19 +51,145 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
   return sum;
 }
 
+/// The problem with motors that yield a little to what is stronger than anything: to contacts and
+/// limits that leave no room for the velocities that they want. Nothing where none is so strong.
+std::optional<ContactProblem> with_yielding_motors(const ContactProblem& problem) {
+  std::optional<ContactProblem> yielding;
+  for (std::size_t k = 0; k < problem.drives.size(); ++k) {
+    const JointDrive& drive = problem.drives[k];
+    if (drive.compliance == 0.0 && std::isinf(drive.least) && std::isinf(drive.greatest)) {
+      yielding = yielding ? std::move(yielding) : std::optional(problem);
+      const auto c = static_cast<Eigen::Index>(drive.coordinate);
+      yielding->drives[k].compliance =
+          kYield * problem.mechanisms[drive.mechanism].inverse_mass(c, c);
+    }
+  }
+  return yielding;
+}
+
+/// Whether nothing outside acts on an island through contacts, and nothing holds a part of it.
+bool is_isolated(const IslandState& state, const ContactProblem& problem) {
+  const auto is_set = [](bool lock) { return lock; };
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const Inertia& inertia = state.member(k).inertia;
+    if (std::ranges::any_of(inertia.locked_translation, is_set) ||
+        std::ranges::any_of(inertia.locked_rotation, is_set)) {
+      return false;
+    }
+  }
+  for (std::size_t r = 0; r < state.robots.size(); ++r) {
+    if (!state.robots.free_base(r)) {
+      return false;
+    }
+  }
+  return std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
+    return contact.bodies[0] < state.size() && contact.bodies[1] < state.size();
+  });
+}
+
+/// Mass, moments and momenta of many things, about the origin.
+class Sum {
+ public:
+  /// @param inertia   (6, 6)  of (v, w) at a point, @param momentum  about it
+  void add(const Matrix6d& inertia, const Vector6d& momentum, const Vector3d& point) {
+    Matrix6d to_point = Matrix6d::Identity();  // Velocities at the origin give those at the point.
+    to_point.topRightCorner<3, 3>() << 0.0, point.z(), -point.y(), -point.z(), 0.0, point.x(),
+        point.y(), -point.x(), 0.0;
+    inertia_ += to_point.transpose() * inertia * to_point;
+    momentum_ += to_point.transpose() * momentum;
+  }
+
+  /// The velocity that all of it has, moving as one rigid body with these momenta.
+  [[nodiscard]] Vector6d velocity() const { return inertia_.ldlt().solve(momentum_); }
+
+ private:
+  Matrix6d inertia_ = Matrix6d::Zero();
+  Vector6d momentum_ = Vector6d::Zero();
+};
+
+/// An island that moves as one rigid body with the momenta of a solution.
+ContactSolution as_one_body(const IslandState& state, const ContactProblem& problem,
+                            const ContactSolution& solution) {
+  Sum sum;
+  const auto centre = [&](std::size_t k) {
+    return centre_of_mass(state.member(k).inertia, state.states[k].X_WB);
+  };
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    if (!state.member(k).piece) {
+      const Inertia& of_body = state.member(k).inertia;
+      Matrix6d inertia = of_body.mass * Matrix6d::Identity();
+      inertia.bottomRightCorner<3, 3>() = rotational_inertia(of_body, state.states[k].X_WB);
+      Vector6d velocity;
+      velocity << solution.bodies[k].v, solution.bodies[k].w;
+      sum.add(inertia, inertia * velocity, centre(k));
+    }
+  }
+  for (std::size_t r = 0; r < problem.mechanisms.size(); ++r) {
+    const Eigen::MatrixXd& inverse = problem.mechanisms[r].inverse_mass;
+    const Eigen::MatrixXd M =
+        inverse.llt().solve(Eigen::MatrixXd::Identity(inverse.rows(), inverse.cols()));
+    sum.add(M.topLeftCorner<6, 6>(), M.topRows<6>() * solution.mechanisms[r],
+            *state.robots.free_base(r));
+  }
+  const Vector6d V = sum.velocity();
+  const Vector3d w = V.tail<3>();
+  ContactSolution one = solution;
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    one.bodies[k].v = V.head<3>() + w.cross(centre(k));
+    one.bodies[k].w = w;
+  }
+  for (std::size_t r = 0; r < problem.mechanisms.size(); ++r) {
+    one.mechanisms[r].setZero();
+    one.mechanisms[r].head<6>() << V.head<3>() + w.cross(*state.robots.free_base(r)), w;
+  }
+  return one;
+}
+
+/// Takes a share of the velocities of a solution, on top of those of another one.
+void shorten(const ContactSolution& to, double share, std::size_t members,
+             ContactSolution& solution) {
+  for (std::size_t k = 0; k < members; ++k) {
+    solution.bodies[k].v = to.bodies[k].v + share * (solution.bodies[k].v - to.bodies[k].v);
+    solution.bodies[k].w = to.bodies[k].w + share * (solution.bodies[k].w - to.bodies[k].w);
+  }
+  for (std::size_t r = 0; r < solution.mechanisms.size(); ++r) {
+    solution.mechanisms[r] = to.mechanisms[r] + share * (solution.mechanisms[r] - to.mechanisms[r]);
+  }
+}
+
+/// Shortens the velocities of an isolated island relative to its motion as one body, so that it
+/// keeps its momenta and has the allowed energy [J].
+void shorten_within(const IslandState& state, const ContactProblem& problem, double allowed,
+                    ContactSolution& solution) {
+  const ContactSolution one = as_one_body(state, problem, solution);
+  const auto energy_at = [&](double share) {
+    ContactSolution at = solution;
+    shorten(one, share, state.size(), at);
+    return energy_of(state, problem, at.bodies, at.mechanisms);
+  };
+  // a + b s + c s^2
+  const double a = energy_at(0.0);
+  const double whole = energy_at(1.0) - a;
+  const double half = energy_at(0.5) - a;
+  const double c = 2.0 * whole - 4.0 * half;
+  const double b = whole - c;
+  const double under = b * b + 4.0 * c * std::max(0.0, allowed - a);
+  const double share = c > 0.0 ? (std::sqrt(std::max(0.0, under)) - b) / (2.0 * c) : 0.0;
+  shorten(one, std::clamp(share, 0.0, 1.0), state.size(), solution);
+}
+
 /// Contacts add no energy: without moving bodies around, what they allow contains rest, and the
 /// projection on it makes no velocity longer in the kinetic metric. A scripted body adds at most
 /// its own speed twice, and so does a belt. Of a problem without solution, as of a body that is
 /// crushed, the solver's answer is anything: it is shortened to what there was before, or to what
-/// moves with the script. Motors add what they want, as long as there is a solution.
+/// moves with the script. An island on which nothing outside acts keeps its momenta. Motors add
+/// what they want, as long as there is a solution.
 ///
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
-  const double left = state.robots.empty() ? solution.allowed : 0.0;
-  const bool is_solved = solution.residual <= std::max({left, of_gravity(state, kUnsolved),
-                                                        kUnsolvedOfSpeed * fastest(solution)});
-  if (is_solved && state.robots.has_motors()) {
+  const bool has_solution = is_solved(state, solution);
+  if (has_solution && state.robots.has_motors()) {
     return false;
   }
   const double before =
@@ -80,9 +212,13 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   }
   const double along = speed * std::sqrt(0.5 * mass);
   const double allowed =
-      is_solved ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
+      has_solution ? std::sqrt(before) + 2.0 * along : std::max(std::sqrt(before), along);
   if (std::sqrt(after) <= allowed * (1.0 + 1e-9)) {
     return false;
+  }
+  if (is_isolated(state, problem)) {
+    shorten_within(state, problem, allowed * allowed, solution);
+    return true;
   }
   const double share = allowed / std::sqrt(after);
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -93,6 +229,11 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
     velocities *= share;
   }
   return true;
+}
+
+/// Whether sweeps alone would not do.
+bool has_many(const IslandState& state, const ContactProblem& problem) {
+  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies;
 }
 
 /// Whether no member moves by more than what the solver may leave.
@@ -107,25 +248,50 @@ bool stands(const IslandState& state) {
   return true;
 }
 
+PlanSolution project_with(const IslandState& state, const ContactProblem& problem,
+                          const ProjectionOptions& options) {
+  if (problem.contacts.empty() && problem.drives.empty()) {
+    return {unchanged(problem)};
+  }
+  PlanSolution plan{project_on_contacts(problem, options)};
+  if (!is_solved(state, plan.velocities)) {
+    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
+      plan.velocities = project_on_contacts(*yielding, options);
+    }
+  }
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
+}
+
 }  // namespace
+
+bool is_solved(const IslandState& state, const ContactSolution& solution) {
+  const double left = state.robots.empty() ? solution.allowed : 0.0;
+  return solution.residual <=
+         std::max({left, of_gravity(state, kUnsolved), kUnsolvedOfSpeed * fastest(solution)});
+}
 
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
 bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies && !stands(state);
+  return has_many(state, problem) && !stands(state);
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  if (is_heap(state, problem)) {
+  const double exact = exact_tolerance(state);
+  if (has_many(state, problem)) {
+    if (stands(state)) {
+      return {.tolerance = exact};
+    }
     return {.tolerance = of_gravity(state, kHeapTolerance),
             .enough = of_gravity(state, kHeapEnough),
             .sweeps = kHeapSweeps,
             .rounds = kRoundsOfMany};
   }
-  if (problem.contacts.size() >= kManyContactsOfIsland && state.size() < kHeapBodies) {
+  if (problem.contacts.size() >= kManyContactsOfIsland) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = exact_tolerance(state)};
+  return {.tolerance = exact, .rounds = kRoundsOfMany};
 }
 
 /// Free bodies that are hit within a plan need not be solved as exactly as those that an impact
@@ -140,12 +306,16 @@ ProjectionOptions plan_options(const IslandState& state, const ContactProblem& p
 }
 
 PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
-  if (problem.contacts.empty() && problem.drives.empty()) {
-    return {unchanged(problem)};
-  }
-  PlanSolution plan{project_on_contacts(problem, plan_options(state, problem))};
-  plan.is_limited = limit_energy(state, problem, plan.velocities);
-  return plan;
+  return project_with(state, problem, plan_options(state, problem));
+}
+
+PlanSolution project_way(const IslandState& state, const ContactProblem& problem, double span) {
+  ProjectionOptions options = plan_options(state, problem);
+  options.tolerance =
+      std::max(options.tolerance, kToleranceOfWay * state.model.distances.least / span);
+  options.space = ProjectionSpace::contact;
+  options.sweeps = kSweepsOfWay;
+  return project_with(state, problem, options);
 }
 
 std::optional<PlanSolution> project_plan_again(const IslandState& state,
@@ -189,14 +359,62 @@ double restitution_of(const IslandState& state, const BodyPair& pair, const Cont
 
 ContactSolution project_simultaneous_impact(const IslandState& state, const ContactProblem& problem,
                                             const std::vector<double>& restitution) {
-  ContactSolution solution = project_impact(
-      problem, restitution, state.size(),
-      [&](const auto& moving, const auto& mechanisms) {
-        return energy_of(state, problem, moving, mechanisms);
-      },
-      projection_options(state, problem));
+  const auto project = [&](const ContactProblem& given) {
+    return project_impact(
+        given, restitution, state.size(),
+        [&](const auto& moving, const auto& mechanisms) {
+          return energy_of(state, given, moving, mechanisms);
+        },
+        projection_options(state, given));
+  };
+  ContactSolution solution = project(problem);
+  if (!is_solved(state, solution)) {
+    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
+      solution = project(*yielding);
+    }
+  }
   limit_energy(state, problem, solution);
   return solution;
+}
+
+std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
+                                         const PlanSolution& solution, const ProblemBodies& bodies,
+                                         std::size_t robots) {
+  std::vector<OuterImpulse> outer(robots);
+  for (std::size_t k = 0; k < problem.contacts.size() && robots > 0; ++k) {
+    const ContactPoint& contact = problem.contacts[k];
+    const std::array<const std::optional<MechanismLink>*, 2> links{
+        &problem.bodies[contact.bodies[0]].link, &problem.bodies[contact.bodies[1]].link};
+    const Vector3d impulse = contact.frame.transpose() * solution.velocities.impulses[k];
+    const bool is_inner =
+        *links[0] && *links[1] && (*links[0])->mechanism == (*links[1])->mechanism;
+    if (impulse.isZero(0.0)) {
+      continue;
+    }
+    for (const auto* link : links) {
+      if (*link) {
+        outer[(*link)->mechanism].touches = true;
+      }
+    }
+    if (is_inner) {
+      continue;
+    }
+    const std::array<Vector3d, 2> points{bodies.centre(contact.bodies[0]) + contact.arm_A,
+                                         bodies.centre(contact.bodies[1]) + contact.arm_B};
+    for (int side = 0; side < 2; ++side) {
+      if (*links[side]) {
+        const Vector3d point =
+            *links[1 - side] ? Vector3d(0.5 * (points[0] + points[1])) : points[1 - side];
+        const Vector3d on = side == 0 ? Vector3d(-impulse) : impulse;
+        OuterImpulse& sum = outer[(*links[side])->mechanism];
+        sum.linear += on;
+        sum.angular += point.cross(on);
+        sum.acts = true;
+        sum.is_known = !solution.is_limited;
+      }
+    }
+  }
+  return outer;
 }
 
 }  // namespace firstcontact::detail

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/simulation/detail/island_robots.h>
+#include <firstcontact/simulation/detail/response.h>
 
 namespace firstcontact::detail {
 
@@ -30,6 +32,10 @@ struct PlanSolution {
 
 /// The free velocities of a plan as contacts and drives allow them.
 [[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
+
+/// Velocities that lead along the way of a plan: as exactly as its displacements need.
+[[nodiscard]] PlanSolution project_way(const IslandState& state, const ContactProblem& problem,
+                                       double span);
 
 /// Those of a plan that is like another but for contacts that changed, by re_solve(). Nothing
 /// where that is not worth while, or leaves too much.
@@ -59,5 +65,17 @@ struct PlanSolution {
 [[nodiscard]] ContactSolution project_simultaneous_impact(const IslandState& state,
                                                           const ContactProblem& problem,
                                                           const std::vector<double>& restitution);
+
+/// Whether a problem has a solution that was found.
+[[nodiscard]] bool is_solved(const IslandState& state, const ContactSolution& solution);
+
+/// The impulses on each robot of what is not of it.
+///
+/// They act where the other body has the contact, so that what the one gets the other one loses,
+/// the moment about the origin too. They are not known where velocities were limited.
+[[nodiscard]] std::vector<OuterImpulse> outer_impulses(const ContactProblem& problem,
+                                                       const PlanSolution& solution,
+                                                       const ProblemBodies& bodies,
+                                                       std::size_t robots);
 
 }  // namespace firstcontact::detail

@@ -1,7 +1,9 @@
 #include <firstcontact/simulation/detail/island_robots.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -36,7 +38,8 @@ Move move_between(const SimBody& body, const Pose& from, const Pose& to, const V
 }  // namespace
 
 IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
-                           const std::vector<std::size_t>& members)
+                           const std::vector<std::size_t>& members,
+                           const std::vector<std::size_t>& bare)
     : model_(model), place_(members.size(), {kNone, kNone}) {
   std::vector<std::size_t> numbers;  // Of the world, of each robot here.
   for (std::size_t k = 0; k < members.size(); ++k) {
@@ -56,6 +59,11 @@ IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
     place_[k] = {r, robots_[r].pieces.size()};
     robots_[r].pieces.push_back({.member = k, .body = &body});
   }
+  for (const std::size_t number : bare) {
+    robots_.push_back({.robot = &model.robots[number], .state = start.robots[number]});
+    robots_.back().track.robot = number;
+    robots_.back().impact = VectorXd::Zero(model.robots[number].mechanism.size());
+  }
   for (Robot& robot : robots_) {
     robot.now = view_of(robot, robot.state);
   }
@@ -64,11 +72,15 @@ IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
 IslandRobots::View IslandRobots::view_of(const Robot& robot, const MechanismState& state) const {
   const Mechanism& mechanism = robot.robot->mechanism;
   const MechanismInstant instant = mechanism.at(state);
-  const auto n = mechanism.size();
   View view;
-  view.inverse_mass = mechanism.mass_matrix(instant).llt().solve(MatrixXd::Identity(n, n));
-  view.gravity_forces = mechanism.bias_forces(instant, model_.gravity) -
-                        mechanism.bias_forces(instant, Vector3d::Zero());
+  view.inverse_mass = Mechanism::inverse_mass(mechanism.mass_matrix(instant));
+  view.bias = mechanism.bias_forces(instant, model_.gravity);
+  view.gravity_forces = view.bias - mechanism.bias_forces(instant, Vector3d::Zero());
+  if (robot.pieces.empty()) {
+    for (const Jacobian& J : instant.J) {
+      view.turns.emplace_back(J.bottomRows<3>());
+    }
+  }
   for (const Piece& piece : robot.pieces) {
     PiecePlace place{piece_pose(*piece.body, instant), instant.J[piece.body->piece->link]};
     const Vector3d arm = centre_of_mass(piece.body->inertia, place.X_WB) - instant.reference;
@@ -92,8 +104,17 @@ double IslandRobots::longest_span() const {
       const Vector3d w = piece.J.bottomRows<3>() * robot.state.velocities;
       fastest = std::max(fastest, w.norm());
     }
+    for (const Eigen::Matrix3Xd& J : robot.now.turns) {
+      fastest = std::max(fastest, Vector3d(J * robot.state.velocities).norm());
+    }
   }
   return fastest > 0.0 ? kMostTurnOfLinks / fastest : std::numeric_limits<double>::infinity();
+}
+
+std::optional<Vector3d> IslandRobots::free_base(std::size_t r) const {
+  return robots_[r].robot->mechanism.has_free_base()
+             ? std::optional<Vector3d>(robots_[r].state.positions.head<3>())
+             : std::nullopt;
 }
 
 const IslandRobots::PiecePlace& IslandRobots::piece_of(std::size_t member) const {
@@ -125,36 +146,161 @@ void IslandRobots::add_mechanisms(ContactProblem& problem) const {
   }
 }
 
-std::vector<RobotPlan> IslandRobots::fly(ContactProblem& problem, double from, double span) const {
-  std::vector<RobotPlan> free;
+/// The flight of inertia alone, and drives by the end of the span.
+///
+/// Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It does
+/// not fall: the forces of gravity are those where it gets.
+RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span) const {
+  const Robot& robot = robots_[r];
+  const Mechanism& mechanism = robot.robot->mechanism;
+  RobotFlight flight{.is_known = true, .by_end = true};
+  flight.end = mechanism.after_free_motion(robot.state, Vector3d::Zero(), span.length);
+  View there = view_of(robot, flight.end);
+  flight.velocities =
+      flight.end.velocities - span.length * there.inverse_mass * there.gravity_forces;
+  const VectorXd origin =
+      mechanism.moved(flight.end.positions, -span.length * flight.end.velocities);
+  flight.drives = drives_by_end(robot.robot->laws, robot.state, origin, span);
+  flight.predicted.assign(flight.drives.size(), 0.0);
+  flight.inverse_mass = std::move(there.inverse_mass);
+  for (PiecePlace& piece : there.pieces) {
+    flight.J.push_back(std::move(piece.J));
+  }
+  return flight;
+}
+
+namespace {
+
+/// The rule of a robot whose positions without drives at the end of a span are those of the mean of
+/// these velocities, or lead by flights to `end`.
+PositionRule rule_of(const std::vector<JointLaw>& laws, const MechanismState& state,
+                     const MechanismState& end, const VectorXd& weights, double span) {
+  PositionRule rule{weights, VectorXd::Zero(weights.size())};
+  for (const JointLaw& law : laws) {
+    const Eigen::Index k = law.velocity;
+    rule.origin[k] = end.positions[law.position] - 0.5 * span * end.velocities[k] -
+                     span * (weights[k] - 0.5) * state.velocities[k];
+  }
+  return rule;
+}
+
+/// How drives act over a flight: those that reach their targets have them at its end, whatever
+/// forces that takes, and the others act with constant forces.
+MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vector<double>& impulses,
+                         const VectorXd& velocities, double span) {
+  MechanismDrive drive{.forces = VectorXd::Zero(velocities.size())};
+  std::vector<double> accelerations;
+  for (std::size_t k = 0; k < drives.size(); ++k) {
+    const auto c = static_cast<Eigen::Index>(drives[k].coordinate);
+    if (reaches_target(drives[k], impulses[k]) &&
+        std::ranges::find(drive.driven, c) == drive.driven.end()) {
+      drive.driven.push_back(c);
+      accelerations.push_back((drives[k].target - velocities[c]) / span);
+    } else {
+      drive.forces[c] += impulses[k] / span;
+    }
+  }
+  drive.accelerations = Eigen::Map<const VectorXd>(accelerations.data(),
+                                                   static_cast<Eigen::Index>(accelerations.size()));
+  return drive;
+}
+
+}  // namespace
+
+/// The flight with all forces: those of drives are predicted from how things are at its begin.
+/// Drives of the contact problem change them.
+RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
+  const Robot& robot = robots_[r];
+  const Mechanism& mechanism = robot.robot->mechanism;
+  const std::vector<JointLaw>& laws = robot.robot->laws;
+  const double h = span.length;
+  RobotFlight flight{.is_known = true};
+  MechanismDrive drive;
+  std::vector<JointDrive> first;
+  const bool is_driven = robot.robot->is_driven();
+  if (is_driven) {
+    const VectorXd& v = robot.state.velocities;
+    const VectorXd u = v - h * robot.now.inverse_mass * robot.now.bias;
+    flight.rule.weights = position_weights(laws, robot.now.inverse_mass, h);
+    const MechanismState ahead{mechanism.moved(robot.state.positions, 0.5 * h * (v + u)), u};
+    first = drives_by_rule(laws, robot.state,
+                           rule_of(laws, robot.state, ahead, flight.rule.weights, h), span);
+    flight.predicted = predicted_impulses(robot.now.inverse_mass, u, first);
+    drive = driven_by(first, flight.predicted, v, h);
+  }
+  MechanismMotion motion = mechanism.after_driven_motion(robot.state, model_.gravity, drive, h);
+  flight.end = std::move(motion.end);
+  View there = view_of(robot, flight.end);
+  flight.velocities = flight.end.velocities;
+  flight.inverse_mass = std::move(there.inverse_mass);
+  for (PiecePlace& piece : there.pieces) {
+    flight.J.push_back(std::move(piece.J));
+  }
+  if (!is_driven) {
+    return flight;
+  }
+  flight.rule = rule_of(laws, robot.state, flight.end, flight.rule.weights, h);
+  flight.drives = drives_by_rule(laws, robot.state, flight.rule, span);
+  // What led a coordinate is what all of its drives did together.
+  for (std::size_t i = 0; i < drive.driven.size(); ++i) {
+    double rest = motion.impulses[static_cast<Eigen::Index>(i)];
+    std::optional<std::size_t> leads;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      if (static_cast<Eigen::Index>(first[k].coordinate) != drive.driven[i]) {
+        continue;
+      }
+      if (!leads && reaches_target(first[k], flight.predicted[k])) {
+        leads = k;
+      }
+    }
+    rest += drive.forces[drive.driven[i]] * h;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      if (static_cast<Eigen::Index>(first[k].coordinate) == drive.driven[i] && k != *leads) {
+        rest -= flight.predicted[k];
+      }
+    }
+    flight.predicted[*leads] = rest;
+  }
+  for (std::size_t k = 0; k < flight.drives.size(); ++k) {
+    JointDrive& change = flight.drives[k];
+    const double impulse = flight.predicted[k];
+    change.target -= change.compliance * impulse;
+    change.least -= impulse;
+    change.greatest -= impulse;
+  }
+  return flight;
+}
+
+void IslandRobots::fly(double from, double span, const std::vector<bool>& by_end,
+                       std::vector<RobotFlight>& flights) const {
+  flights.resize(robots_.size());
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const bool wanted = by_end[r] && robots_[r].robot->is_driven();
+    if (!flights[r].is_known || flights[r].by_end != wanted) {
+      flights[r] = wanted ? flight_by_end(r, {from, span}) : flight_of(r, {from, span});
+    }
+  }
+}
+
+void IslandRobots::set(const std::vector<RobotFlight>& flights, ContactProblem& problem) const {
+  problem.mechanisms.clear();
+  problem.drives.clear();
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
-    const Mechanism& mechanism = robot.robot->mechanism;
-    const bool is_driven = robot.robot->is_driven();
-    // Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It
-    // does not fall: the forces of gravity are those where it gets.
-    const MechanismState end = mechanism.after_free_motion(
-        robot.state, is_driven ? Vector3d::Zero() : model_.gravity, span);
-    View there = view_of(robot, end);
-    VectorXd velocities = end.velocities;
-    std::vector<JointDrive> drives;
-    if (is_driven) {
-      velocities -= span * there.inverse_mass * there.gravity_forces;
-      const VectorXd origin = mechanism.moved(end.positions, -span * end.velocities);
-      drives = robot.robot->drives(robot.state, origin, r, from, span);
-    }
+    const RobotFlight& flight = flights[r];
     for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
       ContactBody& body = problem.bodies[robot.pieces[k].member];
-      const Eigen::Matrix<double, 6, 1> V = there.pieces[k].J * velocities;
+      const Eigen::Matrix<double, 6, 1> V = flight.J[k] * flight.velocities;
       body.v = V.head<3>();
       body.w = V.tail<3>();
-      body.link = MechanismLink{r, std::move(there.pieces[k].J)};
+      body.link = MechanismLink{r, flight.J[k]};
     }
-    free.push_back({end});
-    problem.mechanisms.push_back({std::move(there.inverse_mass), std::move(velocities)});
-    std::ranges::copy(drives, std::back_inserter(problem.drives));
+    problem.mechanisms.push_back({flight.inverse_mass, flight.velocities});
+    for (JointDrive drive : flight.drives) {
+      drive.mechanism = r;
+      problem.drives.push_back(drive);
+    }
   }
-  return free;
 }
 
 void IslandRobots::add_drives_at_impact(ContactProblem& problem) const {
@@ -171,6 +317,18 @@ void IslandRobots::add_stops(ContactProblem& problem) const {
   }
 }
 
+/// [N m s or N s]  Of each drive of a robot.
+std::vector<double> IslandRobots::drives_of(std::size_t robot, const ContactProblem& problem,
+                                            const ContactSolution& solution) const {
+  std::vector<double> drives;
+  for (std::size_t k = 0; k < problem.drives.size(); ++k) {
+    if (problem.drives[k].mechanism == robot) {
+      drives.push_back(solution.drives[k]);
+    }
+  }
+  return drives;
+}
+
 /// [N m s or N s]  What the motors of a robot, the first ones of its drives, did to each
 /// coordinate.
 VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
@@ -185,28 +343,145 @@ VectorXd IslandRobots::impulses_of(std::size_t robot, std::size_t motors,
   return impulses;
 }
 
+/// The velocities that contacts make where the flight leads, with the momenta that impulses from
+/// outside make. Arms are those of the begin: the two sides of a contact are apart where the flight
+/// leads, and their impulses would turn the robot as a whole.
+VectorXd IslandRobots::balanced(std::size_t r, const RobotFlight& flight, const OuterImpulse& outer,
+                                const VectorXd& v) const {
+  const Mechanism& mechanism = robots_[r].robot->mechanism;
+  if (!mechanism.has_free_base() || !outer.is_known || !outer.touches) {
+    return v;
+  }
+  const MechanismMechanics before =
+      mechanism.mechanics({flight.end.positions, flight.velocities}, model_.gravity);
+  return mechanism.with_momenta({flight.end.positions, v}, before.linear_momentum + outer.linear,
+                                before.angular_momentum + outer.angular);
+}
+
+/// Where the mean of the velocities at both ends leads.
+VectorXd IslandRobots::mean_positions(std::size_t r, const RobotFlight& flight, const VectorXd& v,
+                                      double span) const {
+  const VectorXd changed = v - flight.end.velocities;
+  return robots_[r].robot->mechanism.moved(flight.end.positions, 0.5 * span * changed);
+}
+
+/// The displacement that takes coordinates from there to where their drives place them: of all that
+/// do, the least one in the kinetic metric, as impulses would make it.
+VectorXd IslandRobots::placement(std::size_t r, const RobotFlight& flight,
+                                 const std::vector<double>& drives, const VectorXd& v,
+                                 const VectorXd& positions, const TimeSpan& span) const {
+  const std::vector<PlacedCoordinate> placed = placed_coordinates(
+      robots_[r].robot->laws, flight.drives, drives, robots_[r].state, flight.rule, span, v);
+  std::vector<Eigen::Index> at;
+  std::vector<double> missing;
+  for (const PlacedCoordinate& coordinate : placed) {
+    at.push_back(coordinate.velocity);
+    missing.push_back(coordinate.at - positions[coordinate.position]);
+  }
+  if (at.empty()) {
+    return VectorXd::Zero(v.size());
+  }
+  const Eigen::Map<const VectorXd> way(missing.data(), static_cast<Eigen::Index>(missing.size()));
+  const MatrixXd columns = flight.inverse_mass(Eigen::all, at);
+  VectorXd displacement = columns * MatrixXd(columns(at, Eigen::all)).llt().solve(way);
+  displacement(at) = way;
+  return displacement;
+}
+
+std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
+                                           const ContactSolution& solution,
+                                           const std::vector<RobotFlight>& flights,
+                                           const std::vector<bool>& by_end, double from,
+                                           double span) const {
+  std::vector<bool> led(robots_.size(), false);
+  std::vector<bool> touches(robots_.size(), false);
+  for (std::size_t k = 0; k < problem.contacts.size(); ++k) {
+    for (const std::size_t place : problem.contacts[k].bodies) {
+      if (problem.bodies[place].link && !solution.impulses[k].isZero(0.0)) {
+        touches[problem.bodies[place].link->mechanism] = true;
+      }
+    }
+  }
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Robot& robot = robots_[r];
+    if (!robot.robot->is_driven() || flights[r].by_end) {
+      led[r] = flights[r].by_end;
+      continue;
+    }
+    led[r] =
+        std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
+    std::vector<double> drives = drives_of(r, problem, solution);
+    for (std::size_t k = 0; k < drives.size(); ++k) {
+      const JointDrive& drive = flights[r].drives[k];
+      const bool is_stop = std::isinf(drive.least) != std::isinf(drive.greatest);
+      led[r] = led[r] || (is_stop && drives[k] != 0.0);
+    }
+    if (!led[r] && touches[r]) {
+      const VectorXd& v = solution.mechanisms[r];
+      const VectorXd way =
+          placement(r, flights[r], drives, v, mean_positions(r, flights[r], v, span), {from, span});
+      led[r] =
+          way.size() > 0 && way.cwiseAbs().maxCoeff() > kUnseenPlacement * model_.distances.least;
+    }
+  }
+  return led;
+}
+
 std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
                                           const ContactSolution& solution,
-                                          const std::vector<RobotPlan>& free,
-                                          const std::vector<bool>& by_end, double span) const {
+                                          const std::vector<RobotFlight>& flights,
+                                          const std::vector<bool>& by_end,
+                                          const std::vector<OuterImpulse>& outer, double from,
+                                          double span) const {
   std::vector<RobotPlan> plans;
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
+    const RobotFlight& flight = flights[r];
     const Mechanism& mechanism = robot.robot->mechanism;
-    const VectorXd& v = solution.mechanisms[r];
+    const VectorXd v = balanced(r, flight, outer[r], solution.mechanisms[r]);
     const bool end_leads =
         std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
-    const VectorXd changed = v - free[r].end.velocities;
-    const VectorXd positions =
-        robot.robot->is_driven() ? mechanism.moved(free[r].end.positions, span * changed)
-        : end_leads              ? mechanism.moved(robot.state.positions, span * v)
-                                 : mechanism.moved(free[r].end.positions, 0.5 * span * changed);
+    const VectorXd changed = v - flight.end.velocities;
+    VectorXd positions = flight.by_end ? mechanism.moved(flight.end.positions, span * changed)
+                         : end_leads   ? mechanism.moved(robot.state.positions, span * v)
+                                       : mean_positions(r, flight, v, span);
     const VectorXd velocities =
-        changed.isZero(0.0) ? v : mechanism.carried({free[r].end.positions, v}, positions);
-    plans.push_back(
-        {{positions, velocities}, impulses_of(r, robot.robot->motor_count(), problem, solution)});
+        changed.isZero(0.0) ? v : mechanism.carried({flight.end.positions, v}, positions);
+    if (!flight.by_end && !flight.drives.empty()) {
+      positions = mechanism.moved(positions, placement(r, flight, drives_of(r, problem, solution),
+                                                       v, positions, {from, span}));
+    }
+    VectorXd motors = impulses_of(r, robot.robot->motor_count(), problem, solution);
+    for (std::size_t k = 0; k < robot.robot->motor_count(); ++k) {
+      motors[static_cast<Eigen::Index>(flight.drives[k].coordinate)] += flight.predicted[k];
+    }
+    plans.push_back({{positions, velocities}, std::move(motors)});
   }
   return plans;
+}
+
+void IslandRobots::keep_momenta(const std::vector<OuterImpulse>& outer, double span,
+                                std::vector<RobotPlan>& plans) const {
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Mechanism& mechanism = robots_[r].robot->mechanism;
+    if (!mechanism.has_free_base() || !outer[r].is_known) {
+      continue;
+    }
+    const OuterImpulse& impulse = outer[r];
+    MechanismState& end = plans[r].end;
+    const MechanismMechanics before = mechanism.mechanics(robots_[r].state, model_.gravity);
+    MechanismMechanics after = mechanism.mechanics(end, model_.gravity);
+    const Vector3d weight = before.mass * model_.gravity;
+    const Vector3d linear = before.linear_momentum + span * weight + impulse.linear;
+    if (!impulse.acts) {
+      const Vector3d way = span * (before.linear_momentum + linear) / (2.0 * before.mass);
+      end.positions.head<3>() += before.p_WC + way - after.p_WC;
+      after.p_WC = before.p_WC + way;
+    }
+    const Vector3d angular = before.angular_momentum + impulse.angular +
+                             span * (0.5 * (before.p_WC + after.p_WC)).cross(weight);
+    end.velocities = mechanism.with_momenta(end, linear, angular);
+  }
 }
 
 void IslandRobots::displace(const std::vector<VectorXd>& by, std::vector<RobotPlan>& plans) const {
@@ -240,16 +515,15 @@ double IslandRobots::share_within_limits(const std::vector<RobotPlan>& plans) co
   return share;
 }
 
-void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, double to) {
+void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, double span,
+                           double to) {
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     Robot& robot = robots_[r];
     const MechanismState begin = robot.state;
     const auto& [end, motors] = plans[r];
     robot.state =
-        share == 1.0
-            ? end
-            : MechanismState{robot.robot->mechanism.between(begin.positions, end.positions, share),
-                             begin.velocities + share * (end.velocities - begin.velocities)};
+        share == 1.0 ? end
+                     : part_of_way(robot.robot->mechanism, begin, end, share, model_.gravity, span);
     if (share > 0.0) {
       robot.track.pieces.push_back({to, begin, robot.state, robot.impact, share * motors});
       robot.impact.setZero();
@@ -258,12 +532,22 @@ void IslandRobots::move_to(const std::vector<RobotPlan>& plans, double share, do
   }
 }
 
-void IslandRobots::take_velocities(const ContactSolution& solution) {
+void IslandRobots::take_velocities(const ContactSolution& solution,
+                                   const std::vector<OuterImpulse>& outer) {
   ContactProblem solved;  // As far as drives are concerned.
   add_drives_at_impact(solved);
   for (std::size_t r = 0; r < robots_.size(); ++r) {
+    const Mechanism& mechanism = robots_[r].robot->mechanism;
+    MechanismState& state = robots_[r].state;
     robots_[r].impact += impulses_of(r, robots_[r].robot->rigid_motor_count(), solved, solution);
-    robots_[r].state.velocities = solution.mechanisms[r];
+    if (!mechanism.has_free_base() || !outer[r].is_known) {
+      state.velocities = solution.mechanisms[r];
+      continue;
+    }
+    const MechanismMechanics before = mechanism.mechanics(state, model_.gravity);
+    state.velocities = solution.mechanisms[r];
+    state.velocities = mechanism.with_momenta(state, before.linear_momentum + outer[r].linear,
+                                              before.angular_momentum + outer[r].angular);
   }
 }
 
@@ -273,6 +557,27 @@ std::vector<RobotTrack> IslandRobots::take_tracks() {
     tracks.push_back(std::move(robot.track));
   }
   return tracks;
+}
+
+MechanismState part_of_way(const Mechanism& mechanism, const MechanismState& begin,
+                           const MechanismState& end, double share, const Vector3d& gravity,
+                           double span) {
+  MechanismState state{mechanism.between(begin.positions, end.positions, share),
+                       begin.velocities + share * (end.velocities - begin.velocities)};
+  if (!mechanism.has_free_base() || share == 0.0) {
+    return state;
+  }
+  const MechanismMechanics from = mechanism.mechanics(begin, gravity);
+  const MechanismMechanics to = mechanism.mechanics(end, gravity);
+  const auto at = [&](const Vector3d& a, const Vector3d& b) -> Vector3d {
+    return a + share * (b - a);
+  };
+  // The moment of the weight about the origin grows with the way of the centre of mass.
+  const Vector3d moment = (to.p_WC - from.p_WC).cross(from.mass * gravity) * span;
+  state.velocities = mechanism.with_momenta(
+      state, at(from.linear_momentum, to.linear_momentum),
+      at(from.angular_momentum, to.angular_momentum) + 0.5 * (share * share - share) * moment);
+  return state;
 }
 
 }  // namespace firstcontact::detail

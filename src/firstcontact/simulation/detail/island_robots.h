@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +14,7 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/robot/mechanism.h>
+#include <firstcontact/simulation/detail/joint_law.h>
 #include <firstcontact/simulation/detail/move.h>
 
 namespace firstcontact::detail {
@@ -36,6 +39,32 @@ struct RobotTrack {
   std::vector<RobotTrackPiece> pieces = {};
 };
 
+/// The motion of a robot over a span without contacts, from which its contact problem starts.
+struct RobotFlight {
+  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+  bool is_known = false;
+  /// Whether velocities at the end lead the robot, by Euler's implicit rule. Then inertia alone
+  /// acts in the flight. Else all forces do, with those of drives as they were predicted.
+  bool by_end = false;
+  MechanismState end = {};
+  Eigen::VectorXd velocities = {};      ///< Without contacts and the changes of drives.
+  Eigen::MatrixXd inverse_mass = {};    ///< At the end, as
+  std::vector<Jacobian> J = {};         ///< of each piece.
+  std::vector<JointDrive> drives = {};  ///< Of the changes of impulses.
+  std::vector<double> predicted = {};   ///< [N m s or N s]  Impulses in the flight, of each drive.
+  PositionRule rule = {};
+};
+
+/// Impulses of what is not of a robot, on all of its links.
+struct OuterImpulse {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]  About the origin.
+  bool acts = false;                                  ///< Any does.
+  bool is_known = true;  ///< Of velocities that were limited they are not.
+  bool touches = false;  ///< Contacts act, with what is not of it or between its own links.
+};
+
 /// Where a plan leads a robot, and how fast it is there.
 struct RobotPlan {
   MechanismState end;
@@ -51,8 +80,9 @@ struct RobotPlan {
 class IslandRobots {
  public:
   /// @param members  of the island; all pieces of a robot's links, or none
+  /// @param bare     robots of the island whose links have no pieces
   IslandRobots(const SimulationModel& model, const StepStart& start,
-               const std::vector<std::size_t>& members);
+               const std::vector<std::size_t>& members, const std::vector<std::size_t>& bare = {});
 
   [[nodiscard]] bool empty() const { return robots_.empty(); }
   [[nodiscard]] bool has_motors() const;
@@ -76,13 +106,42 @@ class IslandRobots {
   /// Adds the mechanisms as they move now.
   void add_mechanisms(ContactProblem& problem) const;
 
-  /// Free motion over a span: velocities of mechanisms and of their links, and what drives joints.
-  /// They hold where it ends, and so do masses and Jacobians: coordinates of a link that a turning
-  /// one carries change with the turn, so that at its begin the same numbers say something else.
+  [[nodiscard]] std::size_t size() const { return robots_.size(); }
+
+  /// [m]  Where the free base of a robot is; nothing of one that is held.
+  [[nodiscard]] std::optional<Eigen::Vector3d> free_base(std::size_t robot) const;
+
+  /// The robot of a member that is a piece of a link, here.
+  [[nodiscard]] std::size_t robot_of(std::size_t member) const { return place_[member][0]; }
+
+  /// Finds the flights over a span that are not known, or not of the kind that is wanted.
   ///
-  /// @param from  [s]  since the simulation began
-  /// @returns  where each robot would be, by inertia alone where anything drives a joint
-  [[nodiscard]] std::vector<RobotPlan> fly(ContactProblem& problem, double from, double span) const;
+  /// @param from    [s]  since the simulation began
+  /// @param by_end  of each robot: what drives its joints makes velocities at the end lead it
+  void fly(double from, double span, const std::vector<bool>& by_end,
+           std::vector<RobotFlight>& flights) const;
+
+  /// [rad or m]  How far the changes of velocities in a flight lead a coordinate, at most.
+  [[nodiscard]] double change_of_way(std::size_t robot, const RobotFlight& flight,
+                                     double span) const {
+    const Eigen::VectorXd change = flight.end.velocities - robots_[robot].state.velocities;
+    return 0.5 * span * change.cwiseAbs().maxCoeff();
+  }
+
+  /// Sets velocities of mechanisms and of their links, and what drives joints.
+  ///
+  /// They hold where flights end, and so do masses and Jacobians: coordinates of a link that a
+  /// turning one carries change with the turn, so that at its begin the same numbers say something
+  /// else.
+  void set(const std::vector<RobotFlight>& flights, ContactProblem& problem) const;
+
+  /// Which robots velocities at the end have to lead: those of which contacts or limits allow no
+  /// others, and those that a motor would lead elsewhere than contacts know.
+  [[nodiscard]] std::vector<bool> led_by_end(const ContactProblem& problem,
+                                             const ContactSolution& solution,
+                                             const std::vector<RobotFlight>& flights,
+                                             const std::vector<bool>& by_end, double from,
+                                             double span) const;
 
   void add_drives_at_impact(ContactProblem& problem) const;
 
@@ -90,14 +149,24 @@ class IslandRobots {
   void add_stops(ContactProblem& problem) const;
 
   /// Where each robot gets. As of bodies the mean of the velocities at both ends leads it, on top
-  /// of what free motion did. Where anything drives a joint, those at the end do, on top of what
-  /// inertia alone did. Velocities are carried from where free motion leads to there.
+  /// of what the flight did, and motors that reach their targets are there. In flights by the end,
+  /// and where `by_end` says so of a robot that nothing drives, velocities at the end lead.
+  /// Velocities are carried from where the flight leads to there.
   ///
   /// @param by_end  of the problem's bodies: velocities at the end lead them
   [[nodiscard]] std::vector<RobotPlan> plan(const ContactProblem& problem,
                                             const ContactSolution& solution,
-                                            const std::vector<RobotPlan>& free,
-                                            const std::vector<bool>& by_end, double span) const;
+                                            const std::vector<RobotFlight>& flights,
+                                            const std::vector<bool>& by_end,
+                                            const std::vector<OuterImpulse>& outer, double from,
+                                            double span) const;
+
+  /// Gives robots with a free base the momenta that gravity and impulses from outside make of
+  /// theirs. Where none of these acts, their centres of mass get where such momenta lead.
+  ///
+  /// @param outer  of each robot
+  void keep_momenta(const std::vector<OuterImpulse>& outer, double span,
+                    std::vector<RobotPlan>& plans) const;
 
   /// Adds displacements of coordinates, in order of robots.
   void displace(const std::vector<Eigen::VectorXd>& by, std::vector<RobotPlan>& plans) const;
@@ -110,10 +179,12 @@ class IslandRobots {
   [[nodiscard]] double share_within_limits(const std::vector<RobotPlan>& plans) const;
 
   /// Goes a share of the way to a plan. `to` is the time since the step began.
-  void move_to(const std::vector<RobotPlan>& plans, double share, double to);
+  void move_to(const std::vector<RobotPlan>& plans, double share, double span, double to);
 
   /// Takes the velocities of the impact now, and what motors did to them.
-  void take_velocities(const ContactSolution& solution);
+  ///
+  /// @param outer  of each robot
+  void take_velocities(const ContactSolution& solution, const std::vector<OuterImpulse>& outer);
 
   [[nodiscard]] std::vector<RobotTrack> take_tracks();
 
@@ -130,7 +201,9 @@ class IslandRobots {
   /// A robot in one state.
   struct View {
     std::vector<PiecePlace> pieces = {};
+    std::vector<Eigen::Matrix3Xd> turns = {};  // Of each link, where there are no pieces.
     Eigen::MatrixXd inverse_mass = {};
+    Eigen::VectorXd bias = {};
     Eigen::VectorXd gravity_forces = {};
   };
   struct Robot {
@@ -145,14 +218,35 @@ class IslandRobots {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   [[nodiscard]] View view_of(const Robot& robot, const MechanismState& state) const;
+  [[nodiscard]] RobotFlight flight_of(std::size_t robot, const TimeSpan& span) const;
+  [[nodiscard]] RobotFlight flight_by_end(std::size_t robot, const TimeSpan& span) const;
+  [[nodiscard]] std::vector<double> drives_of(std::size_t robot, const ContactProblem& problem,
+                                              const ContactSolution& solution) const;
   [[nodiscard]] Eigen::VectorXd impulses_of(std::size_t robot, std::size_t motors,
                                             const ContactProblem& problem,
                                             const ContactSolution& solution) const;
+  [[nodiscard]] Eigen::VectorXd balanced(std::size_t robot, const RobotFlight& flight,
+                                         const OuterImpulse& outer, const Eigen::VectorXd& v) const;
+  [[nodiscard]] Eigen::VectorXd mean_positions(std::size_t robot, const RobotFlight& flight,
+                                               const Eigen::VectorXd& v, double span) const;
+  [[nodiscard]] Eigen::VectorXd placement(std::size_t robot, const RobotFlight& flight,
+                                          const std::vector<double>& drives,
+                                          const Eigen::VectorXd& v,
+                                          const Eigen::VectorXd& positions,
+                                          const TimeSpan& span) const;
   [[nodiscard]] const PiecePlace& piece_of(std::size_t member) const;
 
   const SimulationModel& model_;
   std::vector<Robot> robots_;
   std::vector<std::array<std::size_t, 2>> place_;  // Of each member: robot and piece.
 };
+
+/// The state at a share of the way over a span [s] in which gravity acts.
+///
+/// A free base has the velocity that makes momenta run from those of the one end to those of the
+/// other.
+[[nodiscard]] MechanismState part_of_way(const Mechanism& mechanism, const MechanismState& begin,
+                                         const MechanismState& end, double share,
+                                         const Eigen::Vector3d& gravity, double span);
 
 }  // namespace firstcontact::detail

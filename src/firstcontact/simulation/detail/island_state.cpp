@@ -21,12 +21,13 @@ struct RestingBody {
 
 }  // namespace
 
-IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given_members)
+IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given_members,
+                         const std::vector<std::size_t>& bare_robots)
     : model(step.model),
       start(step.start),
       around(step.around),
       members(std::move(given_members)),
-      robots(step.model, step.start, members) {
+      robots(step.model, step.start, members, bare_robots) {
   for (std::size_t k = 0; k < size(); ++k) {
     place[members[k]] = k;
     states.push_back(start.states[members[k]]);

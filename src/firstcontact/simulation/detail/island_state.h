@@ -38,7 +38,9 @@ struct StepContext {
 
 /// An island now: plans, searches and impacts look at it, and Island moves it.
 struct IslandState {
-  IslandState(const StepContext& step, std::vector<std::size_t> given_members);
+  /// @param bare_robots  robots of the island without geometry
+  IslandState(const StepContext& step, std::vector<std::size_t> given_members,
+              const std::vector<std::size_t>& bare_robots = {});
 
   [[nodiscard]] std::size_t size() const { return members.size(); }
   [[nodiscard]] const SimBody& member(std::size_t k) const { return model.bodies[members[k]]; }

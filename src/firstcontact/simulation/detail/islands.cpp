@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include <firstcontact/geometry/detail/overlap_tree.h>
@@ -44,6 +45,9 @@ class Islands {
   std::optional<std::vector<IslandTrack>> run() {
     join_links();
     join_near();
+    if (!advance_bare_robots()) {
+      return std::nullopt;
+    }
     for (int round = 0; advance_changed(); ++round) {
       if (!join_meeting(round >= kExactRoundsOfIslands)) {
         return take_tracks();
@@ -60,6 +64,7 @@ class Islands {
         tracks.push_back(std::move(*track));
       }
     }
+    std::ranges::move(bare_, std::back_inserter(tracks));
     return tracks;
   }
 
@@ -164,6 +169,26 @@ class Islands {
     return true;
   }
 
+  /// Robots without geometry touch nothing: each moves by itself. Returns false if it was stopped.
+  bool advance_bare_robots() {
+    std::vector<bool> has_pieces(model_.robots.size(), false);
+    for (const SimBody& body : model_.bodies) {
+      if (body.piece) {
+        has_pieces[body.piece->robot] = true;
+      }
+    }
+    for (std::size_t r = 0; r < model_.robots.size(); ++r) {
+      if (!has_pieces[r]) {
+        std::optional<IslandTrack> track = advance_island(step_, {}, workspace_, {r});
+        if (!track) {
+          return false;
+        }
+        bare_.push_back(std::move(*track));
+      }
+    }
+    return true;
+  }
+
   /// The index in its island's track.
   [[nodiscard]] const std::vector<TrackPiece>& pieces_of(std::size_t body) {
     const IslandTrack& track = *tracks_[set_of(body)];
@@ -257,6 +282,7 @@ class Islands {
   std::vector<std::size_t> free_;
   std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
   std::vector<bool> is_new_;                        // Of each set.
+  std::vector<IslandTrack> bare_ = {};              // Of robots without geometry.
 };
 
 }  // namespace

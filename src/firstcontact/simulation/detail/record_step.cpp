@@ -227,8 +227,8 @@ class StepRecorder {
         state = piece.end;
       } else {
         const Mechanism& mechanism = model_.robots[track.robot].mechanism;
-        state = {mechanism.between(piece.begin.positions, piece.end.positions, share),
-                 piece.begin.velocities + share * (piece.end.velocities - piece.begin.velocities)};
+        state =
+            part_of_way(mechanism, piece.begin, piece.end, share, model_.gravity, piece.to - from);
       }
       impulses += piece.impact + share * piece.motors;
       from = piece.to;

@@ -20,83 +20,26 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-double value_at(const std::vector<TimedNumber>& target, double time) {
-  const auto next = std::ranges::upper_bound(target, time, {}, &TimedNumber::time);
-  if (next == target.begin()) {
-    return next->number;
-  }
-  const TimedNumber& before = *(next - 1);
-  if (next == target.end()) {
-    return before.number;
-  }
-  const double share = (time - before.time) / (next->time - before.time);
-  return before.number + share * (next->number - before.number);
-}
+/// The positions over time that a trajectory gives a coordinate, and their rates, at every step.
+struct SampledPath {
+  std::vector<TimedNumber> positions = {};  // [rad or m]
+  std::vector<TimedNumber> rates = {};      // [rad/s or m/s]
+};
 
-/// Impulses that a motor has at most.
-double bound(const JointLaw& law, double span) {
-  const double effort = law.motor->effort.value_or(law.limits.effort.value_or(kInfinity));
-  return effort * span;
-}
-
-/// Whether it holds its joint against any force, impacts too.
-bool is_rigid(const JointLaw& law) {
-  return law.motor && law.motor->kind != JointMotor::Kind::torque && !law.motor->stiffness &&
-         !std::isfinite(bound(law, 1.0));
-}
-
-/// A velocity that leads no farther than the limits: two laws that nothing yields to, against each
-/// other, have no solution.
-double within_limits(const JointLaw& law, double velocity, double q, double span) {
-  const double least = law.limits.lower ? (*law.limits.lower - q) / span : velocity;
-  const double greatest = law.limits.upper ? (*law.limits.upper - q) / span : velocity;
-  return std::min(std::max(velocity, least), greatest);
-}
-
-JointDrive motor_drive(const JointLaw& law, double q, double from, double span) {
-  const JointMotor& motor = *law.motor;
-  const double to = from + span;
-  JointDrive drive{.least = -bound(law, span), .greatest = bound(law, span)};
-  switch (motor.kind) {
-    case JointMotor::Kind::torque: {
-      const double torque = value_at(motor.target, from + 0.5 * span);
-      const double impulse = std::clamp(torque * span, drive.least, drive.greatest);
-      drive.least = drive.greatest = impulse;
-      break;
-    }
-    case JointMotor::Kind::velocity:
-      drive.target = within_limits(law, value_at(motor.target, to), q, span);
-      break;
-    case JointMotor::Kind::position: {
-      const double missing = value_at(motor.target, to) - q;
-      if (!motor.stiffness) {
-        drive.target = within_limits(law, missing / span, q, span);
-        break;
-      }
-      // r = span (k (missing - span u) + d (rate - u))
-      const double rate = (value_at(motor.target, to) - value_at(motor.target, from)) / span;
-      const double answer = span * *motor.stiffness + motor.damping;
-      drive.target = (*motor.stiffness * missing + motor.damping * rate) / answer;
-      drive.compliance = 1.0 / (span * answer);
-      break;
-    }
-  }
-  return drive;
-}
-
-/// The positions over time that a trajectory gives a coordinate, at every step.
-std::vector<TimedNumber> sampled(const RobotMotion& motion, std::size_t joint, double duration,
-                                 double step) {
-  std::vector<TimedNumber> samples;
+SampledPath sampled(const RobotMotion& motion, std::size_t joint, double duration, double step) {
+  SampledPath samples;
   const std::vector<CoordinateSegment> segments = motion.coordinate(joint);
   std::size_t piece = 0;
-  for (std::size_t k = 0; samples.empty() || samples.back().time < duration; ++k) {
+  for (std::size_t k = 0; samples.positions.empty() || samples.positions.back().time < duration;
+       ++k) {
     const double time = std::min(duration, static_cast<double>(k) * step);
     const double t = time / duration;
     while (piece + 1 < segments.size() && segments[piece].t_end < t) {
       ++piece;
     }
-    samples.push_back({time, segments[piece].state(t).value.value()});
+    const CoordinateSegment::State state = segments[piece].state(t);
+    samples.positions.push_back({time, state.value.value()});
+    samples.rates.push_back({time, state.rate / duration});
   }
   return samples;
 }
@@ -116,6 +59,7 @@ class RobotMaker {
       const auto& base = std::get<FixedMotion>(described_.base);
       Mechanism mechanism(model_, base.pose, dynamics_.has_free_base);
       MechanismState start = start_of(mechanism);
+      mechanism.require_mass(start.positions);
       std::vector<JointLaw> laws = laws_of(mechanism, start);
       return {described_.name, number_, std::move(mechanism), std::move(laws), std::move(start)};
     } catch (const std::invalid_argument& error) {
@@ -176,7 +120,7 @@ class RobotMaker {
                      .friction = joint.friction};
         if (block.positions == 1) {
           law.limits = limits_of(joint, block, start);
-          law.motor = motor_of(block.joint);
+          take_motor(block.joint, law);
         }
         laws.push_back(std::move(law));
       }
@@ -199,16 +143,17 @@ class RobotMaker {
     return limits;
   }
 
-  std::optional<JointMotor> motor_of(std::size_t joint) const {
+  void take_motor(std::size_t joint, JointLaw& law) const {
     const auto found = dynamics_.motors.find(joint);
     if (found == dynamics_.motors.end()) {
-      return std::nullopt;
+      return;
     }
-    JointMotor motor = found->second;
-    if (motor.target.empty()) {
-      motor.target = sampled(motion_, joint, scene_.duration, scene_.simulation->step);
+    law.motor = found->second;
+    if (law.motor->target.empty()) {
+      SampledPath path = sampled(motion_, joint, scene_.duration, scene_.simulation->step);
+      law.motor->target = std::move(path.positions);
+      law.rates = std::move(path.rates);
     }
-    return motor;
   }
 
   const Scene& scene_;
@@ -235,40 +180,6 @@ std::size_t SimRobot::motor_count() const {
 
 std::size_t SimRobot::rigid_motor_count() const {
   return static_cast<std::size_t>(std::ranges::count_if(laws, is_rigid));
-}
-
-std::vector<JointDrive> SimRobot::drives(const MechanismState& state, const Eigen::VectorXd& origin,
-                                         std::size_t mechanism_number, double from,
-                                         double span) const {
-  std::vector<JointDrive> drives;
-  const auto add_to = [&](const JointLaw& law, JointDrive drive) {
-    drive.mechanism = mechanism_number;
-    drive.coordinate = static_cast<std::size_t>(law.velocity);
-    drives.push_back(drive);
-  };
-  for (const JointLaw& law : laws) {
-    if (law.motor) {
-      add_to(law, motor_drive(law, origin[law.position], from, span));
-    }
-  }
-  for (const JointLaw& law : laws) {
-    const double q = state.positions[law.position];
-    const double q_origin = origin[law.position];
-    const auto add = [&](const JointDrive& drive) { add_to(law, drive); };
-    if (law.damping > 0.0) {
-      add({.compliance = 1.0 / (span * law.damping)});
-    }
-    if (law.friction > 0.0) {
-      add({.least = -law.friction * span, .greatest = law.friction * span});
-    }
-    if (law.limits.lower) {
-      add({.target = (std::min(q, *law.limits.lower) - q_origin) / span, .least = 0.0});
-    }
-    if (law.limits.upper) {
-      add({.target = (std::max(q, *law.limits.upper) - q_origin) / span, .greatest = 0.0});
-    }
-  }
-  return drives;
 }
 
 double SimRobot::share_within_limits(const MechanismState& from, const Eigen::VectorXd& to) const {

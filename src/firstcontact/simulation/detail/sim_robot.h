@@ -12,6 +12,7 @@
 #include <firstcontact/robot/mechanism.h>
 #include <firstcontact/robot/robot_description.h>
 #include <firstcontact/scene/simulation.h>
+#include <firstcontact/simulation/detail/joint_law.h>
 
 namespace firstcontact {
 struct LinksAsBodies;
@@ -19,16 +20,6 @@ struct LoadedScene;
 }  // namespace firstcontact
 
 namespace firstcontact::detail {
-
-/// The law of one coordinate, besides gravity, inertia and contacts.
-struct JointLaw {
-  Eigen::Index position = 0;  ///< Of the mechanism's positions,
-  Eigen::Index velocity = 0;  ///< and velocities.
-  JointLimits limits = {};
-  double damping = 0.0;   ///< [N m s/rad or N s/m]
-  double friction = 0.0;  ///< [N m or N]
-  std::optional<JointMotor> motor = {};
-};
 
 struct SimRobot {
   std::string name;
@@ -43,19 +34,6 @@ struct SimRobot {
   /// How many motors there are, and how many of them no effort bounds: they answer impacts.
   [[nodiscard]] std::size_t motor_count() const;
   [[nodiscard]] std::size_t rigid_motor_count() const;
-
-  /// The drives of a span of time, by Euler's implicit rule; those of motors come first.
-  ///
-  /// The end of the span decides how far springs reach, how fast dampers move, and where limits
-  /// stop.
-  ///
-  /// @param origin     positions from which the velocities u at the end lead to origin + span u
-  /// @param mechanism  its number in the contact problem
-  /// @param from       [s]  since the simulation began
-  /// @param span       [s]  > 0
-  [[nodiscard]] std::vector<JointDrive> drives(const MechanismState& state,
-                                               const Eigen::VectorXd& origin, std::size_t mechanism,
-                                               double from, double span) const;
 
   /// The stops that keep displacements [rad or m] in place of velocities within limits.
   [[nodiscard]] std::vector<JointDrive> stops(const MechanismState& state,

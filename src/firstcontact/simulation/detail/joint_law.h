@@ -1,0 +1,114 @@
+/// @file
+/// The law of one coordinate of a robot: what drives, brakes and stops it over a span of time.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/contact_solver/contact_problem.h>
+#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/robot/robot_description.h>
+#include <firstcontact/scene/simulation.h>
+
+namespace firstcontact::detail {
+
+/// The law of one coordinate, besides gravity, inertia and contacts.
+struct JointLaw {
+  Eigen::Index position = 0;  ///< Of the mechanism's positions,
+  Eigen::Index velocity = 0;  ///< and velocities.
+  JointLimits limits = {};
+  double damping = 0.0;   ///< [N m s/rad or N s/m]
+  double friction = 0.0;  ///< [N m or N]
+  std::optional<JointMotor> motor = {};
+  /// [rad/s or m/s]  The rates of the motor's target at its times, where a trajectory gives it:
+  /// cubics lead from one to the next. Empty: lines do.
+  std::vector<TimedNumber> rates = {};
+};
+
+/// A span of time of a plan.
+struct TimeSpan {
+  double from = 0.0;    ///< [s]  Since the simulation began.
+  double length = 0.0;  ///< [s]  > 0
+  [[nodiscard]] double to() const { return from + length; }
+};
+
+/// How positions at the end of a span follow from the velocities u there: origin + span weight u.
+/// Entries are in the order of velocities.
+struct PositionRule {
+  Eigen::VectorXd weights;  ///< [-]  From 1/2, the mean of both ends, to 1, the end alone.
+  Eigen::VectorXd origin;   ///< [rad or m]  Of coordinates that have laws.
+};
+
+/// [N m s or N s]  The greatest impulse of the motor of a law over a span [s].
+[[nodiscard]] double greatest_impulse(const JointLaw& law, double span);
+
+/// Whether a motor holds its joint against any force, impacts too.
+[[nodiscard]] bool is_rigid(const JointLaw& law);
+
+/// The weights of the laws' coordinates.
+///
+/// Undamped springs have 1/2, and keep their energy. Dampers have what makes the decay of one
+/// coordinate alone exact, 1 / (1 - exp(-z)) - 1 / z, with z = span damping / mass (the exponential
+/// fit of W. Liniger, R. A. Willoughby, "Efficient integration methods for stiff systems of
+/// ordinary differential equations", SIAM Journal on Numerical Analysis 7 (1970)). It differs from
+/// 1/2 by z / 12, so that the rule stays one of second order. Springs that swing by more than one
+/// radian of their phase in a span are damped, as steps cannot follow them.
+///
+/// @param inverse_mass  of the mechanism
+/// @param span          [s]
+[[nodiscard]] Eigen::VectorXd position_weights(const std::vector<JointLaw>& laws,
+                                               const Eigen::MatrixXd& inverse_mass, double span);
+
+/// The drives of a span by the rule: those of motors come first, in the order of laws.
+///
+/// Springs, dampers and friction act with the weighted means of both ends.
+[[nodiscard]] std::vector<JointDrive> drives_by_rule(const std::vector<JointLaw>& laws,
+                                                     const MechanismState& state,
+                                                     const PositionRule& rule,
+                                                     const TimeSpan& span);
+
+/// The drives of a span by Euler's implicit rule, in the same order: the end of the span decides
+/// how far springs reach, how fast dampers move, and where limits stop.
+///
+/// @param origin  positions from which the velocities u at the end lead to origin + span u
+[[nodiscard]] std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
+                                                    const MechanismState& state,
+                                                    const Eigen::VectorXd& origin,
+                                                    const TimeSpan& span);
+
+/// A coordinate and its position at the end of a span.
+struct PlacedCoordinate {
+  Eigen::Index velocity = 0;  ///< Of the mechanism's velocities,
+  Eigen::Index position = 0;  ///< and positions.
+  double at = 0.0;            ///< [rad or m]
+};
+
+/// The coordinates whose positions at the end of a span are not those of the mean of velocities.
+///
+/// Motors that reach their target are where that has them. Others are where weights above 1/2 lead.
+///
+/// @param drives    of drives_by_rule()
+/// @param impulses  of each drive
+/// @param u         velocities at the end
+[[nodiscard]] std::vector<PlacedCoordinate> placed_coordinates(
+    const std::vector<JointLaw>& laws, const std::vector<JointDrive>& drives,
+    const std::vector<double>& impulses, const MechanismState& state, const PositionRule& rule,
+    const TimeSpan& span, const Eigen::VectorXd& u);
+
+/// Whether a drive asks for a velocity, and its impulse is within its bounds: it has that velocity.
+[[nodiscard]] bool reaches_target(const JointDrive& drive, double impulse);
+
+/// The impulses of drives without contacts, to start from.
+///
+/// They are exact where no bound acts, and where those act that the impulses without bounds exceed.
+///
+/// @param u  velocities without drives
+[[nodiscard]] std::vector<double> predicted_impulses(const Eigen::MatrixXd& inverse_mass,
+                                                     const Eigen::VectorXd& u,
+                                                     const std::vector<JointDrive>& drives);
+
+}  // namespace firstcontact::detail
