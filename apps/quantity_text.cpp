@@ -13,6 +13,8 @@ namespace {
 constexpr std::array<Unit, 5> kLengths{
     {{"km", 1e3}, {"m", 1.0}, {"mm", 1e-3}, {"µm", 1e-6}, {"nm", 1e-9}}};
 constexpr std::array<Unit, 4> kTimes{{{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}}};
+constexpr std::array<Unit, 4> kImpulses{
+    {{"kN s", 1e3}, {"N s", 1.0}, {"mN s", 1e-3}, {"µN s", 1e-6}}};
 
 /// The largest unit of which there is at least one; the base unit for 0, the smallest below all.
 Unit fitting(std::span<const Unit> units, double quantity, Unit base) {
@@ -59,6 +61,10 @@ std::string lower_bound_text(double metres) {
 }
 
 std::string time_text(double seconds) { return in_unit(seconds, time_unit(seconds)); }
+
+std::string impulse_text(double newton_seconds) {
+  return in_unit(newton_seconds, fitting(kImpulses, newton_seconds, kImpulses[1]));
+}
 
 std::string speed_text(double metres_per_second) { return length_text(metres_per_second) + "/s"; }
 

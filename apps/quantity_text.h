@@ -27,6 +27,9 @@ struct Unit {
 /// "12.5 ms"
 [[nodiscard]] std::string time_text(double seconds);
 
+/// "0.31 N s"
+[[nodiscard]] std::string impulse_text(double newton_seconds);
+
 /// "-3.1 mm/s"
 [[nodiscard]] std::string speed_text(double metres_per_second);
 

@@ -1,16 +1,59 @@
 #include "run_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/record/write_run.h>
+#include <firstcontact/scene/simulation_duration.h>
 
 namespace firstcontact::app {
+namespace {
+
+/// How many whole lines there are.
+std::size_t count_lines(std::istream& stream) {
+  std::string block(std::size_t{1} << 20, '\0');
+  std::size_t lines = 0;
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
+         stream.gcount() > 0) {
+    const auto end = block.begin() + stream.gcount();
+    lines += static_cast<std::size_t>(std::count(block.begin(), end, '\n'));
+  }
+  return lines;
+}
+
+/// What a file holds already, and what may be done about it.
+std::string describe_held(const std::string& path, const RunHeader& header) {
+  constexpr const char* kReplace = "replace it with --force, or give another file";
+  std::ifstream stream(path, std::ios::binary);
+  try {
+    const RunReader run(stream, path);
+    const RunHeader& held = run.header();
+    const std::size_t whole = simulation_step_count(held.scene.simulation.value());
+    stream.clear();
+    stream.seekg(0);
+    const std::size_t steps = count_lines(stream) - 1;
+    if (steps >= whole) {
+      return fmt::format("holds a finished run; {}", kReplace);
+    }
+    const bool is_same = write_run_header(held) == write_run_header(header);
+    return fmt::format("holds an unfinished run{}, {} of {} steps; {}{}",
+                       is_same ? "" : " of another scene or with other options", steps, whole,
+                       is_same ? "go on with --resume, " : "", kReplace);
+  } catch (const std::exception&) {
+    return fmt::format("holds something already, which is no run; {}", kReplace);
+  }
+}
+
+}  // namespace
 
 RunFile::RunFile(std::string path, const char* mode)
     : path_(std::move(path)), file_(std::fopen(path_.c_str(), mode)) {
@@ -21,6 +64,16 @@ RunFile::RunFile(std::string path, const char* mode)
 
 RunFile::RunFile(const std::string& path, const RunHeader& header) : RunFile(path, "wb") {
   write(write_run_header(header));
+}
+
+RunFile RunFile::begin(const std::string& path, const RunHeader& header, bool replaces) {
+  std::error_code error;
+  const bool holds_anything =
+      std::filesystem::is_regular_file(path, error) && std::filesystem::file_size(path, error) > 0;
+  if (holds_anything && !replaces) {
+    throw std::runtime_error(path + ": " + describe_held(path, header));
+  }
+  return {path, header};
 }
 
 RunFile RunFile::resume(const std::string& path, const RunHeader& header,
@@ -41,8 +94,8 @@ RunFile RunFile::resume(const std::string& path, const RunHeader& header,
     if (first + '\n' != expected) {
       throw std::invalid_argument(
           path +
-          ": holds a run of another scene, with other options or of another version; leave "
-          "out --resume to begin anew");
+          ": holds a run of another scene, with other options or of another version; replace it "
+          "with --force in place of --resume, or give another file");
     }
     stream.seekg(0);
     RunReader run(stream, path);

@@ -17,10 +17,12 @@ namespace firstcontact::app {
 /// off there is left out when the run is resumed.
 class RunFile {
  public:
-  /// Begins a new run, in place of what the file held.
+  /// Begins a new run.
   ///
-  /// @throws std::runtime_error, one line that names the file, where it cannot be written
-  RunFile(const std::string& path, const RunHeader& header);
+  /// @param replaces  what the file holds is lost
+  /// @throws std::runtime_error, one line that names the file, where it cannot be written, or where
+  ///         it holds anything and is not to be replaced
+  static RunFile begin(const std::string& path, const RunHeader& header, bool replaces);
 
   /// Goes on with the run in the file, or begins one where there is no file.
   ///
@@ -38,6 +40,7 @@ class RunFile {
 
  private:
   RunFile(std::string path, const char* mode);
+  RunFile(const std::string& path, const RunHeader& header);
   void write(const std::string& line);
 
   struct Close {

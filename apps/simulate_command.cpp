@@ -42,6 +42,7 @@ struct Arguments {
   std::optional<double> duration;  // [s]
   std::optional<double> step;      // [s]
   bool resume = false;
+  bool force = false;
   bool lenient = false;
 };
 
@@ -74,26 +75,39 @@ Simulator load(const Arguments& arguments) {
   }
 }
 
-/// What the steps of a run amount to.
+/// What this call computed.
+struct Work {
+  std::size_t steps = 0;
+  double simulated = 0.0;  // [s]
+  double seconds = 0.0;    // [s]
+  double slowest = 0.0;    // [s]  Step.
+
+  void take(const RunStep& step, double took) {
+    ++steps;
+    simulated += step.lasted;
+    seconds += took;
+    slowest = std::max(slowest, took);
+  }
+};
+
+/// What the steps of a run amount to, those that were there among them.
 struct Tally {
-  std::size_t steps = 0;                                       // Of this call.
-  double simulated = 0.0;                                      // [s]  The same.
   double time_lost = 0.0;                                      // [s]
   double clearance = std::numeric_limits<double>::infinity();  // [m]
-  double slowest = 0.0;                                        // [s]
   double residual = 0.0;                                       // [m/s]
   std::size_t events = 0;
+  std::optional<double> impulse;       // [N s]  The greatest of an impact at one place.
   std::optional<double> first_energy;  // [J]
   double last_energy = 0.0;            // [J]
 
-  void take(const RunStep& step, double seconds) {
-    ++steps;
-    simulated += step.lasted;
+  void take(const RunStep& step) {
     time_lost += step.time_lost;
     clearance = std::min(clearance, step.clearance);
-    slowest = std::max(slowest, seconds);
     residual = std::max(residual, step.residual);
     events += step.events;
+    for (const RunImpact& impact : step.impacts) {
+      impulse = std::max(impulse.value_or(0.0), impact.impulse.norm());
+    }
     last_energy = step.kinetic_energy + step.potential_energy;
     first_energy = first_energy.value_or(last_energy);
   }
@@ -110,7 +124,7 @@ class Run {
       return;
     }
     if (!arguments.resume) {
-      file_.emplace(arguments.output, simulator_.header());
+      file_.emplace(RunFile::begin(arguments.output, simulator_.header(), arguments.force));
       return;
     }
     file_.emplace(RunFile::resume(arguments.output, simulator_.header(),
@@ -130,8 +144,7 @@ class Run {
         break;
       }
       const std::chrono::duration<double> seconds = Clock::now() - begin;
-      seconds_ += seconds.count();
-      tally_.take(*done, seconds.count());
+      work_.take(*done, seconds.count());
       collect(*done);
       if (file_) {
         file_->write(*done);
@@ -148,6 +161,7 @@ class Run {
   using Clock = std::chrono::steady_clock;
 
   void collect(const RunStep& step) {
+    tally_.take(step);
     if (page_) {
       page_->add(step);
     }
@@ -190,13 +204,18 @@ class Run {
         resumed_ > 0 ? fmt::format(" (the first {} were there)", resumed_) : "";
     line("steps", fmt::format("{} of {}, {} each{}", simulator_.step_count(), count,
                               time_text(scene.simulation->step), resumed));
-    if (tally_.steps > 0) {
-      const auto steps = static_cast<double>(tally_.steps);
+    if (work_.steps > 0) {
+      const auto steps = static_cast<double>(work_.steps);
       line("took", fmt::format("{}, {} a step, {} the slowest; {:.3g} times real time",
-                               time_text(seconds_), time_text(seconds_ / steps),
-                               time_text(tally_.slowest), tally_.simulated / seconds_));
+                               time_text(work_.seconds), time_text(work_.seconds / steps),
+                               time_text(work_.slowest), work_.simulated / work_.seconds));
+    }
+    if (tally_.first_energy) {
       line("apart", length_text(tally_.clearance) + " or more, proven");
-      line("impacts", fmt::format("{}", tally_.events));
+      line("impacts", fmt::format("{}{}", tally_.events,
+                                  tally_.impulse ? ", " + impulse_text(*tally_.impulse) +
+                                                       " the greatest at one place"
+                                                 : ""));
       line("residual", fmt::format("{:.2g} m/s at most, of the contact laws", tally_.residual));
       line("energy", fmt::format("{:.6g} J after the first step, {:.6g} J at the end",
                                  *tally_.first_energy, tally_.last_energy));
@@ -231,14 +250,15 @@ class Run {
   std::string template_;  // Of the page.
   std::optional<RunPage> page_;
   std::optional<RunFile> file_;
+  Work work_;
   Tally tally_;
-  double seconds_ = 0.0;
   std::size_t resumed_ = 0;
 };
 
 constexpr const char* kFooter = R"(
 SCENE is a scene with "dynamics" (docs/simulation.md) or a fixture of Rigid IPC.
-RUN grows with every step: killed at any moment, it goes on with --resume, bit for bit.
+RUN grows with every step: killed at any moment, it goes on with --resume, bit for bit. A file that
+holds anything is replaced only with --force. The summary is of the whole run, after --resume too.
 `firstcontact verify RUN` proves the same with other code.
 Held apart are pairs of which one is free. Scripted and resting bodies may pass through each other;
 the answer names such pairs.
@@ -264,8 +284,12 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
              "Seconds of a step, in place of the scene's");
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, not errors");
-  command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
-      ->needs(output);
+  CLI::Option* resume =
+      command->add_flag("--resume", arguments->resume, "Goes on with the run in the output file")
+          ->needs(output);
+  command->add_flag("--force", arguments->force, "Replaces what the output file holds")
+      ->needs(output)
+      ->excludes(resume);
   command->footer(kFooter);
   command->callback([arguments, &status] { status = Run(*arguments).run(); });
 }

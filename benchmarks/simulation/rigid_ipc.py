@@ -70,6 +70,7 @@ def step_and_duration(path: pathlib.Path) -> tuple[float, float]:
 
 def simulate(tool: str, scene: pathlib.Path, duration: float, run: pathlib.Path) -> tuple[float, int]:
     """The processor time [s] that it took, and the steps that were reached within MOST_TIME."""
+    run.unlink(missing_ok=True)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run([tool, "simulate", str(scene), "--duration", repr(duration), "-o", str(run)],
                           capture_output=True, text=True, check=False,

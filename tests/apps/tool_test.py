@@ -231,6 +231,50 @@ class Simulate(ToolTest):
         self.assertIn("--resume", done.stderr)
         self.assertEqual(run.read_bytes(), before)
 
+    def test_replaces_a_run_only_when_told_to(self):
+        scene, run = self.scene(self.SCENE), self.folder / "run.jsonl"
+        self.run_tool("simulate", scene, "-o", str(run))
+        whole = run.read_bytes()
+        replace = "replace it with --force, or give another file"
+        self.assert_refused(self.run_tool("simulate", scene, "-o", "run.jsonl"),
+                            f"run.jsonl: holds a finished run; {replace}")
+        self.assertEqual(run.read_bytes(), whole)
+        lines = whole.splitlines(keepends=True)
+        part = b"".join(lines[:21]) + lines[21][:9]
+        run.write_bytes(part)
+        self.assert_refused(self.run_tool("simulate", scene, "-o", "run.jsonl"),
+                            f"run.jsonl: holds an unfinished run, 20 of 50 steps; go on with --resume, {replace}")
+        self.assert_refused(self.run_tool("simulate", scene, "-o", "run.jsonl", "--step", "0.02"),
+                            "run.jsonl: holds an unfinished run of another scene or with other options, "
+                            f"20 of 50 steps; {replace}")
+        self.assertEqual(run.read_bytes(), part)
+        self.assertEqual(self.run_tool("simulate", scene, "-o", "run.jsonl", "--force").returncode, 0)
+        self.assertEqual(run.read_bytes(), whole)
+        run.write_bytes(b"notes\n")
+        self.assert_refused(self.run_tool("simulate", scene, "-o", "run.jsonl"),
+                            f"run.jsonl: holds something already, which is no run; {replace}")
+        run.write_bytes(b"")
+        self.assertEqual(self.run_tool("simulate", scene, "-o", "run.jsonl").returncode, 0)
+        both = self.run_tool("simulate", scene, "-o", "run.jsonl", "--force", "--resume")
+        self.assertEqual(both.returncode, 2, both)
+
+    def test_summary_is_of_the_whole_run(self):
+        scene = self.scene({**self.SCENE, "bodies": [dict(self.BALL, dynamics={"restitution": 0.9}), self.FLOOR]})
+        run = self.folder / "run.jsonl"
+
+        def summary(*options: str) -> list[str]:
+            done = self.run_tool("simulate", scene, "-o", str(run), *options)
+            self.assertEqual(done.returncode, 0, done)
+            return [line for line in done.stdout.splitlines() if line.split()[0] not in ("took", "steps")]
+
+        whole = summary()
+        self.assertIn("energy", str(whole))
+        self.assertRegex("\n".join(whole), r"impacts    \d+, [\d.]+ N s the greatest at one place")
+        lines = run.read_bytes().splitlines(keepends=True)
+        for kept in (0, 30, 50):
+            run.write_bytes(b"".join(lines[:kept + 1]))
+            self.assertEqual(summary("--resume"), whole)
+
     def test_says_what_is_wrong(self):
         inside = dict(self.BALL, pose={"position": [0, 0, 0.05]})
         for bodies, expected in (([inside, self.FLOOR], "meet at the start"), ([self.FLOOR], "dynamics")):

@@ -122,6 +122,50 @@ def test_set_state_changes_what_it_is_given(simulator):
     np.testing.assert_allclose(step.positions[0], [0.5, 0, 1 + 0.02 - GRAVITY / 2 * 0.01**2])
 
 
+def test_forces_act_for_one_step():
+    simulator = fc.Simulator(box_scene())
+    simulator.set_gravity((0, 0, 0))
+    simulator.apply_force("box", (8, 0, 0))
+    simulator.apply_force(BOX, torque=[0, 0, 1])
+    simulator.apply_force(BOX, (0, 8, 0), point=simulator.positions[BOX] + [1, 0, 0])
+    simulator.step()
+    np.testing.assert_allclose(simulator.linear_velocities[BOX], [0.01, 0.01, 0], atol=1e-14)
+    spin = simulator.angular_velocities[BOX]
+    np.testing.assert_allclose(spin, [0, 0, 9 * 0.01 / (8 * 0.04 / 6)], atol=1e-12)
+    simulator.step()
+    np.testing.assert_allclose(simulator.angular_velocities[BOX], spin, atol=1e-12)
+
+
+def test_surfaces_change():
+    simulator = fc.Simulator(box_scene(height=0.11))
+    for _ in range(30):
+        simulator.step()
+    simulator.set_surface("floor", velocity=(1, 0, 0))
+    for _ in range(30):
+        simulator.step()
+    assert simulator.linear_velocities[BOX, 0] == pytest.approx(1, abs=1e-3)
+    simulator.set_surface("floor", velocity=(0, 0, 0))
+    simulator.set_pair_surface("box", "floor", friction=0)
+    simulator.step()
+    assert simulator.linear_velocities[BOX, 0] == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize(("call", "complaint"), [
+    (lambda s: s.apply_force("floor", (1, 0, 0)), "apply_force: body 0 is not free"),
+    (lambda s: s.apply_force("box", (math.nan, 0, 0)), "finite"),
+    (lambda s: s.apply_force("bax", (1, 0, 0)), "there is none of the name"),
+    (lambda s: s.set_gravity((0, 0)), "gravity: expected 3 numbers"),
+    (lambda s: s.set_surface("box", friction=-1), "friction must be >= 0"),
+    (lambda s: s.set_pair_surface("box", "floor", restitution=2), r"restitution must be in \[0, 1\]"),
+    (lambda s: s.set_motor(0, "hinge", position=1), "there is no robot 0 with dynamics"),
+    (lambda s: s.set_motor(0, "hinge"), "expected one of position, velocity and torque"),
+])
+def test_bad_commands_change_nothing(simulator, call, complaint):
+    with pytest.raises(ValueError, match=complaint):
+        call(simulator)
+    assert simulator.step().to_json() == fc.Simulator(simulator.scene).step().to_json()
+
+
 @pytest.mark.parametrize(("arguments", "state", "complaint"), [
     ((FLOOR,), {"position": (0, 0, 9)}, "is not free"),
     ((BOX,), {"position": (0, 0, 0)}, '"floor" and "box" meet'),
@@ -353,6 +397,32 @@ def test_robot_swings_and_is_moved(tmp_path):
         simulator.set_state("p/rod", position=[0, 0, 1])
 
 
+def test_motors_are_set_while_it_runs(tmp_path):
+    (tmp_path / "pendulum.urdf").write_text(PENDULUM)
+    scene = {"firstcontact": 1, "robots": [{"name": "p", "urdf": str(tmp_path / "pendulum.urdf"),
+                                            "dynamics": {}}]}
+    simulator = fc.Simulator(scene, step=0.01)
+    simulator.set_motor(0, "hinge", velocity=0.5)
+    for _ in range(10):
+        simulator.step()
+    assert simulator.robot_velocities[0] == pytest.approx([0.5])
+    target = simulator.robot_positions[0][0] + 0.1
+    simulator.set_motor(0, "hinge", position=target)
+    for _ in range(5):
+        simulator.step()
+    assert simulator.robot_positions[0] == pytest.approx([target])
+    simulator.set_motor(0, "hinge", position=target, stiffness=1e4, damping=1e3, effort=50)
+    simulator.set_motor(0, "hinge", position=target - 0.1)  # The spring stays.
+    simulator.step()
+    assert abs(simulator.robot_positions[0][0] - target + 0.1) > 1e-3
+    with pytest.raises(ValueError, match='robot "p" has no joint of one coordinate that is named "knee"'):
+        simulator.set_motor(0, "knee", torque=1)
+    with pytest.raises(ValueError, match="stiffness is for a position"):
+        simulator.set_motor(0, "hinge", torque=1, stiffness=2)
+    with pytest.raises(ValueError, match="is a link; drive its joints with set_motor"):
+        simulator.apply_force("p/rod", (0, 0, 1))
+
+
 def test_steps_tell_what_motors_apply(tmp_path):
     (tmp_path / "pendulum.urdf").write_text(PENDULUM)
     scene = {"firstcontact": 1, "robots": [{
@@ -377,3 +447,43 @@ def test_quaternion_of_a_free_base_is_not_zero(tmp_path):
         simulator.set_robot_state(0, positions=[0.0] * 8)
     simulator.set_robot_state(0, positions=[0, 0, 1, 0, 0, 0, 2, 0])
     assert list(simulator.robot_positions[0]) == [0, 0, 1, 0, 0, 0, 1, 0]
+
+
+def test_run_has_arrays(tmp_path):
+    path = tmp_path / "run.jsonl"
+    run = fc.simulate(box_scene(linear_velocity=[0.3, 0, 0]), record=path)
+    k, n = len(run), 2
+    assert isinstance(run, fc.Run) and run.names == ("floor", "box") and repr(run) == "<Run of 50 steps, 0.5 s>"
+    np.testing.assert_allclose(run.times, np.arange(1, k + 1) * 0.01)
+    assert run.positions.shape == (k, n, 3) and run.quaternions_wxyz.shape == (k, n, 4)
+    np.testing.assert_array_equal(run.positions[:, FLOOR], [[0, 0, -0.1]] * k)
+    np.testing.assert_array_equal(run.quaternions_wxyz[:, FLOOR], [[1, 0, 0, 0]] * k)
+    np.testing.assert_array_equal(run.positions[7, BOX], run[7].positions[0])
+    np.testing.assert_array_equal(run.linear_velocities[3, BOX], run[3].linear_velocities[0])
+    np.testing.assert_array_equal(run.angular_velocities[:, FLOOR], np.zeros((k, 3)))
+    assert run.kinetic_energies[0] == run[0].kinetic_energy and (run.clearances > 0).all()
+    assert run.potential_energies[-1] < run.potential_energies[0]
+    again = fc.read_run(path)
+    assert again.header_json == run.header_json
+    np.testing.assert_array_equal(again.positions, run.positions)
+    with pytest.raises(fc.ParseError):
+        fc.read_run(__file__)
+
+
+def test_run_fills_the_page():
+    run = fc.simulate(box_scene(), 0.05)
+    try:
+        page = run.to_html()
+    except FileNotFoundError as error:
+        assert "CMAKE_ARGS" in str(error)
+        assert run._repr_html_() == "<code>&lt;Run of 5 steps, 0.05 s&gt;</code>"
+    else:
+        assert '"firstcontact_run":1' in page
+        assert run._repr_html_().startswith('<iframe title="Run"')
+    assert fc.simulate(box_scene(), stop=stopped())._repr_html_().startswith("<code>")
+
+
+def stopped() -> fc.StopSource:
+    stop = fc.StopSource()
+    stop.request_stop()
+    return stop

@@ -384,9 +384,9 @@ TEST(Simulator, TakesStatesFromOutside) {
 }
 
 /// What a scene that cannot be simulated is told.
-std::string refusal(const std::string& bodies) {
+std::string refusal(const std::string& bodies, const std::string& settings = "") {
   try {
-    (void)simulator(bodies, "");
+    (void)simulator(bodies, settings);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -402,6 +402,32 @@ TEST(Simulator, SaysWhatIsWrongWithAScene) {
                    "[0, 0, 0]", kFree))
           .find("body \"flag\""),
       std::string::npos);
+}
+
+// A body as large as the contact distance is thrown, and what rounding hides cannot be proven.
+TEST(Simulator, SaysWhichContactDistancesItTakes) {
+  const std::string bodies = kFloor + "," + body("a", ball("0.1"), "[0, 0, 0.5]", kFree);
+  const auto settings = [](const char* distance) {
+    return std::string(R"("contact_distance": )") + distance;
+  };
+  EXPECT_EQ(refusal(bodies, settings("1e3")),
+            "simulation.contact_distance: 1e+03 m is larger than a body: \"a\", the smallest free "
+            "body, has a radius of 0.1 m; without this key it is 0.0001 m");
+  for (const char* distance : {"1e-20", "1e-13"}) {
+    EXPECT_NE(refusal(bodies, settings(distance)).find("too small to be proven beside coordinates"),
+              std::string::npos);
+  }
+  const auto warnings = [&](const char* distance) {
+    return simulator(bodies, settings(distance)).loaded().warnings;
+  };
+  ASSERT_EQ(warnings("0.02").size(), 1U);
+  EXPECT_EQ(warnings("0.02").front(),
+            "simulation.contact_distance: 0.02 m is a large gap between bodies that touch: \"a\", "
+            "the smallest free body, has a radius of 0.1 m; without this key it is 0.0001 m");
+  ASSERT_EQ(warnings("5e-9").size(), 1U);
+  EXPECT_NE(warnings("5e-9").front().find("so small that steps may take long"), std::string::npos);
+  EXPECT_TRUE(warnings("0.01").empty());
+  EXPECT_TRUE(warnings("1e-6").empty());
 }
 
 // Dropped bodies come to rest between the contact distance and one and a half of it.

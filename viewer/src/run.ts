@@ -49,7 +49,7 @@ export class Run {
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
     this.greatestForces = steps.map((_, step) => this.greatestForce(step));
-    this.impacts = steps.flatMap((step) => this.impactsOf(step)).sort((a, b) => a.t - b.t);
+    this.impacts = steps.flatMap((_, step) => this.impactsIn(step)).sort((a, b) => a.t - b.t);
     const hasMotors = steps.some(({ robots }) =>
       robots?.some(({ efforts }) => efforts.some(Boolean)),
     );
@@ -111,7 +111,8 @@ export class Run {
     }));
   }
 
-  private impactsOf({ time, lasted, impacts = [] }: StepData): RunImpact[] {
+  impactsIn(step: number): RunImpact[] {
+    const { time, lasted, impacts = [] } = this.steps[step]!;
     const begin = time - lasted;
     return impacts.map(({ at, bodies, point, impulse }) => ({
       t: Math.min((begin + at) / this.duration, 1),

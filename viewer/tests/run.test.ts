@@ -151,7 +151,7 @@ describe.skipIf(!canLook)("the page of a run", () => {
     );
     expect(await text(page, "Contacts")).toMatch(/crate · floor[\d.]+\s(kN|N), [\d.]+\sµm apart/);
     const most = Math.max(...contacts.map(({ impulse }) => length(impulse))) / lasted;
-    const shown = /Greatest force([\d.]+)\s(kN|N)/.exec((await text(page, "Step"))!)!;
+    const shown = /Greatest contact force([\d.]+)\s(kN|N)/.exec((await text(page, "Step"))!)!;
     expect((Number(shown[1]) * (shown[2] === "kN" ? 1000 : 1)) / most).toBeCloseTo(1, 2);
   });
 
@@ -297,6 +297,22 @@ describe.skipIf(!canLook)("the page of bodies that fly far apart", () => {
     await page.keyboard.press("f");
     await page.waitForTimeout(300);
     expect(await range()).toBeCloseTo(opening, 6);
+    await page.context().close();
+  });
+
+  test("says how hard impacts are", async () => {
+    const page = await show();
+    const said = async (name: string): Promise<string> =>
+      (await page.getByRole("region", { name, exact: true }).textContent())!;
+    expect(await said("Run")).toMatch(/Impacts\d+Greatest impact[\d.]+\sk?N sGreatest contact/);
+    const { impacts, lasted, time } = made.steps.find((step) => step.impacts)!;
+    const end = made.steps.at(-1)!.time;
+    await page.evaluate((t) => window.firstcontact.player.seek(t), (time - 0.5 * lasted) / end);
+    expect(await said("Impacts")).toMatch(
+      new RegExp(
+        `^Impacts ${impacts!.length}plate · ball at -?0.2 m[\\d.]+\\sk?N s, [\\d.]+\\sm?s`,
+      ),
+    );
     await page.context().close();
   });
 

@@ -124,6 +124,8 @@ describe("a run", () => {
     expect(chart.content.unit).toBe("N s");
     expect(chart.values).toEqual([5, 0]);
     expect(hit.impacts.map(({ t }) => t)).toEqual([0.125, 0.25]); // In the order of time.
+    expect(hit.impactsIn(0).map(({ impulse }) => impulse[0])).toEqual([0, -1]);
+    expect(hit.impactsIn(1)).toEqual([]);
     expect(hit.firstTouch).toBe(0.125);
     expect(run(still, still).firstTouch).toBeNull();
   });

@@ -33,6 +33,7 @@ from ._core import (BodySet, ClosestApproach, ClosestApproachResult, Contact, Di
 from ._errors import ParseError
 from ._reports import (FileReport, LeftOut, MeshReading, PairCounts, PointReading,
                        UntestedPairs)
+from ._run import Run, read_run
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
@@ -48,7 +49,7 @@ __all__ = [
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PlanningRequest", "PointReading", "Pose",
-    "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "RunContacts",
+    "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
@@ -59,7 +60,7 @@ __all__ = [
     "move_vertices", "parse_obj", "parse_off", "parse_pcd", "parse_ply", "parse_ply_points",
     "parse_scene", "parse_stl", "parse_xyz", "read_heights", "read_mesh", "read_mesh_file",
     "read_points", "read_points_file",
-    "read_request", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
+    "read_request", "read_run", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
     "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
 ]
 

@@ -1,4 +1,4 @@
-"""The page that plays a result: what the methods of Result call."""
+"""The page that plays a result or a run: what their methods call."""
 
 import errno
 import html
@@ -12,13 +12,24 @@ if TYPE_CHECKING:
 TEMPLATE = pathlib.Path(__file__).with_name("viewer.html")
 
 
-def to_html(result: "Result") -> str:
-    """The page as text."""
+def template() -> str:
+    """The page without its data."""
     if not TEMPLATE.is_file():
         raise FileNotFoundError(
             errno.ENOENT, "the package was built without its page; build it with "
             "CMAKE_ARGS=-DFIRSTCONTACT_BUILD_VIEWER=ON (needs npm)", str(TEMPLATE))
-    return result._fill_page(TEMPLATE.read_text(encoding="utf-8"))
+    return TEMPLATE.read_text(encoding="utf-8")
+
+
+def frame(title: str, page: str) -> str:
+    """A page inside a notebook."""
+    return (f'<iframe title="{html.escape(title)}" style="width: 100%; height: 600px; border: 0" '
+            f'allow="fullscreen" srcdoc="{html.escape(page)}"></iframe>')
+
+
+def to_html(result: "Result") -> str:
+    """The page as text."""
+    return result._fill_page(template())
 
 
 def save_html(result: "Result", path: str | os.PathLike[str]) -> None:
@@ -30,6 +41,4 @@ def notebook_view(result: "Result") -> str:
     """The page inside a notebook; a line of text where the package has no page."""
     if not TEMPLATE.is_file():
         return f"<code>{html.escape(repr(result))}</code>"
-    title = html.escape(result.id or "Result")
-    return (f'<iframe title="{title}" style="width: 100%; height: 600px; border: 0" '
-            f'allow="fullscreen" srcdoc="{html.escape(to_html(result))}"></iframe>')
+    return frame(result.id or "Result", to_html(result))

@@ -5,7 +5,8 @@ import os
 from collections.abc import Callable
 
 from ._check import SceneLike
-from ._core import RunStep, Simulator, StopSource
+from ._core import Simulator, StopSource
+from ._run import Run
 
 
 def _refuse_to_overwrite(scene: SceneLike, record: str | os.PathLike[str]) -> None:
@@ -17,8 +18,8 @@ def _refuse_to_overwrite(scene: SceneLike, record: str | os.PathLike[str]) -> No
 def simulate(scene: SceneLike, duration: float | None = None, *, step: float | None = None,
              record: str | os.PathLike[str] | None = None, lenient: bool = False,
              progress: Callable[[float], object] | None = None,
-             stop: StopSource | None = None) -> list[RunStep]:
-    """Moves the bodies of a scene under forces and contacts; returns every step, in order.
+             stop: StopSource | None = None) -> Run:
+    """Moves the bodies of a scene under forces and contacts; returns every step, in order, as a Run.
 
     The same steps as the tool's ``firstcontact simulate``, bit for bit. scene: as Simulator takes
     it. duration, step: [s] in place of the scene's. record: path of a file that grows with every
@@ -31,7 +32,7 @@ def simulate(scene: SceneLike, duration: float | None = None, *, step: float | N
     simulator = Simulator(scene, duration=duration, step=step, lenient=lenient)
     if record is not None:
         _refuse_to_overwrite(scene, record)
-    steps: list[RunStep] = []
+    steps = Run(simulator.header_json)
     with contextlib.ExitStack() as stack:
         file = None if record is None else stack.enter_context(open(record, "wb"))
 

@@ -5,15 +5,19 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include <pybind11/stl/filesystem.h>
 
+#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/record/write_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/shape_cache.h>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -280,11 +284,51 @@ that names file and line, where the file is no run.)")
       .def("__next__", &next_of);
 }
 
+/// The first line of a run, without its line feed.
+RunHeader header_from(const std::string& header_json) {
+  std::istringstream stream(header_json + '\n');
+  return RunReader(stream, "header").header();
+}
+
+/// Names, positions and quaternions of all bodies where the run begins.
+py::tuple start_of_run(const std::string& header_json) {
+  const RunHeader header = header_from(header_json);
+  std::vector<Vector3d> positions;
+  std::vector<double> wxyz;
+  {
+    const py::gil_scoped_release release;
+    ShapeCache cache;
+    const LinksAsBodies linked = links_as_bodies(load_scene_of(header, cache));
+    for (std::size_t b = 0; b < header.masses.size(); ++b) {
+      const Pose X_WB = linked.loaded.bodies.motion(b).pose(0.0);
+      const Eigen::Quaterniond& q = X_WB.rotation;
+      positions.push_back(X_WB.position);
+      wxyz.insert(wxyz.end(), {q.w(), q.x(), q.y(), q.z()});
+    }
+  }
+  return py::make_tuple(names_of(header), owning(std::move(positions)), table(wxyz, 4));
+}
+
+std::string fill_run_page(const std::string& header_json, const py::sequence& steps,
+                          const std::string& page_template) {
+  const RunHeader header = header_from(header_json);
+  RunPage page(header);
+  for (const py::handle step : steps) {
+    page.add(step.cast<const RunStep&>());
+  }
+  const py::gil_scoped_release release;
+  ShapeCache cache;
+  return page.write(page_template, load_scene_of(header, cache));
+}
+
 }  // namespace
 
 void bind_run(py::module_& m) {
   bind_step(m);
   bind_reader(m);
+  m.def("_start_of_run", &start_of_run, py::arg("header_json"));
+  m.def("_fill_run_page", &fill_run_page, py::arg("header_json"), py::arg("steps"),
+        py::arg("template"));
 }
 
 }  // namespace firstcontact::python

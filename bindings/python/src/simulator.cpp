@@ -211,6 +211,67 @@ void set_robot_state(HeldSimulator& held, std::size_t robot, const py::object& p
   held.call([&](Simulator& simulator) { simulator.set_robot_state(robot, state); });
 }
 
+Vector3d vector_or(const py::object& numbers, const char* name, const Vector3d& otherwise) {
+  return numbers.is_none() ? otherwise : vector_from(numbers, name);
+}
+
+void apply_force(HeldSimulator& held, const py::object& body, const py::object& force,
+                 const py::object& torque, const py::object& point) {
+  std::optional<Vector3d> p_WP;
+  if (!point.is_none()) {
+    p_WP = vector_from(point, "point");
+  }
+  held.idle().apply_force(body_from(held.idle(), body), vector_or(force, "force", Vector3d::Zero()),
+                          vector_or(torque, "torque", Vector3d::Zero()), p_WP);
+}
+
+/// The target that is given, the only one.
+///
+/// @throws std::invalid_argument unless one of them is given
+JointMotor::Kind kind_of(std::optional<double> position, std::optional<double> velocity,
+                         std::optional<double> torque) {
+  if (position.has_value() + velocity.has_value() + torque.has_value() != 1) {
+    throw std::invalid_argument("set_motor: expected one of position, velocity and torque");
+  }
+  return position   ? JointMotor::Kind::position
+         : velocity ? JointMotor::Kind::velocity
+                    : JointMotor::Kind::torque;
+}
+
+void set_motor(HeldSimulator& held, std::size_t robot, const std::string& joint,
+               std::optional<double> position, std::optional<double> velocity,
+               std::optional<double> torque, std::optional<double> stiffness,
+               std::optional<double> damping, std::optional<double> effort) {
+  const JointMotor::Kind kind = kind_of(position, velocity, torque);
+  Simulator& simulator = held.idle();
+  JointMotor motor = simulator.motor(robot, joint).value_or(JointMotor{});
+  if (kind != JointMotor::Kind::position) {
+    motor.stiffness.reset();
+    motor.damping = 0.0;
+  }
+  motor.kind = kind;
+  motor.target = {{0.0, position.value_or(velocity.value_or(torque.value_or(0.0)))}};
+  motor.stiffness = stiffness ? stiffness : motor.stiffness;
+  motor.damping = damping.value_or(motor.damping);
+  motor.effort = effort ? effort : motor.effort;
+  simulator.set_motor(robot, joint, motor);
+}
+
+void set_surface(HeldSimulator& held, const py::object& body, std::optional<double> friction,
+                 std::optional<double> restitution, const py::object& velocity) {
+  Surface surface{.friction = friction, .restitution = restitution};
+  if (!velocity.is_none()) {
+    surface.velocity = vector_from(velocity, "velocity");
+  }
+  held.idle().set_surface(body_from(held.idle(), body), surface);
+}
+
+void set_pair_surface(HeldSimulator& held, const py::object& a, const py::object& b,
+                      std::optional<double> friction, std::optional<double> restitution) {
+  held.idle().set_pair_surface({body_from(held.idle(), a), body_from(held.idle(), b)},
+                               {.friction = friction, .restitution = restitution});
+}
+
 /// A step that was done stays done, whatever signal came: unlike a query it is not asked again.
 std::optional<RunStep> step_until(HeldSimulator& held, OrNone<std::stop_source> user) {
   while (true) {
@@ -313,6 +374,41 @@ the centre of mass. angular_velocity: [rad/s] (3,). World axes; locked ones stay
 where the body is not free or would meet another one: then nothing is changed.)");
 }
 
+void bind_commands(py::class_<HeldSimulator>& type) {
+  const auto none = py::none();
+  type.def("apply_force", &apply_force, py::arg("body"), py::arg("force") = none,
+           py::arg("torque") = none, py::arg("point") = none,
+           R"(Adds a force and a torque to those on a free body, for the next step alone.
+
+body: its number or its name. force: [N] (3,). torque: [N m] (3,). point: [m] (3,), where the force
+acts, which adds a torque; else at the centre of mass. World axes. Several calls add up. ValueError
+where the body is not free or a link.)")
+      .def("set_motor", &set_motor, py::arg("robot"), py::arg("joint"), py::kw_only(),
+           py::arg("position") = none, py::arg("velocity") = none, py::arg("torque") = none,
+           py::arg("stiffness") = none, py::arg("damping") = none, py::arg("effort") = none,
+           R"(Gives a joint a motor, or another target, from the next step on.
+
+robot: its number among those with dynamics. joint: the name of a joint of one coordinate.
+position, velocity, torque: one of them; [rad, rad/s, N m], or [m, m/s, N] along a slide.
+stiffness, damping: make a position a spring and a damper, [N m/rad, N m s/rad]. effort: [N m or N],
+at most. What is left out stays as the joint's motor has it.)")
+      .def(
+          "set_gravity",
+          [](HeldSimulator& s, const py::object& gravity) {
+            s.idle().set_gravity(vector_from(gravity, "gravity"));
+          },
+          py::arg("gravity"), "Changes gravity from the next step on: [m/s²] (3,).")
+      .def("set_surface", &set_surface, py::arg("body"), py::kw_only(), py::arg("friction") = none,
+           py::arg("restitution") = none, py::arg("velocity") = none,
+           R"(Changes the surface of a body from the next step on; what is left out stays.
+
+body: its number or its name. friction: [-] >= 0. restitution: [-] in [0, 1]. velocity: [m/s] (3,),
+of a belt, body axes.)")
+      .def("set_pair_surface", &set_pair_surface, py::arg("body_a"), py::arg("body_b"),
+           py::kw_only(), py::arg("friction") = none, py::arg("restitution") = none,
+           R"(The same for a pair of bodies, in place of what their two surfaces give.)");
+}
+
 }  // namespace
 
 void bind_simulator(py::module_& m) {
@@ -330,6 +426,7 @@ in the scene's order, then the geometries of robots' links; arrays are new ones 
 duration, step: [s] in place of the scene's. lenient: as of load_scene. ValueError where two bodies meet at the start, or a mass
 cannot be found.)");
   bind_state(type);
+  bind_commands(type);
   bind_looks(type);
   type.def("step", &step)
       .def("step", &step_until, py::arg("stop"),
@@ -343,7 +440,8 @@ changed.)")
           py::arg("step"),
           R"(Goes on after a step of a run of the same scene, bit for bit as that run did.
 
-step: as from RunReader, or from an earlier `step`. ValueError where it is not of such a run.)")
+step: as from RunReader, or from an earlier `step`. A record has no commands: forces, motors, gravity
+and surfaces are those of this simulator. ValueError where it is not of such a run.)")
       .def("__repr__", &describe_simulator);
 }
 

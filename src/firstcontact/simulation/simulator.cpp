@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,15 +21,20 @@
 #include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation/detail/wrong_commands.h>
 
 namespace firstcontact {
 
 using detail::BodyKind;
+using detail::is_rotation;
 using detail::IslandTrack;
 using detail::ManifoldPoint;
 using detail::SimBody;
 using detail::SimulationModel;
 using detail::StepStart;
+using detail::wrong_motor;
+using detail::wrong_state;
+using detail::wrong_surface;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -47,25 +54,11 @@ void require_simulation(const LoadedScene& loaded) {
   }
 }
 
-/// Whether a quaternion can be made a unit one.
-bool is_rotation(const Eigen::Vector4d& q) { return q.norm() > 0.0 && std::isfinite(q.norm()); }
-
-/// What keeps a mechanism from being in a state; empty if nothing does.
-std::string wrong_state(const Mechanism& mechanism, const MechanismState& state) {
-  if (state.positions.size() != mechanism.position_count() ||
-      state.velocities.size() != mechanism.size() || !state.positions.allFinite() ||
-      !state.velocities.allFinite()) {
-    return "expected " + std::to_string(mechanism.position_count()) + " positions and " +
-           std::to_string(mechanism.size()) + " velocities, all finite";
+/// @throws std::invalid_argument unless nothing is wrong
+void require_right(const char* call, const std::string& wrong) {
+  if (!wrong.empty()) {
+    throw std::invalid_argument(std::string(call) + ": " + wrong);
   }
-  for (const MechanismJoint& joint : mechanism.joints()) {
-    const std::optional<Eigen::Index> at = joint.quaternion();
-    if (at && !is_rotation(state.positions.segment<4>(*at))) {
-      return "positions " + std::to_string(*at) + " to " + std::to_string(*at + 3) +
-             " are a quaternion, which must not be zero";
-    }
-  }
-  return {};
 }
 
 /// The rotation vector over a part of a motion: of one piece with all its turns, over several by
@@ -93,6 +86,9 @@ class Simulator::Implementation {
     const Scene& scene = loaded_.scene;
     header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
     header_.scene.simulation->contact_distance = model_.distances.least;
+    std::ranges::copy(
+        detail::check_contact_distance(model_.distances.least, loaded_, model_.bodies),
+        std::back_inserter(linked_.loaded.warnings));
     for (const detail::SimRobot& robot : model_.robots) {
       state_.robots.push_back(robot.start);
     }
@@ -180,6 +176,66 @@ class Simulator::Implementation {
     state_.rests.assign(state_.states.size(), false);
   }
 
+  void apply_force(std::size_t body, const Vector3d& force, const Vector3d& torque,
+                   const std::optional<Vector3d>& p_WP) {
+    require_free("apply_force", body, "drive its joints with set_motor");
+    const Vector3d p_WC = centre_of_mass(model_.bodies[body].inertia, state_.states[body].X_WB);
+    const Vector3d about_C = torque + (p_WP.value_or(p_WC) - p_WC).cross(force);
+    if (!force.allFinite() || !about_C.allFinite()) {
+      throw std::invalid_argument("apply_force: numbers must be finite");
+    }
+    applied_.push_back(body);
+    model_.bodies[body].forces.push_back({.from = -std::numeric_limits<double>::infinity(),
+                                          .to = std::numeric_limits<double>::infinity(),
+                                          .force = force,
+                                          .torque = about_C});
+    state_.rests[body] = false;  // Wakes all that it touches.
+  }
+
+  void set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor) {
+    detail::JointLaw& law = law_of("set_motor", robot, joint);
+    require_right("set_motor", wrong_motor(motor));
+    // A new law: nothing of what led the motor before stays.
+    law = detail::JointLaw{.position = law.position,
+                           .velocity = law.velocity,
+                           .limits = law.limits,
+                           .damping = law.damping,
+                           .friction = law.friction,
+                           .motor = motor};
+    wake();
+  }
+
+  std::optional<JointMotor> motor(std::size_t robot, std::string_view joint) {
+    return law_of("motor", robot, joint).motor;
+  }
+
+  void set_gravity(const Vector3d& gravity) {
+    if (!gravity.allFinite()) {
+      throw std::invalid_argument("set_gravity: numbers must be finite");
+    }
+    model_.gravity = gravity;
+    wake();
+  }
+
+  void set_surface(std::size_t body, const Surface& surface) {
+    require_body("set_surface", body);
+    require_right("set_surface", wrong_surface(surface));
+    model_.laws.set_surface(body, surface);
+    wake();
+  }
+
+  void set_pair_surface(const BodyPair& bodies, const Surface& surface) {
+    require_body("set_pair_surface", bodies[0]);
+    require_body("set_pair_surface", bodies[1]);
+    if (bodies[0] == bodies[1]) {
+      throw std::invalid_argument("set_pair_surface: expected two bodies, got one twice");
+    }
+    require_right("set_pair_surface",
+                  surface.velocity ? "a pair has no velocity" : wrong_surface(surface));
+    model_.laws.set_pair_surface(bodies, surface);
+    wake();
+  }
+
   void resume(const RunStep& step) {
     std::vector<MechanismState> robots = robots_of(step);
     std::vector<RigidState> states = state_.states;
@@ -214,10 +270,62 @@ class Simulator::Implementation {
     if (!tracks) {
       return std::nullopt;
     }
-    return detail::record_step(model_, start, *tracks, state_);
+    RunStep done = detail::record_step(model_, start, *tracks, state_);
+    end_forces(done);
+    return done;
   }
 
  private:
+  void require_body(const char* call, std::size_t body) const {
+    if (body >= model_.bodies.size()) {
+      throw std::invalid_argument(std::string(call) + ": there is no body " + std::to_string(body));
+    }
+  }
+
+  /// @param mend  for a link
+  void require_free(const char* call, std::size_t body, const char* mend) const {
+    require_body(call, body);
+    const std::string at = std::string(call) + ": body " + std::to_string(body);
+    if (model_.bodies[body].kind != BodyKind::free) {
+      throw std::invalid_argument(at + " is not free");
+    }
+    if (model_.bodies[body].piece) {
+      throw std::invalid_argument(at + " is a link; " + mend);
+    }
+  }
+
+  detail::JointLaw& law_of(const char* call, std::size_t robot, std::string_view joint) {
+    if (robot >= model_.robots.size()) {
+      throw std::invalid_argument(std::string(call) + ": there is no robot " +
+                                  std::to_string(robot) + " with dynamics");
+    }
+    detail::SimRobot& found = model_.robots[robot];
+    const auto joints = linked_.models[found.number].joints();
+    for (const MechanismJoint& block : found.mechanism.joints()) {
+      if (block.joint < joints.size() && joints[block.joint].name == joint &&
+          block.positions == 1) {
+        return *std::ranges::find(found.laws, block.velocity, &detail::JointLaw::velocity);
+      }
+    }
+    throw std::invalid_argument(std::string(call) + ": robot \"" + found.name +
+                                "\" has no joint of one coordinate that is named \"" +
+                                std::string(joint) + '"');
+  }
+
+  /// What was held may move.
+  void wake() { state_.rests.assign(state_.states.size(), false); }
+
+  /// A body that came to rest under a force that ends is not at rest: it is looked at again, by a
+  /// run that is resumed here, too.
+  void end_forces(RunStep& done) {
+    for (const std::size_t b : applied_) {
+      model_.bodies[b].forces.pop_back();
+      state_.rests[b] = false;
+      std::ranges::find(done.bodies, b, &RunBody::body)->rests = false;
+    }
+    applied_.clear();
+  }
+
   /// Touches of the step before, as a record of it has them: runs that are resumed go on alike.
   [[nodiscard]] std::vector<ManifoldPoint> guesses() const {
     std::vector<ManifoldPoint> touches;
@@ -339,6 +447,7 @@ class Simulator::Implementation {
   SimulationModel model_;
   RunHeader header_;
   detail::SimulationState state_;
+  std::vector<std::size_t> applied_;  // Bodies whose last forces are for the next step alone.
   Workspace workspace_;
 };
 
@@ -361,6 +470,23 @@ void Simulator::set_robot_state(std::size_t robot, const MechanismState& state) 
 }
 void Simulator::set_state(std::size_t body, const RigidState& state) {
   implementation_->set_state(body, state);
+}
+void Simulator::apply_force(std::size_t body, const Vector3d& force, const Vector3d& torque,
+                            const std::optional<Vector3d>& p_WP) {
+  implementation_->apply_force(body, force, torque, p_WP);
+}
+void Simulator::set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor) {
+  implementation_->set_motor(robot, joint, motor);
+}
+std::optional<JointMotor> Simulator::motor(std::size_t robot, std::string_view joint) const {
+  return implementation_->motor(robot, joint);
+}
+void Simulator::set_gravity(const Vector3d& gravity) { implementation_->set_gravity(gravity); }
+void Simulator::set_surface(std::size_t body, const Surface& surface) {
+  implementation_->set_surface(body, surface);
+}
+void Simulator::set_pair_surface(const BodyPair& bodies, const Surface& surface) {
+  implementation_->set_pair_surface(bodies, surface);
 }
 void Simulator::resume(const RunStep& step) { implementation_->resume(step); }
 std::optional<RunStep> Simulator::step(const std::stop_token& stop) {

@@ -6,12 +6,17 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/record/run.h>
 #include <firstcontact/robot/mechanism.h>
+#include <firstcontact/scene/simulation.h>
 
 namespace firstcontact {
 
@@ -35,8 +40,9 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
   /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
-  ///         bodies meet at the start (names them), a body's mass cannot be found, or a robot
-  ///         cannot be simulated (gives the reason)
+  ///         bodies meet at the start (names them), a body's mass cannot be found, a robot cannot
+  ///         be simulated (gives the reason), or the contact distance is larger than the smallest
+  ///         free body or too small to be proven
   explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -70,9 +76,51 @@ class FIRSTCONTACT_API Simulator {
   ///         a quaternion is zero, or a link would meet a body: then nothing is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
+  /// Adds a force and a torque to those on a free body, for the next step alone.
+  ///
+  /// They are constant over the step. Forces of several calls add up.
+  ///
+  /// @param force    [N]    World axes.
+  /// @param torque   [N m]  World axes.
+  /// @param p_WP     [m]    The point that the force acts on, which adds a torque; the centre of
+  ///                        mass where none is given.
+  /// @throws std::invalid_argument if the body is not free or a link, or a number is not finite
+  void apply_force(std::size_t body, const Eigen::Vector3d& force,
+                   const Eigen::Vector3d& torque = Eigen::Vector3d::Zero(),
+                   const std::optional<Eigen::Vector3d>& p_WP = {});
+
+  /// Gives a joint of a robot a motor, in place of what it has, from the next step on.
+  ///
+  /// @param robot  among those that have dynamics
+  /// @param joint  the name of a joint of one coordinate
+  /// @param motor  with a target; times are those of the simulation
+  /// @throws std::invalid_argument if there is no such robot or joint, or the motor has no target,
+  /// a
+  ///         number is not finite or negative where it must not be, or times do not increase
+  void set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor);
+
+  /// The motor of a joint; none where it has none. Throws as set_motor().
+  [[nodiscard]] std::optional<JointMotor> motor(std::size_t robot, std::string_view joint) const;
+
+  /// Changes gravity [m/s^2] from the next step on. Potential energies are those of the new field.
+  ///
+  /// @throws std::invalid_argument if a number is not finite
+  void set_gravity(const Eigen::Vector3d& gravity);
+
+  /// Changes what is given of the surface of a body, from the next step on.
+  ///
+  /// @throws std::invalid_argument if there is no such body, or a number is out of its range
+  void set_surface(std::size_t body, const Surface& surface);
+
+  /// Changes what is given of the surface of a pair, in place of what the two surfaces give.
+  ///
+  /// @throws std::invalid_argument likewise, and for a velocity, which pairs have not
+  void set_pair_surface(const BodyPair& bodies, const Surface& surface);
+
   /// Goes on after a step of a run with the same header.
   ///
-  /// On the same kind of processor it goes on bit for bit as the run did.
+  /// On the same kind of processor it goes on bit for bit as the run did. A record has no commands:
+  /// forces are applied again, and motors, gravity and surfaces set again by the caller.
   ///
   /// @throws std::invalid_argument if the step is not of such a run
   void resume(const RunStep& step);

@@ -132,6 +132,8 @@ export const energyText = (value: number, digits = 4): string =>
   quantity(value, energyUnit(value), digits);
 export const forceText = (value: number, digits = 3): string =>
   quantity(value, forceUnit(value), digits);
+export const impulseText = (value: number, digits = 3): string =>
+  quantity(value, impulseUnit(value), digits);
 
 /// "(x, y, z) mm", all in the unit of the greatest and with no digit below the grain.
 export function pointText(point: Vector3, digits = 6, grain = 0): string {

@@ -1,8 +1,9 @@
 /// What a run amounts to, in one card.
 
 import { element } from "../core/dom";
-import { energyText, forceText, lengthText, number, timeText } from "../core/format";
+import { energyText, forceText, impulseText, lengthText, number, timeText } from "../core/format";
 import type { Model } from "../model";
+import { length } from "../motion/vector";
 import type { Run } from "../run";
 import { factList } from "./facts";
 import { noneOf, noPair, untestedPairs } from "./pair_facts";
@@ -16,6 +17,7 @@ function facts(model: Model, run: Run): [string, string][] {
   const { steps, masses } = run;
   const clearances = steps.flatMap(({ clearance }) => (clearance === null ? [] : [clearance]));
   const energies = steps.map((step) => step.kinetic_energy + step.potential_energy);
+  const impulses = run.impacts.map(({ impulse }) => length(impulse));
   const lost = sum(steps.map(({ time_lost }) => time_lost));
   return [
     ["Steps", `${steps.length}, ${timeText(run.duration)}`],
@@ -24,7 +26,10 @@ function facts(model: Model, run: Run): [string, string][] {
       ? [["Apart", `≥ ${lengthText(least(clearances), 4, { down: true })}`] as [string, string]]
       : []),
     ["Impacts", String(sum(steps.map(({ events }) => events)))],
-    ["Greatest force", forceText(most(run.greatestForces))],
+    ...(impulses.length > 0
+      ? [["Greatest impact", impulseText(most(impulses))] as [string, string]]
+      : []),
+    ["Greatest contact force", forceText(most(run.greatestForces))],
     ["Energy after step 1", energyText(energies[0]!)],
     ["Energy at the end", energyText(energies.at(-1)!)],
     ["Time lost", lost > 0 ? timeText(lost) : "none"],

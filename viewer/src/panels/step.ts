@@ -1,13 +1,21 @@
 /// The step that is under way: its facts, and what touches.
 
 import { element } from "../core/dom";
-import { energyText, forceText, lengthText, number, pointText, timeText } from "../core/format";
+import {
+  energyText,
+  forceText,
+  impulseText,
+  lengthText,
+  number,
+  pointText,
+  timeText,
+} from "../core/format";
 import { Signal } from "../core/signal";
 import type { Vector3 } from "../data/result";
 import type { Model } from "../model";
 import { length } from "../motion/vector";
 import type { Player } from "../player";
-import type { Run, RunContact } from "../run";
+import type { Run, RunContact, RunImpact } from "../run";
 import type { SceneView } from "../view/scene_view";
 import { factList } from "./facts";
 
@@ -27,7 +35,7 @@ function facts(run: Run, index: number): [string, string][] {
       step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
     ],
     ["Impacts", String(step.events)],
-    ["Greatest force", forceText(run.greatestForces[index]!)],
+    ["Greatest contact force", forceText(run.greatestForces[index]!)],
     ["Kinetic energy", energyText(step.kinetic_energy)],
     ["Potential energy", energyText(step.potential_energy)],
     ["Momentum", sizeText(step.linear_momentum, "kg m/s")],
@@ -36,19 +44,22 @@ function facts(run: Run, index: number): [string, string][] {
   ];
 }
 
-function row(contact: RunContact, model: Model, view: SceneView): HTMLElement {
-  const [a, b] = contact.bodies.map((body) => model.bodies[body]!);
-  const lines = [
-    `${forceText(length(contact.force))}, ${lengthText(contact.distance)} apart`,
-    `at ${pointText(contact.point, 4)}`,
-  ];
+/// Where two bodies act on each other, and how.
+function row(
+  { bodies, point }: RunContact | RunImpact,
+  said: string,
+  model: Model,
+  view: SceneView,
+): HTMLElement {
+  const [a, b] = bodies.map((body) => model.bodies[body]!);
+  const lines = [said, `at ${pointText(point, 4)}`];
   const button = element(
     "button.row-name.tall",
     { type: "button", title: `Look at ${a!.name} and ${b!.name}` },
     element("span.name", {}, `${a!.name} · ${b!.name}`),
     element("span.lines", {}, ...lines.map((line) => element("span", {}, line))),
   );
-  button.addEventListener("click", () => view.focusPoint(contact.point, [a!, b!]));
+  button.addEventListener("click", () => view.focusPoint(point, [a!, b!]));
   return element("li", {}, button);
 }
 
@@ -74,28 +85,69 @@ export function stepPanel(run: Run, player: Player): HTMLElement {
   );
 }
 
-/// What acted in the step, the greatest forces first.
+/// The rows of a list in the panel, of which the first are shown.
+interface Rows {
+  readonly name: string;
+  readonly less: string; ///< What there is less of in the rows that are left out.
+  readonly of: (index: number) => HTMLElement[];
+}
+
+function rowsPanel(run: Run, player: Player, { name, less, of }: Rows): HTMLElement {
+  const count = element("span.count");
+  const list = element("ul.rows");
+  const more = element("p.hint");
+  followSteps(run, player, (index) => {
+    const rows = of(index);
+    count.textContent = String(rows.length);
+    list.replaceChildren(...rows.slice(0, mostRows));
+    more.hidden = rows.length <= mostRows;
+    more.textContent = `${rows.length - mostRows} more, of less ${less}`;
+  });
+  return element(
+    "section.card",
+    { "aria-label": name },
+    element("h2", {}, `${name} `, count),
+    list,
+    more,
+  );
+}
+
+/// What acted at the end of the step, the greatest forces first.
 export function stepContactsPanel(
   model: Model,
   run: Run,
   view: SceneView,
   player: Player,
 ): HTMLElement {
-  const count = element("span.count");
-  const list = element("ul.rows");
-  const more = element("p.hint");
-  followSteps(run, player, (index) => {
-    const contacts = run.contactsOf(index).sort((a, b) => length(b.force) - length(a.force));
-    count.textContent = String(contacts.length);
-    list.replaceChildren(...contacts.slice(0, mostRows).map((one) => row(one, model, view)));
-    more.hidden = contacts.length <= mostRows;
-    more.textContent = `${contacts.length - mostRows} more, of less force`;
-  });
-  return element(
-    "section.card",
-    { "aria-label": "Contacts" },
-    element("h2", {}, "Contacts ", count),
-    list,
-    more,
-  );
+  const of = (index: number): HTMLElement[] =>
+    run
+      .contactsOf(index)
+      .sort((a, b) => length(b.force) - length(a.force))
+      .map((contact) => {
+        const { force, distance } = contact;
+        const said = `${forceText(length(force))}, ${lengthText(distance)} apart`;
+        return row(contact, said, model, view);
+      });
+  return rowsPanel(run, player, { name: "Contacts", less: "force", of });
+}
+
+/// The impacts of the step, the greatest impulses first; none where the run has no impact.
+export function stepImpactsPanel(
+  model: Model,
+  run: Run,
+  view: SceneView,
+  player: Player,
+): HTMLElement[] {
+  if (run.impacts.length === 0) {
+    return [];
+  }
+  const of = (index: number): HTMLElement[] =>
+    run
+      .impactsIn(index)
+      .sort((a, b) => length(b.impulse) - length(a.impulse))
+      .map((impact) => {
+        const said = `${impulseText(length(impact.impulse))}, ${timeText(impact.t * run.duration)}`;
+        return row(impact, said, model, view);
+      });
+  return [rowsPanel(run, player, { name: "Impacts", less: "impulse", of })];
 }

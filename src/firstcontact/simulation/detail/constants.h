@@ -16,6 +16,14 @@ inline constexpr double kDefaultDensity = 1000.0;
 /// to each other, and steps take longer.
 inline constexpr double kContactDistanceOfRadius = 1e-3;
 
+/// [-]  A contact distance of more than this part of that radius, or of less than that, is warned
+/// of: bodies rest visibly apart, or steps take long.
+inline constexpr double kLargeDistanceOfRadius = 0.1;
+inline constexpr double kSmallDistanceOfRadius = 1e-7;
+/// [-]  The least contact distance, by the largest coordinate: 4096 roundings. With fewer, time is
+/// lost at every contact, and runs are not proven.
+inline constexpr double kLeastDistanceOfExtent = 0x1p-40;
+
 // Distances between bodies, by the contact distance (ContactDistances).
 
 /// [-]  A contact is found at 1 to 1 + this. Smaller: first contacts take more steps.

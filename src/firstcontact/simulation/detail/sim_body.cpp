@@ -1,9 +1,11 @@
 #include <firstcontact/simulation/detail/sim_body.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <firstcontact/geometry/mass_properties.h>
 #include <firstcontact/scene/body_motion.h>
@@ -55,6 +57,28 @@ void find_reach(SimBody& body) {
   body.box_B = Eigen::AlignedBox3d(body.box_B.min() - thickness, body.box_B.max() + thickness);
 }
 
+/// "0.00123 m"
+std::string metres(double number) {
+  std::array<char, 32> digits;
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), number,
+                                     std::chars_format::general, 3);
+  return std::string(digits.data(), written.ptr) + " m";
+}
+
+/// Where there are links only, the smallest of them; null without free bodies.
+const SimBody* smallest_free_body(const std::vector<SimBody>& bodies) {
+  const SimBody* smallest = nullptr;
+  for (const SimBody& body : bodies) {
+    const bool is_smaller =
+        smallest == nullptr || std::pair(body.piece.has_value(), body.reach) <
+                                   std::pair(smallest->piece.has_value(), smallest->reach);
+    if (body.kind == BodyKind::free && is_smaller) {
+      smallest = &body;
+    }
+  }
+  return smallest;
+}
+
 /// The number of a robot of the scene among those with dynamics.
 std::size_t number_in_world(const Scene& scene, std::size_t robot) {
   return static_cast<std::size_t>(
@@ -101,16 +125,44 @@ double contact_distance_of(const Simulation& simulation, const std::vector<SimBo
   if (simulation.contact_distance) {
     return *simulation.contact_distance;
   }
-  double smallest = std::numeric_limits<double>::infinity();
-  double smallest_link = smallest;
-  for (const SimBody& body : bodies) {
-    if (body.kind == BodyKind::free) {
-      double& least = body.piece ? smallest_link : smallest;
-      least = std::min(least, body.reach);
-    }
+  const SimBody* smallest = smallest_free_body(bodies);
+  return kContactDistanceOfRadius * (smallest != nullptr ? smallest->reach : 1.0);
+}
+
+std::vector<std::string> check_contact_distance(double contact_distance, const LoadedScene& linked,
+                                                const std::vector<SimBody>& bodies) {
+  double extent = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Pose X_WB = linked.bodies.motion(b).pose(0.0);
+    const Vector3d p_WC = X_WB.position + X_WB.rotation * bodies[b].inertia.p_BC;
+    extent = std::max(extent, p_WC.cwiseAbs().maxCoeff() + bodies[b].reach);
   }
-  smallest = std::isfinite(smallest) ? smallest : smallest_link;
-  return std::isfinite(smallest) ? kContactDistanceOfRadius * smallest : kContactDistanceOfRadius;
+  const std::string given = "simulation.contact_distance: " + metres(contact_distance) + " is ";
+  const double least = kLeastDistanceOfExtent * extent;
+  if (contact_distance < least) {
+    throw std::invalid_argument(given + "too small to be proven beside coordinates of " +
+                                metres(extent) + "; give at least " + metres(1.005 * least) +
+                                ", or move the scene to the origin");
+  }
+  const SimBody* smallest = smallest_free_body(bodies);
+  if (smallest == nullptr) {
+    return {};
+  }
+  const double radius = smallest->reach;
+  const std::string of_body =
+      '"' + linked.scene.bodies[static_cast<std::size_t>(smallest - bodies.data())].name +
+      "\", the smallest free body, has a radius of " + metres(radius);
+  const std::string mend = "; without this key it is " + metres(kContactDistanceOfRadius * radius);
+  if (contact_distance > radius) {
+    throw std::invalid_argument(given + "larger than a body: " + of_body + mend);
+  }
+  if (contact_distance > kLargeDistanceOfRadius * radius) {
+    return {given + "a large gap between bodies that touch: " + of_body + mend};
+  }
+  if (contact_distance < kSmallDistanceOfRadius * radius) {
+    return {given + "so small that steps may take long: " + of_body + mend};
+  }
+  return {};
 }
 
 PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {
@@ -126,6 +178,18 @@ PairLaws::PairLaws(const LoadedScene& loaded) : rules_(&loaded.bodies.rules()) {
     pairs_[key({std::min(pair.bodies[0], pair.bodies[1]),
                 std::max(pair.bodies[0], pair.bodies[1])})] = pair.surface;
   }
+}
+
+void PairLaws::set_surface(std::size_t body, const Surface& surface) {
+  friction_[body] = surface.friction.value_or(friction_[body]);
+  restitution_[body] = surface.restitution.value_or(restitution_[body]);
+  belts_[body] = surface.velocity.value_or(belts_[body]);
+}
+
+void PairLaws::set_pair_surface(const BodyPair& pair, const Surface& surface) {
+  Surface& own = pairs_[key({std::min(pair[0], pair[1]), std::max(pair[0], pair[1])})];
+  own.friction = surface.friction ? surface.friction : own.friction;
+  own.restitution = surface.restitution ? surface.restitution : own.restitution;
 }
 
 const Surface* PairLaws::of_pair(const BodyPair& pair) const {

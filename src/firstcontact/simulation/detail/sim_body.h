@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -61,6 +62,15 @@ struct SimBody {
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
 
+/// What one should know of a contact distance: it is large for the smallest free body, or so small
+/// that steps take long.
+///
+/// @throws std::invalid_argument, with the mend, if it is larger than that body, or so small that
+///         coordinates round by too much of it for a proof
+[[nodiscard]] std::vector<std::string> check_contact_distance(double contact_distance,
+                                                              const LoadedScene& linked,
+                                                              const std::vector<SimBody>& bodies);
+
 /// Friction, restitution and separation of pairs.
 class PairLaws {
  public:
@@ -76,6 +86,10 @@ class PairLaws {
   [[nodiscard]] double restitution(const BodyPair& pair) const;
   /// [m/s]  How fast the surface of a body runs along it; axes of the body frame.
   [[nodiscard]] const Eigen::Vector3d& belt(std::size_t body) const { return belts_[body]; }
+
+  /// Change what is given.
+  void set_surface(std::size_t body, const Surface& surface);
+  void set_pair_surface(const BodyPair& pair, const Surface& surface);
 
  private:
   [[nodiscard]] const Surface* of_pair(const BodyPair& pair) const;
