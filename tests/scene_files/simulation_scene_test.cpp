@@ -193,7 +193,8 @@ TEST(MalformedDynamics, SaysWhatIsWrong) {
        "bodies[0].surface: expected \"friction\" and \"restitution\" in \"dynamics\", where a "
        "body has them"},
       {scene(body("a", R"("surface": {"density": 1})")),
-       "bodies[0].surface.density: unknown key; known are \"friction\", \"restitution\""},
+       "bodies[0].surface.density: unknown key; known are \"friction\", \"restitution\", "
+       "\"velocity\""},
   });
 }
 

@@ -88,6 +88,20 @@ Projection start(const ContactProblem& problem, const ContactRows& rows, double 
   return guessed;
 }
 
+/// Whether masses differ so much that multipliers stop short of an answer.
+bool are_unequal(const ContactProblem& problem) {
+  double lightest = std::numeric_limits<double>::infinity();
+  double heaviest = 0.0;
+  for (const ContactBody& body : problem.bodies) {
+    const double inverse = body.inverse_inertia.mass.maxCoeff();
+    if (!body.link && inverse > 0.0) {
+      lightest = std::min(lightest, 1.0 / inverse);
+      heaviest = std::max(heaviest, 1.0 / inverse);
+    }
+  }
+  return heaviest >= detail::kUnequalMasses * lightest;
+}
+
 template <class Number>
 void require_positive(Number value, const std::string& option) {
   if (!(value > Number())) {
@@ -210,7 +224,8 @@ class Solver {
   ContactSolution by_multipliers() {
     const Projection before = projection_;
     detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
-    if (!is_solved(projection_) && is_automatic_ && !has_interior_ && problem_.drives.empty()) {
+    if (!is_solved(projection_) && is_automatic_ && !has_interior_ && problem_.drives.empty() &&
+        are_unequal(problem_)) {
       by_interior_point_after_all();
     }
     return before.residual < projection_.residual ? solution(before, ProjectionSpace::contact)

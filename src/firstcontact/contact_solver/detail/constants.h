@@ -31,6 +31,10 @@ inline constexpr std::size_t kManyForInteriorPoint = 120;
 /// [contacts]  The same where there are many for each body, and few equations for multipliers.
 inline constexpr std::size_t kManyRedundant = 300;
 
+/// [-]  Where masses differ by this factor, multipliers stop short of few contacts, too, and an
+/// interior point goes on.
+inline constexpr double kUnequalMasses = 1e4;
+
 // The active set.
 
 /// [rounds]  After so many, what was found is the answer.

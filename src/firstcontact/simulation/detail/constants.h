@@ -65,6 +65,8 @@ inline constexpr double kCrossingEdges = 0.1;
 inline constexpr double kLeastLevel = 0.5;
 /// [-]  Normals that differ by less are not changed.
 inline constexpr double kTiltOfSeam = 1e-6;
+/// [-]  The sine between a normal and a face below which it is that of the face.
+inline constexpr double kTiltOfFace = 1e-4;
 /// [-]  Along a changed normal there must be this part of the contact distance, or the body beside
 /// is a step.
 inline constexpr double kLeastGapOfSeam = 0.25;
@@ -125,6 +127,10 @@ inline constexpr int kSplitsOfPlan = 3;
 /// are of first order.
 inline constexpr double kSlackOfMean = 0.02;
 
+/// [-]  Where the way of a plan is solved by itself, pairs may come nearer by this part of the
+/// contact distance, or what so many sweeps leave: where that is too near, the proof finds it.
+inline constexpr double kToleranceOfWay = 2e-3;
+inline constexpr int kSweepsOfWay = 50;
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
 inline constexpr double kBackToRest = 0.5;

@@ -282,7 +282,8 @@ Plan IslandPlanner::plan() {
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
-  const bool by_chords = by_end_ && state_.robots.empty() && any_turns();
+  const bool by_chords =
+      by_end_ && state_.robots.empty() && !is_heap(state_, problem_) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
   const std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size());
@@ -395,7 +396,7 @@ ContactSolution IslandPlanner::along_chords() const {
     problem.contacts[k] = along_way(acting_[k]);
     problem.contacts[k].guess = guess;
   }
-  return project_plan(state_, problem).velocities;
+  return project_way(state_, problem, span_).velocities;
 }
 
 /// Of the problem's bodies, those that the velocities at the end lead.

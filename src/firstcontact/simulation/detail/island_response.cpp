@@ -231,6 +231,11 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
   return true;
 }
 
+/// Whether sweeps alone would not do.
+bool has_many(const IslandState& state, const ContactProblem& problem) {
+  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies;
+}
+
 /// Whether no member moves by more than what the solver may leave.
 bool stands(const IslandState& state) {
   const double slow = of_gravity(state, kStandsOfGravity);
@@ -241,6 +246,21 @@ bool stands(const IslandState& state) {
     }
   }
   return true;
+}
+
+PlanSolution project_with(const IslandState& state, const ContactProblem& problem,
+                          const ProjectionOptions& options) {
+  if (problem.contacts.empty() && problem.drives.empty()) {
+    return {unchanged(problem)};
+  }
+  PlanSolution plan{project_on_contacts(problem, options)};
+  if (!is_solved(state, plan.velocities)) {
+    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
+      plan.velocities = project_on_contacts(*yielding, options);
+    }
+  }
+  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  return plan;
 }
 
 }  // namespace
@@ -254,20 +274,24 @@ bool is_solved(const IslandState& state, const ContactSolution& solution) {
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
 bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies && !stands(state);
+  return has_many(state, problem) && !stands(state);
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
-  if (is_heap(state, problem)) {
+  const double exact = exact_tolerance(state);
+  if (has_many(state, problem)) {
+    if (stands(state)) {
+      return {.tolerance = exact};
+    }
     return {.tolerance = of_gravity(state, kHeapTolerance),
             .enough = of_gravity(state, kHeapEnough),
             .sweeps = kHeapSweeps,
             .rounds = kRoundsOfMany};
   }
-  if (problem.contacts.size() >= kManyContactsOfIsland && state.size() < kHeapBodies) {
+  if (problem.contacts.size() >= kManyContactsOfIsland) {
     return {.tolerance = of_gravity(state, kHeapTolerance), .rounds = kRoundsOfMany};
   }
-  return {.tolerance = exact_tolerance(state)};
+  return {.tolerance = exact, .rounds = kRoundsOfMany};
 }
 
 /// Free bodies that are hit within a plan need not be solved as exactly as those that an impact
@@ -282,17 +306,16 @@ ProjectionOptions plan_options(const IslandState& state, const ContactProblem& p
 }
 
 PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
-  if (problem.contacts.empty() && problem.drives.empty()) {
-    return {unchanged(problem)};
-  }
-  PlanSolution plan{project_on_contacts(problem, plan_options(state, problem))};
-  if (!is_solved(state, plan.velocities)) {
-    if (const std::optional<ContactProblem> yielding = with_yielding_motors(problem)) {
-      plan.velocities = project_on_contacts(*yielding, plan_options(state, problem));
-    }
-  }
-  plan.is_limited = limit_energy(state, problem, plan.velocities);
-  return plan;
+  return project_with(state, problem, plan_options(state, problem));
+}
+
+PlanSolution project_way(const IslandState& state, const ContactProblem& problem, double span) {
+  ProjectionOptions options = plan_options(state, problem);
+  options.tolerance =
+      std::max(options.tolerance, kToleranceOfWay * state.model.distances.least / span);
+  options.space = ProjectionSpace::contact;
+  options.sweeps = kSweepsOfWay;
+  return project_with(state, problem, options);
 }
 
 std::optional<PlanSolution> project_plan_again(const IslandState& state,

@@ -33,6 +33,10 @@ struct PlanSolution {
 /// The free velocities of a plan as contacts and drives allow them.
 [[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
 
+/// Velocities that lead along the way of a plan: as exactly as its displacements need.
+[[nodiscard]] PlanSolution project_way(const IslandState& state, const ContactProblem& problem,
+                                       double span);
+
 /// Those of a plan that is like another but for contacts that changed, by re_solve(). Nothing
 /// where that is not worth while, or leaves too much.
 [[nodiscard]] std::optional<PlanSolution> project_plan_again(

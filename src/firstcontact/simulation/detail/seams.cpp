@@ -1,6 +1,7 @@
 #include <firstcontact/simulation/detail/seams.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -129,8 +130,13 @@ void SeamFinder::add_directions(std::size_t body, const Feature& feature,
 /// corners there, or else from its faces.
 bool SeamFinder::add_surface_near(std::size_t body, const Vector3d& point,
                                   std::vector<Vector3d>& directions) {
+  const Pose pose = pose_of_(body);
+  const Vector3d point_B = pose.rotation.normalized().conjugate() * (point - pose.position);
+  if (state_.model.bodies[body].box_B.exteriorDistance(point_B) > state_.model.distances.band) {
+    return false;
+  }
   const PlacedShape at(point_shape(), {point, Eigen::Quaterniond::Identity()});
-  const PlacedShape other(state_.model.bodies[body].shape, pose_of_(body));
+  const PlacedShape other(state_.model.bodies[body].shape, pose);
   close_features(at, other, state_.model.distances.band, workspace_, contacts_);
   const auto is_face = [](const Contact& contact) {
     return contact.feature_B.type == FeatureType::face;
@@ -161,6 +167,12 @@ bool SeamFinder::lean(ManifoldPoint& touch, std::size_t side) {
   Vector3d outwards = before;
   std::vector<Vector3d> directions;
   add_directions(body, feature, directions);
+  const auto within_face = std::ranges::count_if(directions, [&](const Vector3d& direction) {
+    return std::abs(direction.dot(before)) <= kTiltOfFace;
+  });
+  if (within_face >= (feature.type == FeatureType::edge ? 1 : 2)) {
+    return false;  // It has the normal of a face, which what is flush with the face has, too.
+  }
   for (const std::size_t beside : bodies_near(point, touch.bodies)) {
     std::vector<Vector3d> both = directions;
     if (!add_surface_near(beside, point, both)) {
