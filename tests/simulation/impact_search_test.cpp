@@ -13,9 +13,9 @@
 #include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/obstacles.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 #include "simulation/random_body.h"
 

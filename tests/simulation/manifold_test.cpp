@@ -16,7 +16,7 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 #include "simulation/random_body.h"
 

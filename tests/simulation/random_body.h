@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 namespace firstcontact::test {
 

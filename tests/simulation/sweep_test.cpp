@@ -10,10 +10,10 @@
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
-#include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/obstacles.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 #include "simulation/random_body.h"
 

@@ -12,9 +12,9 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
-#include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/swept_hull.h>
 
 #include "simulation/random_body.h"
 

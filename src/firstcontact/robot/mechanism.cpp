@@ -11,10 +11,17 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
+#include <firstcontact/robot/detail/spatial.h>
 
 namespace firstcontact {
 namespace {
 
+using detail::cross_force;
+using detail::cross_motion;
+using detail::solve_mass;
+using detail::Spatial;
+using detail::spatial;
+using detail::spatial_inertia;
 using detail::turn;
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -23,40 +30,9 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-using Spatial = MechanismInstant::Spatial;
-
-/// No coordinate turns farther in a sub-step of free motion.
-constexpr double kSubStep = 0.05;  // [rad or m]
-constexpr int kMostSubSteps = 4096;
 
 /// Moments of inertia as printed: this far from what a body can have they are meant so.
 constexpr double kPrinted = 1e-3;  // [-]
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-Spatial spatial(const Vector3d& linear, const Vector3d& angular) {
-  Spatial s;
-  s << linear, angular;
-  return s;
-}
-
-/// The rate of a motion vector that a moving frame carries along.
-Spatial cross_motion(const Spatial& V, const Spatial& m) {
-  const Vector3d v = V.head<3>();
-  const Vector3d w = V.tail<3>();
-  return spatial(w.cross(m.head<3>()) + v.cross(m.tail<3>()), w.cross(m.tail<3>()));
-}
-
-/// The same of a force or momentum.
-Spatial cross_force(const Spatial& V, const Spatial& f) {
-  const Vector3d v = V.head<3>();
-  const Vector3d w = V.tail<3>();
-  return spatial(w.cross(f.head<3>()), v.cross(f.head<3>()) + w.cross(f.tail<3>()));
-}
 
 Quaterniond quaternion(const VectorXd& positions, Index at) {
   return Quaterniond(positions[at], positions[at + 1], positions[at + 2], positions[at + 3])
@@ -89,20 +65,6 @@ Index velocity_count(JointType type) {
   }
 }
 
-/// Of a link about a point, (6, 6).
-Eigen::Matrix<double, 6, 6> spatial_inertia(const LinkInertia& inertia, const Pose& X_WL,
-                                            const Vector3d& about) {
-  const Matrix3d R = X_WL.rotation.toRotationMatrix();
-  const Vector3d c = X_WL.position + R * inertia.p_LC - about;
-  const Matrix3d C = cross_matrix(c);
-  Eigen::Matrix<double, 6, 6> I;
-  I.topLeftCorner<3, 3>() = inertia.mass * Matrix3d::Identity();
-  I.topRightCorner<3, 3>() = -inertia.mass * C;
-  I.bottomLeftCorner<3, 3>() = inertia.mass * C;
-  I.bottomRightCorner<3, 3>() = R * inertia.about_C_L * R.transpose() - inertia.mass * C * C;
-  return I;
-}
-
 /// What is wrong with the inertia of a link; empty if some body has it.
 std::string wrong_inertia(const LinkInertia& inertia) {
   if (!inertia.defect.empty()) {
@@ -128,46 +90,6 @@ bool is_definite(const MatrixXd& M) {
   const MatrixXd correlations = scale.asDiagonal() * M * scale.asDiagonal();
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(correlations, Eigen::EigenvaluesOnly)
              .eigenvalues()[0] > kSingular;
-}
-
-/// Solves with a mass matrix, or with a definite one near a singular one.
-template <class Forces>
-Forces solve_mass(const MatrixXd& M, const Forces& forces) {
-  const Eigen::LLT<MatrixXd> factor(M);
-  if (factor.info() == Eigen::Success) {
-    return factor.solve(forces);
-  }
-  constexpr double kAdded = 1e-12;  // [-]
-  const double added = kAdded * M.diagonal().maxCoeff();
-  return (M + added * MatrixXd::Identity(M.rows(), M.cols())).llt().solve(forces);
-}
-
-/// Accelerations and the forces on driven coordinates.
-struct Response {
-  VectorXd accelerations;
-  VectorXd forces;
-};
-
-/// Solves M a = forces, but for the driven coordinates, whose accelerations are given.
-Response respond(const MatrixXd& M, const VectorXd& forces, const std::vector<Index>& driven,
-                 const VectorXd& given) {
-  if (driven.empty()) {
-    return {solve_mass(M, forces), VectorXd()};
-  }
-  std::vector<Index> others;
-  for (Index k = 0; k < M.rows(); ++k) {
-    if (std::ranges::find(driven, k) == driven.end()) {
-      others.push_back(k);
-    }
-  }
-  Response response{VectorXd::Zero(M.rows()), VectorXd()};
-  response.accelerations(driven) = given;
-  if (!others.empty()) {
-    const VectorXd left = forces(others) - M(others, driven) * given;
-    response.accelerations(others) = solve_mass(MatrixXd(M(others, others)), left);
-  }
-  response.forces = (M * response.accelerations - forces)(driven);
-  return response;
 }
 
 /// How a joint moves its child now, about a reference point.
@@ -474,148 +396,6 @@ VectorXd Mechanism::bias_forces(const MechanismInstant& instant, const Vector3d&
     }
   }
   return forces;
-}
-
-/// How fast a displacement grows. The turn of a pose is the one that the displacement's rotation
-/// vector d makes and then some more: d' = w - d x w / 2 + d x (d x w) / 12, to fourth order.
-VectorXd Mechanism::rates(const VectorXd& displacement, const VectorXd& velocities) const {
-  VectorXd result = velocities;
-  for (const MechanismJoint& block : blocks_) {
-    if (block.quaternion()) {
-      const Index turns = block.velocity + block.velocities - 3;
-      const Vector3d d = displacement.segment<3>(turns);
-      const Vector3d w = velocities.segment<3>(turns);
-      const Vector3d across = d.cross(w);
-      result.segment<3>(turns) += d.cross(across) / 12.0 - 0.5 * across;
-    }
-  }
-  return result;
-}
-
-MechanismState Mechanism::after_free_motion(const MechanismState& state, const Vector3d& gravity,
-                                            double dt) const {
-  return after_driven_motion(state, gravity, {}, dt).end;
-}
-
-MechanismMotion Mechanism::after_driven_motion(const MechanismState& state, const Vector3d& gravity,
-                                               const MechanismDrive& drive, double dt) const {
-  const auto response = [&](const MechanismState& s) {
-    const MechanismInstant instant = at(s);
-    VectorXd forces = -bias_forces(instant, gravity);
-    if (drive.forces.size() > 0) {
-      forces += drive.forces;
-    }
-    return respond(mass_matrix(instant), forces, drive.driven, drive.accelerations);
-  };
-  VectorXd fastest = state.velocities.cwiseAbs();
-  for (std::size_t k = 0; k < drive.driven.size(); ++k) {
-    const double end =
-        state.velocities[drive.driven[k]] + dt * drive.accelerations[static_cast<Index>(k)];
-    fastest[drive.driven[k]] = std::max(fastest[drive.driven[k]], std::abs(end));
-  }
-  const double way = dt * (fastest.size() > 0 ? fastest.maxCoeff() : 0.0);
-  const int count = static_cast<int>(
-      std::clamp(std::ceil(way / kSubStep), 1.0, static_cast<double>(kMostSubSteps)));
-  const double h = dt / count;
-  MechanismMotion motion{state, VectorXd::Zero(static_cast<Index>(drive.driven.size()))};
-  MechanismState& now = motion.end;
-  for (int k = 0; k < count; ++k) {
-    // Displacements d, their rates r, velocities v and accelerations a.
-    const VectorXd& v1 = now.velocities;
-    const Response a1 = response(now);
-    const VectorXd d2 = 0.5 * h * v1;
-    const VectorXd v2 = v1 + 0.5 * h * a1.accelerations;
-    const VectorXd r2 = rates(d2, v2);
-    const Response a2 = response({moved(now.positions, d2), v2});
-    const VectorXd d3 = 0.5 * h * r2;
-    const VectorXd v3 = v1 + 0.5 * h * a2.accelerations;
-    const VectorXd r3 = rates(d3, v3);
-    const Response a3 = response({moved(now.positions, d3), v3});
-    const VectorXd d4 = h * r3;
-    const VectorXd v4 = v1 + h * a3.accelerations;
-    const VectorXd r4 = rates(d4, v4);
-    const Response a4 = response({moved(now.positions, d4), v4});
-    now = {moved(now.positions, h / 6.0 * (v1 + 2.0 * r2 + 2.0 * r3 + r4)),
-           v1 + h / 6.0 *
-                    (a1.accelerations + 2.0 * a2.accelerations + 2.0 * a3.accelerations +
-                     a4.accelerations)};
-    if (!drive.driven.empty()) {
-      motion.impulses += h / 6.0 * (a1.forces + 2.0 * a2.forces + 2.0 * a3.forces + a4.forces);
-    }
-  }
-  return motion;
-}
-
-VectorXd Mechanism::carried(const MechanismState& state, const VectorXd& positions) const {
-  const MechanismInstant from = at(state);
-  const MechanismInstant to = at({positions, VectorXd::Zero(size_)});
-  VectorXd momenta = VectorXd::Zero(size_);
-  double energy = 0.0;  // Twice.
-  for (std::size_t l = 0; l < from.X_WL.size(); ++l) {
-    const auto& inertia = model_.links()[l].inertia;
-    if (!inertia) {
-      continue;
-    }
-    const auto centre = [&](const MechanismInstant& instant) -> Vector3d {
-      return instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
-    };
-    const Spatial& V = from.velocity[l];
-    const Vector3d w = V.tail<3>();
-    const Vector3d v_WC = V.head<3>() + w.cross(centre(from) - from.reference);
-    const Matrix3d R = from.X_WL[l].rotation.toRotationMatrix();
-    const Vector3d linear = inertia->mass * v_WC;
-    const Vector3d angular = R * (inertia->about_C_L * (R.transpose() * w));
-    energy += linear.dot(v_WC) + angular.dot(w);
-    momenta +=
-        to.J[l].transpose() * spatial(linear, angular + (centre(to) - to.reference).cross(linear));
-  }
-  const VectorXd velocities = solve_mass(mass_matrix(to), momenta);
-  const double found = velocities.dot(momenta);
-  return found > 0.0 ? VectorXd(std::sqrt(energy / found) * velocities) : velocities;
-}
-
-VectorXd Mechanism::with_momenta(const MechanismState& state, const Vector3d& linear,
-                                 const Vector3d& angular) const {
-  const MechanismInstant instant = at(state);
-  Eigen::Matrix<double, 6, 6> inertia = Eigen::Matrix<double, 6, 6>::Zero();
-  Spatial momentum = Spatial::Zero();
-  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
-    if (const auto& of_link = model_.links()[l].inertia) {
-      const auto I = spatial_inertia(*of_link, instant.X_WL[l], instant.reference);
-      inertia += I;
-      momentum += I * instant.velocity[l];
-    }
-  }
-  const Spatial wanted = spatial(linear, angular - instant.reference.cross(linear));
-  VectorXd velocities = state.velocities;
-  velocities.head<6>() += inertia.llt().solve(wanted - momentum);
-  return velocities;
-}
-
-MechanismMechanics Mechanism::mechanics(const MechanismState& state,
-                                        const Vector3d& gravity) const {
-  const MechanismInstant instant = at(state);
-  MechanismMechanics sum;
-  for (std::size_t l = 0; l < instant.X_WL.size(); ++l) {
-    const auto& inertia = model_.links()[l].inertia;
-    if (!inertia) {
-      continue;
-    }
-    const Spatial& V = instant.velocity[l];
-    const Spatial momentum = spatial_inertia(*inertia, instant.X_WL[l], instant.reference) * V;
-    const Vector3d p_WC = instant.X_WL[l].position + instant.X_WL[l].rotation * inertia->p_LC;
-    sum.mass += inertia->mass;
-    sum.p_WC += inertia->mass * p_WC;
-    sum.kinetic_energy += 0.5 * V.dot(momentum);
-    sum.potential_energy -= inertia->mass * gravity.dot(p_WC);
-    sum.linear_momentum += momentum.head<3>();
-    sum.angular_momentum +=
-        momentum.tail<3>() + instant.reference.cross(Vector3d(momentum.head<3>()));
-  }
-  if (sum.mass > 0.0) {
-    sum.p_WC /= sum.mass;
-  }
-  return sum;
 }
 
 }  // namespace firstcontact

@@ -16,12 +16,12 @@
 #include <firstcontact/scene/version.h>
 #include <firstcontact/simulation/detail/islands.h>
 #include <firstcontact/simulation/detail/record_step.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/sim_robot.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
-#include <firstcontact/simulation/detail/step_start.h>
 #include <firstcontact/simulation/detail/wrong_commands.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_robot.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include <firstcontact/simulation/detail/constants.h>
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 #include <firstcontact/simulation/detail/island_state.h>
 
-#include <firstcontact/simulation/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -15,9 +15,9 @@
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/seams.h>
-#include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/swept_hull.h>
 
 namespace firstcontact::detail {
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/impact_search.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/sleeping.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -222,8 +222,8 @@ class Island {
     state_.robots.add_drives_at_impact(problem);
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
     const PlanSolution impact{solution, !is_solved(state_, solution)};
-    state_.robots.take_velocities(solution,
-                                  outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0));
+    state_.robots.take_velocities(
+        solution, outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0));
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (!solution.impulses[k].isZero(0.0)) {
         track_.impacts.push_back({state_.reached, touches[k]->bodies, touches[k]->point,

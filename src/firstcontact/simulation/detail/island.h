@@ -12,7 +12,7 @@
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact::detail {
 

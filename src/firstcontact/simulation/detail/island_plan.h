@@ -11,13 +11,13 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/move.h>
 #include <firstcontact/simulation/detail/moving_contact.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact::detail {
 

@@ -8,10 +8,10 @@
 #include <Eigen/Cholesky>
 
 #include <firstcontact/contact_solver/detail/re_solve.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation/detail/sequential_impacts.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {

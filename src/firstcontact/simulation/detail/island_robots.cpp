@@ -10,10 +10,10 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
-#include <firstcontact/simulation/detail/constants.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -143,163 +143,6 @@ Move IslandRobots::drift(std::size_t member, const Pose& X_WB) const {
 void IslandRobots::add_mechanisms(ContactProblem& problem) const {
   for (const Robot& robot : robots_) {
     problem.mechanisms.push_back({robot.now.inverse_mass, robot.state.velocities});
-  }
-}
-
-/// The flight of inertia alone, and drives by the end of the span.
-///
-/// Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It does
-/// not fall: the forces of gravity are those where it gets.
-RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span) const {
-  const Robot& robot = robots_[r];
-  const Mechanism& mechanism = robot.robot->mechanism;
-  RobotFlight flight{.is_known = true, .by_end = true};
-  flight.end = mechanism.after_free_motion(robot.state, Vector3d::Zero(), span.length);
-  View there = view_of(robot, flight.end);
-  flight.velocities =
-      flight.end.velocities - span.length * there.inverse_mass * there.gravity_forces;
-  const VectorXd origin =
-      mechanism.moved(flight.end.positions, -span.length * flight.end.velocities);
-  flight.drives = drives_by_end(robot.robot->laws, robot.state, origin, span);
-  flight.predicted.assign(flight.drives.size(), 0.0);
-  flight.inverse_mass = std::move(there.inverse_mass);
-  for (PiecePlace& piece : there.pieces) {
-    flight.J.push_back(std::move(piece.J));
-  }
-  return flight;
-}
-
-namespace {
-
-/// The rule of a robot whose positions without drives at the end of a span are those of the mean of
-/// these velocities, or lead by flights to `end`.
-PositionRule rule_of(const std::vector<JointLaw>& laws, const MechanismState& state,
-                     const MechanismState& end, const VectorXd& weights, double span) {
-  PositionRule rule{weights, VectorXd::Zero(weights.size())};
-  for (const JointLaw& law : laws) {
-    const Eigen::Index k = law.velocity;
-    rule.origin[k] = end.positions[law.position] - 0.5 * span * end.velocities[k] -
-                     span * (weights[k] - 0.5) * state.velocities[k];
-  }
-  return rule;
-}
-
-/// How drives act over a flight: those that reach their targets have them at its end, whatever
-/// forces that takes, and the others act with constant forces.
-MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vector<double>& impulses,
-                         const VectorXd& velocities, double span) {
-  MechanismDrive drive{.forces = VectorXd::Zero(velocities.size())};
-  std::vector<double> accelerations;
-  for (std::size_t k = 0; k < drives.size(); ++k) {
-    const auto c = static_cast<Eigen::Index>(drives[k].coordinate);
-    if (reaches_target(drives[k], impulses[k]) &&
-        std::ranges::find(drive.driven, c) == drive.driven.end()) {
-      drive.driven.push_back(c);
-      accelerations.push_back((drives[k].target - velocities[c]) / span);
-    } else {
-      drive.forces[c] += impulses[k] / span;
-    }
-  }
-  drive.accelerations = Eigen::Map<const VectorXd>(accelerations.data(),
-                                                   static_cast<Eigen::Index>(accelerations.size()));
-  return drive;
-}
-
-}  // namespace
-
-/// The flight with all forces: those of drives are predicted from how things are at its begin.
-/// Drives of the contact problem change them.
-RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
-  const Robot& robot = robots_[r];
-  const Mechanism& mechanism = robot.robot->mechanism;
-  const std::vector<JointLaw>& laws = robot.robot->laws;
-  const double h = span.length;
-  RobotFlight flight{.is_known = true};
-  MechanismDrive drive;
-  std::vector<JointDrive> first;
-  const bool is_driven = robot.robot->is_driven();
-  if (is_driven) {
-    const VectorXd& v = robot.state.velocities;
-    const VectorXd u = v - h * robot.now.inverse_mass * robot.now.bias;
-    flight.rule.weights = position_weights(laws, robot.now.inverse_mass, h);
-    const MechanismState ahead{mechanism.moved(robot.state.positions, 0.5 * h * (v + u)), u};
-    first = drives_by_rule(laws, robot.state,
-                           rule_of(laws, robot.state, ahead, flight.rule.weights, h), span);
-    flight.predicted = predicted_impulses(robot.now.inverse_mass, u, first);
-    drive = driven_by(first, flight.predicted, v, h);
-  }
-  MechanismMotion motion = mechanism.after_driven_motion(robot.state, model_.gravity, drive, h);
-  flight.end = std::move(motion.end);
-  View there = view_of(robot, flight.end);
-  flight.velocities = flight.end.velocities;
-  flight.inverse_mass = std::move(there.inverse_mass);
-  for (PiecePlace& piece : there.pieces) {
-    flight.J.push_back(std::move(piece.J));
-  }
-  if (!is_driven) {
-    return flight;
-  }
-  flight.rule = rule_of(laws, robot.state, flight.end, flight.rule.weights, h);
-  flight.drives = drives_by_rule(laws, robot.state, flight.rule, span);
-  // What led a coordinate is what all of its drives did together.
-  for (std::size_t i = 0; i < drive.driven.size(); ++i) {
-    double rest = motion.impulses[static_cast<Eigen::Index>(i)];
-    std::optional<std::size_t> leads;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      if (static_cast<Eigen::Index>(first[k].coordinate) != drive.driven[i]) {
-        continue;
-      }
-      if (!leads && reaches_target(first[k], flight.predicted[k])) {
-        leads = k;
-      }
-    }
-    rest += drive.forces[drive.driven[i]] * h;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      if (static_cast<Eigen::Index>(first[k].coordinate) == drive.driven[i] && k != *leads) {
-        rest -= flight.predicted[k];
-      }
-    }
-    flight.predicted[*leads] = rest;
-  }
-  for (std::size_t k = 0; k < flight.drives.size(); ++k) {
-    JointDrive& change = flight.drives[k];
-    const double impulse = flight.predicted[k];
-    change.target -= change.compliance * impulse;
-    change.least -= impulse;
-    change.greatest -= impulse;
-  }
-  return flight;
-}
-
-void IslandRobots::fly(double from, double span, const std::vector<bool>& by_end,
-                       std::vector<RobotFlight>& flights) const {
-  flights.resize(robots_.size());
-  for (std::size_t r = 0; r < robots_.size(); ++r) {
-    const bool wanted = by_end[r] && robots_[r].robot->is_driven();
-    if (!flights[r].is_known || flights[r].by_end != wanted) {
-      flights[r] = wanted ? flight_by_end(r, {from, span}) : flight_of(r, {from, span});
-    }
-  }
-}
-
-void IslandRobots::set(const std::vector<RobotFlight>& flights, ContactProblem& problem) const {
-  problem.mechanisms.clear();
-  problem.drives.clear();
-  for (std::size_t r = 0; r < robots_.size(); ++r) {
-    const Robot& robot = robots_[r];
-    const RobotFlight& flight = flights[r];
-    for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
-      ContactBody& body = problem.bodies[robot.pieces[k].member];
-      const Eigen::Matrix<double, 6, 1> V = flight.J[k] * flight.velocities;
-      body.v = V.head<3>();
-      body.w = V.tail<3>();
-      body.link = MechanismLink{r, flight.J[k]};
-    }
-    problem.mechanisms.push_back({flight.inverse_mass, flight.velocities});
-    for (JointDrive drive : flight.drives) {
-      drive.mechanism = r;
-      problem.drives.push_back(drive);
-    }
   }
 }
 

@@ -14,8 +14,8 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/robot/mechanism.h>
-#include <firstcontact/simulation/detail/joint_law.h>
-#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation_model/detail/joint_law.h>
+#include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact::detail {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/seams.h>
-#include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/swept_hull.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -18,11 +18,11 @@
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/obstacles.h>
 #include <firstcontact/simulation/detail/response.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 

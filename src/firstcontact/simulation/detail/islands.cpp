@@ -8,15 +8,15 @@
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
-#include <firstcontact/simulation/detail/constants.h>
-#include <firstcontact/simulation/detail/contact_distances.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/obstacles.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/sleeping.h>
-#include <firstcontact/simulation/detail/step_start.h>
-#include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/swept_hull.h>
 
 namespace firstcontact::detail {
 namespace {

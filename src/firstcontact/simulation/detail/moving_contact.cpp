@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
-#include <firstcontact/simulation/detail/constants.h>
-#include <firstcontact/simulation/detail/round_side.h>
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/sim_robot.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_robot.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 namespace {

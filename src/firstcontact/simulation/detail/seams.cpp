@@ -9,11 +9,11 @@
 
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/placed_shape.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/round_side.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include <firstcontact/contact_solver/kinetics.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {

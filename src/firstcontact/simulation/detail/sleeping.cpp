@@ -4,14 +4,14 @@
 #include <utility>
 
 #include <firstcontact/scene/simulation.h>
-#include <firstcontact/simulation/detail/constants.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
-#include <firstcontact/simulation/detail/obstacles.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/simulation_model.h>
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -12,7 +12,7 @@
 #include <firstcontact/robot/mechanism.h>
 #include <firstcontact/robot/robot_description.h>
 #include <firstcontact/scene/simulation.h>
-#include <firstcontact/simulation/detail/joint_law.h>
+#include <firstcontact/simulation_model/detail/joint_law.h>
 
 namespace firstcontact {
 struct LinksAsBodies;

@@ -1,6 +1,6 @@
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
-#include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 #include <algorithm>
 #include <optional>

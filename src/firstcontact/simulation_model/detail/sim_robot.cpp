@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/sim_robot.h>
+#include <firstcontact/simulation_model/detail/sim_robot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/trajectory.h>
-#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/round_side.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,9 +1,9 @@
-#include <firstcontact/simulation/detail/move.h>
+#include <firstcontact/simulation_model/detail/move.h>
 
 #include <algorithm>
 #include <array>
 
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/scene_robot.h>
-#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 namespace {

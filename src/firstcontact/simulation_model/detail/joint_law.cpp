@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/joint_law.h>
+#include <firstcontact/simulation_model/detail/joint_law.h>
 
 #include <algorithm>
 #include <cmath>

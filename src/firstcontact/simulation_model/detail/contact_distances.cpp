@@ -1,6 +1,6 @@
-#include <firstcontact/simulation/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
 
-#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 

@@ -10,11 +10,11 @@
 #include <Eigen/Core>
 
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/simulation/detail/contact_distances.h>
-#include <firstcontact/simulation/detail/round_side.h>
-#include <firstcontact/simulation/detail/sim_body.h>
-#include <firstcontact/simulation/detail/sim_robot.h>
-#include <firstcontact/simulation/detail/surface_neighbours.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_robot.h>
+#include <firstcontact/simulation_model/detail/surface_neighbours.h>
 
 namespace firstcontact {
 struct LinksAsBodies;

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/simulation/detail/constants.h>
+#include <firstcontact/simulation_model/detail/constants.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/swept_hull.h>
+#include <firstcontact/simulation_model/detail/swept_hull.h>
 
 #include <cstddef>
 #include <span>
@@ -6,8 +6,8 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/narrowphase/convex_separation.h>
-#include <firstcontact/simulation/detail/move.h>
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
 namespace firstcontact::detail {
 namespace {

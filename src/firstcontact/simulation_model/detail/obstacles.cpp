@@ -1,10 +1,10 @@
-#include <firstcontact/simulation/detail/obstacles.h>
+#include <firstcontact/simulation_model/detail/obstacles.h>
 
-#include <firstcontact/simulation/detail/sim_body.h>
+#include <firstcontact/simulation_model/detail/sim_body.h>
 
-#include <firstcontact/simulation/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
 
-#include <firstcontact/simulation/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,0 +1,89 @@
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/contact_solver/detail/re_solve.h>
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+
+namespace firstcontact::detail {
+
+/// Adds displacements that lead pairs back to their distance of rest.
+void IslandPlanner::push_apart(Plan& plan) {
+  if (!state_.is_too_near() || span_ < stall(state_.start.h)) {
+    return;
+  }
+  if (!push_) {
+    push_ = find_push();
+  }
+  state_.robots.displace(push_->mechanisms, plan.robots);
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    plan.moves[k].translation += push_->bodies[k].v;
+    plan.moves[k].rotation_vector += push_->bodies[k].w;
+  }
+}
+
+/// Displacements that bring a touch ahead about once more are to be found anew, with it: it may be
+/// of features that were beyond the band, on the other side of a link, say. Held by velocities
+/// alone, it would be reached over and over again, in ever shorter plans.
+void IslandPlanner::keep_push_from(const ContactPoint& contact) {
+  if (!push_) {
+    return;
+  }
+  push_->bodies.resize(problem_.bodies.size());  // Others that came since do not move.
+  if (normal_velocity(contact, push_->bodies) < -kPushTolerance * state_.model.distances.least) {
+    push_.reset();
+  }
+}
+
+/// Displacements, in metres in place of metres per second: least in the kinetic metric, and
+/// without velocity, so that they add no energy of motion.
+ContactSolution IslandPlanner::find_push() const {
+  const ContactDistances& distances = state_.model.distances;
+  const ProjectionOptions options{.tolerance = kPushTolerance * distances.least,
+                                  .enough = kPushEnough * distances.least,
+                                  .sweeps = kPushSweeps};
+  ContactProblem problem;
+  std::vector<std::size_t> too_near;
+  for (const auto& [pair, manifold] : state_.manifolds) {
+    for (const ManifoldPoint& touch : manifold.touches) {
+      const double missing = distances.least - touch.gap;
+      if (kPush * missing > options.tolerance) {
+        too_near.push_back(problem.contacts.size());
+      }
+      ManifoldPoint unknown = touch;
+      unknown.impulse.setZero();
+      problem.contacts.push_back(
+          contact_at(unknown, bodies_, 0.0, missing > 0.0 ? kPush * missing : missing));
+    }
+  }
+  for (std::size_t k = first_ahead_; k < problem_.contacts.size(); ++k) {
+    const ContactPoint& ahead = problem_.contacts[k];
+    problem.contacts.push_back(
+        {.bodies = ahead.bodies, .arm_A = ahead.arm_A, .arm_B = ahead.arm_B, .frame = ahead.frame});
+  }
+  problem.bodies = bodies_.bodies();
+  for (ContactBody& body : problem.bodies) {
+    body.v.setZero();
+    body.w.setZero();
+  }
+  state_.robots.add_mechanisms(problem);
+  for (ContactMechanism& mechanism : problem.mechanisms) {
+    mechanism.velocity.setZero();
+  }
+  state_.robots.add_stops(problem);
+  if (problem.mechanisms.empty()) {  // Most have room: only those around move.
+    ProjectionOptions around_options = options;
+    around_options.sweeps = kPushSweepsAround;
+    ContactSolution around =
+        re_solve(problem, {.bodies = problem.bodies}, too_near, around_options);
+    if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
+      return around;
+    }
+  }
+  return project_on_contacts(problem, options);
+}
+
+}  // namespace firstcontact::detail
