@@ -163,8 +163,10 @@ TEST_F(ShapeCaches, MakeEachRobotOnce) {
   EXPECT_EQ(first.model.links()[1].collision.size(), 1u);
   ASSERT_TRUE(first.files);
   EXPECT_EQ(first.files->at(0).path, arm.urdf.string());
-  const RobotFile visual{.urdf = arm.urdf, .package_roots = {}, .surface = RobotSurface::visual};
-  EXPECT_EQ(test::message_of<ParseError>([&] { (void)cache_.load(visual); }),
+  // Only what checks it asks for geometry; a simulation takes links without any.
+  const std::string scene = R"({"firstcontact": 1, "robots": [{"name": "arm", "urdf": ")" +
+                            arm.urdf.string() + R"(", "surface": "visual"}]})";
+  EXPECT_EQ(test::message_of<ParseError>([&] { (void)test::load_text(scene); }),
             arm.urdf.string() + ": expected links with <visual> geometry, none has any");
 }
 
