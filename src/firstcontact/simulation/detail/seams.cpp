@@ -97,7 +97,7 @@ std::vector<std::size_t> SeamFinder::bodies_near(const Vector3d& point,
     }
   }
   std::ranges::sort(near);
-  near.erase(std::ranges::unique(near).begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
   return near;
 }
 
