@@ -76,11 +76,14 @@ TEST(SimulationScene, TakesEveryKey) {
   EXPECT_FALSE(scene.bodies.at(2).free);
   EXPECT_EQ(scene.bodies[2].surface.friction, 0.8);
   EXPECT_EQ(scene.bodies[2].surface.restitution, std::nullopt);
+  EXPECT_EQ(scene.bodies[2].surface.velocity, Eigen::Vector3d(0.5, 0.0, -0.25));
 
   const Simulation& simulation = scene.simulation.value();
   EXPECT_EQ(simulation.duration, 2.0);
   EXPECT_EQ(simulation.step, 0.01);
   EXPECT_EQ(simulation.contact_distance, 1e-4);
+  EXPECT_EQ(simulation.impacts, ImpactLaw::simultaneous);
+  EXPECT_EQ(Simulation().impacts, ImpactLaw::sequential);
   ASSERT_EQ(simulation.pairs.size(), 2u);
   EXPECT_EQ(simulation.pairs[0].bodies, (BodyPair{0, 2}));
   EXPECT_EQ(simulation.pairs[0].surface.friction, 0.2);
@@ -224,6 +227,9 @@ TEST(MalformedSimulation, SaysWhatIsWrong) {
       {simulated(R"("duration": -1)"), "simulation.duration: expected a number > 0, got -1"},
       {simulated(R"("contact_distance": 0)"),
        "simulation.contact_distance: expected a number > 0, got 0"},
+      {simulated(R"("impacts": "one by one")"),
+       "simulation.impacts: unknown word \"one by one\"; known are \"sequential\", "
+       "\"simultaneous\""},
       {simulated(R"("events": 0)"), "simulation.events: expected a number of events > 0, got 0"},
       {simulated(R"("pairs": [{"bodies": ["a", "bb"], "friction": 1}])"),
        "simulation.pairs[0].bodies[1]: expected the name of a body, or robot/link, got \"bb\""},

@@ -39,7 +39,8 @@ struct SearchLimits {
   const CornerLines* lines = nullptr;  ///< If there are any.
   const WorkBudget& budget;
   std::uint64_t patience = std::numeric_limits<std::uint64_t>::max();  ///< Work of one search.
-  const Shape* A = nullptr;  ///< Of the pair, where it may be asked whether one slides on its screw.
+  const Shape* A =
+      nullptr;  ///< Of the pair, where it may be asked whether one slides on its screw.
   const Shape* B = nullptr;
 };
 
