@@ -95,6 +95,20 @@ TEST(Belt, CarriesABlockUpToItsSpeed) {
   }
 }
 
+TEST(Belt, CarriesWhatFallsOnIt) {
+  // The block lands within a step: what brakes it there is the belt, not the body below it.
+  const std::string belt =
+      R"({"name": "belt", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -0.5]},
+      "surface": {"velocity": [0.5, 0, 0]}})";
+  Simulator s = simulator(belt + ", " +
+                              body("block", box("[0.2, 0.2, 0.02]"), "[0, 0, 0.05]",
+                                   R"(, "dynamics": {"linear_velocity": [0.5, 0, 0]})"),
+                          settings(0.01, 0.5, 1e-4));
+  for (const RunStep& step : run(s, 50)) {
+    EXPECT_NEAR(step.bodies[0].linear_velocity.x(), 0.5, 1e-6) << step.index;
+  }
+}
+
 TEST(Belt, HoldsAWheelThatRollsAgainstIt) {
   // On a belt that runs at -v a ball that spins at v / r stays where it is.
   const std::string belt =

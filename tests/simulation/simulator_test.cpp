@@ -25,6 +25,8 @@ using test::kFloor;
 using test::run;
 using test::simulator;
 using test::verify;
+using test::numbers;
+using test::settings;
 
 const std::string kFree = R"(, "dynamics": {})";
 

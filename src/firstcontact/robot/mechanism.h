@@ -119,7 +119,7 @@ class FIRSTCONTACT_API Mechanism {
   /// The mass matrix M(q), (size, size).
   [[nodiscard]] Eigen::MatrixXd mass_matrix(const MechanismInstant& instant) const;
 
-  /// The inverse of a mass matrix (size, size). Of a singular one, that of a definite one nearby.
+  /// The inverse of a mass matrix (size, size). A singular one gives that of a definite one nearby.
   [[nodiscard]] static Eigen::MatrixXd inverse_mass(const Eigen::MatrixXd& mass_matrix);
 
   /// The forces along the coordinates that keep all rates constant, (size)  [N m or N].
@@ -130,9 +130,9 @@ class FIRSTCONTACT_API Mechanism {
 
   /// The state after a time in which gravity and inertia alone act.
   ///
-  /// Method: Runge and Kutta's rule of fourth order in sub-steps. Of poses it integrates the
-  /// rotation vector from where the sub-step began (H. Munthe-Kaas, "High order Runge-Kutta methods
-  /// on manifolds", Applied Numerical Mathematics 29 (1999)).
+  /// Method: Runge and Kutta's rule of fourth order in sub-steps. For poses it integrates
+  /// the rotation vector from where the sub-step began (H. Munthe-Kaas, "High order Runge-Kutta
+  /// methods on manifolds", Applied Numerical Mathematics 29 (1999)).
   ///
   /// @param dt  [s]
   [[nodiscard]] MechanismState after_free_motion(const MechanismState& state,

@@ -41,7 +41,7 @@ inline Spatial cross_force(const Spatial& V, const Spatial& f) {
   return spatial(w.cross(f.head<3>()), v.cross(f.head<3>()) + w.cross(f.tail<3>()));
 }
 
-/// Of a link about a point, (6, 6).
+/// The spatial inertia of a link about a point, (6, 6).
 inline Eigen::Matrix<double, 6, 6> spatial_inertia(const LinkInertia& inertia, const Pose& X_WL,
                                                    const Eigen::Vector3d& about) {
   const Eigen::Matrix3d R = X_WL.rotation.toRotationMatrix();

@@ -57,7 +57,7 @@ class CandidateSearch {
   explicit CandidateSearch(const RobotTimeline& timeline);
 
   /// In order; outside of their windows all pairs that are tested in the piece are farther apart
-  /// than their thresholds. Of one pair of geometries the windows do not overlap.
+  /// than their thresholds. The windows of one pair of geometries do not overlap.
   ///
   /// @param wanted  whether a tested pair is of interest, by index; empty where all are
   /// @param held    [m]  a distance for each tested pair, for which a lesser threshold does not

@@ -101,12 +101,13 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
 /// Velocities at the end will lead the robots in contact where a contact will act that closes now:
 /// the mean of both ends would close it. So most plans are solved once.
 void IslandPlanner::choose_rules() {
+  const double slack = slack_of_mean();
   bool closes = false;
   for (std::size_t k = 0; k < problem_.contacts.size() && !closes; ++k) {
     const ContactPoint& contact = problem_.contacts[k];
     const double least = contact.least_normal_velocity;
     const double mean = 0.5 * (normal_velocity(contact, bodies_.bodies()) + least);
-    closes = mean < least_of_mean(k) &&
+    closes = mean < least_of_mean(k) - slack &&
              (contact.guess[0] > 0.0 || normal_velocity(contact, problem_.bodies) < least);
   }
   std::vector<bool> by_end = robots_by_end_;
@@ -237,6 +238,7 @@ void IslandPlanner::add(const PredictedContact& ahead) {
   ContactPoint contact = ahead.contact;
   contact.bodies = {bodies_.place(pair[0]), bodies_.place(pair[1])};
   contact.friction = state_.model.laws.friction(pair);
+  contact.sticking_velocity = state_.belt_velocity(pair, contact.frame);
   contact.least_normal_velocity = ahead.least - drift_along(pair, contact) / span_;
   const std::optional<std::size_t> k = find(ahead);
   if (!k) {
@@ -328,8 +330,9 @@ bool IslandPlanner::mean_is_allowed() const {
     mean[b].v = 0.5 * (before[b].v + mean[b].v);
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
+  const double slack = slack_of_mean();
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k))) {
+    if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k) - slack)) {
       return false;
     }
   }
@@ -345,13 +348,15 @@ bool IslandPlanner::mean_is_allowed() const {
   return true;
 }
 
-/// [m/s]  The least normal velocity that the mean may have at a contact.
+/// [m/s]  How much slower than its least the mean of a normal velocity may be.
+double IslandPlanner::slack_of_mean() const {
+  return 2.0 * projection_options(state_, problem_).tolerance +
+         kSlackOfMean * state_.model.distances.least / span_;
+}
+
+/// [m/s]  The least normal velocity that a contact asks of the mean.
 double IslandPlanner::least_of_mean(std::size_t k) const {
-  const double slack = 2.0 * projection_options(state_, problem_).tolerance +
-                       kSlackOfMean * state_.model.distances.least / span_;
-  const double least =
-      k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
-  return least - slack;
+  return k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
 }
 
 /// Whether a pair that slides now sticks from the first half of the plan on: the mean would let it
@@ -370,8 +375,10 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
     if ((at_end.tail<2>() - contact.sticking_velocity).norm() > slow) {
       return false;
     }
-    const Vector3d now = relative_velocity(acting_[k].now, bodies_.bodies());
-    slides = slides || (impulse[0] > 0.0 && now.tail<2>().norm() > slow);
+    const ContactPoint& before = acting_[k].now;
+    const Eigen::Vector2d slip =
+        relative_velocity(before, bodies_.bodies()).tail<2>() - before.sticking_velocity;
+    slides = slides || (impulse[0] > 0.0 && slip.norm() > slow);
     friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
     most += contact.friction * impulse[0];
   }

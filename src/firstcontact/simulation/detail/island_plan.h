@@ -79,6 +79,7 @@ class IslandPlanner {
   };
 
   [[nodiscard]] FreeFlight free_flight() const;
+  [[nodiscard]] double slack_of_mean() const;
   [[nodiscard]] double least_of_mean(std::size_t k) const;
   [[nodiscard]] bool leaves(std::size_t robot) const;
   [[nodiscard]] bool is_piece(std::size_t place) const;

@@ -72,14 +72,20 @@ ContactPoint IslandState::contact(const ManifoldPoint& touch, const ProblemBodie
                                   double least_normal_velocity) {
   ContactPoint made =
       contact_at(touch, bodies, model.laws.friction(touch.bodies), least_normal_velocity);
+  made.sticking_velocity = belt_velocity(touch.bodies, made.frame);
+  return made;
+}
+
+Eigen::Vector2d IslandState::belt_velocity(const BodyPair& pair, const Eigen::Matrix3d& frame) {
+  Eigen::Vector2d sticking = Eigen::Vector2d::Zero();
   for (std::size_t s = 0; s < 2; ++s) {
-    const Eigen::Vector3d& belt = model.laws.belt(touch.bodies[s]);
+    const Eigen::Vector3d& belt = model.laws.belt(pair[s]);
     if (belt.any()) {
-      const Eigen::Vector3d running = pose_of(touch.bodies[s]).rotation.normalized() * belt;
-      made.sticking_velocity += (s == 0 ? 1.0 : -1.0) * (made.frame * running).tail<2>();
+      const Eigen::Vector3d running = pose_of(pair[s]).rotation.normalized() * belt;
+      sticking += (s == 0 ? 1.0 : -1.0) * (frame * running).tail<2>();
     }
   }
-  return made;
+  return sticking;
 }
 
 bool IslandState::bounces(const BodyPair& pair, double closing) const {

@@ -58,6 +58,11 @@ struct IslandState {
   [[nodiscard]] ContactPoint contact(const ManifoldPoint& touch, const ProblemBodies& bodies,
                                      double least_normal_velocity);
 
+  /// [m/s]  The tangential velocity at which a contact of the pair sticks, as their belts run.
+  ///
+  /// @param frame  of the contact
+  [[nodiscard]] Eigen::Vector2d belt_velocity(const BodyPair& pair, const Eigen::Matrix3d& frame);
+
   /// Whether a pair that closes so fast [m/s] does.
   [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const;
 

@@ -21,7 +21,7 @@ struct IslandState;
 /// touch passes a hit on to its last one (Newton's cradle; V. Acary, B. Brogliato, "Concerning the
 /// multiple impacts modelling in the Newton's cradle", INRIA report 5064 (2003)).
 ///
-/// Of many pairs that pass a hit to and fro only so many answers are taken, some for each pair.
+/// The number of answers is bounded, by so many for each pair: pairs may pass a hit to and fro.
 ///
 /// @param pairs  the bodies of each contact
 [[nodiscard]] ContactSolution project_sequential_impacts(const IslandState& state,

@@ -261,6 +261,12 @@ bool solve_active(const MatrixXd& inverse_mass, const VectorXd& u,
   return solved.allFinite();
 }
 
+/// The drive, on the coordinate of a law.
+JointDrive on_coordinate_of(const JointLaw& law, JointDrive drive) {
+  drive.coordinate = static_cast<std::size_t>(law.velocity);
+  return drive;
+}
+
 }  // namespace
 
 double greatest_impulse(const JointLaw& law, double span) {
@@ -292,9 +298,8 @@ std::vector<JointDrive> drives_by_rule(const std::vector<JointLaw>& laws,
                                        const MechanismState& state, const PositionRule& rule,
                                        const TimeSpan& span) {
   std::vector<JointDrive> drives;
-  const auto add = [&](const JointLaw& law, JointDrive drive) {
-    drive.coordinate = static_cast<std::size_t>(law.velocity);
-    drives.push_back(drive);
+  const auto add = [&](const JointLaw& law, const JointDrive& drive) {
+    drives.push_back(on_coordinate_of(law, drive));
   };
   for (const JointLaw& law : laws) {
     if (law.motor) {
@@ -327,9 +332,8 @@ std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
                                       const MechanismState& state, const VectorXd& origin,
                                       const TimeSpan& span) {
   std::vector<JointDrive> drives;
-  const auto add = [&](const JointLaw& law, JointDrive drive) {
-    drive.coordinate = static_cast<std::size_t>(law.velocity);
-    drives.push_back(drive);
+  const auto add = [&](const JointLaw& law, const JointDrive& drive) {
+    drives.push_back(on_coordinate_of(law, drive));
   };
   for (const JointLaw& law : laws) {
     if (law.motor) {
