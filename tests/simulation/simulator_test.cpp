@@ -22,11 +22,11 @@ using test::ball;
 using test::body;
 using test::box;
 using test::kFloor;
+using test::numbers;
 using test::run;
+using test::settings;
 using test::simulator;
 using test::verify;
-using test::numbers;
-using test::settings;
 
 const std::string kFree = R"(, "dynamics": {})";
 
