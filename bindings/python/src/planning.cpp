@@ -57,7 +57,7 @@ py::array rows_from(const std::vector<Configuration>& rows, std::size_t columns)
       numbers(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(j)) = rows[k][j];
     }
   }
-  return std::move(array);
+  return array;
 }
 
 std::vector<Configuration> places_from(py::handle value, const char* name, std::size_t columns) {
