@@ -51,7 +51,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   flight.at_end = bodies_.bodies();
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const SimBody& body = state_.member(k);
-    if (body.piece) {
+    if (body.link_body) {
       flight.rotation_vectors.emplace_back(Vector3d::Zero());
       continue;  // Flies with its robot.
     }
@@ -113,7 +113,7 @@ void IslandPlanner::choose_rules() {
   std::vector<bool> by_end = robots_by_end_;
   for (const ContactPoint& contact : problem_.contacts) {
     for (const std::size_t place : contact.bodies) {
-      if (is_piece(place)) {
+      if (is_link_body(place)) {
         const std::size_t r = state_.robots.robot_of(place);
         by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
       }
@@ -131,8 +131,8 @@ bool IslandPlanner::leaves(std::size_t robot) const {
   return state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
 }
 
-bool IslandPlanner::is_piece(std::size_t place) const {
-  return place < state_.size() && state_.member(place).piece;
+bool IslandPlanner::is_link_body(std::size_t place) const {
+  return place < state_.size() && state_.member(place).link_body;
 }
 
 void IslandPlanner::fly_robots() {
@@ -309,7 +309,7 @@ std::vector<ManifoldPoint> IslandPlanner::touches() const {
 double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
   double way = 0.0;
   for (int side = 0; side < 2; ++side) {
-    if (state_.model.bodies[pair[side]].piece) {
+    if (state_.model.bodies[pair[side]].link_body) {
       const std::size_t k = state_.place.at(pair[side]);
       const Move drift = state_.robots.drift(k, state_.states[k].X_WB);
       const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
@@ -417,7 +417,7 @@ std::vector<bool> IslandPlanner::led_by_end() const {
   return by_end;
 }
 
-/// Those of pieces of links are their robots' matter.
+/// Those of link bodies are determined by their robots.
 ///
 /// @param by_end  whether the velocities at the end lead a body, or the mean of those at both ends
 /// @param after   at the end

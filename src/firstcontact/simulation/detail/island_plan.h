@@ -82,7 +82,7 @@ class IslandPlanner {
   [[nodiscard]] double slack_of_mean() const;
   [[nodiscard]] double least_of_mean(std::size_t k) const;
   [[nodiscard]] bool leaves(std::size_t robot) const;
-  [[nodiscard]] bool is_piece(std::size_t place) const;
+  [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);

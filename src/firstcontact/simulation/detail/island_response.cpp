@@ -43,7 +43,7 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
                  const std::vector<Eigen::VectorXd>& mechanisms) {
   double sum = kinetic_energy(problem.mechanisms, mechanisms);
   for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).piece) {
+    if (!state.member(k).link_body) {
       sum +=
           kinetic_energy(state.member(k).inertia, {state.states[k].X_WB, bodies[k].v, bodies[k].w});
     }
@@ -115,7 +115,7 @@ ContactSolution as_one_body(const IslandState& state, const ContactProblem& prob
     return centre_of_mass(state.member(k).inertia, state.states[k].X_WB);
   };
   for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).piece) {
+    if (!state.member(k).link_body) {
       const Inertia& of_body = state.member(k).inertia;
       Matrix6d inertia = of_body.mass * Matrix6d::Identity();
       inertia.bottomRightCorner<3, 3>() = rotational_inertia(of_body, state.states[k].X_WB);
