@@ -283,8 +283,8 @@ Plan IslandPlanner::plan() {
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
-  const bool by_chords = by_end_ && has_only_acting() && state_.robots.empty() &&
-                         !is_heap(state_, problem_) && any_turns();
+  const bool by_chords =
+      by_end_ && state_.robots.empty() && !is_heap(state_, problem_) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
   const std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
@@ -392,10 +392,6 @@ bool IslandPlanner::any_turns() const {
     return acting.change.cwiseAbs().maxCoeff() > tolerance;
   });
 }
-
-/// Whether all contacts act from the begin of the plan on. A predicted contact makes the plan one
-/// of first order: chords would not mend that, and would lead to further contacts.
-bool IslandPlanner::has_only_acting() const { return touches_.size() == first_ahead_; }
 
 /// The velocities that lead from the begin of a plan to its end. Where contacts turn, those at the
 /// end point along their circles there, and others lead along the chords.

@@ -96,7 +96,6 @@ class IslandPlanner {
   [[nodiscard]] double drift_along(const BodyPair& pair, const ContactPoint& contact) const;
   [[nodiscard]] bool mean_is_allowed() const;
   [[nodiscard]] bool stops_early(std::size_t first, std::size_t end) const;
-  [[nodiscard]] bool has_only_acting() const;
   [[nodiscard]] bool any_turns() const;
   [[nodiscard]] ContactSolution along_chords() const;
   [[nodiscard]] std::vector<bool> led_by_end() const;
