@@ -2,13 +2,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <random>
+#include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include <firstcontact/retiming/blend_motion.h>
 #include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/retiming/stop_motion.h>
 #include <firstcontact/retiming/write_trajectory.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/trajectory.h>
 
 #include "retiming_cases.h"
 
@@ -43,6 +51,33 @@ TEST(ProveMotion, FindsTheOvershootOfACubicBetweenFreeWaypoints) {
   EXPECT_GT(thrown.contact_time(), 1.0);
   EXPECT_LT(thrown.contact_time(), 1.5);
   EXPECT_GT(controller_state(motion, 0, thrown.contact_time()).position, 0.9);
+}
+
+// A controller that looks at its clock a thousand times a second, a millisecond late or early, is
+// where the proof has the joint at that time.
+TEST(ProveMotion, IsOfTheControllersOwnInterpolation) {
+  std::mt19937 rng(41);
+  std::uniform_real_distribution<double> jitter(-1e-3, 1e-3);
+  const std::vector<RateLimits> limits = random_limits(rng, 2, true);
+  const WaypointPath path = random_path(rng, 2, 4, 1.0);
+  const TimedMotion motion =
+      blend_motion(path, limits, std::vector<double>(2, kLongestBlend), 1.0 - 1e-4).motion;
+  const double duration = motion.duration();
+  const RobotModel robot = planar_arm(2);
+  const TrajectoryMotion joints = joint_motions(robot, trajectory_of(motion), {}, duration);
+  for (double tick = 0.0; tick < duration; tick += 1e-3) {
+    const double now = std::clamp(tick + jitter(rng), 0.0, duration);
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      const auto& proven = std::get<CoordinatePath>(joints.joints.at(path.joint_names[joint]));
+      const auto holds = [&](const CoordinateSegment& s) { return now / duration <= s.t_end; };
+      const auto segments = proven.segments();
+      const auto segment = std::find_if(segments.begin(), segments.end(), holds);
+      ASSERT_NE(segment, segments.end());
+      EXPECT_NEAR(controller_state(motion, joint, now).position,
+                  segment->state(now / duration).value.value(), kRoundingAllowance)
+          << now;
+    }
+  }
 }
 
 // The tracking error of the scene counts: with it the same motion is refused.

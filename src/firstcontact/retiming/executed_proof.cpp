@@ -203,8 +203,12 @@ ExecutedProof prove_motion(const TimedMotion& motion, const std::vector<RateLimi
   }
   RobotScene scene = where.scene;
   RobotMotion robot_motion = robot_motion_of(motion, scene.robot_motion(where.robot));
+  const RobotModel model = robot_motion.model();
   for (LimitViolation& violation : limit_report(robot_motion, std::max(proof.duration, 1e-9))) {
-    if (violation.what != JointLimit::velocity) {  // rate_report() has those.
+    const bool is_named =
+        std::find(motion.joint_names.begin(), motion.joint_names.end(),
+                  model.joints()[violation.joint].name) != motion.joint_names.end();
+    if (violation.what != JointLimit::velocity || !is_named) {  // rate_report() has the others.
       proof.positions.push_back(std::move(violation));
     }
   }

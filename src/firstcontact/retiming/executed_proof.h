@@ -39,9 +39,11 @@ struct ExecutedProof {
   /// First contact over the motion; t = 1 is its last point. Margins contain the tracking errors,
   /// and `kRoundingAllowance` for each joint.
   SceneResult contact = {};
-  std::vector<LimitViolation> positions = {};  ///< Beyond position limits, by more than 1e-9.
-  std::vector<RateUse> rates = {};             ///< As rate_report().
-  double duration = 0.0;                       ///< [s]
+  /// Positions beyond the limits of the URDF by more than 1e-9, and velocities of joints that mimic
+  /// others.
+  std::vector<LimitViolation> positions = {};
+  std::vector<RateUse> rates = {};  ///< As rate_report().
+  double duration = 0.0;            ///< [s]
 
   /// All of it holds.
   [[nodiscard]] bool is_proven() const {

@@ -42,7 +42,6 @@ class StretchTimer {
   StretchTimer(const WaypointPath& path, const std::vector<Blend>& blends, std::size_t first,
                std::size_t last, const std::vector<RateLimits>& limits, double share)
       : path_(path),
-        blends_(blends),
         first_(first),
         last_(last),
         limits_(limits),
@@ -132,7 +131,6 @@ class StretchTimer {
   }
 
   const WaypointPath& path_;
-  const std::vector<Blend>& blends_;
   std::size_t first_;
   std::size_t last_;
   const std::vector<RateLimits>& limits_;
