@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -102,6 +103,17 @@ TEST(ProveMotion, RefusesASceneInWhichSomethingElseMoves) {
     EXPECT_NE(std::string(error.what()).find("body \"cart\" moves"), std::string::npos)
         << error.what();
   }
+}
+
+// A base that turns by two whole turns is at its start again in the middle and at the end.
+TEST(ProveMotion, RefusesABaseThatTurns) {
+  RetimingScene where;
+  const Motion turning =
+      Motion::screw({}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 4.0 * std::numbers::pi, 0.0);
+  where.robot =
+      where.scene.add_robot("arm", planar_motion({CoordinatePath::constant(0.0)}, turning));
+  const TimedMotion motion{{"j0"}, {{0, {0.0}, {0.0}}, {1'000'000'000, {0.5}, {0.0}}}};
+  EXPECT_THROW((void)prove_motion(motion, kLoose, where), std::invalid_argument);
 }
 
 // What is proven is the file: a number changed in it changes the answer.

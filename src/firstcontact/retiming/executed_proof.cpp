@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include <Eigen/Core>
+
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot/tracking_error.h>
@@ -31,19 +33,13 @@ bool is_constant(const CoordinatePath& path) {
   return std::all_of(segments.begin(), segments.end(), rests);
 }
 
+/// A motion of one piece that neither turns nor moves: after whole turns poses would be the same.
 bool is_constant(const Motion& motion) {
-  const Pose begin = motion.pose(0.0);
-  const auto is_same = [&](double t) {
-    const Pose pose = motion.pose(t);
-    return pose.position == begin.position && pose.rotation.coeffs() == begin.rotation.coeffs();
-  };
-  const auto breaks = motion.breaks();
-  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
-    if (!is_same(0.5 * (breaks[k] + breaks[k + 1])) || !is_same(breaks[k + 1])) {
-      return false;
-    }
+  if (motion.breaks().size() != 2) {
+    return false;
   }
-  return true;
+  const ConstantRatePath path = motion.path(0, Eigen::Vector3d::Zero());
+  return path.rate() == 0.0 && path.pivot_velocity().value().isZero(0.0);
 }
 
 bool is_constant(const JointMotion& motion) {
