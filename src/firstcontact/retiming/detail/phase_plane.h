@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <firstcontact/retiming/detail/blended_path.h>
