@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <variant>
@@ -20,7 +21,7 @@
 namespace firstcontact {
 namespace {
 
-bool is_constant(const CoordinatePath& path) {
+bool is_constant(std::span<const CoordinateSegment> segments) {
   const auto rests = [](const CoordinateSegment& segment) {
     for (std::size_t j = 1; j < segment.count; ++j) {
       if (segment.a[j].hi != 0.0) {
@@ -29,9 +30,10 @@ bool is_constant(const CoordinatePath& path) {
     }
     return true;
   };
-  const auto segments = path.segments();
   return std::all_of(segments.begin(), segments.end(), rests);
 }
+
+bool is_constant(const CoordinatePath& path) { return is_constant(path.segments()); }
 
 /// A motion of one piece that neither turns nor moves: after whole turns poses would be the same.
 bool is_constant(const Motion& motion) {
@@ -204,6 +206,9 @@ ExecutedProof prove_motion(const TimedMotion& motion, const std::vector<RateLimi
     const bool is_named =
         std::find(motion.joint_names.begin(), motion.joint_names.end(),
                   model.joints()[violation.joint].name) != motion.joint_names.end();
+    if (!is_named && is_constant(robot_motion.coordinate(violation.joint))) {
+      continue;  // It rests where the scene has it, which no retiming changes.
+    }
     if (violation.what != JointLimit::velocity || !is_named) {  // rate_report() has the others.
       proof.positions.push_back(std::move(violation));
     }

@@ -40,7 +40,7 @@ struct ExecutedProof {
   /// and `kRoundingAllowance` for each joint.
   SceneResult contact = {};
   /// Positions beyond the limits of the URDF by more than 1e-9, and velocities of joints that mimic
-  /// others.
+  /// others. Joints that rest, and that the motion does not name, are left out.
   std::vector<LimitViolation> positions = {};
   std::vector<RateUse> rates = {};  ///< As rate_report().
   double duration = 0.0;            ///< [s]
