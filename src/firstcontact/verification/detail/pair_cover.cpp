@@ -336,8 +336,9 @@ class Cover {
   }
 
   /// Along the line of the closest points, then along the normals of the faces, in whose planes
-  /// triangles may move for long. Where rounding blurs that line, also along the normals of the
-  /// edges two by two, which stay precise at any small distance.
+  /// triangles may move for long. Where rounding blurs that line, and where a window cannot be
+  /// halved any more, also along the normals of the edges two by two, which stay precise at any
+  /// small distance.
   [[nodiscard]] double triangle_bound(const PlacedTriangle& A, const PlacedTriangle& B,
                                       const PointPair& closest, const Setting& s,
                                       double wanted) const {
@@ -353,7 +354,8 @@ class Cover {
     for (const Vector3d& n : normals) {
       offer(n.dot(between) < 0.0 ? Vector3d(-n) : n);
     }
-    if (straight.middle + thickness() + s.error >= kPrecise * closest.distance) {
+    if (best >= wanted ||
+        (s.can_split && straight.middle + thickness() + s.error >= kPrecise * closest.distance)) {
       return best;
     }
     for (const Vector3d& n : normals) {
