@@ -205,14 +205,15 @@ many threads at a time.)")
       .def(py::init([](const HeldScene& scene, double extra_clearance, std::uint64_t effort) {
              ScenePlan asked = plan_of(scene);
              const double tolerance = asked.options.tolerance;
-             return std::make_unique<HeldEdges>(std::move(asked),
-                                                EdgeCheckOptions{.tolerance = tolerance,
-                                                                 .extra_clearance = extra_clearance,
-                                                                 .effort = effort});
+             return std::make_unique<HeldEdges>(
+                 std::move(asked),
+                 EdgeCheckOptions{
+                     .tolerance = tolerance, .extra_clearance = extra_clearance, .effort = effort});
            }),
            py::arg("scene"), py::kw_only(), py::arg("extra_clearance") = defaults.extra_clearance,
            py::arg("effort") = defaults.effort)
-      .def_property_readonly("joints", &joint_names_of, "The coordinates of a place; none of a body.")
+      .def_property_readonly("joints", &joint_names_of,
+                             "The coordinates of a place; none of a body.")
       .def_property_readonly(
           "start", [](const HeldEdges& edges) { return owning(edges.plan().start); },
           "The start of the scene's plan.")
@@ -225,8 +226,9 @@ many threads at a time.)")
            R"(Checks edges, n×d numbers each: the k-th leads from start[k] to end[k].
 
 threads: at most; 0 for one on each core. Other threads of Python run meanwhile.)")
-      .def("clearance", &HeldEdges::clearances, py::arg("places"),
-           R"([m] A proven lower bound of the distance of all tested pairs at each place, n×d numbers.
+      .def(
+          "clearance", &HeldEdges::clearances, py::arg("places"),
+          R"([m] A proven lower bound of the distance of all tested pairs at each place, n×d numbers.
 
 0 where a place is not free; NaN where no pair is tested.)");
   m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("seed"),
