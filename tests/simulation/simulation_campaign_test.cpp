@@ -4,7 +4,7 @@
 //
 // FIRSTCONTACT_SIMULATIONS (default 20, 8 with robots) is the number of scenes of each kind, from
 // FIRSTCONTACT_FIRST_SIMULATION (default 0) on. A thousand take about two minutes:
-//   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/simulation/dynamics_slow_test
+//   FIRSTCONTACT_SIMULATIONS=1000 build/ci/tests/simulation/simulation_slow_test
 //   --gtest_filter=SimulationCampaign.*
 
 #include <gtest/gtest.h>

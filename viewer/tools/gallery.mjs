@@ -48,6 +48,14 @@ all.push(
   { name: "hand", ...simulation("hand_and_bunny"), theme: "dark", nearer: 1, t: 0.6 },
   { name: "shot_plate", ...simulation("shot_plate"), theme: "light", keys: ["1"], t: 0.02 },
 );
+// Scenes that demo/simulations/make_laws.py writes.
+const law = (name) => ({ law: name, size: [1120, 700] });
+all.push(
+  { name: "cart", ...law("cart"), theme: "light", keys: ["f"], nearer: 2, t: 0.5 },
+  { name: "spinning_top", ...law("spinning_top"), theme: "dark", nearer: 2, t: 0.5 },
+  { name: "turntable", ...law("turntable"), theme: "light", nearer: 3, t: 0.66 },
+  { name: "arch", ...law("arch"), theme: "dark", nearer: 1, t: 0.5 },
+);
 const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
 const folder = mkdtempSync(join(tmpdir(), "firstcontact-"));
@@ -61,8 +69,12 @@ const browser = await chromium.launch({
   ],
 });
 
-function makePage({ name, question, simulation }) {
+function makePage({ name, question, simulation, law }) {
   const page = join(folder, `${name}.html`);
+  if (law !== undefined) {
+    execFileSync("python3", ["demo/simulations/make_laws.py", folder]);
+    return makePage({ name, simulation: [join(folder, `${law}.json`)] });
+  }
   if (simulation !== undefined) {
     const run = join(folder, `${name}.jsonl`);
     execFileSync(tool, ["simulate", ...simulation, "-o", run, "--html", page]);
