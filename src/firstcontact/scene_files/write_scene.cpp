@@ -16,6 +16,7 @@
 #include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
@@ -153,7 +154,8 @@ struct ShapeMembers {
     constexpr double kPi = std::numbers::pi;
     const double length = 2.0 * core.size.z();
     const auto ring_error = [&](double corners) {
-      return core.size.x() * (1.0 / std::cos(kPi / (corners - 0.5)) - 1.0) / 0.999;
+      return core.size.x() *
+             std::max((1.0 / std::cos(kPi / (corners - 0.5)) - 1.0) / 0.999, kLeastEnclosureError);
     };
     switch (core.kind) {
       case ConvexKind::cylinder:
@@ -165,7 +167,8 @@ struct ShapeMembers {
     }
     const double rings = 0.5 + 0.5 * std::sqrt(1.0 + triangles);
     const double angle = 0.5 * kPi / (rings - 0.5);
-    return (*this)(EllipsoidShape{core.size, angle * angle * core.size.maxCoeff() / 0.9});
+    const double error = std::max(angle * angle / 0.9, kLeastEllipsoidError);
+    return (*this)(EllipsoidShape{core.size, error * core.size.maxCoeff()});
   }
 
   JsonObject operator()(const ConvexHullShape& hull) const {
