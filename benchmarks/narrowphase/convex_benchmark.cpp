@@ -1,5 +1,7 @@
-// First contact of pairs of convex sets: certified, beside FCL's conservative advancement of the
-// same bodies, and of a curved body against a mesh beside the prism around it.
+// First contact of pairs of convex sets: certified, beside FCL's continuousCollide of the same
+// bodies, and of a curved body against a mesh beside the prism around it. FCL samples: its naive
+// solver asks collide() at 10 times, and misses what lies between. Its conservative advancement
+// does not support cylinders, and its libccd solver aborts on some of these pairs.
 //
 // Bodies of 0.2 m to 1 m move by 1 m to 3 m towards or past each other and turn by up to pi. Each
 // run asks 256 pairs in turn, so that none is predicted. Half of the pairs meet, roughly.
@@ -9,8 +11,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <fcl/geometry/shape/capsule.h>
@@ -88,9 +92,14 @@ std::shared_ptr<fcl::CollisionGeometryd> make_fcl(Kind kind, const Vector3d& siz
   }
 }
 
-std::vector<Case> random_cases(Kind kind_A, Kind kind_B) {
+/// Made once for each pair of kinds.
+const std::vector<Case>& random_cases(Kind kind_A, Kind kind_B) {
+  static std::map<std::pair<Kind, Kind>, std::vector<Case>> kept;
+  std::vector<Case>& cases = kept[{kind_A, kind_B}];
+  if (!cases.empty()) {
+    return cases;
+  }
   Random random(kSeed);
-  std::vector<Case> cases;
   for (std::size_t k = 0; k < kPairs; ++k) {
     const auto size = [&] {
       const double x = random.uniform(0.1, 0.5);
@@ -184,8 +193,8 @@ void BM_PairFcl(benchmark::State& state, Kind A, Kind B) {
   }
   fcl::ContinuousCollisionRequestd request;
   request.ccd_motion_type = fcl::CCDM_LINEAR;
-  request.gjk_solver_type = fcl::GST_LIBCCD;
-  request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  request.gjk_solver_type = fcl::GST_INDEP;
+  request.ccd_solver_type = fcl::CCDC_NAIVE;
   std::size_t k = 0;
   for (auto _ : state) {
     const FclCase& c = cases[k];
