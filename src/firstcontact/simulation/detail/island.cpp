@@ -38,7 +38,7 @@ class Island {
       impact();
     }
     while (state_.reached < state_.start.h) {
-      if (track_.events > state_.model.events || stalls >= kMostStalls) {
+      if (track_.events > state_.model.events || stalls >= kMostStalls || is_jammed()) {
         break;
       }
       const double reached = state_.reached;
@@ -52,6 +52,7 @@ class Island {
         impact();
       }
       choose_span(planned, *t);
+      squeezed_ += *t < 1.0 && state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
       stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
     }
     track_.reached = state_.reached;
@@ -67,12 +68,16 @@ class Island {
     return std::min({span_, state_.start.h - state_.reached, of_fast});
   }
 
+  /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
+  /// doubles could not prove it.
+  [[nodiscard]] bool is_jammed() const { return squeezed_ >= kMostSqueezed; }
+
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
   /// the angular acceleration a of gyroscopic moments.
   [[nodiscard]] double tumbling_span() const {
     double greatest = 0.0;  // [rad/s^2]
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      if (!state_.member(k).piece) {
+      if (!state_.member(k).link_body) {
         greatest =
             std::max(greatest, tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
       }
@@ -139,7 +144,7 @@ class Island {
       end.w_WB =
           turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
                        t * plan.moves[k].rotation_vector);
-      if (state_.member(k).piece) {
+      if (state_.member(k).link_body) {
         const ContactBody body = state_.robots.body(k);
         end.v_WC = body.v;
         end.w_WB = body.w;
@@ -231,8 +236,8 @@ class Island {
       }
     }
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      const bool is_piece = state_.member(k).piece.has_value();
-      const ContactBody& body = is_piece ? state_.robots.body(k) : solution.bodies[k];
+      const bool is_link_body = state_.member(k).link_body.has_value();
+      const ContactBody& body = is_link_body ? state_.robots.body(k) : solution.bodies[k];
       state_.states[k].v_WC = body.v;
       state_.states[k].w_WB = body.w;
     }
@@ -246,7 +251,8 @@ class Island {
       {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
-  double span_;  // [s]  Longest of a plan, for now.
+  double span_;               // [s]  Longest of a plan, for now.
+  std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
 };
 
 }  // namespace

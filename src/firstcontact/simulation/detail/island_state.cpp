@@ -50,9 +50,9 @@ ProblemBodies IslandState::problem_bodies() const {
   for (std::size_t k = 0; k < size(); ++k) {
     const RigidState& state = states[k];
     bodies.add(members[k],
-               member(k).piece ? robots.body(k)
-                               : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
-                                             state.v_WC, state.w_WB},
+               member(k).link_body ? robots.body(k)
+                                   : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
+                                                 state.v_WC, state.w_WB},
                centre_of_mass(member(k).inertia, state.X_WB));
   }
   return bodies;
@@ -93,10 +93,12 @@ bool IslandState::bounces(const BodyPair& pair, double closing) const {
          closing > kStepsWithoutBounce * model.gravity.norm() * start.h;
 }
 
-bool IslandState::is_too_near() const {
-  return std::ranges::any_of(
-      manifolds, [&](const auto& entry) { return entry.second.gap < model.distances.pushed; });
+bool IslandState::is_nearer(double distance) const {
+  return std::ranges::any_of(manifolds,
+                             [&](const auto& entry) { return entry.second.gap < distance; });
 }
+
+bool IslandState::is_too_near() const { return is_nearer(model.distances.pushed); }
 
 void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Workspace& workspace) {
   manifolds.clear();
