@@ -5,6 +5,7 @@ set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
   firstcontact/geometry/convex_hull.h
+  firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
   firstcontact/geometry/height_map.h
   firstcontact/geometry/mass_properties.h
@@ -64,6 +65,7 @@ set(public_headers
 set(supporting_headers
   firstcontact/math/double_double.h
   firstcontact/math/export.h
+  firstcontact/geometry/convex_core.h
   firstcontact/motion/constant_rate_path.h
   firstcontact/motion/pose.h
   firstcontact/motion/relative_motion.h

@@ -23,6 +23,7 @@ def shapes():
         "box": fc.make_box((1, 2, 3)),
         "cylinder": fc.make_cylinder(0.5, 1, enclosure_error=1e-3),
         "cone": fc.make_cone(0.5, 1),
+        "ellipsoid": fc.make_ellipsoid((0.5, 0.4, 0.3), enclosure_error=0.01),
         "hull": fc.make_convex_hull(cube, radius=0.25),
         "cloud": fc.make_point_cloud(cube, radius=0.1),
         "heights": fc.make_height_map(((0.5, 0.25), np.arange(12.0).reshape(3, 4))),
@@ -36,6 +37,7 @@ def test_shape_pickles_as_the_same_shape(name):
     assert again == shape and hash(again) == hash(shape) and repr(again) == repr(shape)
     assert again.is_solid == shape.is_solid and again.radius == shape.radius
     assert again.enclosure_error == shape.enclosure_error
+    assert again.is_curved == shape.is_curved == (name in ("cylinder", "cone", "ellipsoid"))
     np.testing.assert_array_equal(again.vertices, shape.vertices)
 
 

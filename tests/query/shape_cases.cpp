@@ -219,6 +219,16 @@ ShapeCase cone(Rng& rng) {
   return {make_cone(radius, 2.0 * half, maybe_error(rng, radius)), {}, {support}, {}};
 }
 
+ShapeCase ellipsoid(Rng& rng) {
+  const double x = uniform(rng, 0.05, 0.6);
+  const double y = uniform(rng, 0.05, 0.6);
+  const Vector3d radii(x, y, uniform(rng, 0.05, 0.6));
+  const auto support = [=](const Vector3d& n) {
+    return Vector3d(radii.cwiseProduct(radii.cwiseProduct(n).normalized()));
+  };
+  return {make_ellipsoid(radii, 0.1 * radii.maxCoeff()), {}, {support}, {}};
+}
+
 Quaternion random_rotation(Rng& rng) {
   const Vector3<double> v = in_box(rng, 1.0);
   return {uniform(rng, -1.0, 1.0) + 1e-6, v.x, v.y, v.z};
@@ -247,9 +257,11 @@ ShapeCase random_shape(ShapeKind kind, Rng& rng) {
     case ShapeKind::cylinder:
       return cylinder(rng);
     case ShapeKind::cone:
+      return cone(rng);
+    case ShapeKind::ellipsoid:
       break;
   }
-  return cone(rng);
+  return ellipsoid(rng);
 }
 
 MotionInput random_course(Rng& rng, const Vector3<double>& from, const Vector3<double>& to) {

@@ -25,10 +25,11 @@ enum class ShapeKind {
   surface_mesh,
   cylinder,
   cone,
+  ellipsoid,
 };
 
 inline constexpr int kExactKinds = static_cast<int>(ShapeKind::cylinder);
-inline constexpr int kAllKinds = static_cast<int>(ShapeKind::cone) + 1;
+inline constexpr int kAllKinds = static_cast<int>(ShapeKind::ellipsoid) + 1;
 
 struct ShapeCase {
   Shape shape;

@@ -189,10 +189,12 @@ TEST(EnclosureError, ComesWithTheResult) {
   const Shape box = make_box({1.0, 1.0, 1.0});
   const Motion far = Motion::fixed(at({5.0, 0.0, 0.0}));
   const Motion rest = Motion::fixed({});
-  EXPECT_EQ(ask(cylinder, rest, cylinder, far).enclosure_error, 2.0 * cylinder.enclosure_error());
+  EXPECT_EQ(ask(cylinder, rest, cylinder, far).enclosure_error, 0.0) << "exact";
+  const Shape prism = cylinder.as_triangles();
+  EXPECT_EQ(ask(prism, rest, prism, far).enclosure_error, 2.0 * cylinder.enclosure_error());
   EXPECT_EQ(ask(box, rest, box, far).enclosure_error, 0.0);
   Workspace workspace;
-  EXPECT_EQ(distance({box, rest}, {cylinder, far}, 0.0, workspace).enclosure_error,
+  EXPECT_EQ(distance({box, rest}, {prism, far}, 0.0, workspace).enclosure_error,
             cylinder.enclosure_error());
 }
 

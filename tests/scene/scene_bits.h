@@ -116,6 +116,10 @@ class SceneBits {
     add(cone.length);
     add(cone.enclosure_error.value_or(-1.0));
   }
+  void add(const EllipsoidShape& ellipsoid) {
+    add(ellipsoid.radii);
+    add(ellipsoid.enclosure_error.value_or(-1.0));
+  }
 
   void add(const std::vector<Eigen::Vector3d>& points) {
     for (const Eigen::Vector3d& point : points) {

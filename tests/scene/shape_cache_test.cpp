@@ -67,6 +67,8 @@ TEST_F(ShapeCaches, MakeEachShapeOnce) {
       {.source = CylinderShape{1.0, 2.0, 0.01}},
       {.source = ConeShape{1.0, 2.0, {}}},
       {.source = ConeShape{1.0, 2.0, 0.01}},
+      {.source = EllipsoidShape{{1.0, 2.0, 3.0}, {}}},
+      {.source = EllipsoidShape{{1.0, 2.0, 3.0}, 0.1}},
   };
   std::set<const Hierarchy*> made;
   for (const BodyShape& shape : shapes) {

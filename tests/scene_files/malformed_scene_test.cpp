@@ -246,10 +246,12 @@ TEST(MalformedShape, SaysWhatIsWrong) {
   expect_messages({
       {shaped("{}"),
        "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
-       "\"box\", \"cylinder\", \"cone\", \"convex_hull\", \"points\", \"heightmap\", got none"},
+       "\"box\", \"cylinder\", \"cone\", \"ellipsoid\", \"convex_hull\", \"points\", "
+       "\"heightmap\", got none"},
       {shaped(R"({"sphere": {"radius": 1}, "box": {"size": [1, 1, 1]}})"),
        "s:1: bodies[0].shape: expected one of \"mesh\", \"vertices\", \"sphere\", \"capsule\", "
-       "\"box\", \"cylinder\", \"cone\", \"convex_hull\", \"points\", \"heightmap\", got "
+       "\"box\", \"cylinder\", \"cone\", \"ellipsoid\", \"convex_hull\", \"points\", "
+       "\"heightmap\", got "
        "\"sphere\", "
        "\"box\""},
       {shaped(R"({"shpere": {"radius": 1}})"),

@@ -195,20 +195,23 @@ TEST(LoadScene, NamesAllThatWasReadByOneDigest) {
   EXPECT_NE(digest(kFall), digest(kFall + " "));
 }
 
-TEST(WriteResult, StatesTheEnclosureErrorOfCurvedBodies) {
-  const std::string cylinder = R"({"cylinder": {"radius": 1, "length": 1}})";
+TEST(WriteResult, StatesTheEnclosureErrorOfTrianglesAroundCurvedBodies) {
+  const std::string cylinder =
+      R"({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]],
+          "enclosure_error": 0.125})";
   const auto named = [&](const std::string& name) {
     return R"({"name": ")" + name + R"(", "shape": )" + cylinder + "}";
   };
   const Written pair =
       write(scene(named("a") + "," + named("b")), {}, {.all_pairs = true, .sampling = {}});
-  const double both = 2.0 * make_cylinder(1.0, 1.0).enclosure_error();
-  EXPECT_GT(both, 0.0);
+  const double both = 0.25;
   EXPECT_EQ(pair.number("enclosure_error"), both);
   const auto& of_pair = std::get<JsonObject>(std::get<JsonArray>(pair.at("pairs").value)[0].value);
   EXPECT_EQ(std::get<double>(find(of_pair, "enclosure_error")->value), both);
   EXPECT_EQ(write(scene(named("a") + "," + body("b"))).number("enclosure_error"), 0.5 * both);
   EXPECT_EQ(find(write(kFall).json, "enclosure_error"), nullptr);
+  const std::string exact = R"({"name": "c", "shape": {"cylinder": {"radius": 1, "length": 1}}})";
+  EXPECT_EQ(find(write(scene(exact + "," + body("b"))).json, "enclosure_error"), nullptr);
 }
 
 }  // namespace

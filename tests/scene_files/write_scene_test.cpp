@@ -90,6 +90,8 @@ Scene random_scene(std::mt19937_64& rng) {
       {.source = BoxShape{{size(), size(), size()}}},
       {.source = CylinderShape{size(), size(), 1e4}},
       {.source = ConeShape{size(), size(), {}}},
+      {.source = EllipsoidShape{{size(), size(), size()}, {}}},
+      {.source = EllipsoidShape{{size(), size(), size()}, 1e4}},
       {.source = ConvexHullShape{std::vector{random_vector(rng)}}, .radius = size()},
       {.source = PointCloud{{random_vector(rng), random_vector(rng)}}},
       {.source = HeightMap{{size(), size()}, 3, {0, 1, 2, 3, 4, size()}}}};
@@ -160,10 +162,14 @@ TEST(WriteScene, KeepsTheScenesOfTheCorpus) {
   }
 }
 
-// A shape that is ready is written as its mesh, with all that its certificates need.
+// A shape that is ready is written as its mesh, or as the curved body that it is, with as many
+// triangles around it.
 TEST(WriteScene, KeepsShapesThatAreReady) {
   for (const Shape& shape :
-       {make_cylinder(0.5, 1.0, 1e-3), make_sphere(0.25), make_box({1, 2, 3})}) {
+       {make_cylinder(0.5, 1.0, 1e-3), make_cylinder(0.7, 1.0), make_cylinder(3.0, 1.0, 3.0),
+        make_cone(0.2, 1.0), make_cone(0.2, 0.01, 1e-7), make_ellipsoid({1, 2, 3}),
+        make_ellipsoid({1, 0.2, 0.1}, 2e-4), make_ellipsoid({1, 0.2, 0.1}, 0.8), make_sphere(0.25),
+        make_box({1, 2, 3}), make_cylinder(0.5, 1.0, 1e-3).as_triangles()}) {
     Scene scene;
     scene.bodies.push_back({.name = "a", .shape = {.source = shape}, .motion = {}});
     ShapeCache cache;
@@ -171,6 +177,7 @@ TEST(WriteScene, KeepsShapesThatAreReady) {
     const Shape read = cache.load(again.bodies.at(0).shape).shape;
     EXPECT_EQ(read.compare(shape), 0);
     EXPECT_EQ(read.enclosure_error(), shape.enclosure_error());
+    EXPECT_EQ(read.is_curved(), shape.is_curved());
     EXPECT_EQ(cache.load(scene.bodies.at(0).shape).shape.mesh().vertices.data(),
               shape.mesh().vertices.data());
   }

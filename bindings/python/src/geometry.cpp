@@ -12,6 +12,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/deforming_body.h>
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/hierarchy.h>
@@ -135,6 +136,51 @@ Vertices count as they are numbered: weld first.)")
                     "[m^3] Of a closed, consistently oriented mesh, else None.");
 }
 
+/// The convex set of a shape: its kind and its numbers; None where it has none.
+py::object set_state(const Shape& shape) {
+  const ConvexSet* set = shape.convex_set();
+  if (set == nullptr) {
+    return py::none();
+  }
+  const ConvexCore& core = set->core();
+  return py::make_tuple(static_cast<int>(core.kind), core.size.x(), core.size.y(), core.size.z());
+}
+
+/// @param points  of a hull
+ConvexSet set_from(const py::tuple& state, double rounding, std::vector<Eigen::Vector3d> points) {
+  const auto number = [&](std::size_t k) { return state[k].cast<double>(); };
+  const Eigen::Vector3d size(number(1), number(2), number(3));
+  switch (static_cast<ConvexKind>(state[0].cast<int>())) {
+    case ConvexKind::point:
+      return ConvexSet::sphere(rounding);
+    case ConvexKind::segment:
+      return ConvexSet::capsule(rounding, 2.0 * size.z());
+    case ConvexKind::box:
+      return ConvexSet::box(2.0 * size, rounding);
+    case ConvexKind::cylinder:
+      return ConvexSet::cylinder(size.x(), 2.0 * size.z(), rounding);
+    case ConvexKind::cone:
+      return ConvexSet::cone(size.x(), 2.0 * size.z(), rounding);
+    case ConvexKind::ellipsoid:
+      return ConvexSet::ellipsoid(size);
+    case ConvexKind::hull:
+      break;
+  }
+  return ConvexSet::hull(std::move(points), rounding);
+}
+
+Shape shape_from(const py::tuple& state) {
+  const auto radius = state[1].cast<double>();
+  const auto filling = state[2].cast<Filling>();
+  const auto enclosure_error = state[3].cast<double>();
+  if (state.size() < 5 || state[4].is_none()) {
+    return make_shape(state[0], radius, filling, enclosure_error);
+  }
+  Mesh mesh = mesh_from(state[0]);
+  const ConvexSet set = set_from(state[4].cast<py::tuple>(), radius, mesh.vertices);
+  return without_gil([&] { return Shape(std::move(mesh), filling, enclosure_error, set); });
+}
+
 /// What a pickled shape is made of again.
 py::tuple shape_state(const py::object& self) {
   const Shape& shape = self.cast<const Shape&>();
@@ -144,8 +190,8 @@ py::tuple shape_state(const py::object& self) {
   }
   return py::make_tuple(
       py::make_tuple(view(shape.mesh().vertices, self), view(shape.mesh().triangles, self)),
-      shape.radius(), shape.is_solid() ? Filling::solid : Filling::surface,
-      shape.enclosure_error());
+      shape.radius(), shape.is_solid() ? Filling::solid : Filling::surface, shape.enclosure_error(),
+      set_state(shape));
 }
 
 void bind_shape(py::module_& m) {
@@ -184,7 +230,10 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
       .def_property_readonly("is_solid", &Shape::is_solid)
       .def_property_readonly("enclosure_error", &Shape::enclosure_error,
                              "[m] No point of the triangles is farther from the body that they "
-                             "enclose; 0 where the shape is what it says.")
+                             "enclose; 0 where they are exact.")
+      .def_property_readonly("is_curved", &Shape::is_curved,
+                             "Whether the triangles only enclose the shape. Queries of rigid "
+                             "bodies take the shape itself: a cylinder, a cone, an ellipsoid.")
       .def_property_readonly("edge_count", &Shape::edge_count)
       .def(
           "edge",
@@ -214,10 +263,7 @@ ValueError on an empty mesh, a vertex that is not finite, an index out of range.
                          : "") +
                     (shape.is_solid() ? ", solid>" : ">");
            })
-      .def(py::pickle(&shape_state, [](const py::tuple& state) {
-        return make_shape(state[0], state[1].cast<double>(), state[2].cast<Filling>(),
-                          state[3].cast<double>());
-      }));
+      .def(py::pickle(&shape_state, &shape_from));
 }
 
 void bind_makers(py::module_& m) {
@@ -232,15 +278,26 @@ radius: [m] > 0. length: [m] of the segment, without the caps; >= 0.)");
       py::arg("size"), "A box along the axes, centred at the origin. size: [m] (3,), > 0.");
   m.def("make_cylinder", &make_cylinder, py::arg("radius"), py::arg("length"),
         py::arg("enclosure_error") = py::none(),
-        R"(A cylinder about z, centred at the origin, enclosed by a prism; its ends are exact.
+        R"(A cylinder about z, centred at the origin. Queries take it exactly.
 
-radius: [m] > 0. length: [m] along z; > 0. enclosure_error: [m] the corners stand out by at most
-this; 1e-4 of the radius where it is None.)");
+radius: [m] > 0. length: [m] along z; > 0. enclosure_error: [m] the corners of the triangles around
+it stand out by at most this; 1e-4 of the radius where it is None.)");
   m.def("make_cone", &make_cone, py::arg("radius"), py::arg("length"),
         py::arg("enclosure_error") = py::none(),
-        R"(A cone about z, its base at -length / 2, its tip at length / 2, enclosed by a pyramid.
+        R"(A cone about z, its base at -length / 2, its tip at length / 2. Queries take it exactly.
 
 radius: [m] of the base; > 0. length: [m] > 0. enclosure_error: as of make_cylinder.)");
+  m.def(
+      "make_ellipsoid",
+      [](const py::object& radii, std::optional<double> enclosure_error) {
+        const Eigen::Vector3d owned = vector_from(radii, "radii");
+        return without_gil([&] { return make_ellipsoid(owned, enclosure_error); });
+      },
+      py::arg("radii"), py::arg("enclosure_error") = py::none(),
+      R"(An ellipsoid along the axes, centred at the origin. Queries take it exactly.
+
+radii: [m] (3,), half of its length along each axis; > 0. enclosure_error: [m] as of make_cylinder;
+5e-3 of the greatest radius where it is None.)");
   m.def(
       "make_convex_hull",
       [](const py::object& points, double radius) {

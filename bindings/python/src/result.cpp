@@ -417,7 +417,7 @@ Times are normalised to the duration of the scene (t) or in seconds (time).)");
           "[m] The greatest of the pairs that were searched.")
       .def_property_readonly(
           "enclosure_error", [](const HeldResult& r) { return r.answer.enclosure_error; },
-          "[m] Of cylinders and cones: adds to the tolerance.")
+          "[m] Of curved shapes that are asked by their triangles: adds to the tolerance.")
       .def_property_readonly("work", [](const HeldResult& r) { return r.answer.work; })
       .def_property_readonly("scene", [](const HeldResult& r) { return r.scene; })
       .def("to_json", &to_json, "The result as `firstcontact check --json` writes it, on one line.")

@@ -75,7 +75,8 @@ py::object contents_of(const Shape& shape) {
     return py::bytes(reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(rows[0]));
   };
   return py::make_tuple(sha256(bytes(shape.mesh().vertices)), sha256(bytes(shape.mesh().triangles)),
-                        shape.radius(), shape.is_solid(), shape.enclosure_error());
+                        shape.radius(), shape.is_solid(), shape.enclosure_error(),
+                        shape.is_curved());
 }
 
 py::object contents_of(const Trajectory& trajectory) {

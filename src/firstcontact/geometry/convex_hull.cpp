@@ -11,7 +11,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/detail/orientation.h>
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/float_environment.h>
 
 namespace firstcontact {
@@ -419,7 +421,18 @@ Shape make_convex_hull(const std::vector<Vector3d>& points, double radius) {
   Mesh hull = convex_hull(points);
   const bool encloses =
       hull.vertices.size() > 3 && hull.triangles.size() == 2 * hull.vertices.size() - 4;
-  return Shape(std::move(hull), radius, encloses ? Filling::solid : Filling::surface);
+  const Filling filling = encloses ? Filling::solid : Filling::surface;
+  // Queries look at every point of a set: of a hull of many points the triangles are faster.
+  constexpr std::size_t kMostPoints = 64;
+  const bool has_set_radius = radius == 0.0 || (radius >= kLeastSize && radius <= kGreatestSize);
+  const bool is_in_range =
+      std::all_of(hull.vertices.begin(), hull.vertices.end(),
+                  [](const Vector3d& p) { return p.cwiseAbs().maxCoeff() <= kGreatestSize; });
+  if (hull.vertices.size() > kMostPoints || !has_set_radius || !is_in_range) {
+    return Shape(std::move(hull), radius, filling);
+  }
+  const ConvexSet set = ConvexSet::hull(hull.vertices, radius);
+  return Shape(std::move(hull), filling, 0.0, set);
 }
 
 }  // namespace firstcontact

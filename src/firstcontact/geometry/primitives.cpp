@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/detail/enclosing_ring.h>
 #include <firstcontact/math/float_environment.h>
 
@@ -50,7 +51,8 @@ void add_fan(std::size_t first, std::size_t n, std::size_t tip, bool up, Mesh& m
 
 Shape make_sphere(double radius) {
   require(is_size(radius), "make_sphere: radius must be in 1e-60 ... 1e60", radius);
-  return Shape({.vertices = {{0.0, 0.0, 0.0}}, .triangles = {{0, 0, 0}}}, radius);
+  return Shape({.vertices = {{0.0, 0.0, 0.0}}, .triangles = {{0, 0, 0}}}, Filling::surface, 0.0,
+               ConvexSet::sphere(radius));
 }
 
 Shape make_capsule(double radius, double length) {
@@ -59,7 +61,7 @@ Shape make_capsule(double radius, double length) {
           length);
   return Shape(
       {.vertices = {{0.0, 0.0, -0.5 * length}, {0.0, 0.0, 0.5 * length}}, .triangles = {{0, 1, 1}}},
-      radius);
+      Filling::surface, 0.0, ConvexSet::capsule(radius, length));
 }
 
 Shape make_box(const Eigen::Vector3d& size) {
@@ -73,7 +75,7 @@ Shape make_box(const Eigen::Vector3d& size) {
   }
   mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
-  return Shape(std::move(mesh), 0.0, Filling::solid);
+  return Shape(std::move(mesh), Filling::solid, 0.0, ConvexSet::box(size));
 }
 
 Shape make_cylinder(double radius, double length, std::optional<double> enclosure_error) {
@@ -94,7 +96,7 @@ Shape make_cylinder(double radius, double length, std::optional<double> enclosur
   }
   add_fan(0, n, 2 * n, false, mesh);
   add_fan(n, n, 2 * n + 1, true, mesh);
-  return Shape(std::move(mesh), 0.0, Filling::solid, ring.excess);
+  return Shape(std::move(mesh), Filling::solid, ring.excess, ConvexSet::cylinder(radius, length));
 }
 
 Shape make_cone(double radius, double length, std::optional<double> enclosure_error) {
@@ -109,7 +111,7 @@ Shape make_cone(double radius, double length, std::optional<double> enclosure_er
   mesh.vertices.emplace_back(0.0, 0.0, -0.5 * length);
   add_fan(0, n, n, true, mesh);
   add_fan(0, n, n + 1, false, mesh);
-  return Shape(std::move(mesh), 0.0, Filling::solid, ring.excess);
+  return Shape(std::move(mesh), Filling::solid, ring.excess, ConvexSet::cone(radius, length));
 }
 
 }  // namespace firstcontact

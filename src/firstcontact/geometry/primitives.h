@@ -1,5 +1,5 @@
 /// @file
-/// Primitive solids: sphere, capsule, box, cylinder, cone.
+/// Primitive solids: sphere, capsule, box, cylinder, cone, ellipsoid.
 
 #pragma once
 
@@ -19,6 +19,13 @@ inline constexpr double kGreatestSize = 1e60;
 
 /// [-]  The least enclosure error of a cylinder or a cone, as a part of its radius.
 inline constexpr double kLeastEnclosureError = 1e-8;
+
+/// [-]  The least one of an ellipsoid, as a part of its greatest radius: 50,000 triangles.
+inline constexpr double kLeastEllipsoidError = 2e-4;
+
+/// [-]  The least radius of an ellipsoid, as a part of its greatest: normals of flatter ones have
+/// squares that underflow.
+inline constexpr double kFlattestEllipsoid = 1e-30;
 
 /// Makes a ball about the origin. Its one feature is vertex 0, the centre.
 ///
@@ -43,7 +50,10 @@ inline constexpr double kLeastEnclosureError = 1e-8;
 /// @param size  [m]  of the whole box along each axis; > 0
 [[nodiscard]] FIRSTCONTACT_API Shape make_box(const Eigen::Vector3d& size);
 
-/// Makes a cylinder about z, centred at the origin, enclosed by a prism of n sides.
+/// Makes a cylinder about z, centred at the origin.
+///
+/// Queries of rigid bodies take it exactly (Shape::convex_set()). Its triangles enclose it: a prism
+/// of n sides, for drawing, for simulation and for partners that deform.
 ///
 /// Faces 0 to 2n - 1 are its sides, then n are at the bottom and n at the top. The ends are exact.
 ///
@@ -55,7 +65,7 @@ inline constexpr double kLeastEnclosureError = 1e-8;
 [[nodiscard]] FIRSTCONTACT_API Shape make_cylinder(double radius, double length,
                                                    std::optional<double> enclosure_error = {});
 
-/// Makes a cone about z, enclosed by a pyramid of n sides.
+/// Makes a cone about z, exactly, as make_cylinder() does; its triangles are a pyramid of n sides.
 ///
 /// Its base is at z = -length / 2, its tip at length / 2. Faces 0 to n - 1 are its sides, then n
 /// are at the base. Vertex n is the tip, exactly.
@@ -65,5 +75,17 @@ inline constexpr double kLeastEnclosureError = 1e-8;
 /// @param enclosure_error  [m]  as in make_cylinder
 [[nodiscard]] FIRSTCONTACT_API Shape make_cone(double radius, double length,
                                                std::optional<double> enclosure_error = {});
+
+/// Makes an ellipsoid along the axes, centred at the origin, exactly, as make_cylinder() does.
+///
+/// Its triangles are a polyhedron of n sectors around z and m rings: faces 0 to n - 1 at the
+/// bottom, 2n for each ring between, n at the top.
+///
+/// @param radii            [m]  half of its length along each axis; > 0, the least at least 1e-30
+///                         of the greatest
+/// @param enclosure_error  [m]  as in make_cylinder; 5e-3 of the greatest radius if none is given,
+///                         at least 2e-4 of it
+[[nodiscard]] FIRSTCONTACT_API Shape make_ellipsoid(const Eigen::Vector3d& radii,
+                                                    std::optional<double> enclosure_error = {});
 
 }  // namespace firstcontact

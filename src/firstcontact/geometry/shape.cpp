@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/geometry/convex_set.h>
+#include <firstcontact/geometry/detail/convex_hierarchy.h>
 #include <firstcontact/geometry/detail/vertex_components.h>
 #include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/geometry/mesh_defects.h>
@@ -203,6 +205,15 @@ struct LazyScrewSliding {
   std::optional<ScrewSlidingSurface> surface;
 };
 
+/// The convex set that a shape is, in the body frame.
+struct ExactSet {
+  explicit ExactSet(const ConvexSet& given) : set(given) {}
+
+  ConvexSet set;
+  std::once_flag found;
+  Hierarchy hierarchy;
+};
+
 std::optional<ScrewSlidingSurface> find_screw_sliding_surface(const Hierarchy& hierarchy) {
   const std::optional<ScrewSliding> screw_sliding = find_screw_sliding(hierarchy);
   if (!screw_sliding) {
@@ -235,6 +246,7 @@ struct Shape::Data {
   std::shared_ptr<LazyBounds> bounds = std::make_shared<LazyBounds>();
   std::shared_ptr<LazyScrewSliding> screw_sliding = std::make_shared<LazyScrewSliding>();
   std::shared_ptr<LazyFeatures> own_features = std::make_shared<LazyFeatures>();  // At all times.
+  std::shared_ptr<ExactSet> exact;  // Null: none is known.
 };
 
 Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) {
@@ -254,6 +266,28 @@ Shape::Shape(Mesh mesh, double radius, Filling filling, double enclosure_error) 
   data->components = list_components(data->mesh, data->hierarchy);
   data->hash = content_hash(data->mesh, radius, filling);
   data_ = std::move(data);
+}
+
+Shape::Shape(Mesh mesh, Filling filling, double enclosure_error, const ConvexSet& set)
+    : Shape(std::move(mesh), set.rounding(), filling, enclosure_error) {
+  auto data = std::make_shared<Data>(*data_);
+  data->exact = std::make_shared<ExactSet>(set);
+  if (enclosure_error > 0.0) {  // Otherwise the triangles are the same body.
+    data->hash = mix(data->hash, 2 + static_cast<std::uint64_t>(set.core().kind));
+  }
+  data_ = std::move(data);
+}
+
+Shape Shape::as_triangles() const {
+  if (!data_->exact) {
+    return *this;
+  }
+  auto data = std::make_shared<Data>(*data_);
+  data->exact.reset();
+  data->hash = content_hash(data->mesh, data->radius, data->filling);
+  Shape shape = *this;
+  shape.data_ = std::move(data);
+  return shape;
 }
 
 Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
@@ -285,6 +319,7 @@ Shape Shape::deforming(std::span<const Eigen::Vector3d> to,
   data->to.assign(to.begin(), to.end());
   data->translation_to = translation;
   data->hash = hash;
+  data->exact.reset();
   data->bounds = std::make_shared<LazyBounds>();
   data->screw_sliding = std::make_shared<LazyScrewSliding>();
   Shape shape = *this;
@@ -303,6 +338,31 @@ double Shape::radius() const { return data_->radius; }
 bool Shape::is_solid() const { return data_->filling == Filling::solid; }
 
 double Shape::enclosure_error() const { return data_->enclosure_error; }
+
+const ConvexSet* Shape::convex_set() const { return data_->exact ? &data_->exact->set : nullptr; }
+
+bool Shape::is_curved() const { return data_->exact && data_->enclosure_error > 0.0; }
+
+ConvexCore Shape::convex_core() const {
+  assert(data_->exact);
+  const Hierarchy& hierarchy = data_->hierarchy;
+  ConvexCore core = data_->exact->set.core_from(hierarchy.centre);
+  if (core.kind == ConvexKind::hull) {
+    core.origin.setZero();
+    core.points = hierarchy.vertices;
+    core.reach = hierarchy.radius;
+  }
+  return core;
+}
+
+const Hierarchy& Shape::convex_hierarchy() const {
+  assert(data_->exact);
+  ExactSet& exact = *data_->exact;
+  std::call_once(exact.found, [&] {
+    exact.hierarchy = detail::convex_hierarchy(convex_core(), data_->hierarchy.centre);
+  });
+  return exact.hierarchy;
+}
 
 std::span<const std::uint32_t> Shape::component_vertices() const { return data_->components; }
 

@@ -14,6 +14,8 @@
 
 namespace firstcontact {
 
+class ConvexSet;
+struct ConvexCore;
 struct FeatureTable;
 struct ScrewSlidingSurface;
 struct Hierarchy;
@@ -44,6 +46,16 @@ class FIRSTCONTACT_API Shape {
   explicit Shape(Mesh mesh, double radius = 0.0, Filling filling = Filling::surface,
                  double enclosure_error = 0.0);
 
+  /// Makes a shape that is a convex set, exactly; the mesh is the same set, or encloses it.
+  ///
+  /// First contact, distance and closest approach take the set where the mesh only encloses it
+  /// (is_curved()), and for its partner in a pair with such a shape.
+  ///
+  /// @param mesh             [m]  as above, of the core of the set; closed where that is a solid
+  /// @param enclosure_error  [m]  see enclosure_error(); 0 where the mesh is exact
+  /// @param set              its rounding is the radius of the shape
+  Shape(Mesh mesh, Filling filling, double enclosure_error, const ConvexSet& set);
+
   /// Makes the same shape with vertices that move on lines, each with a velocity of its own.
   ///
   /// In a body frame that moves by `translation`, vertex i is at
@@ -70,8 +82,31 @@ class FIRSTCONTACT_API Shape {
   /// [m]  A bound of the distance of the triangles from a curved body that they enclose from
   /// outside.
   ///
-  /// No point of the triangles is farther from that body. 0 where the shape is exact.
+  /// No point of the triangles is farther from that body. 0 where they are exact. Queries that
+  /// take the curved body itself (convex_set()) do not add it to anything.
   [[nodiscard]] double enclosure_error() const;
+
+  /// The convex set that the shape is, exactly, in the body frame; null where none is known.
+  [[nodiscard]] const ConvexSet* convex_set() const;
+
+  /// Whether the shape is a convex set that its triangles only enclose, to within
+  /// enclosure_error(): a cylinder, a cone, an ellipsoid.
+  [[nodiscard]] bool is_curved() const;
+
+  /// The core of the convex set, seen from hierarchy().centre; refers to this shape.
+  ///
+  /// Only for a shape that has a set. A hull is that of hierarchy().vertices, as they are.
+  [[nodiscard]] ConvexCore convex_core() const;
+
+  /// A single box around the core of the convex set, about the same centre as hierarchy().
+  ///
+  /// Only for a shape that has a set. Computed when first needed.
+  [[nodiscard]] const Hierarchy& convex_hierarchy() const;
+
+  /// Makes the shape of the triangles alone, which knows of no convex set.
+  ///
+  /// It shares their hierarchy. Where the set is curved, the triangles are a little larger.
+  [[nodiscard]] Shape as_triangles() const;
 
   /// One vertex of each set of triangles joined by shared vertices; indices into
   /// hierarchy().vertices.

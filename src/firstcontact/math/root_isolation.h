@@ -54,6 +54,14 @@ inline double time_to_close(double gap, double speed, double half_acceleration) 
   return tau > 0.0 ? tau : 0.0;  // NaN takes the safe branch.
 }
 
+/// t + tau rounded down (T. J. Dekker's two-sum tells the direction), for t, tau >= 0.
+inline double after(double t, double tau) {
+  const double sum = t + tau;
+  const double part = sum - t;
+  const double error = (t - (sum - part)) + (tau - part);
+  return error < 0.0 ? std::nextafter(sum, 0.0) : sum;
+}
+
 /// The time for which g provably stays positive.
 inline double time_positive(const ValueAndRate& g, const CurvatureBound& bound) {
   return time_to_close(g.value - bound.value_error, bound.rate_error - g.rate,

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/shape_pair.h>
 
@@ -83,7 +84,7 @@ ClosestApproachResult closest_approach(const ShapePair& pair, Workspace& workspa
   const FloatEnvironmentGuard guard;
   ClosestApproachResult best;
   best.tolerance_used = options.tolerance;
-  best.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
+  best.enclosure_error = detail::enclosure_error(pair.A, pair.B);
   Descent descent(pair, workspace, options.budget, best);
   FirstContactOptions query;
   query.tolerance = options.tolerance;

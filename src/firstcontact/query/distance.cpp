@@ -20,10 +20,10 @@ DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace)
   const FloatEnvironmentGuard guard;
   const auto& [A, B, motion] = shapes;
   motion.enter(t);
-  const detail::MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const detail::MovingPair pair(A, B, motion);
   const RelativeState state = motion.state(t);
   DistanceResult result;
-  result.enclosure_error = A.enclosure_error() + B.enclosure_error();
+  result.enclosure_error = detail::enclosure_error(A, B);
   const detail::ContactFrame frame{A, B, pair, t, motion.origin(t)};
   const detail::Containment found = detail::find_containment(A, B, pair, state);
   if (found.inside == detail::Inside::yes) {

@@ -11,6 +11,8 @@
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
+#include <firstcontact/query/detail/convex_leaf.h>
+#include <firstcontact/query/detail/convex_search.h>
 #include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/nearest_triangles.h>
 #include <firstcontact/query/detail/order.h>
@@ -45,6 +47,9 @@ double resolvable_motion(const MovingPair& pair) { return 0x1p-49 * pair.speed_b
 detail::PieceResult search_windows(const MovingPair& pair, const TimeWindow& part,
                                    detail::SearchLimits limits, detail::WorkspaceData& workspace,
                                    WorkCount& work) {
+  if (pair.convex_A() != nullptr && pair.convex_B() != nullptr) {
+    return detail::search_convex_pair(pair, part.begin, part.end, limits, work);
+  }
   constexpr std::uint64_t kPatience = 1u << 17;
   // Far above the distance of neighbouring times; ties are not told apart by shorter windows.
   constexpr double kLeastWidth = 0x1p-32;
@@ -77,7 +82,7 @@ detail::StartGap gap_at(const ShapePair& shapes, const RelativeState& start,
                         detail::WorkspaceData& workspace, const FirstContactOptions& options,
                         WorkCount& work) {
   const auto& [A, B, motion] = shapes;
-  const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const MovingPair pair(A, B, motion);
   const double radii = A.radius() + B.radius();
   const double margin = options.margin + radii;
   const double tolerance = std::max(options.tolerance, resolvable_distance(pair, start, margin));
@@ -119,6 +124,23 @@ struct Query {
   Hold hold;
 };
 
+/// The pair that decided, alone.
+void report_first(const detail::ContactFrame& frame, const detail::PieceResult& found,
+                  FirstContactResult& result) {
+  const MovingPair& pair = frame.pair;
+  const RelativeState state = pair.motion().state(frame.t);
+  ClosestFeatures closest;
+  if (pair.is_convex()) {
+    closest = detail::closest_features(pair, state, found.triangle_A, found.triangle_B);
+  } else {
+    const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
+    closest = triangle_distance(triangles.A, triangles.B);
+  }
+  result.contacts.push_back(
+      detail::make_contact(frame, state, found.triangle_A, found.triangle_B, closest));
+  result.contact_count = {1, false};
+}
+
 /// @param tolerance  [m]  what the search could resolve
 void report_contacts(const Query& query, const MovingPair& pair, const detail::PieceResult& found,
                      double tolerance, FirstContactResult& result) {
@@ -129,11 +151,7 @@ void report_contacts(const Query& query, const MovingPair& pair, const detail::P
     return;
   }
   if (options.contacts == ContactState::first) {
-    const RelativeState state = motion.state(result.t);
-    const TrianglePair triangles = pair.place(state, found.triangle_A, found.triangle_B);
-    result.contacts.push_back(detail::make_contact(frame, state, found.triangle_A, found.triangle_B,
-                                                   triangle_distance(triangles.A, triangles.B)));
-    result.contact_count = {1, false};
+    report_first(frame, found, result);
     return;
   }
   const double band = options.margin + tolerance + options.contact_band + A.radius() + B.radius();
@@ -142,6 +160,9 @@ void report_contacts(const Query& query, const MovingPair& pair, const detail::P
                            : detail::collect_contacts;
   result.contact_count =
       collect(frame, band, options.contacts.most, query.workspace, result.contacts);
+  if (pair.is_convex() && result.contacts.empty()) {
+    report_first(frame, found, result);  // Just outside, as rounding has it.
+  }
 }
 
 /// [m]  The tolerance that an answer holds to.
@@ -162,20 +183,21 @@ double tolerance_of(const detail::PieceResult& found, const detail::SearchLimits
 bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult& result) {
   const auto& [A, B, motion] = query.shapes;
   const FirstContactOptions& options = query.options;
-  const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+  const MovingPair pair(A, B, motion);
   const double radii = A.radius() + B.radius();
   const double margin = options.margin + radii;
   const RelativeState state = motion.state(part.begin);
   double coarse = std::max(result.tolerance_used, resolvable_distance(pair, state, margin));
+  const bool by_triangles = query.lines != nullptr && !pair.is_convex();
   detail::SearchLimits limits{
       .threshold = query.hold.distance + radii,
       .tolerance = std::min(coarse, query.hold.tolerance),
       .band = margin + coarse,
       .asked = std::min(options.tolerance, query.hold.tolerance),
-      .lines = query.lines != nullptr && query.lines->exist(state) ? query.lines : nullptr,
+      .lines = by_triangles && query.lines->exist(state) ? query.lines : nullptr,
       .budget = options.budget,
-      .A = &A,
-      .B = &B};
+      .A = pair.is_convex() ? nullptr : &A,
+      .B = pair.is_convex() ? nullptr : &B};
   const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
   const double first = limits.tolerance;
   const detail::PieceResult found =
@@ -232,7 +254,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
   result.t_upper = 0.0;
   if (options.contacts != ContactState::none) {
     const auto& [A, B, motion] = shapes;
-    const MovingPair pair(A.hierarchy(), B.hierarchy(), motion);
+    const MovingPair pair(A, B, motion);
     result.contacts.push_back(
         detail::make_contact({A, B, pair, 0.0, motion.origin(0.0)}, state, found));
     result.contact_count = {1, true};
@@ -242,8 +264,7 @@ void report_contained(const ShapePair& shapes, const RelativeState& state,
 /// Nothing gets into a solid without crossing its surface: it is enough to look at the start.
 void solve_solids(const Query& query, const RelativeState& start, FirstContactResult& result) {
   const auto& [A, B, motion] = query.shapes;
-  const detail::Containment found =
-      detail::find_containment(A, B, MovingPair(A.hierarchy(), B.hierarchy(), motion), start);
+  const detail::Containment found = detail::find_containment(A, B, MovingPair(A, B, motion), start);
   if (found.inside == detail::Inside::yes) {
     report_contained(query.shapes, start, found, query.options, result);
     return;
@@ -270,7 +291,7 @@ void answer(const ShapePair& pair, const TimeWindow& window, const detail::Corne
   result.t_upper.reset();
   result.clearance = 0.0;
   result.tolerance_used = options.tolerance;
-  result.enclosure_error = pair.A.enclosure_error() + pair.B.enclosure_error();
+  result.enclosure_error = detail::enclosure_error(pair.A, pair.B);
   result.contacts.clear();
   result.contact_count = {};
   result.work = {};

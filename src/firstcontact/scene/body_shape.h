@@ -54,6 +54,12 @@ struct ConeShape {
   std::optional<double> enclosure_error;  ///< [m]
 };
 
+/// An ellipsoid, with the parameters of make_ellipsoid().
+struct EllipsoidShape {
+  Eigen::Vector3d radii = Eigen::Vector3d::Zero();  ///< [m]
+  std::optional<double> enclosure_error;            ///< [m]
+};
+
 /// The convex hull of points or of a mesh in a file, as make_convex_hull() makes it.
 struct ConvexHullShape {
   std::variant<MeshFile, std::vector<Eigen::Vector3d>> of;  ///< [m]
@@ -81,11 +87,12 @@ struct BodyShape {
   /// The source of the shape.
   ///
   /// A Mesh holds what its scene writes inline, not welded. A Shape is ready, with a radius and a
-  /// filling of its own; no file holds one, and it is written as its mesh.
+  /// filling of its own; no file holds one. It is written as the primitive that it is, or else as
+  /// its mesh.
   std::variant<MeshFile, Mesh, SphereShape, CapsuleShape, BoxShape, CylinderShape, ConeShape,
-               ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
+               EllipsoidShape, ConvexHullShape, PointFile, PointCloud, HeightFile, HeightMap, Shape>
       source;
-  double radius = 0.0;  ///< [m]  Thickens all but sphere, capsule, box, cylinder, cone; >= 0.
+  double radius = 0.0;  ///< [m]  Thickens all but primitives: sphere ... ellipsoid; >= 0.
   Filling filling = Filling::surface;  ///< Of a mesh.
   double enclosure_error = 0.0;        ///< [m]  Of an inline mesh: Shape::enclosure_error(); >= 0.
 };

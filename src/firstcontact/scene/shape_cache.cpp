@@ -43,6 +43,13 @@ struct Numbers {
   List operator()(const BoxShape& box) const { return {box.size.x(), box.size.y(), box.size.z()}; }
   List operator()(const CylinderShape& cylinder) const { return round(cylinder); }
   List operator()(const ConeShape& cone) const { return round(cone); }
+  List operator()(const EllipsoidShape& ellipsoid) const {
+    List numbers(ellipsoid.radii.begin(), ellipsoid.radii.end());
+    if (ellipsoid.enclosure_error) {
+      numbers.push_back(*ellipsoid.enclosure_error);
+    }
+    return numbers;
+  }
   List operator()(const PointFile& file) const { return {file.scale}; }
   List operator()(const HeightFile& file) const { return {file.cell.x(), file.cell.y()}; }
   List operator()(const ConvexHullShape& hull) const {

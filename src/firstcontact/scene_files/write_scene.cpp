@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/geometry/height_map.h>
 #include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
@@ -109,6 +113,9 @@ struct ShapeMembers {
   }
 
   JsonObject operator()(const Shape& ready) const {
+    if (ready.is_curved() && ready.radius() == 0.0) {
+      return curved(ready.convex_set()->core(), static_cast<double>(ready.mesh().triangles.size()));
+    }
     const Filling filled = ready.is_solid() ? Filling::solid : Filling::surface;
     return ShapeMembers{ready.radius(), filled, ready.enclosure_error()}(ready.mesh());
   }
@@ -131,6 +138,37 @@ struct ShapeMembers {
 
   JsonObject operator()(const ConeShape& cone) const {
     return {{"cone", numbers(cone.radius, cone.length, cone.enclosure_error)}};
+  }
+
+  JsonObject operator()(const EllipsoidShape& ellipsoid) const {
+    JsonObject object{{"radii", to_json(ellipsoid.radii)}};
+    if (ellipsoid.enclosure_error) {
+      object.push_back({"enclosure_error", to_json(*ellipsoid.enclosure_error)});
+    }
+    return {{"ellipsoid", {.value = std::move(object)}}};
+  }
+
+  /// A ready shape that is a primitive, with the error for which as many triangles are made: that
+  /// of half a corner less, of a polygon around a circle or of a globe's meridian.
+  [[nodiscard]] JsonObject curved(const ConvexCore& core, double triangles) const {
+    constexpr double kPi = std::numbers::pi;
+    const double length = 2.0 * core.size.z();
+    const auto ring_error = [&](double corners) {
+      return core.size.x() *
+             std::max((1.0 / std::cos(kPi / (corners - 0.5)) - 1.0) / 0.999, kLeastEnclosureError);
+    };
+    switch (core.kind) {
+      case ConvexKind::cylinder:
+        return (*this)(CylinderShape{core.size.x(), length, ring_error(0.25 * triangles)});
+      case ConvexKind::cone:
+        return (*this)(ConeShape{core.size.x(), length, ring_error(0.5 * triangles)});
+      default:
+        break;
+    }
+    const double rings = 0.5 + 0.5 * std::sqrt(1.0 + triangles);
+    const double angle = 0.5 * kPi / (rings - 0.5);
+    const double error = std::max(angle * angle / 0.9, kLeastEllipsoidError);
+    return (*this)(EllipsoidShape{core.size, error * core.size.maxCoeff()});
   }
 
   JsonObject operator()(const ConvexHullShape& hull) const {

@@ -18,21 +18,6 @@ using Eigen::Vector3d;
 
 Vector3d face_normal(const Triangle& T) { return (T[1] - T[0]).cross(T[2] - T[0]); }
 
-Feature global_feature(const Shape& shape, std::uint32_t triangle, const TriangleFeature& local) {
-  const std::uint32_t index = shape.hierarchy().triangle_index[triangle];
-  const auto& corners = shape.mesh().triangles[index];
-  switch (local.type) {
-    case TriangleFeature::Type::vertex:
-      return {FeatureType::vertex, corners[local.index], index};
-    case TriangleFeature::Type::edge:
-      return {FeatureType::edge,
-              shape.edge_index(corners[local.index], corners[(local.index + 1) % 3]), index};
-    case TriangleFeature::Type::face:
-      break;
-  }
-  return {FeatureType::face, index, index};
-}
-
 /// Whether two triangles are farther apart than `reach` along n, of any length.
 bool apart_along(const Vector3d& n, const TrianglePair& pair, double reach) {
   const Vector3d a(n.dot(pair.A[0]), n.dot(pair.A[1]), n.dot(pair.A[2]));
@@ -122,6 +107,21 @@ bool find_close_by_screw_sliding(const ContactFrame& frame, const RelativeState&
 }
 
 }  // namespace
+
+Feature global_feature(const Shape& shape, std::uint32_t triangle, const TriangleFeature& local) {
+  const std::uint32_t index = shape.hierarchy().triangle_index[triangle];
+  const auto& corners = shape.mesh().triangles[index];
+  switch (local.type) {
+    case TriangleFeature::Type::vertex:
+      return {FeatureType::vertex, corners[local.index], index};
+    case TriangleFeature::Type::edge:
+      return {FeatureType::edge,
+              shape.edge_index(corners[local.index], corners[(local.index + 1) % 3]), index};
+    case TriangleFeature::Type::face:
+      break;
+  }
+  return {FeatureType::face, index, index};
+}
 
 ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A, std::uint32_t triangle_B,
                      const ClosestFeatures& closest) {

@@ -13,6 +13,10 @@
 
 namespace firstcontact::detail {
 
+/// The feature of a whole mesh that is one of a triangle in the hierarchy's order.
+[[nodiscard]] Feature global_feature(const Shape& shape, std::uint32_t triangle,
+                                     const TriangleFeature& local);
+
 /// With the features of the whole meshes.
 [[nodiscard]] ClosePair close_pair(const ContactFrame& frame, std::uint32_t triangle_A,
                                    std::uint32_t triangle_B, const ClosestFeatures& closest);

@@ -12,6 +12,7 @@
 #include <firstcontact/query/detail/close_list.h>
 #include <firstcontact/query/detail/close_pairs.h>
 #include <firstcontact/query/detail/close_pairs_of_few.h>
+#include <firstcontact/query/detail/convex_contacts.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -164,11 +165,18 @@ ContactCount append_contacts(const ContactFrame& frame, const RelativeState& sta
 Contact make_contact(const ContactFrame& frame, const RelativeState& state,
                      std::uint32_t triangle_A, std::uint32_t triangle_B,
                      const ClosestFeatures& closest) {
+  if (frame.pair.is_convex()) {
+    return make_contact(frame, state,
+                        close_convex_pair(frame, state, triangle_A, triangle_B, closest));
+  }
   return make_contact(frame, state, close_pair(frame, triangle_A, triangle_B, closest));
 }
 
 ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::size_t most,
                                  WorkspaceData& workspace, std::vector<Contact>& contacts) {
+  if (frame.pair.is_convex()) {
+    return collect_contacts(frame, band, most, workspace, contacts);
+  }
   const RelativeState state = frame.pair.motion().state(frame.t);
   find_close_among_opened(frame, state, band, workspace);
   sort_once(workspace);
@@ -179,7 +187,10 @@ ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_
                               WorkspaceData& workspace, std::vector<Contact>& contacts) {
   const RelativeState state = frame.pair.motion().state(frame.t);
   std::optional<ContactCount> of_more;  // Than are listed.
-  if (are_few(frame.pair)) {
+  if (frame.pair.is_convex()) {
+    find_close_to_convex(frame, state, band, workspace);
+    sort_once(workspace);
+  } else if (are_few(frame.pair)) {
     find_close_of_few(frame, state, band, workspace);
   } else {
     of_more = find_close(frame, state, band, most, workspace);

@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/query/detail/convex_contacts.h>
+
 namespace firstcontact::detail {
 namespace {
 
@@ -216,6 +218,11 @@ class VertexSearch {
     return doubt_ ? Inside::unsure : Inside::no;
   }
 
+  /// @param p  [m]  a point of the body, from its centre
+  Inside at(const Vector3d& p) {
+    return test_at(p) ? Inside::yes : doubt_ ? Inside::unsure : Inside::no;
+  }
+
   Inside among_all() {
     const bool found = visit(0);
     return found ? Inside::yes : doubt_ ? Inside::unsure : Inside::no;
@@ -226,14 +233,18 @@ class VertexSearch {
 
  private:
   bool test(std::uint32_t v) {
-    const Vector3d p = (origin_ + R_ * body_.vertex(v, t_)) / solid_.unit;
+    vertex_ = v;
+    return test_at(body_.vertex(v, t_));
+  }
+
+  bool test_at(const Vector3d& p_body) {
+    const Vector3d p = (origin_ + R_ * p_body) / solid_.unit;
     if (!bounds_.contains(p)) {
       return false;
     }
     WindingNumber winding(solid_, t_, p, error_);
     const Inside inside = winding.inside();
     doubt_ = doubt_ || inside == Inside::unsure;
-    vertex_ = v;
     crossed_ = winding.crossed();
     return inside == Inside::yes;
   }
@@ -294,6 +305,16 @@ Containment search(const Shape& body, VertexSearch search, bool vertex_of_A) {
   return found;
 }
 
+/// Looks for the origin of a convex set in a solid.
+Containment search(const ConvexCore& core, VertexSearch search, bool set_is_A) {
+  Containment found;
+  found.inside = search.at(core.origin);
+  found.vertex_of_A = set_is_A;
+  found.is_set = true;
+  found.face = search.crossed();
+  return found;
+}
+
 /// A vertex (index in the mesh) with the first triangle that has it.
 Feature vertex_feature(const Mesh& mesh, std::uint32_t vertex) {
   const auto has_it = [&](const std::array<std::uint32_t, 3>& t) {
@@ -319,22 +340,27 @@ Inside winds_around(const Hierarchy& surface, const Vector3d& p_CP, double error
 Containment find_containment(const Shape& A, const Shape& B, const MovingPair& pair,
                              const RelativeState& state) {
   const double error = 2.0 * pair.gap_error(state);  // Positions are turned once more.
+  const ConvexCore* set_A = pair.convex_A();
+  const ConvexCore* set_B = pair.convex_B();
+  if (set_A != nullptr && set_B != nullptr) {
+    return {};
+  }
   Containment in_A;
-  if (A.is_solid()) {
+  if (A.is_solid() && set_A == nullptr) {
     const Matrix3d R_AW = state.R_WA.transpose();
-    in_A = search(
-        B, {A.hierarchy(), B.hierarchy(), state.t, R_AW * state.R_WB, R_AW * state.p_AB, error},
-        false);
+    const VertexSearch look(A.hierarchy(), B.hierarchy(), state.t, R_AW * state.R_WB,
+                            R_AW * state.p_AB, error);
+    in_A = set_B != nullptr ? search(*set_B, look, false) : search(B, look, false);
     if (in_A.inside == Inside::yes) {
       return in_A;
     }
   }
   Containment in_B;
-  if (B.is_solid()) {
+  if (B.is_solid() && set_B == nullptr) {
     const Matrix3d R_BW = state.R_WB.transpose();
-    in_B = search(
-        A, {B.hierarchy(), A.hierarchy(), state.t, R_BW * state.R_WA, -(R_BW * state.p_AB), error},
-        true);
+    const VertexSearch look(B.hierarchy(), A.hierarchy(), state.t, R_BW * state.R_WA,
+                            -(R_BW * state.p_AB), error);
+    in_B = set_A != nullptr ? search(*set_A, look, true) : search(A, look, true);
   }
   return in_B.inside == Inside::no ? in_A : in_B;
 }
@@ -344,9 +370,12 @@ Contact make_contact(const ContactFrame& frame, const RelativeState& state,
   const Shape& body = found.vertex_of_A ? frame.A : frame.B;
   const Shape& solid = found.vertex_of_A ? frame.B : frame.A;
   const std::uint32_t face = solid.hierarchy().triangle_index[found.face];
-  const Vector3d v = body.hierarchy().vertex(found.vertex, state.t);
+  const Vector3d v = found.is_set ? Vector3d(-body.hierarchy().centre)
+                                  : body.hierarchy().vertex(found.vertex, state.t);
   Contact contact;
-  contact.feature_A = vertex_feature(body.mesh(), body.hierarchy().vertex_index[found.vertex]);
+  contact.feature_A =
+      found.is_set ? feature_at(body, Vector3d::Zero())
+                   : vertex_feature(body.mesh(), body.hierarchy().vertex_index[found.vertex]);
   contact.feature_B = {FeatureType::face, face, face};
   if (!found.vertex_of_A) {
     std::swap(contact.feature_A, contact.feature_B);

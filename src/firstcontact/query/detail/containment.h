@@ -26,6 +26,7 @@ enum class Inside { no, yes, unsure };
 struct Containment {
   Inside inside = Inside::no;
   bool vertex_of_A = false;  ///< Of B otherwise.
+  bool is_set = false;       ///< The origin of a convex set in place of a vertex.
   std::uint32_t vertex = 0;  ///< In the hierarchy's order.
   std::uint32_t face = 0;    ///< Triangle of the other body, in its hierarchy's order.
 };
@@ -35,6 +36,10 @@ struct Containment {
 /// Where the surfaces do not touch, the bodies have a point in common only if a whole component of
 /// one lies in the other: testing one vertex of each is enough. `no` and `yes` are proven;
 /// `unsure` only where a vertex is about as close to the surface as positions are rounded.
+///
+/// Two convex sets need no such look: their closest points tell it. Neither does a body in a convex
+/// set, as a triangle inside is at distance 0. For a convex set in a solid its own origin is
+/// tested.
 ///
 /// Derivation: take any ray from the point that meets no edge. The winding number of a closed
 /// surface around the point is how often the ray leaves through it, less how often it enters. The

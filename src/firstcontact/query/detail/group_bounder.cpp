@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 
-#include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/detail/box_pairs.h>
 #include <firstcontact/query/detail/lane_times.h>
 #include <firstcontact/query/detail/moving_pair.h>
@@ -116,13 +115,9 @@ unsigned GroupBounder::free_triangles(const BoxGroup& group, unsigned live, BoxB
     entry.b = b.child_triangle(k % HierarchyNode::kWidth);
     ++search_.work.triangle_pairs;
     ++search_.work.steps;
-    const TrianglePair triangles = search_.pair.place(instant.state(), entry.a, entry.b);
-    const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
-    if (closest.distance + instant.error() <= search_.limits.threshold + search_.limits.tolerance) {
-      continue;  // Perhaps the contact: followed when it is due.
-    }
-    const double tau = triangles_.step(entry, triangles, closest, instant.t());
-    done |= finishes(k, tau, bounds) ? 1u << k : 0u;
+    const double tau = triangles_.step_of(entry, instant.t());
+    // Where it is 0 perhaps the contact: followed when it is due.
+    done |= tau > 0.0 && finishes(k, tau, bounds) ? 1u << k : 0u;
   }
   return done;
 }

@@ -8,20 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <firstcontact/math/root_isolation.h>
 #include <firstcontact/query/detail/box_pairs.h>
 #include <firstcontact/query/detail/lane_times.h>
 #include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {
-
-/// t + tau rounded down (T. J. Dekker's two-sum tells the direction), for t, tau >= 0.
-inline double after(double t, double tau) {
-  const double sum = t + tau;
-  const double part = sum - t;
-  const double error = (t - (sum - part)) + (tau - part);
-  return error < 0.0 ? std::nextafter(sum, 0.0) : sum;
-}
 
 /// A group that the kernel is to bound: a new one, or again one of pairs that were well
 /// separated.

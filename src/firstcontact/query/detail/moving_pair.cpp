@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/math/root_isolation.h>
+#include <firstcontact/narrowphase/convex_pair.h>
 #include <firstcontact/query/detail/search_tuning.h>
 
 namespace firstcontact::detail {
@@ -83,6 +85,9 @@ PlacedBox place(const Hierarchy& hierarchy, BoxId box, double t, const Matrix3d&
 
 /// How far the box reaches from its centre.
 double extent_along(const PlacedBox& box, const Vector3d& n) {
+  if (box.core != nullptr) {
+    return n.dot(box.p_core) + box.core->support_bound(box.R_core.transpose() * n);
+  }
   return box.is_triangle ? (box.corners * n).maxCoeff() : box.extent.dot((box.axes * n).cwiseAbs());
 }
 
@@ -122,6 +127,55 @@ void for_each_direction(const PlacedBox& a, const PlacedBox& b, const Use& use) 
 
 }  // namespace
 
+namespace {
+
+/// Each support point of a hull looks at all of its corners.
+constexpr std::size_t kMostCorners = 64;
+
+bool has_small_set(const Shape& shape) {
+  const ConvexSet* set = shape.convex_set();
+  return set != nullptr && set->core().points.size() <= kMostCorners;
+}
+
+std::optional<ConvexCore> core_of(const Shape& shape, const Shape& partner) {
+  return is_asked_as_convex(shape, partner) ? std::optional(shape.convex_core()) : std::nullopt;
+}
+
+const Hierarchy& hierarchy_of(const Shape& shape, const Shape& partner) {
+  return is_asked_as_convex(shape, partner) ? shape.convex_hierarchy() : shape.hierarchy();
+}
+
+/// In place of the box around it.
+void place_core(const ConvexCore* core, const Matrix3d& R, const Vector3d& origin,
+                PlacedBox& placed) {
+  if (core != nullptr) {
+    placed.core = core;
+    placed.R_core = R;
+    placed.p_core = origin - placed.centre;
+    placed.is_triangle = false;
+  }
+}
+
+}  // namespace
+
+bool is_asked_as_convex(const Shape& shape, const Shape& partner) {
+  if (shape.hierarchy().deforms() || partner.hierarchy().deforms()) {
+    return false;
+  }
+  return shape.is_curved() || (partner.is_curved() && has_small_set(shape));
+}
+
+double enclosure_error(const Shape& A, const Shape& B) {
+  return (is_asked_as_convex(A, B) ? 0.0 : A.enclosure_error()) +
+         (is_asked_as_convex(B, A) ? 0.0 : B.enclosure_error());
+}
+
+MovingPair::MovingPair(const Shape& A, const Shape& B, const PairMotion& motion)
+    : MovingPair(hierarchy_of(A, B), hierarchy_of(B, A), motion) {
+  convex_A_ = core_of(A, B);
+  convex_B_ = core_of(B, A);
+}
+
 MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion& motion)
     : A_(A),
       B_(B),
@@ -131,18 +185,23 @@ MovingPair::MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion&
           (1.0 + 0x1p-50)) {}
 
 double MovingPair::gap_error(const RelativeState& state) const {
+  if (is_convex()) {
+    return convex_gap_error(state, A_.radius, B_.radius);
+  }
   return 0x1p-47 * (A_.radius + B_.radius + state.p_AB.norm()) + state.position_error +
          state.rotation_error_A * A_.radius + state.rotation_error_B * B_.radius;
 }
 
 PlacedBox MovingPair::place_A(const RelativeState& state, BoxId box) const {
   PlacedBox placed = detail::place(A_, box, state.t, state.R_WA, Vector3d::Zero(), state.p_AQa);
+  place_core(convex_A(), state.R_WA, Vector3d::Zero(), placed);
   placed.velocity += state.rate_A * state.axis_A.cross(placed.centre - state.p_AQa);
   return placed;
 }
 
 PlacedBox MovingPair::place_B(const RelativeState& state, BoxId box) const {
   PlacedBox placed = detail::place(B_, box, state.t, state.R_WB, state.p_AB, state.p_AQb);
+  place_core(convex_B(), state.R_WB, state.p_AB, placed);
   placed.velocity +=
       state.pivot_velocity + state.rate_B * state.axis_B.cross(placed.centre - state.p_AQb);
   return placed;

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Core>
 
+#include <firstcontact/geometry/convex_core.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/pair_motion.h>
 #include <firstcontact/narrowphase/advance.h>
@@ -35,8 +37,11 @@ struct PlacedBox {
   double reach = 0.0;  ///< [m]  Of any point of the box from its pivot, to the end of the step.
   Eigen::Vector3d velocity;  ///< [m per step]  Of the centre, relative to A's pivot.
   bool deforms = false;
-  Eigen::Vector3d growth;         ///< [m per step]  Of the extents.
-  Eigen::Matrix3d corner_growth;  ///< [m per step]  Of the corners, like them.
+  Eigen::Vector3d growth;            ///< [m per step]  Of the extents.
+  Eigen::Matrix3d corner_growth;     ///< [m per step]  Of the corners, like them.
+  const ConvexCore* core = nullptr;  ///< Of a convex set, which then counts in place of its box.
+  Eigen::Matrix3d R_core;            ///< [-]  From the axes of its frame.
+  Eigen::Vector3d p_core;            ///< [m]  The origin of its frame, from the centre.
 };
 
 /// Above a value >= 0, as the fields of a BoxFrame have to be. Above 0 too: at the very end of a
@@ -51,10 +56,21 @@ inline float below(double value) { return static_cast<float>(value - std::abs(va
 /// At most the value, and not negative.
 inline float round_down(double value) { return std::max(0.0f, below(value)); }
 
+/// Whether queries of a pair ask a shape as the convex set that it is, not by its triangles.
+[[nodiscard]] bool is_asked_as_convex(const Shape& shape, const Shape& partner);
+
+/// [m]  By how much triangles that are asked in place of curved bodies may stand out, of both.
+[[nodiscard]] double enclosure_error(const Shape& A, const Shape& B);
+
 class MovingPair {
  public:
   /// @param motion  that has entered a piece
   MovingPair(const Hierarchy& A, const Hierarchy& B, const PairMotion& motion);
+
+  /// Takes the convex set of a curved shape in place of its triangles, and then that of its partner
+  /// as well, where it has one of few points. A shape that deforms is asked by its triangles, and
+  /// so is its partner.
+  MovingPair(const Shape& A, const Shape& B, const PairMotion& motion);
 
   [[nodiscard]] const Hierarchy& A() const { return A_; }
   [[nodiscard]] const Hierarchy& B() const { return B_; }
@@ -64,7 +80,8 @@ class MovingPair {
   ///
   /// Derivation, u = 2^-53: a rotated vertex is within 31 u of its length (22 u for the matrix, 9 u
   /// for the product), the addition of p_AB and a dot product with a unit vector add 8 u of
-  /// R_A + R_B + |p_AB|; vertices were rounded to u / 2 when they were centred.
+  /// R_A + R_B + |p_AB|; vertices were rounded to u / 2 when they were centred. Of convex sets it
+  /// is convex_gap_error().
   [[nodiscard]] double gap_error(const RelativeState& state) const;
 
   [[nodiscard]] PlacedBox place_A(const RelativeState& state, BoxId box) const;
@@ -99,6 +116,11 @@ class MovingPair {
   [[nodiscard]] static double gap_along(const Eigen::Vector3d& n, const PlacedBox& a,
                                         const PlacedBox& b);
 
+  /// The convex core of a body, from its point C; null where its triangles are asked.
+  [[nodiscard]] const ConvexCore* convex_A() const { return convex_A_ ? &*convex_A_ : nullptr; }
+  [[nodiscard]] const ConvexCore* convex_B() const { return convex_B_ ? &*convex_B_ : nullptr; }
+  [[nodiscard]] bool is_convex() const { return convex_A_ || convex_B_; }  ///< One, or both.
+
   [[nodiscard]] bool deforms() const { return A_.deforms() || B_.deforms(); }
 
   /// Bounds boxes by bound_boxes(), or its like for bodies that deform, as the frame has it.
@@ -128,6 +150,8 @@ class MovingPair {
   const Hierarchy& B_;
   const PairMotion& motion_;
   double speed_bound_;
+  std::optional<ConvexCore> convex_A_;
+  std::optional<ConvexCore> convex_B_;
 };
 
 }  // namespace firstcontact::detail

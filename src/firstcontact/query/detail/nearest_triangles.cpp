@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/query/detail/convex_leaf.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -89,12 +90,19 @@ class NearestSearch {
 
   void try_triangles(const BoxPair& item) {
     ++work_.triangle_pairs;
-    const TrianglePair triangles = pair_.place(state_, item.triangle_A, item.triangle_B);
-    const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
+    const ClosestFeatures closest = closest_of(item);
     if (closest.distance < best_.distance && closest.distance <= options_.within) {
       best_ = {closest.distance, closest, item.triangle_A, item.triangle_B, best_.stopped};
       direction_ = (closest.p_B - closest.p_A).stableNormalized();
     }
+  }
+
+  [[nodiscard]] ClosestFeatures closest_of(const BoxPair& item) const {
+    if (pair_.is_convex()) {
+      return closest_features(pair_, state_, item.triangle_A, item.triangle_B, enough());
+    }
+    const TrianglePair triangles = pair_.place(state_, item.triangle_A, item.triangle_B);
+    return triangle_distance(triangles.A, triangles.B);
   }
 
   [[nodiscard]] double bound(const BoxesAtInstant::Lane& lane) const {

@@ -7,6 +7,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/narrowphase/advance.h>
 #include <firstcontact/narrowphase/advance_deforming.h>
+#include <firstcontact/narrowphase/convex_pair.h>
 #include <firstcontact/narrowphase/precise_linear_contact.h>
 #include <firstcontact/narrowphase/separating_direction.h>
 #include <firstcontact/query/detail/corner_lines.h>
@@ -17,6 +18,9 @@ namespace {
 /// Below this ratio of squared lengths the direction between two closest points is worse than the
 /// one that the features define.
 constexpr double kNearlyCoinciding = 0x1p-40;
+
+/// [-]  A direction whose gap is that part of the distance is as good as the best one.
+constexpr double kNearEnough = 0.75;
 
 /// Steps of one pair of triangles in a row; a dozen times what most take.
 constexpr int kPatience = 100;
@@ -31,6 +35,10 @@ double size2(const TrianglePair& pair) {
 
 void TriangleFollower::follow(TriangleEntry entry) {
   ++search_.work.triangle_pairs;
+  if (search_.pair.is_convex()) {
+    follow_convex(entry);
+    return;
+  }
   const SearchLimits& limits = search_.limits;
   PairInstant& instant = search_.instant;
   std::vector<OpenedPair>& opened = search_.workspace.opened_pairs;
@@ -84,6 +92,86 @@ void TriangleFollower::follow(TriangleEntry entry) {
   } while (t <= due && !search_.watch.may_be_spent(search_.steps()));
   entry.key = t;
   search_.queue.push(entry);
+}
+
+void TriangleFollower::follow_convex(TriangleEntry entry) {
+  const SearchLimits& limits = search_.limits;
+  PairInstant& instant = search_.instant;
+  const double due = search_.queue.empty() ? search_.horizon()
+                                           : search_.queue.top().priority() + search_.tie_window;
+  double t = entry.key;
+  ConvexGuess guess;
+  bool begins = true;
+  do {
+    if (search_.best.contact && t >= search_.best.t) {
+      return;  // Nothing of it is left before the contact.
+    }
+    ++search_.work.steps;
+    instant.move_to(t);
+    const ConvexLeaf leaf(search_.pair, instant.state(), entry.a, entry.b);
+    if (begins) {
+      guess = guess_of(leaf);
+      begins = false;
+    }
+    ConvexWanted wanted{.least = limits.threshold + instant.error(),
+                        .near = kNearEnough,
+                        .close = limits.threshold + 0.5 * limits.tolerance - instant.error()};
+    ConvexClosest closest = leaf.closest(wanted, guess);
+    double apart = closest.distance + instant.error();
+    double tau = convex_step(leaf, closest.n);
+    if (apart > limits.threshold + 0.5 * limits.tolerance && !(tau > 0.0)) {
+      // The search ended too early, as it began with unsuitable points.
+      guess.count = 0;
+      wanted.near = 1.0;
+      closest = leaf.closest(wanted, guess);
+      apart = closest.distance + instant.error();
+      tau = convex_step(leaf, closest.n);
+    }
+    if (apart <= limits.threshold + 0.5 * limits.tolerance) {
+      search_.found(entry, t, limits.threshold + limits.tolerance - apart);
+      return;
+    }
+    if (search_.covered(t, tau)) {
+      ++search_.freed;
+      return;
+    }
+    const double next = after(t, tau);
+    if (!(next > t)) {
+      if (apart <= limits.band) {
+        search_.found(entry, t, limits.band - apart);
+        return;
+      }
+      search_.unresolved = true;
+      break;
+    }
+    t = next;
+  } while (t <= due && !search_.watch.may_be_spent(search_.steps()));
+  entry.key = t;
+  search_.queue.push(entry);
+}
+
+double TriangleFollower::convex_step(const ConvexLeaf& leaf, const Eigen::Vector3d& n) const {
+  const PairInstant& instant = search_.instant;
+  return n.isZero(0.0)
+             ? 0.0
+             : advance_convex(instant.state(), leaf.A(), leaf.B(), n, search_.limits.threshold,
+                              instant.error(), search_.horizon());
+}
+
+double TriangleFollower::step_of(const TriangleEntry& entry, double t) const {
+  const SearchLimits& limits = search_.limits;
+  const PairInstant& instant = search_.instant;
+  const double within = limits.threshold + limits.tolerance;
+  if (search_.pair.is_convex()) {
+    const ConvexLeaf leaf(search_.pair, instant.state(), entry.a, entry.b);
+    ConvexGuess guess = guess_of(leaf);
+    const ConvexClosest closest = leaf.closest(
+        {.least = within, .near = kNearEnough, .close = within - instant.error()}, guess);
+    return closest.distance + instant.error() <= within ? 0.0 : convex_step(leaf, closest.n);
+  }
+  const TrianglePair triangles = search_.pair.place(instant.state(), entry.a, entry.b);
+  const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
+  return closest.distance + instant.error() <= within ? 0.0 : step(entry, triangles, closest, t);
 }
 
 bool TriangleFollower::decide_precisely(const TriangleEntry& entry, double t) {

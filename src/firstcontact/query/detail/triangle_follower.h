@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/query/detail/convex_leaf.h>
 #include <firstcontact/query/detail/search_state.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
@@ -17,7 +18,12 @@ class TriangleFollower {
   explicit TriangleFollower(SearchState& search) : search_(search) {}
 
   /// Advances a pair of triangles until it is in contact, leaves the step, or another pair is due.
+  /// One of them may stand for a convex set.
   void follow(TriangleEntry entry);
+
+  /// A certified step of a pair as it is placed at t, in the search's instant; 0 where it is within
+  /// threshold + tolerance.
+  [[nodiscard]] double step_of(const TriangleEntry& entry, double t) const;
 
   /// The longest certificate of the direction between the closest points and of the direction that
   /// the features define, which stays accurate when the points nearly coincide; should both fail,
@@ -28,6 +34,12 @@ class TriangleFollower {
                             const ClosestFeatures& closest, double t) const;
 
  private:
+  /// As follow(), of a convex set and a triangle.
+  void follow_convex(TriangleEntry entry);
+
+  /// The certified step of a convex set and a triangle along the direction n.
+  [[nodiscard]] double convex_step(const ConvexLeaf& leaf, const Eigen::Vector3d& n) const;
+
   /// Follows a pair of triangles to its contact or to the end, from t on, in double-double. False
   /// where that does not decide either.
   [[nodiscard]] bool decide_precisely(const TriangleEntry& entry, double t);

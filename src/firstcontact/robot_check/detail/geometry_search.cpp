@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <firstcontact/narrowphase/triangle_distance.h>
+#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -86,7 +87,10 @@ DistanceResult GeometrySearch::nearest(double t) {
   return detail::distance({A_, X_FA_}, {B_, X_FB_}, t, workspace_);
 }
 
-double GeometrySearch::distance_of_triangles(const Contact& contact, double t) const {
+double GeometrySearch::distance_of_triangles(const Contact& contact, double t) {
+  if (is_asked_as_convex(A_, B_) || is_asked_as_convex(B_, A_)) {
+    return nearest(t).distance;  // The triangles of a curved shape only enclose it.
+  }
   const auto placed = [t](const Shape& shape, const LinkMotion& X_FS, std::uint32_t triangle) {
     const LinkPose pose = X_FS.at(t).pose(t);
     const Mesh& mesh = shape.mesh();

@@ -82,6 +82,10 @@ struct ShapeMaker {
     return {make_cone(cone.radius, cone.length, cone.enclosure_error), {}};
   }
 
+  ShapeReading operator()(const EllipsoidShape& ellipsoid) const {
+    return {make_ellipsoid(ellipsoid.radii, ellipsoid.enclosure_error), {}};
+  }
+
   ShapeReading operator()(const ConvexHullShape& hull) const {
     const auto* file = std::get_if<MeshFile>(&hull.of);
     if (file == nullptr) {

@@ -80,6 +80,7 @@ class ShapeReader {
         {"box", {}, &ShapeReader::box},
         {"cylinder", {}, &ShapeReader::cylinder},
         {"cone", {}, &ShapeReader::cone},
+        {"ellipsoid", {}, &ShapeReader::ellipsoid},
         {"convex_hull", {"radius"}, &ShapeReader::convex_hull},
         {"points", {"scale", "radius"}, &ShapeReader::points},
         {"heightmap", {"radius"}, &ShapeReader::height_map}};
@@ -196,6 +197,25 @@ class ShapeReader {
 
   void cone(const JsonValue&, const JsonValue& value, BodyShape& result) {
     result.source = round_shape<ConeShape>(value);
+  }
+
+  void ellipsoid(const JsonValue&, const JsonValue& value, BodyShape& result) {
+    const JsonObject& object = read_.object(value, {{"radii", "enclosure_error"}});
+    const JsonValue& radii = read_.member(value, "radii");
+    EllipsoidShape shape{.radii = read_.vector3(radii), .enclosure_error = {}};
+    for (const JsonValue& radius : std::get<JsonArray>(radii.value)) {
+      (void)size(radius);
+    }
+    if (const JsonValue* enclosure_error = find(object, "enclosure_error")) {
+      shape.enclosure_error = read_.positive(*enclosure_error);
+      if (!(*shape.enclosure_error >= kLeastEllipsoidError * shape.radii.maxCoeff())) {
+        read_.fail_expected("at least 2e-4 of the greatest radius", *enclosure_error);
+      }
+    }
+    if (!(shape.radii.minCoeff() >= kFlattestEllipsoid * shape.radii.maxCoeff())) {
+      read_.fail_expected("a least radius of at least 1e-30 of the greatest", radii);
+    }
+    result.source = shape;
   }
 
   template <class Round>

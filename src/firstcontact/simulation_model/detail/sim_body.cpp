@@ -98,7 +98,7 @@ std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& li
   std::vector<SimBody> bodies;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
     const Body& described = loaded.scene.bodies[b];
-    SimBody body{.shape = loaded.bodies.shape(b)};
+    SimBody body{.shape = loaded.bodies.shape(b).as_triangles()};
     if (described.free && b >= first_link_body) {
       const LinkGeometryPose& geometry = linked.geometries[b - first_link_body];
       body.kind = BodyKind::free;

@@ -1,0 +1,17 @@
+/// @file
+/// First contact of two convex sets as a query asks it: over a part of a piece, within a budget.
+
+#pragma once
+
+#include <firstcontact/query/detail/contact_search.h>
+#include <firstcontact/query/detail/moving_pair.h>
+
+namespace firstcontact::detail {
+
+/// Searches [t_begin, t_end] as search_piece() does, without boxes.
+///
+/// @param pair  of two convex sets
+PieceResult search_convex_pair(const MovingPair& pair, double t_begin, double t_end,
+                               const SearchLimits& limits, WorkCount& work);
+
+}  // namespace firstcontact::detail
