@@ -5,13 +5,16 @@
 
 namespace firstcontact::app {
 
-/// Keeps what is freed for what is needed next: given back to the system, the tables of each step
-/// of a simulation would be mapped in anew, page by page (a seventh of its time).
+/// Keeps freed memory for what is needed next.
+///
+/// Else the tables of each step of a simulation go back to the system, and are mapped in anew page
+/// by page: a seventh of the time of a step.
 void keep_freed_memory();
 
-/// Takes half a MiB of stack while there is some. The system adds to the stack of the first thread
-/// page by page, and ends a process that has no address space left for the next one by a signal,
-/// where it might as well report that memory ran out.
+/// Takes half a MiB of stack while there is some.
+///
+/// The system adds to the stack of the first thread page by page. Where no address space is left
+/// for the next page a signal ends the process, and no message reports that memory ran out.
 void take_stack();
 
 }  // namespace firstcontact::app

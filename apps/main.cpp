@@ -14,6 +14,7 @@
 #include "exit_status.h"
 #include "freed_memory.h"
 #include "info_command.h"
+#include "plan_command.h"
 #include "simulate_command.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
@@ -50,6 +51,7 @@ ExitStatus run(int argc, char** argv) {
   app.require_subcommand(1);
   add_check_command(app, status);
   add_batch_command(app, status);
+  add_plan_command(app, status);
   add_simulate_command(app, status);
   add_verify_command(app, status);
   add_view_command(app);

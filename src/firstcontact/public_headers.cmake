@@ -37,12 +37,18 @@ set(public_headers
   firstcontact/scene/sample_gap.h
   firstcontact/scene/scene.h
   firstcontact/scene/version.h
+  firstcontact/planning/configuration_space.h
+  firstcontact/planning/edge_checker.h
+  firstcontact/planning/plan_path.h
+  firstcontact/planning/plan_scene.h
   firstcontact/trajectory_files/read_trajectory.h
   firstcontact/foreign_scenes/planning_scene.h
   firstcontact/foreign_scenes/read_rigid_ipc.h
   firstcontact/scene_files/read_claims.h
+  firstcontact/scene_files/read_planned_path.h
   firstcontact/scene_files/read_scene.h
   firstcontact/scene_files/robot_question.h
+  firstcontact/scene_files/write_planned_path.h
   firstcontact/scene_files/write_result.h
   firstcontact/scene_files/write_scene.h
   firstcontact/record/read_run.h
@@ -86,6 +92,8 @@ set(supporting_headers
   firstcontact/scene/body_shape.h
   firstcontact/scene/gap_bound.h
   firstcontact/scene/pair_counts.h
+  firstcontact/scene/plan_question.h
+  firstcontact/scene/planned_path.h
   firstcontact/scene/scene_robot.h
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h

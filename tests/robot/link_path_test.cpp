@@ -163,7 +163,7 @@ TEST(LinkPath, LargeOffsetsOfTheBaseCostNoPrecision) {
 struct WindowCase {
   ChainCase chain;
   LinkMotion motion;
-  LinkPart part;
+  RoundedBox box;
   double from = 0.0;
   double to = 0.0;
 };
@@ -174,11 +174,11 @@ WindowCase random_window(std::uint64_t seed, const ChainOptions& options, double
   LinkMotion motion = chain.motion.link(tip(chain));
   WindowCase w{std::move(chain), std::move(motion), {}, 0.0, 0.0};
   const Eigen::Matrix3d axes = random.rotation().toRotationMatrix();
-  w.part = {.centre = random.vector(0.0, 0.2),
-            .axes = axes,
-            .half_extents = {random.uniform(0.0, 0.1), random.uniform(0.0, 0.1),
-                             random.uniform(0.0, 0.1)},
-            .radius = random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.1)};
+  w.box = {.centre = random.vector(0.0, 0.2),
+           .axes = axes,
+           .half_extents = {random.uniform(0.0, 0.1), random.uniform(0.0, 0.1),
+                            random.uniform(0.0, 0.1)},
+           .radius = random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.1)};
   const auto& pieces = w.motion.pieces();
   const LinkPath& piece = pieces[static_cast<std::size_t>(random.uniform(0.0, 0.999) *
                                                           static_cast<double>(pieces.size()))];
@@ -204,13 +204,13 @@ WindowCase random_window(std::uint64_t seed, const ChainOptions& options, double
   return w;
 }
 
-/// Points of the part: corners of the box, moved on by the radius along n in the frame F.
-std::vector<Vector3d> extreme_points(const LinkPart& part) {
+/// Points of the box: its corners, moved on by the radius along n in the frame F.
+std::vector<Vector3d> extreme_points(const RoundedBox& box) {
   std::vector<Vector3d> points;
   for (int i = 0; i < 8; ++i) {
     const Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    points.push_back(part.centre +
-                     part.axes.transpose() * signs.cwiseProduct(part.half_extents) * (1.0 - 1e-15));
+    points.push_back(box.centre +
+                     box.axes.transpose() * signs.cwiseProduct(box.half_extents) * (1.0 - 1e-15));
   }
   return points;
 }
@@ -223,20 +223,20 @@ TEST(LinkWindow, NoPointOutrunsTheBound) {
     const double travel = std::array<double, 5>{1e-3, 0.01, 0.1, 1.0, 20.0}[seed % 5];
     const WindowCase w = random_window(seed, {.joints = 1 + static_cast<int>(seed % 12)}, travel);
     const LinkPath& path = w.motion.at(0.5 * (w.from + w.to));
-    const LinkWindow window = path.window(w.from, w.from, w.to, w.part, scratch);
+    const LinkWindow window = path.window(w.from, w.from, w.to, w.box, scratch);
     Random random(seed);
     const Vector3d n = (1.0 - 1e-15) * random.direction();
-    const DirectedBound bound = window.displacement(w.part, n);
-    const double speed = window.speed_bound(w.part, n);
-    const LinkPath::Swept swept = path.swept(w.from, w.from, w.to, w.part, scratch);
+    const DirectedBound bound = window.displacement(w.box, n);
+    const double speed = window.speed_bound(w.box, n);
+    const LinkPath::Swept swept = path.swept(w.from, w.from, w.to, w.box, scratch);
     if (travel <= 0.01) {  // Tight: the length of the chain, which it leaves out, says no more.
       ASSERT_LE(swept.speed, 1.05 * window.bounds().rate) << seed;
     }
-    const LinkWindow end = path.window(w.to, w.from, w.to, w.part, scratch);
-    const DirectedBound back = end.displacement_back(w.part, n);
+    const LinkWindow end = path.window(w.to, w.from, w.to, w.box, scratch);
+    const DirectedBound back = end.displacement_back(w.box, n);
     const auto chain = w.chain.exact(w.from);
-    for (Vector3d point : extreme_points(w.part)) {
-      point += (1.0 - 1e-15) * w.part.radius * random.direction();
+    for (Vector3d point : extreme_points(w.box)) {
+      point += (1.0 - 1e-15) * w.box.radius * random.direction();
       const auto start = oracle::exact_place(chain, Wide(w.from), exact_point(point));
       for (const double share : {1e-6, 0.01, 0.3, 0.7, 1.0}) {
         const double t = w.from + share * (w.to - w.from);
@@ -263,7 +263,7 @@ TEST(LinkWindow, NoPointOutrunsTheBound) {
   }
 }
 
-/// The greatest speed along n, and over all directions, of the part in the window.
+/// The greatest speed along n, and over all directions, of the box in the window.
 struct TrueSpeeds {
   double along = -1e300;
   double any = 0.0;
@@ -274,7 +274,7 @@ TrueSpeeds true_speeds(const WindowCase& w, const Vector3d& n) {
   const auto chain = w.chain.exact(w.from);
   for (int i = 0; i <= 4; ++i) {
     const double t = w.from + i * (w.to - w.from) / 4.0;
-    for (const Vector3d& point : extreme_points(w.part)) {
+    for (const Vector3d& point : extreme_points(w.box)) {
       const Vector3d v = rounded(oracle::nearly_exact_velocity(chain, t, exact_point(point)));
       speeds.along = std::max(speeds.along, n.dot(v));
       speeds.any = std::max(speeds.any, v.norm());
@@ -295,13 +295,13 @@ Excess excess_of_speed(const ChainOptions& options, double travel) {
   constexpr int kCases = 40;
   for (std::uint64_t seed = 0; seed < kCases; ++seed) {
     WindowCase w = random_window(seed, options, travel);
-    w.part.radius = 0.0;  // The corners are all there is.
+    w.box.radius = 0.0;  // The corners are all there is.
     const LinkPath& path = w.motion.at(0.5 * (w.from + w.to));
-    const LinkWindow window = path.window(0.5 * (w.from + w.to), w.from, w.to, w.part, scratch);
+    const LinkWindow window = path.window(0.5 * (w.from + w.to), w.from, w.to, w.box, scratch);
     Random random(seed);
     const Vector3d n = random.direction();
     const TrueSpeeds speeds = true_speeds(w, n);
-    const double over = (window.speed_bound(w.part, n) - speeds.along) / speeds.any;
+    const double over = (window.speed_bound(w.box, n) - speeds.along) / speeds.any;
     EXPECT_GE(over, -1e-9) << seed;
     excess.worst = std::max(excess.worst, over);
     excess.mean += over / kCases;

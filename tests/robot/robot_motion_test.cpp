@@ -91,10 +91,10 @@ TEST(RobotMotion, OneJointMovesNeighboursAgainstEachOtherOnly) {
       Motion::constant_velocity({}, {1e3, 0, 0}, {0, 50, 0}));
   const RelativeLinkMotion relative = motion.relative(1, 3);
   LinkScratch scratch;
-  const LinkPart part{.radius = 1.0};
-  EXPECT_EQ(relative.A.at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 0.0);
-  EXPECT_EQ(relative.B.at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 0.0);
-  EXPECT_GE(motion.link(3).at(0.5).window(0.5, 0.0, 1.0, part, scratch).bounds().rate, 1e3);
+  const RoundedBox ball{.radius = 1.0};
+  EXPECT_EQ(relative.A.at(0.5).window(0.5, 0.0, 1.0, ball, scratch).bounds().rate, 0.0);
+  EXPECT_EQ(relative.B.at(0.5).window(0.5, 0.0, 1.0, ball, scratch).bounds().rate, 0.0);
+  EXPECT_GE(motion.link(3).at(0.5).window(0.5, 0.0, 1.0, ball, scratch).bounds().rate, 1e3);
 }
 
 TEST(RobotMotion, TellsWhatItWasGiven) {

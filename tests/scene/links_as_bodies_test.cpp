@@ -92,7 +92,7 @@ class LinksOfRobots : public testing::Test {
     if (body < bodies) {
       return body;
     }
-    const LinkPiece& from = links.pieces.at(body - bodies);
+    const LinkGeometryPose& from = links.geometries.at(body - bodies);
     return first_member(given.scene, from.robot) + from.link;
   }
 
@@ -110,7 +110,7 @@ TEST_F(LinksOfRobots, StandBehindTheBodiesByTheirNames) {
                                              "one/bar#2", "one/tip", "one/tip#2", "two/base",
                                              "two/bar", "two/bar#2", "two/tip", "two/tip#2"}));
   EXPECT_EQ(names_with_links(given.scene), names);
-  EXPECT_EQ(links.pieces.size() + 3, names.size());
+  EXPECT_EQ(links.geometries.size() + 3, names.size());
   EXPECT_EQ(links.models.size(), 2u);
   EXPECT_TRUE(links.loaded.scene.robots.empty());
   EXPECT_FALSE(links.loaded.robots);
@@ -125,20 +125,20 @@ TEST_F(LinksOfRobots, AreWhereTheRobotHasThem) {
   const LinksAsBodies links = links_as_bodies(given);
   const double duration = given.scene.duration;
   ASSERT_EQ(duration, 1.5);
-  for (std::size_t k = 0; k < links.pieces.size(); ++k) {
-    const LinkPiece& piece = links.pieces[k];
+  for (std::size_t k = 0; k < links.geometries.size(); ++k) {
+    const LinkGeometryPose& geometry = links.geometries[k];
     const std::size_t body = given.scene.bodies.size() + k;
     const std::size_t member = member_of(given, links, body);
-    const bool has_dynamics = piece.robot == 0;
+    const bool has_dynamics = geometry.robot == 0;
     EXPECT_EQ(links.loaded.scene.bodies[body].free.has_value(), has_dynamics);
     for (const double seconds : {0.0, 0.4, 0.8, 1.2, 1.5}) {
       const double t = has_dynamics ? 0.0 : seconds / duration;
       const Pose X_WL = given.robots->pose(member, t);
       const Pose X_WG = links.loaded.bodies.motion(body).pose(seconds / duration);
-      const Vector3d expected = X_WL.position + X_WL.rotation.normalized() * piece.X_LG.position;
+      const Vector3d expected = X_WL.position + X_WL.rotation.normalized() * geometry.X_LG.position;
       EXPECT_LT((X_WG.position - expected).norm(), 1e-12) << k << " at " << seconds;
       EXPECT_LT(X_WG.rotation.normalized().angularDistance(X_WL.rotation.normalized() *
-                                                           piece.X_LG.rotation.normalized()),
+                                                           geometry.X_LG.rotation.normalized()),
                 1e-7);
     }
   }
@@ -220,16 +220,16 @@ TEST_F(LinksOfRobots, ShareTheMassOfTheirLink) {
     const LinkInertia whole = links.models[0].links()[link].inertia.value();
     double mass = 0.0;
     Matrix3d about_C = Matrix3d::Zero();
-    for (std::size_t k = 0; k < links.pieces.size(); ++k) {
-      const LinkPiece& piece = links.pieces[k];
-      if (piece.robot != 0 || piece.link != link) {
+    for (std::size_t k = 0; k < links.geometries.size(); ++k) {
+      const LinkGeometryPose& geometry = links.geometries[k];
+      if (geometry.robot != 0 || geometry.link != link) {
         continue;
       }
       const FreeBody& free = links.loaded.scene.bodies[k + 3].free.value();
-      const Matrix3d R_LG = piece.X_LG.rotation.normalized().toRotationMatrix();
+      const Matrix3d R_LG = geometry.X_LG.rotation.normalized().toRotationMatrix();
       mass += free.mass.value();
       about_C += R_LG * free.inertia.value() * R_LG.transpose();
-      const Vector3d p_LC = piece.X_LG.position + R_LG * free.centre_of_mass.value();
+      const Vector3d p_LC = geometry.X_LG.position + R_LG * free.centre_of_mass.value();
       EXPECT_LT((p_LC - whole.p_LC).norm(), 1e-14) << link;
     }
     EXPECT_NEAR(mass, whole.mass, 1e-12) << link;
@@ -260,7 +260,7 @@ TEST_F(LinksOfRobots, AreNoneWithoutRobots) {
   const LoadedScene given = test::load_text(
       test::scene(test::body("a") + "," + test::body("b", R"("dynamics": {"mass": 1})")));
   const LinksAsBodies links = links_as_bodies(given);
-  EXPECT_TRUE(links.pieces.empty());
+  EXPECT_TRUE(links.geometries.empty());
   EXPECT_TRUE(links.models.empty());
   EXPECT_EQ(links.loaded.bodies.size(), 2u);
   EXPECT_EQ(names_with_links(given.scene), (std::vector<std::string>{"a", "b"}));

@@ -1,4 +1,4 @@
-"""Pages name what the code has: the tables of measurements, and the keys of simulations and runs."""
+"""Pages name what the code has: tables of measurements, and keys of simulations, runs and paths."""
 
 import json
 import pathlib
@@ -40,7 +40,7 @@ class TablesOfMeasurements(unittest.TestCase):
         self.assertEqual(re.findall("^#.*$", written, re.MULTILINE), re.findall("^#.*$", self.text, re.MULTILINE))
 
 
-class KeysOfSimulations(unittest.TestCase):
+class KeysOfFiles(unittest.TestCase):
     def schema(self, name):
         file, = (PROJECT / "src" / "firstcontact").glob(f"*/schema/{name}.json")
         return json.loads(file.read_text(encoding="utf-8"))
@@ -60,6 +60,17 @@ class KeysOfSimulations(unittest.TestCase):
         for name, definition in run["$defs"].items():
             if "properties" in definition:
                 self.assertEqual(self.missing(definition, "run_format.md"), set(), name)
+
+    def test_of_a_path_are_explained(self):
+        path = self.schema("path")
+        self.assertEqual(self.missing(path, "path_format.md"), set())
+        for name, definition in path["$defs"].items():
+            if "properties" in definition:
+                self.assertEqual(self.missing(definition, "path_format.md"), set(), name)
+
+    def test_of_a_plan_are_explained(self):
+        plan = self.schema("scene")["properties"]["plan"]
+        self.assertEqual(self.missing(plan, "planning.md"), set())
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ import { angleAlong, motionAlong } from "./motion/way";
 import { Run } from "./run";
 
 /// A rigid geometry of a body, in a frame of its own; or the whole of a body that deforms.
-export interface Part {
+export interface BodyGeometry {
   readonly mesh: MeshData;
   readonly pose: Pose; ///< In the body.
   readonly radius: number; ///< [m] By which its triangles are thickened.
@@ -37,15 +37,16 @@ export interface Body {
   readonly label: string; ///< Within its robot.
   readonly robot: number | null;
   readonly kind: string; ///< How it moves, in a word or two.
-  readonly parts: readonly Part[]; ///< What was tested.
-  readonly looks: readonly Part[] | null; ///< What it looks like, where that differs.
+  readonly geometries: readonly BodyGeometry[]; ///< What was tested.
+  readonly looks: readonly BodyGeometry[] | null; ///< What it looks like, where that differs.
   readonly motion: Motion;
   readonly atRest: boolean;
   readonly angle: number; ///< [rad] No more than this is it turned over the whole step.
 }
 
 /// Some links have nothing that could be drawn.
-export const isDrawn = ({ parts, looks }: Body): boolean => parts.length > 0 || looks !== null;
+export const isDrawn = ({ geometries, looks }: Body): boolean =>
+  geometries.length > 0 || looks !== null;
 
 /// One coordinate of a joint over the step.
 export interface Coordinate {
@@ -86,7 +87,7 @@ function bodyOf(data: BodyData, index: number, mesh: MeshData, duration: number)
     label: data.name,
     robot: null,
     kind: kinds[motion?.type ?? "fixed"] ?? "",
-    parts: [{ mesh, pose: identity, radius: radiusOf(data), color: null, to }],
+    geometries: [{ mesh, pose: identity, radius: radiusOf(data), color: null, to }],
     looks: null,
     motion: motionOf(data, duration),
     atRest: isAtRest(data),
@@ -137,7 +138,7 @@ const cssColor = (color: Vector3): string =>
 
 function linksOf(robot: RobotData, index: number, first: number, meshes: readonly MeshData[]) {
   const motions = linkMotions(robot);
-  const part = ({ mesh, pose, radius = 0, color }: GeometryData): Part => ({
+  const shape = ({ mesh, pose, radius = 0, color }: GeometryData): BodyGeometry => ({
     mesh: meshes[mesh]!,
     pose: poseOf(pose),
     radius,
@@ -149,8 +150,8 @@ function linksOf(robot: RobotData, index: number, first: number, meshes: readonl
     name: `${robot.name}/${name}`,
     label: name,
     robot: index,
-    parts: collision.map(part),
-    looks: visual.length > 0 ? visual.map(part) : null,
+    geometries: collision.map(shape),
+    looks: visual.length > 0 ? visual.map(shape) : null,
     motion: motions[link]!,
     ...linkMotion(robot, link),
   }));
@@ -298,14 +299,14 @@ export class Model {
   }
 
   get triangleCount(): number {
-    const parts = this.bodies.flatMap((body) => body.parts);
-    return parts.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
+    const geometries = this.bodies.flatMap((body) => body.geometries);
+    return geometries.reduce((sum, { mesh }) => sum + mesh.triangles.length / 3, 0);
   }
 
   /// Whether any link looks different from what was tested, or has a colour of its own.
   get hasLooks(): boolean {
     return this.bodies.some(
-      ({ parts, looks }) => looks !== null || parts.some(({ color }) => color !== null),
+      ({ geometries, looks }) => looks !== null || geometries.some(({ color }) => color !== null),
     );
   }
 
@@ -319,7 +320,7 @@ export class Model {
   }
 
   /// The geometry of a body that touches.
-  partOf(contact: Contact, side: 0 | 1): Part {
-    return this.body(contact.bodies[side]).parts[contact.geometries?.[side] ?? 0]!;
+  geometryOf(contact: Contact, side: 0 | 1): BodyGeometry {
+    return this.body(contact.bodies[side]).geometries[contact.geometries?.[side] ?? 0]!;
   }
 }

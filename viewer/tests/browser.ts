@@ -153,7 +153,7 @@ declare global {
         bodies: {
           group: { matrix: { elements: number[] } };
           pieces: { group: { children: TouchingOfPage[] } }[];
-          parts: PieceOfPage[];
+          geometries: PieceOfPage[];
           looks: PieceOfPage[];
         }[];
         forces: {
@@ -176,7 +176,7 @@ interface TouchingOfPage {
   children: { material: { opacity: number; visible: boolean } }[];
 }
 interface PieceOfPage {
-  part: { mesh: MeshOfPage };
+  shape: { mesh: MeshOfPage };
   surface: SurfaceOfPage;
   shown: boolean;
 }

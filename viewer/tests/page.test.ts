@@ -254,9 +254,9 @@ describe.skipIf(!canLook)("the page", () => {
       page.evaluate(({ bodies, triangles }) => {
         const { model, view } = window.firstcontact;
         return [0, 1].map((side) => {
-          const { group, parts } =
+          const { group, geometries } =
             view.bodies[model.bodies.findIndex(({ name }) => name === bodies[side])]!;
-          const { mesh } = parts[0]!.part;
+          const { mesh } = geometries[0]!.shape;
           const m = group.matrix.elements;
           return [0, 1, 2].map((k) => {
             const vertex = mesh.triangles[3 * triangles[side]! + k]!;
@@ -287,7 +287,7 @@ describe.skipIf(!canLook)("the page", () => {
     const page = await show(bending);
     const vertices = () =>
       page.evaluate(() => {
-        const { surface } = window.firstcontact.view.bodies[1]!.parts[0]!;
+        const { surface } = window.firstcontact.view.bodies[1]!.geometries[0]!;
         const origin = surface.position.toArray();
         return [0, 1, 2, 3].map((k) => {
           const target = Object.assign(Object.create(Object.getPrototypeOf(surface.position)), {
@@ -508,8 +508,8 @@ describe.skipIf(!canLook)("the page", () => {
     const page = await show(arm);
     const shown = () =>
       page.evaluate(() =>
-        window.firstcontact.view.bodies.map(({ parts, looks }) =>
-          [parts, looks].map((pieces) => pieces.filter((piece) => piece.shown).length),
+        window.firstcontact.view.bodies.map(({ geometries, looks }) =>
+          [geometries, looks].map((pieces) => pieces.filter((piece) => piece.shown).length),
         ),
       );
     const button = page.getByRole("button", { name: "Visual in place of collision geometry" });
@@ -557,7 +557,7 @@ describe.skipIf(!canLook)("the page", () => {
     const page = await show(peg);
     const planes = () =>
       page.evaluate(() => {
-        const { material } = window.firstcontact.view.bodies[0]!.parts[0]!.surface;
+        const { material } = window.firstcontact.view.bodies[0]!.geometries[0]!.surface;
         return material.clippingPlanes.map(({ normal, constant }) => ({
           normal: normal.toArray(),
           constant,
@@ -596,7 +596,9 @@ describe.skipIf(!canLook)("the page", () => {
     const page = await show(arm);
     const opacities = () =>
       page.evaluate(() =>
-        window.firstcontact.view.bodies.map(({ parts }) => parts[0]?.surface.material.opacity),
+        window.firstcontact.view.bodies.map(
+          ({ geometries }) => geometries[0]?.surface.material.opacity,
+        ),
       );
     await page.getByRole("slider", { name: "Opacity of ball" }).fill("0.5");
     await page.getByRole("slider", { name: "Opacity of arm", exact: true }).fill("0.25");

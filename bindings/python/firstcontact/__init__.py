@@ -31,24 +31,25 @@ from ._core import (BodySet, ClosestApproach, ClosestApproachResult, Contact, Di
                     read_simulation_scene, read_srdf, read_trajectory, read_urdf, sample_gap,
                     verify_run, vertex_face_contact, weld, why_not_solid)
 from ._errors import ParseError
+from ._plan import EdgeChecker, plan
 from ._reports import (FileReport, LeftOut, MeshReading, PairCounts, PointReading,
                        UntestedPairs)
 from ._run import Run, read_run
 from ._simulate import simulate
-from ._tuples import (ContactInterval, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, Mimic, MovingShape, PlanningRequest, RobotGroup,
+from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
+                      LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RobotGroup,
                       RobotSemantics, RunContacts, RunImpacts, RunMoment, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
                      JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
 
 __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproach", "ClosestApproachResult", "Contact", "ContactInterval",
-    "ContactState", "DistanceResult", "ElementaryContact", "ElementaryVerdict", "EndEffector",
+    "ContactState", "DistanceResult", "EdgeAnswers", "EdgeChecker", "ElementaryContact", "ElementaryVerdict", "EndEffector",
     "Feature", "FeatureType", "FileReport", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
     "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
-    "PlanningRequest", "PointReading", "Pose",
+    "PlanAnswer", "PlanningRequest", "PointReading", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
@@ -58,7 +59,7 @@ __all__ = [
     "linear_vertex_face_contact", "load_scene", "make_box", "make_capsule", "make_cone",
     "make_convex_hull", "make_cylinder", "make_height_map", "make_point_cloud", "make_sphere",
     "move_vertices", "parse_obj", "parse_off", "parse_pcd", "parse_ply", "parse_ply_points",
-    "parse_scene", "parse_stl", "parse_xyz", "read_heights", "read_mesh", "read_mesh_file",
+    "parse_scene", "parse_stl", "parse_xyz", "plan", "read_heights", "read_mesh", "read_mesh_file",
     "read_points", "read_points_file",
     "read_request", "read_run", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
     "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",

@@ -7,8 +7,8 @@ import numpy.typing as npt
 
 from ._reports import FileReport, MeshReading, PairCounts, PointReading
 from ._trajectory import Columns
-from ._tuples import (ContactInterval, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, MovingShape, PlanningRequest, RobotSemantics, RunContacts, RunImpacts,
+from ._tuples import (ContactInterval, EdgeAnswers, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
+                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RobotSemantics, RunContacts, RunImpacts,
                       RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      Turning, UndecidedReason, Verdict)
@@ -761,6 +761,20 @@ class Simulator:
     @overload
     def step(self, stop: StopSource | None) -> RunStep | None: ...
     def resume(self, step: RunStep) -> None: ...
+
+class EdgeChecker:
+    def __init__(self, scene: Scene, *, extra_clearance: float = ..., effort: int = ...) -> None: ...
+    @property
+    def joints(self) -> list[str]: ...
+    @property
+    def start(self) -> _Doubles: ...
+    @property
+    def goals(self) -> _Doubles: ...
+    def check(self, start: _Numbers, end: _Numbers, *, threads: int = ...) -> EdgeAnswers: ...
+    def clearance(self, places: _Numbers) -> _Doubles: ...
+
+def plan(scene: Scene, *, planner: str | None, seed: int | None, time: float | None, shortcuts: int,
+         approximate: bool, threads: int, stop: StopSource | None) -> PlanAnswer: ...
 
 def verify_run(path: _Path, *, scripted_tolerance: float = ..., work: int = ..., threads: int = ...,
                progress: Callable[[float], object] | None = ...,

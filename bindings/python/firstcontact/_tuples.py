@@ -213,6 +213,41 @@ class RunImpacts(NamedTuple):
     """[N s]  m×3, on the second body."""
 
 
+class EdgeAnswers(NamedTuple):
+    """The answers about edges, in their order."""
+
+    free: npt.NDArray[np.bool_]
+    """Whether each is proven free over its whole length."""
+    undecided: npt.NDArray[np.bool_]
+    """Whether the effort was spent on it; then it is not free either."""
+    fraction: npt.NDArray[np.float64]
+    """So far each is proven free: up to its start plus this share of it, rounded."""
+    clearance: npt.NDArray[np.float64]
+    """[m]  Proven lower bound of the distance of all tested pairs until there; NaN without pairs."""
+
+
+class PlanAnswer(NamedTuple):
+    """A path that is proven edge by edge, or none."""
+
+    verdict: str
+    """``proven``; ``approximate``: so too, but it ends before a goal; ``none``."""
+    waypoints: npt.NDArray[np.float64]
+    """n×d: a place per row, from the start on; no rows without a path."""
+    clearance: npt.NDArray[np.float64]
+    """[m]  Of each edge: proven lower bound of the distance of all tested pairs."""
+    cost: float
+    """The length of the path, in rad and m alike; of a body in m."""
+    goal: int | None
+    """At which goal it ends."""
+    distance_to_goal: float
+    """Of its end, by the same length."""
+    blocked: tuple[tuple[str, str, int], ...]
+    """Pairs, and how many edges and places each ended; the most frequent first."""
+    warnings: tuple[str, ...]
+    json: str | None
+    """The path file, as the tool's ``firstcontact plan -o`` writes it."""
+
+
 class RunMoment(NamedTuple):
     """Two bodies at a moment of a run."""
 

@@ -21,6 +21,7 @@ PYBIND11_MODULE(_core, m) {
   bind_run(m);
   bind_simulator(m);
   bind_verify_run(m);
+  bind_planning(m);
 }
 
 }  // namespace firstcontact::python

@@ -17,10 +17,10 @@ namespace firstcontact {
 /// order. Of points in a plane it is their convex polygon, of points on a line a segment, of one
 /// point that point: a mesh that encloses nothing.
 ///
-/// Exact: every decision is the sign of a determinant taken exactly, so that no point lies outside,
-/// not even by a rounding (coordinates below 2^-300 of the greatest count as rounded to that).
-/// Takes O(n log n) for most inputs (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, "The quickhull
-/// algorithm for convex hulls", ACM TOMS 22, 1996).
+/// Every decision is the exact sign of a determinant: no point lies outside, not even by a
+/// rounding. Coordinates below 2^-300 of the greatest count as rounded to that. Takes O(n log n)
+/// for most inputs (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, "The quickhull algorithm for convex
+/// hulls", ACM TOMS 22, 1996).
 ///
 /// @param points  [m]  at least one, finite
 /// @throws std::invalid_argument if there is no point, or one is not finite

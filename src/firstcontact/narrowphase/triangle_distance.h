@@ -36,9 +36,9 @@ struct ClosestFeatures {
 
 /// Finds the closest points of two triangles.
 ///
-/// They always lie on the triangles, so that `distance` is an upper bound of the true distance up
-/// to a few units in the last place of the coordinates, whatever the shape of the triangles:
-/// needles, points, parallel, coplanar and piercing ones.
+/// They always lie on the triangles: `distance` is an upper bound of the true distance up to a few
+/// units in the last place of the coordinates. So it is for every shape of the triangles: needles,
+/// points, parallel, coplanar and piercing ones.
 ///
 /// Least over the nine pairs of edges and the six projections of a corner into a face; a pair that
 /// none of these decides pierces, which is tested by itself. Coordinates and sizes between 1e-70

@@ -20,9 +20,9 @@ struct LoadedScene;
 
 /// Collects a run, step after step, for the viewer's page (docs/viewer.md).
 ///
-/// The page holds the header word for word, of each step what is said of all bodies together, of
-/// each body the motion by all of its pieces, and of each contact bodies, point, impulse and
-/// distance. Times, positions and points are in double precision, what turns in single precision.
+/// The page holds the header word for word, the totals of each step, and the motion of each body
+/// by all of its pieces. A contact has its bodies, point, impulse and distance. Times, positions
+/// and points are in double precision, rotations in single precision.
 class FIRSTCONTACT_API RunPage {
  public:
   explicit RunPage(const RunHeader& header);

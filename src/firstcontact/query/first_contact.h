@@ -114,8 +114,8 @@ struct FirstContactResult : Outcome {
 /// Holds for the exact motions that the input defines, in the arithmetic as executed
 /// (docs/algorithm.md has the proof). Symmetric in A and B, and the same on every run.
 ///
-/// A body inside a solid one at t = 0 is `contact_at_start`, its contact the pair of a vertex that
-/// lies inside and a face of the solid, at distance 0. Nothing gets inside later without contact.
+/// A body inside a solid one at t = 0 is `contact_at_start`. Its contact is a vertex that lies
+/// inside and a face of the solid, at distance 0. Nothing gets inside later without contact.
 ///
 /// Thread-safe: the shapes and motions are only read; each thread brings its own workspace.
 ///

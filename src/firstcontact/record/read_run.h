@@ -16,8 +16,9 @@ namespace firstcontact {
 
 /// Reads the lines of a run in order; holds one of them at a time.
 ///
-/// Strict, as scenes are: a key that is missing, unknown or of the wrong type, a body that the
-/// scene does not have, a step out of order or pieces that do not end with their step are errors.
+/// Strict, as scenes are: a key that is missing, unknown or of the wrong type is an error. So are a
+/// body that the scene does not have, a step out of order, and pieces that do not end with their
+/// step.
 /// Doubles are those that were written, bit for bit.
 class FIRSTCONTACT_API RunReader {
  public:

@@ -20,7 +20,7 @@ struct RunHeader {
                 ///< that of the text that was simulated.
   std::string version;
   std::string input_digest;         ///< SHA-256 of everything read, in hexadecimal; may be empty.
-  std::vector<double> masses = {};  ///< [kg]  Of every body, pieces of links too; 0: not free.
+  std::vector<double> masses = {};  ///< [kg]  Of every body, link bodies too; 0: not free.
   std::vector<Eigen::Vector3d> centres_of_mass =
       {};  ///< [m]  p_BC of every body; pivots of the pieces.
 };

@@ -26,7 +26,7 @@ struct RunPiece {
 };
 
 /// A body at the end of a step, and how it got there. It is one of the scene, or behind them a
-/// piece of a link (LinksAsBodies). Bodies that rest at the scene's pose for the whole run have
+/// link body (LinksAsBodies). Bodies that rest at the scene's pose for the whole run have
 /// none.
 struct RunBody {
   std::size_t body = 0;

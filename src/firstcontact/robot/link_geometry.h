@@ -47,7 +47,7 @@ struct CapsuleGeometry {
 using GeometrySource =
     std::variant<MeshGeometry, BoxGeometry, SphereGeometry, CylinderGeometry, CapsuleGeometry>;
 
-/// One piece of a link, in a frame G of its own.
+/// One geometry of a link, in a frame G of its own.
 struct LinkGeometry {
   std::string name;  ///< May be empty.
   Pose X_LG = {};

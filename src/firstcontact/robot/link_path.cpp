@@ -69,7 +69,7 @@ LinkPose LinkPath::pose(double t, const DoubleDoubleVector3& p_FO) const {
   return detail::walk_along(joints_, t, p_FO).state().pose;
 }
 
-LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart& part,
+LinkWindow LinkPath::window(double t, double t_from, double t_to, const RoundedBox& box,
                             LinkScratch& scratch, const DoubleDoubleVector3& p_FO) const {
   assert(t_begin_ <= t_from && t_from <= t && t <= t_to && t_to <= t_end_);
   detail::ChainMemory& memory = scratch.memory();
@@ -85,7 +85,7 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   window.spin_ = cross_matrix(end.spin);
   window.spin_rate_ = cross_matrix(end.spin_rate) + window.spin_ * window.spin_;
   // A point at offset e: errors of its velocity and acceleration, and of their products with n.
-  const double e = (part.centre.norm() + part.reach()) * kUp;
+  const double e = (box.centre.norm() + box.reach()) * kUp;
   const double w = detail::rough_size(end.spin) + end.spin_error;
   const double turn = detail::rough_size(end.spin_rate) + end.spin_rate_error + w * w;
   const double relative = end.pose.rotation_error + 8.0 * kRounding;
@@ -99,9 +99,9 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
 
   const double T = std::max(t_to - t, t - t_from) * kUp;
   const LinkPose& pose = end.pose;
-  const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
-  const double reach = part.reach();
-  detail::ChainBounds chain(part.centre.norm() + reach, reach, T);
+  const Vector3d centre = pose.p_OL + pose.R_FL * box.centre;
+  const double reach = box.reach();
+  detail::ChainBounds chain(box.centre.norm() + reach, reach, T);
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
@@ -111,8 +111,8 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
     }
     const JointBounds& bounds = memory.bounds(walked.nodes[at], *joints_[k], t_from, t_to);
     const Vector3d arm = centre - place.p_OQ;
-    const double error = 2.0 * pose.position_error + (pose.rotation_error + 8.0 * kRounding) *
-                                                         (arm.norm() + part.centre.norm());
+    const double error = 2.0 * pose.position_error +
+                         (pose.rotation_error + 8.0 * kRounding) * (arm.norm() + box.centre.norm());
     chain.pass(bounds, arm.cross(place.axis).norm() + error, place.step, place.lever);
   }
   window.bounds_ = chain.bounds();
@@ -120,17 +120,17 @@ LinkWindow LinkPath::window(double t, double t_from, double t_to, const LinkPart
   return window;
 }
 
-LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const LinkPart& part,
+LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const RoundedBox& box,
                                 LinkScratch& scratch) const {
   const auto walked = scratch.memory().walk(joints_, t, {});
   const detail::ChainWalk& end = walked.end();
   const double T = std::max(t_to - t, t - t_from) * kUp;
   Swept swept;
   swept.pose = end.pose();
-  const Vector3d offset = swept.pose.R_FL * part.centre;
+  const Vector3d offset = swept.pose.R_FL * box.centre;
   const Vector3d centre = swept.pose.p_OL + offset;
   const double far = detail::rough_size(offset);
-  const double reach = part.reach();
+  const double reach = box.reach();
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
     const detail::PassedJoint& place = walked.nodes[at].passed;
@@ -149,7 +149,7 @@ LinkPath::Swept LinkPath::swept(double t, double t_from, double t_to, const Link
   return swept;
 }
 
-double LinkPath::tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
+double LinkPath::tracking_bound(double t, double t_from, double t_to, const RoundedBox& box,
                                 std::span<const TrackingError> errors, LinkScratch& scratch) const {
   assert(errors.size() == joints_.size());
   detail::ChainMemory& memory = scratch.memory();
@@ -157,8 +157,8 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
   const LinkState end = walked.end().state();
   const double T = std::max(t_to - t, t - t_from) * kUp;
   const LinkPose& pose = end.pose;
-  const Vector3d centre = pose.p_OL + pose.R_FL * part.centre;
-  double v = 0.0;  // Of the part's points, as seen from the child.
+  const Vector3d centre = pose.p_OL + pose.R_FL * box.centre;
+  double v = 0.0;  // Of the box's points, as seen from the child.
   double bound = 0.0;
   std::size_t at = walked.last;
   for (std::size_t k = joints_.size(); k-- > 0; at = walked.nodes[at].parent) {
@@ -167,11 +167,11 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
     const Vector3d arm = centre - place.p_OQ;
     const double error =
         2.0 * pose.position_error +
-        (pose.rotation_error + 8.0 * kRounding) * (arm.norm() + place.lever + part.centre.norm());
-    const double from_axis = arm.cross(place.axis).norm() + error + part.reach() + v * T;
+        (pose.rotation_error + 8.0 * kRounding) * (arm.norm() + place.lever + box.centre.norm());
+    const double from_axis = arm.cross(place.axis).norm() + error + box.reach() + v * T;
     const double rho = joints_[k]->has_axis()
                            ? from_axis
-                           : (centre - place.p_OL).norm() + error + part.reach() + v * T;
+                           : (centre - place.p_OL).norm() + error + box.reach() + v * T;
     const double chord = 2.0 * std::sin(0.5 * std::min(errors[k].angle, kHalfTurn));
     bound += (chord * rho + errors[k].distance) * kUp;
     v = (bounds.pivot.rate + v + bounds.angle.rate * from_axis) * kUp;
@@ -179,40 +179,39 @@ double LinkPath::tracking_bound(double t, double t_from, double t_to, const Link
   return bound * kUp;
 }
 
-double LinkWindow::support(const LinkPart& part, const Vector3d& n, const Vector3d& linear,
+double LinkWindow::support(const RoundedBox& box, const Vector3d& n, const Vector3d& linear,
                            const Matrix3d& angular) const {
   // n . (linear + angular e) for e in the box about R centre.
   const Vector3d pull = angular.transpose() * n;
-  const Vector3d along = part.axes * (pose_.R_FL.transpose() * pull);
-  return n.dot(linear) + pull.dot(pose_.R_FL * part.centre) +
-         part.half_extents.dot(along.cwiseAbs()) + part.radius * pull.norm();
+  const Vector3d along = box.axes * (pose_.R_FL.transpose() * pull);
+  return n.dot(linear) + pull.dot(pose_.R_FL * box.centre) +
+         box.half_extents.dot(along.cwiseAbs()) + box.radius * pull.norm();
 }
 
-DirectedBound LinkWindow::displacement(const LinkPart& part, const Vector3d& n) const {
-  return displacement(part, n, 1.0, t_to_ - t_);
+DirectedBound LinkWindow::displacement(const RoundedBox& box, const Vector3d& n) const {
+  return displacement(box, n, 1.0, t_to_ - t_);
 }
 
-DirectedBound LinkWindow::displacement_back(const LinkPart& part, const Vector3d& n) const {
-  return displacement(part, n, -1.0, t_ - t_from_);
+DirectedBound LinkWindow::displacement_back(const RoundedBox& box, const Vector3d& n) const {
+  return displacement(box, n, -1.0, t_ - t_from_);
 }
 
-DirectedBound LinkWindow::displacement(const LinkPart& part, const Vector3d& n, double direction,
+DirectedBound LinkWindow::displacement(const RoundedBox& box, const Vector3d& n, double direction,
                                        double T) const {
-  const double speed = support(part, n, direction * velocity_, direction * spin_) + speed_error_;
-  const double acceleration = support(part, n, acceleration_, spin_rate_) + acceleration_error_ +
+  const double speed = support(box, n, direction * velocity_, direction * spin_) + speed_error_;
+  const double acceleration = support(box, n, acceleration_, spin_rate_) + acceleration_error_ +
                               kUp * bounds_.jerk * T / 3.0;
   return {std::min(speed, bounds_.rate), std::min(acceleration, bounds_.acceleration)};
 }
 
-double LinkWindow::speed_bound(const LinkPart& part, const Vector3d& n) const {
+double LinkWindow::speed_bound(const RoundedBox& box, const Vector3d& n) const {
   double most = 0.0;
   bool first = true;
   for (const double dt : {t_from_ - t_, t_to_ - t_}) {
     // Between the two ends a maximum of linear functions is no greater than at one of them.
     const double size = std::abs(dt);
-    const double at_end =
-        support(part, n, velocity_ + dt * acceleration_, spin_ + dt * spin_rate_) + speed_error_ +
-        kUp * size * acceleration_error_;
+    const double at_end = support(box, n, velocity_ + dt * acceleration_, spin_ + dt * spin_rate_) +
+                          speed_error_ + kUp * size * acceleration_error_;
     most = first ? at_end : std::max(most, at_end);
     first = false;
   }

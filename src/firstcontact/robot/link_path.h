@@ -40,18 +40,20 @@ struct LinkState {
   double spin_rate_error = 0.0;
 };
 
-/// A part of a link: a box with any axes, thickened. A ball is a box without extent.
-struct LinkPart {
+/// A bound of a link or of one of its geometries: a box with any axes, rounded by a radius.
+///
+/// A ball is a box without extent.
+struct RoundedBox {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  In L.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< [-]  One per row, in L.
   Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< [m]
   double radius = 0.0;                                     ///< [m]
 
-  /// [m]  Covers the part from its centre; rounded up.
+  /// [m]  Covers the box from its centre; rounded up.
   [[nodiscard]] double reach() const { return (half_extents.norm() + radius) * (1.0 + 0x1p-50); }
 };
 
-/// A bound of the way that any point of a part gains along n from the window's time t on.
+/// A bound of the way that any point of a box gains along n from the window's time t on.
 ///
 /// In a time tau it is at most  speed tau + acceleration tau^2 / 2.
 struct DirectedBound {
@@ -67,13 +69,13 @@ class FIRSTCONTACT_API LinkWindow {
   [[nodiscard]] double t_to() const { return t_to_; }
   [[nodiscard]] const LinkPose& pose() const { return pose_; }
 
-  /// Bounds of the sizes of velocity, acceleration and jerk of every point of the window's part, at
+  /// Bounds of the sizes of velocity, acceleration and jerk of every point of the window's box, at
   /// every time of the window.
   [[nodiscard]] const CoordinateSegment::Bounds& bounds() const { return bounds_; }
 
-  /// [per metre]  The growth of the bounds with the distance from the part.
+  /// [per metre]  The growth of the bounds with the distance from the box.
   ///
-  /// A point of the link at a distance r from the part exceeds the bounds by r times these at most.
+  /// A point of the link at a distance r from the box exceeds the bounds by r times these at most.
   [[nodiscard]] const CoordinateSegment::Bounds& per_metre() const { return per_metre_; }
 
   /// The displacement along n, from t to t_to().
@@ -84,27 +86,27 @@ class FIRSTCONTACT_API LinkWindow {
   ///   n . (p(t + tau) - p(t)) <= n . v_P tau + (n . a_P + J T / 3) tau^2 / 2 for tau <= T.
   /// Where the bounds of size over the window are less, they are taken.
   ///
-  /// @param part  inside of the window's part
+  /// @param box  inside of the window's box
   /// @param n     [-]  in F; the bound holds for n as stored if its length is at most 1
-  [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n) const;
+  [[nodiscard]] DirectedBound displacement(const RoundedBox& box, const Eigen::Vector3d& n) const;
 
   /// A bound of the displacement along n from t back to t_from(): it holds for the motion in
   /// reverse.
-  [[nodiscard]] DirectedBound displacement_back(const LinkPart& part,
+  [[nodiscard]] DirectedBound displacement_back(const RoundedBox& box,
                                                 const Eigen::Vector3d& n) const;
 
-  /// [m per step]  A bound of the velocity along n of every point of the part, at every time of
+  /// [m per step]  A bound of the velocity along n of every point of the box, at every time of
   /// the window.
-  [[nodiscard]] double speed_bound(const LinkPart& part, const Eigen::Vector3d& n) const;
+  [[nodiscard]] double speed_bound(const RoundedBox& box, const Eigen::Vector3d& n) const;
 
  private:
   friend class LinkPath;
 
-  [[nodiscard]] DirectedBound displacement(const LinkPart& part, const Eigen::Vector3d& n,
+  [[nodiscard]] DirectedBound displacement(const RoundedBox& box, const Eigen::Vector3d& n,
                                            double direction, double T) const;
 
-  /// The greatest n . (linear + angular e) over the part's offsets e from the link's origin.
-  [[nodiscard]] double support(const LinkPart& part, const Eigen::Vector3d& n,
+  /// The greatest n . (linear + angular e) over the box's offsets e from the link's origin.
+  [[nodiscard]] double support(const RoundedBox& box, const Eigen::Vector3d& n,
                                const Eigen::Vector3d& linear, const Eigen::Matrix3d& angular) const;
 
   double t_ = 0.0;
@@ -115,7 +117,7 @@ class FIRSTCONTACT_API LinkWindow {
   Eigen::Vector3d acceleration_ = Eigen::Vector3d::Zero();  // Of the link's origin.
   Eigen::Matrix3d spin_ = Eigen::Matrix3d::Zero();          // [w]x
   Eigen::Matrix3d spin_rate_ = Eigen::Matrix3d::Zero();     // [al]x + [w]x [w]x
-  double speed_error_ = 0.0;                                // Of any point of the part at t.
+  double speed_error_ = 0.0;                                // Of any point of the box at t.
   double acceleration_error_ = 0.0;
   CoordinateSegment::Bounds bounds_;
   CoordinateSegment::Bounds per_metre_;
@@ -176,17 +178,17 @@ class FIRSTCONTACT_API LinkPath {
 
   struct Swept {
     LinkPose pose;       ///< At t.
-    double speed = 0.0;  ///< [m per step]  No point of the part is faster in the window.
+    double speed = 0.0;  ///< [m per step]  No point of the box is faster in the window.
   };
   /// A bound like the first of window(), whose derivation holds, at a fraction of the cost.
-  [[nodiscard]] Swept swept(double t, double t_from, double t_to, const LinkPart& part,
+  [[nodiscard]] Swept swept(double t, double t_from, double t_to, const RoundedBox& box,
                             LinkScratch& scratch) const;
 
   /// Bounds over [t_from, t_to], which contains t and lies in the piece.
   ///
-  /// Derivation: let rho be the greatest distance of the part from a joint's axis, w, e, f bounds
+  /// Derivation: let rho be the greatest distance of the box from a joint's axis, w, e, f bounds
   /// of the angle's derivatives and d1, d2, d3 of the pivot's. If v, a, j bound the derivatives of
-  /// the part's points as seen from the child, then as seen from the parent, as p = pivot +
+  /// the box's points as seen from the child, then as seen from the parent, as p = pivot +
   /// Rot(axis, angle) y,
   ///   v' <= d1 + v + w rho,
   ///   a' <= d2 + a + 2 w v + sqrt(e^2 + w^4) rho,
@@ -194,16 +196,16 @@ class FIRSTCONTACT_API LinkPath {
   /// from the tip to F. rho is the distance at t, and v T more; or the length of the chain beyond
   /// the axis, which holds for any angles.
   ///
-  /// @param part  the link, or as much of it as is of interest
-  [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const LinkPart& part,
+  /// @param box  around the link, or around as much of it as is of interest
+  [[nodiscard]] LinkWindow window(double t, double t_from, double t_to, const RoundedBox& box,
                                   LinkScratch& scratch, const DoubleDoubleVector3& p_FO = {}) const;
 
-  /// [m]  A bound of how far the part's points are from their places, with every joint within an
+  /// [m]  A bound of how far the box's points are from their places, with every joint within an
   /// error of its path.
   ///
   /// It holds at any time of [t_from, t_to].
   ///
-  /// Derivation: let e bound how far the part's points are from their places as seen from a child.
+  /// Derivation: let e bound how far the box's points are from their places as seen from a child.
   /// With the joint at its path they are as far as seen from the parent. An error of the angle
   /// moves what is at a distance rho from the axis by 2 sin(error / 2) rho, one of the slide by as
   /// much:
@@ -211,7 +213,7 @@ class FIRSTCONTACT_API LinkPath {
   /// from the tip to F, with rho as in window().
   ///
   /// @param errors  one for each joint of the path, from F on
-  [[nodiscard]] double tracking_bound(double t, double t_from, double t_to, const LinkPart& part,
+  [[nodiscard]] double tracking_bound(double t, double t_from, double t_to, const RoundedBox& box,
                                       std::span<const TrackingError> errors,
                                       LinkScratch& scratch) const;
 

@@ -86,7 +86,7 @@ class Links {
     }
     take_rules();
     result.loaded = load();
-    result.pieces = std::move(pieces_);
+    result.geometries = std::move(geometries_);
     return result;
   }
 
@@ -133,7 +133,7 @@ class Links {
       }
       bodies_of_[member].push_back(scene_.bodies.size());
       scene_.bodies.push_back(std::move(body));
-      pieces_.push_back({robot, link, geometry.X_MG});
+      geometries_.push_back({robot, link, geometry.X_MG});
     }
   }
 
@@ -278,7 +278,7 @@ class Links {
   const RobotScene& robots_;
   std::vector<std::vector<std::size_t>> bodies_of_;  // Of each member of the given scene.
   Scene scene_;
-  std::vector<LinkPiece> pieces_;
+  std::vector<LinkGeometryPose> geometries_;
 };
 
 }  // namespace
@@ -286,7 +286,7 @@ class Links {
 LinksAsBodies links_as_bodies(const LoadedScene& loaded) {
   LinksAsBodies result = loaded.robots
                              ? Links(loaded).run()
-                             : LinksAsBodies{.loaded = loaded, .pieces = {}, .models = {}};
+                             : LinksAsBodies{.loaded = loaded, .geometries = {}, .models = {}};
   result.loaded.pair_counts = count_simulated_pairs(loaded);
   return result;
 }

@@ -15,14 +15,14 @@
 namespace firstcontact {
 
 /// A geometry of a link, in its own frame G.
-struct LinkPiece {
+struct LinkGeometryPose {
   std::size_t robot = 0;  ///< Of the scene.
   std::size_t link = 0;   ///< Of its model.
   Pose X_LG = {};
 };
 
 /// A scene without robots that has the geometries of their links behind its bodies, in the order
-/// of robots, links and geometries.
+/// of robots, links and geometries: the link bodies.
 ///
 /// The first geometry of a link is called "robot/link", the others "robot/link#2" and so on. On a
 /// robot with dynamics it is a free body, with its share of the link's mass; on another one it
@@ -31,7 +31,7 @@ struct LinkPiece {
 /// Pairs are counted by links, as a simulation looks at them (count_simulated_pairs).
 struct LinksAsBodies {
   LoadedScene loaded;
-  std::vector<LinkPiece> pieces = {};  ///< Of the bodies behind those of the scene.
+  std::vector<LinkGeometryPose> geometries = {};  ///< Of the bodies behind those of the scene.
   std::vector<RobotModel> models =
       {};  ///< Of each robot; links have the mass that a density gives.
 };

@@ -26,10 +26,10 @@ struct WholeTurnJump {
 /// a motion. None where the trajectory takes the short way anyway.
 ///
 /// A step between neighbouring points is a jump if it is of more than half a turn, all angles of
-/// the joint lie within one turn, and the step is no motion. With velocities: the short way is
-/// nearer to what they make of the step. Without: the step is faster than the joint's velocity
-/// limit, the short way is not; or it is three times as fast as any other step, and the short way
-/// is not faster than others. Estimates: they decide nothing but a warning.
+/// the joint lie within one turn, and it is no motion. With velocities: the short way is nearer to
+/// their integral over the step. Without: the step is faster than the joint's velocity limit, the
+/// short way is not; or the step is three times as fast as any other one, and the short way is not
+/// faster than others. Estimates: they decide nothing but a warning.
 ///
 /// Joints that can turn by more than a whole turn wrap: continuous, planar, and revolute ones whose
 /// limits are farther apart; not those that mimic others.

@@ -17,6 +17,7 @@
 #include <firstcontact/scene_files/detail/read_dynamics.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pairs.h>
+#include <firstcontact/scene_files/detail/read_plan.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
 #include <firstcontact/scene_files/detail/read_robots.h>
 #include <firstcontact/scene_files/detail/read_shape.h>
@@ -299,8 +300,9 @@ const JsonObject* take_options(const JsonObject& object, bool lenient, Scene& sc
 Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read,
                const ReadingOptions& options) {
   require_version(root, read);
-  const JsonObject& object = read.object(root, {{"firstcontact", "id", "package_roots", "bodies",
-                                                 "robots", "pairs", "options", "simulation"}});
+  const JsonObject& object =
+      read.object(root, {{"firstcontact", "id", "package_roots", "bodies", "robots", "pairs",
+                          "options", "simulation", "plan"}});
   Scene scene;
   if (const JsonValue* id = find(object, "id")) {
     const auto* text = std::get_if<std::string>(&id->value);
@@ -310,6 +312,9 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   read_members(root, object, read_folders(object, source, read), scene, read);
   if (const JsonValue* pairs = find(object, "pairs")) {
     detail::read_pairs(*pairs, scene, read);
+  }
+  if (const JsonValue* plan = find(object, "plan")) {
+    scene.plan = detail::read_plan(*plan, scene, read);
   }
   const JsonValue* duration = given == nullptr ? nullptr : find(*given, "duration");
   const JsonValue* simulated = take_simulation(object, scene, read);

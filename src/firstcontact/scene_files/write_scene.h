@@ -16,8 +16,8 @@ struct Scene;
 /// Poses are written as position and quaternion, with every default. Inline meshes are embedded,
 /// mesh files named by their path as opened.
 ///
-/// Numbers are the shortest that read back to the same double, so that parse_scene with a source
-/// in the working directory gives the same scene bit for bit (but for its text digest).
+/// Numbers are the shortest that read back to the same double. With a source in the working
+/// directory parse_scene gives the same scene bit for bit, but for its text digest.
 [[nodiscard]] FIRSTCONTACT_API std::string write_scene(const Scene& scene);
 
 }  // namespace firstcontact

@@ -95,12 +95,12 @@ class Simulator::Implementation {
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
       const SimBody& body = model_.bodies[b];
       const bool is_free = body.kind == BodyKind::free;
-      header_.masses.push_back(!is_free     ? 0.0
-                               : body.piece ? scene.bodies[b].free->mass.value()
-                                            : body.inertia.mass);
+      header_.masses.push_back(!is_free         ? 0.0
+                               : body.link_body ? scene.bodies[b].free->mass.value()
+                                                : body.inertia.mass);
       header_.centres_of_mass.push_back(body.inertia.p_BC);
       RigidState state{.X_WB = loaded_.bodies.motion(b).pose(0.0)};
-      if (is_free && !body.piece) {
+      if (is_free && !body.link_body) {
         state.v_WC = scene.bodies[b].free->linear_velocity;
         state.w_WB = scene.bodies[b].free->angular_velocity;
         lock(body.inertia, state);
@@ -122,7 +122,7 @@ class Simulator::Implementation {
     if (body >= state_.states.size() || model_.bodies[body].kind != BodyKind::free) {
       throw std::invalid_argument("set_state: body " + std::to_string(body) + " is not free");
     }
-    if (model_.bodies[body].piece) {
+    if (model_.bodies[body].link_body) {
       throw std::invalid_argument("set_state: body " + std::to_string(body) +
                                   " is a link; move its robot");
     }
@@ -166,7 +166,7 @@ class Simulator::Implementation {
     try {
       follow_robots(states);
       require_apart(states, [&](std::size_t b) {
-        return model_.bodies[b].piece && model_.bodies[b].piece->robot == robot;
+        return model_.bodies[b].link_body && model_.bodies[b].link_body->robot == robot;
       });
     } catch (...) {
       state_.robots = std::move(robots);
@@ -289,7 +289,7 @@ class Simulator::Implementation {
     if (model_.bodies[body].kind != BodyKind::free) {
       throw std::invalid_argument(at + " is not free");
     }
-    if (model_.bodies[body].piece) {
+    if (model_.bodies[body].link_body) {
       throw std::invalid_argument(at + " is a link; " + mend);
     }
   }
@@ -372,11 +372,11 @@ class Simulator::Implementation {
     return robots;
   }
 
-  /// Puts the pieces of links where their joints have them.
+  /// Puts the link bodies where their joints have them.
   void follow_robots(std::vector<RigidState>& states) const {
     std::vector<std::size_t> pieces;
     for (std::size_t b = 0; b < states.size(); ++b) {
-      if (model_.bodies[b].piece) {
+      if (model_.bodies[b].link_body) {
         pieces.push_back(b);
       }
     }

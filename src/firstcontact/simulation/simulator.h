@@ -39,10 +39,10 @@ class FIRSTCONTACT_API Simulator {
   /// Prepares the simulation of a scene.
   ///
   /// @param loaded  with a simulation; the scene's margins keep pairs that much farther apart
-  /// @throws std::invalid_argument if there is no simulation, there are deforming bodies, two
-  ///         bodies meet at the start (names them), a body's mass cannot be found, a robot cannot
-  ///         be simulated (gives the reason), or the contact distance is larger than the smallest
-  ///         free body or too small to be proven
+  /// @throws std::invalid_argument  there is no simulation; there are deforming bodies; two bodies
+  ///         meet at the start (names them); a body's mass cannot be found; a robot cannot be
+  ///         simulated (gives the reason); the contact distance is larger than the smallest free
+  ///         body, or too small to be proven
   explicit Simulator(const LoadedScene& loaded);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -55,7 +55,7 @@ class FIRSTCONTACT_API Simulator {
   [[nodiscard]] double time() const;             ///< [s]  Simulated so far.
   [[nodiscard]] std::size_t step_count() const;  ///< Steps taken.
 
-  /// The states of every body of the scene, then of the pieces of links (LinksAsBodies).
+  /// The states of every body of the scene, then of the link bodies (LinksAsBodies).
   ///
   /// The velocities of fixed and scripted bodies are those of the last step.
   [[nodiscard]] const std::vector<RigidState>& states() const;
@@ -94,9 +94,8 @@ class FIRSTCONTACT_API Simulator {
   /// @param robot  among those that have dynamics
   /// @param joint  the name of a joint of one coordinate
   /// @param motor  with a target; times are those of the simulation
-  /// @throws std::invalid_argument if there is no such robot or joint, or the motor has no target,
-  /// a
-  ///         number is not finite or negative where it must not be, or times do not increase
+  /// @throws std::invalid_argument  there is no such robot or joint; the motor has no target; a
+  ///         number is not finite, or negative where it must not be; times do not increase
   void set_motor(std::size_t robot, std::string_view joint, const JointMotor& motor);
 
   /// The motor of a joint; none where it has none. Throws as set_motor().

@@ -17,7 +17,7 @@ import { GLTFExporter } from "three/examples/jsm/exporters/GLTFExporter.js";
 import type { Body, Model } from "../model";
 import type { BodyView } from "../view/body_view";
 import type { DrawnShape } from "../view/drawn_shape";
-import type { PartView } from "../view/part_view";
+import type { GeometryView } from "../view/geometry_view";
 
 const leastKeys = 61;
 const mostKeys = 2401;
@@ -46,7 +46,7 @@ function tracksOf(
   duration: number,
 ): KeyframeTrack[] {
   const seconds = keys.map((t) => t * duration);
-  if (body.parts[0]?.to) {
+  if (body.geometries[0]?.to) {
     return [
       new NumberKeyframeTrack(`${name}-surface.morphTargetInfluences[0]`, seconds, [...keys]),
     ];
@@ -73,11 +73,11 @@ function surfaceOf({ geometry, kind }: DrawnShape, color: string): Object3D {
     : new Mesh(geometry, new MeshStandardMaterial({ color, roughness: 0.6, metalness: 0.1 }));
 }
 
-function pieceOf({ part, drawn, surface, drawnColor }: PartView, name: string): Object3D {
+function pieceOf({ shape, drawn, surface, drawnColor }: GeometryView, name: string): Object3D {
   const look = surfaceOf(drawn, drawnColor);
   look.name = name;
   look.position.copy(surface.position);
-  const { position, rotation } = part.pose;
+  const { position, rotation } = shape.pose;
   const node = new Object3D();
   node.position.set(...position);
   node.quaternion.set(rotation[1], rotation[2], rotation[3], rotation[0]);

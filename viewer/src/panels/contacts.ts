@@ -12,7 +12,7 @@ const mostRows = 100;
 
 function featureText(model: Model, contact: Contact, side: 0 | 1): string {
   const { type, index } = contact.features[side];
-  const several = model.body(contact.bodies[side]).parts.length > 1;
+  const several = model.body(contact.bodies[side]).geometries.length > 1;
   const geometry = several ? ` of geometry ${contact.geometries?.[side] ?? 0}` : "";
   return `${model.shortName(contact.bodies[side])} ${type} ${index}${geometry}`;
 }

@@ -1,23 +1,24 @@
 /// One body on the screen: its pieces, and where they stand.
 
 import { Group } from "three";
-import type { Body, Part } from "../model";
+import type { Body, BodyGeometry } from "../model";
 import type { DrawnShapes } from "./drawn_shape";
-import { deform, PartView, setPose, type Style } from "./part_view";
+import { deform, GeometryView, setPose, type Style } from "./geometry_view";
 
 export class BodyView {
   readonly group = new Group();
   /// What was tested, and what the body looks like where that differs.
-  readonly parts: readonly PartView[];
-  readonly looks: readonly PartView[];
+  readonly geometries: readonly GeometryView[];
+  readonly looks: readonly GeometryView[];
 
   constructor(
     readonly body: Body,
     shapes: DrawnShapes,
     readonly color: string,
   ) {
-    const view = (part: Part): PartView => new PartView(part, shapes.of(part), color, body.index);
-    this.parts = body.parts.map(view);
+    const view = (shape: BodyGeometry): GeometryView =>
+      new GeometryView(shape, shapes.of(shape), color, body.index);
+    this.geometries = body.geometries.map(view);
     this.looks = (body.looks ?? []).map(view);
     this.group.name = body.name;
     this.pieces.forEach(({ group }) => this.group.add(group));
@@ -25,12 +26,12 @@ export class BodyView {
     this.show(0);
   }
 
-  get pieces(): readonly PartView[] {
-    return [...this.parts, ...this.looks];
+  get pieces(): readonly GeometryView[] {
+    return [...this.geometries, ...this.looks];
   }
 
   /// Those that are drawn now.
-  get shownPieces(): readonly PartView[] {
+  get shownPieces(): readonly GeometryView[] {
     return this.pieces.filter(({ shown }) => shown);
   }
 
@@ -42,7 +43,7 @@ export class BodyView {
   /// Shows what the body looks like, or what was tested.
   showLooks(looks: boolean): void {
     const differ = this.looks.length > 0;
-    this.parts.forEach((part) => (part.shown = !looks || !differ));
+    this.geometries.forEach((shape) => (shape.shown = !looks || !differ));
     this.looks.forEach((look) => (look.shown = looks));
     this.pieces.forEach((piece) => piece.setOwnColor(looks));
   }

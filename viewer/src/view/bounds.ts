@@ -2,7 +2,7 @@
 
 import { Box3, Sphere, Vector3 } from "three";
 import type { Vector3 as Point } from "../data/result";
-import type { Body, Part } from "../model";
+import type { Body, BodyGeometry } from "../model";
 import { place } from "../motion/motion";
 import { add, scale } from "../motion/vector";
 
@@ -11,26 +11,26 @@ const farApart = 2.5; // By the size of the way to the first touch.
 
 const size = (box: Box3): number => box.getSize(new Vector3()).length();
 
-/// The corners of boxes around the parts of a body, in its frame, at both ends of the step: in
+/// The corners of boxes around the geometries of a body, in its frame, at both ends of the step: in
 /// between, what deforms is in the box between them.
 interface Corners {
   readonly from: readonly Point[];
   readonly to: readonly Point[];
 }
 
-/// Around a part, in its frame.
-export function partBox({ mesh, radius }: Part): Box3 {
+/// Around a geometry, in its frame.
+export function geometryBox({ mesh, radius }: BodyGeometry): Box3 {
   return new Box3()
     .setFromArray(mesh.positions)
     .translate(new Vector3(...mesh.origin))
     .expandByScalar(radius);
 }
 
-function cornersOf(part: Part): Corners {
-  const { pose, radius, to } = part;
+function cornersOf(shape: BodyGeometry): Corners {
+  const { pose, radius, to } = shape;
   const around = ({ min, max }: Box3): Point[] =>
     corners(min, max).map((corner) => place(pose, corner.toArray()));
-  const from = around(partBox(part));
+  const from = around(geometryBox(shape));
   if (to === null) {
     return { from, to: from };
   }
@@ -47,8 +47,8 @@ export class Bounds {
   private readonly corners: readonly Corners[];
 
   constructor(private readonly bodies: readonly Body[]) {
-    this.corners = bodies.map(({ parts, looks }) => {
-      const all = [...parts, ...(looks ?? [])].map(cornersOf);
+    this.corners = bodies.map(({ geometries, looks }) => {
+      const all = [...geometries, ...(looks ?? [])].map(cornersOf);
       return { from: all.flatMap(({ from }) => from), to: all.flatMap(({ to }) => to) };
     });
   }

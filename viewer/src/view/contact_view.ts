@@ -17,7 +17,7 @@ import {
   Vector3,
 } from "three";
 import type { Contact } from "../data/result";
-import type { Body, Model, Part } from "../model";
+import type { Body, Model, BodyGeometry } from "../model";
 import { contactColor } from "./colors";
 import { cornersAt } from "./triangle";
 
@@ -65,26 +65,36 @@ function arrow(material: MeshBasicMaterial): Group {
 }
 
 /// All triangles of a body's part that touch something.
-function touchingTriangles(body: Body, part: Part, contacts: readonly Contact[]): number[] {
+function touchingTriangles(
+  body: Body,
+  shape: BodyGeometry,
+  contacts: readonly Contact[],
+): number[] {
   const touching = contacts.flatMap(({ bodies, triangles, geometries }) =>
     [0, 1]
-      .filter((side) => bodies[side] === body.name && body.parts[geometries?.[side] ?? 0] === part)
+      .filter(
+        (side) => bodies[side] === body.name && body.geometries[geometries?.[side] ?? 0] === shape,
+      )
       .map((side) => triangles[side]!),
   );
   return [...new Set(touching)];
 }
 
-/// In the frame of the mesh, so that the triangles move, and deform, with the part.
-export function touchingSurface(body: Body, part: Part, contacts: readonly Contact[]): Group {
+/// In the frame of the mesh, so that the triangles move, and deform, with the geometry.
+export function touchingSurface(
+  body: Body,
+  shape: BodyGeometry,
+  contacts: readonly Contact[],
+): Group {
   const group = new Group();
-  const touching = touchingTriangles(body, part, contacts);
+  const touching = touchingTriangles(body, shape, contacts);
   const cornersOfAll = (t: number): Float32Array =>
-    new Float32Array(touching.flatMap((triangle) => [...cornersAt(part, triangle, t)]));
+    new Float32Array(touching.flatMap((triangle) => [...cornersAt(shape, triangle, t)]));
   const positions = cornersOfAll(0);
   if (positions.length > 0) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
-    if (part.to) {
+    if (shape.to) {
       geometry.morphAttributes.position = [new BufferAttribute(cornersOfAll(1), 3)];
     }
     const fill = overlay(fillOpacity);
@@ -98,7 +108,7 @@ export function touchingSurface(body: Body, part: Part, contacts: readonly Conta
       group.add(mesh);
     });
   }
-  group.position.set(...part.mesh.origin);
+  group.position.set(...shape.mesh.origin);
   return group;
 }
 
@@ -190,7 +200,11 @@ export class ContactMarkers {
 /// How much of a contact's surroundings is worth seeing, from the sizes of its triangles.
 export function contactSize(model: Model, contact: Contact): number {
   const sizes = ([0, 1] as const).map((side) => {
-    const p = cornersAt(model.partOf(contact, side), contact.triangles[side], model.provenUntil);
+    const p = cornersAt(
+      model.geometryOf(contact, side),
+      contact.triangles[side],
+      model.provenUntil,
+    );
     const corner = (k: number): Vector3 => new Vector3().fromArray(p, 3 * k);
     return Math.max(
       corner(0).distanceTo(corner(1)),

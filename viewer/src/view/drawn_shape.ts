@@ -1,4 +1,4 @@
-/// What is drawn of a part: its triangles, or what these only stand for.
+/// What is drawn of a geometry: its triangles, or what these only stand for.
 
 import {
   BufferAttribute,
@@ -9,7 +9,7 @@ import {
   Vector3,
 } from "three";
 import type { MeshData } from "../data/page_data";
-import type { Part } from "../model";
+import type { BodyGeometry } from "../model";
 
 export interface DrawnShape {
   readonly geometry: BufferGeometry;
@@ -18,7 +18,7 @@ export interface DrawnShape {
 }
 
 /// The corners of a mesh that is one point or one edge: with a radius, a sphere or a capsule.
-function roundOf({ mesh, radius }: Part): readonly [Vector3, Vector3] | null {
+function roundOf({ mesh, radius }: BodyGeometry): readonly [Vector3, Vector3] | null {
   const { positions, triangles } = mesh;
   const ends = [...new Set(triangles)];
   if (radius === 0 || triangles.length !== 3 || ends.length === 3) {
@@ -79,12 +79,12 @@ function round([a, b]: readonly [Vector3, Vector3], radius: number): BufferGeome
 export class DrawnShapes {
   private readonly known = new Map<MeshData | string, DrawnShape>();
 
-  of(part: Part): DrawnShape {
-    const { mesh, radius, to } = part;
+  of(shape: BodyGeometry): DrawnShape {
+    const { mesh, radius, to } = shape;
     if (to) {
       return { geometry: deforming(mesh, to), origin: mesh.origin, kind: "triangles" };
     }
-    const ends = roundOf(part);
+    const ends = roundOf(shape);
     const key = ends ? JSON.stringify([ends, radius, mesh.origin]) : mesh;
     const drawn = this.known.get(key) ?? this.make(mesh, ends, radius);
     this.known.set(key, drawn);

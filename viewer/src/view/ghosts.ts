@@ -2,7 +2,7 @@
 
 import { Group } from "three";
 import type { BodyView } from "./body_view";
-import { dispose } from "./part_view";
+import { dispose } from "./geometry_view";
 
 const skins = 12;
 const mostTriangles = 3_000_000; // Of all skins together.
@@ -35,6 +35,6 @@ export class Ghosts {
 function skinCount(views: readonly BodyView[]): number {
   const triangles = views
     .flatMap(({ shownPieces }) => shownPieces)
-    .reduce((sum, { part }) => sum + part.mesh.triangles.length / 3, 0);
+    .reduce((sum, { shape }) => sum + shape.mesh.triangles.length / 3, 0);
   return Math.max(1, Math.min(skins, Math.floor(mostTriangles / Math.max(triangles, 1))));
 }

@@ -4,7 +4,7 @@ import { Box3, Quaternion, Ray, Vector3 } from "three";
 import type { Body, Model } from "../model";
 import { combine, place, unplace, type Pose } from "../motion/motion";
 import { conjugate, rotate } from "../motion/vector";
-import { partBox } from "./bounds";
+import { geometryBox } from "./bounds";
 
 /// From the front on the right, then around by turns to both sides; where z is up.
 const directions = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => {
@@ -21,13 +21,13 @@ interface Wall {
   readonly pose: Pose;
 }
 
-const wallsOf = ({ parts, motion }: Body): Wall[] =>
-  parts.map((part) => ({ box: partBox(part), pose: combine(motion(0), part.pose) }));
+const wallsOf = ({ geometries, motion }: Body): Wall[] =>
+  geometries.map((shape) => ({ box: geometryBox(shape), pose: combine(motion(0), shape.pose) }));
 
-/// The middles of a body's parts at some moments.
-const placesOf = ({ parts, motion }: Body): Vector3[] =>
-  parts.flatMap((part) => {
-    const middle = place(part.pose, partBox(part).getCenter(new Vector3()).toArray());
+/// The middles of a body's geometries at some moments.
+const placesOf = ({ geometries, motion }: Body): Vector3[] =>
+  geometries.flatMap((shape) => {
+    const middle = place(shape.pose, geometryBox(shape).getCenter(new Vector3()).toArray());
     return moments.map((t) => new Vector3(...place(motion(t), middle)));
   });
 

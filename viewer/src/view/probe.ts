@@ -12,7 +12,7 @@ import {
 } from "three";
 import { Signal } from "../core/signal";
 import type { Vector3 } from "../data/result";
-import type { Body, Part } from "../model";
+import type { Body, BodyGeometry } from "../model";
 import { place } from "../motion/motion";
 import { distance } from "../motion/vector";
 import { cornersAt, pointAt } from "./triangle";
@@ -35,20 +35,20 @@ export interface PlacedPoint {
 /// @param t      when
 export function probePoint(
   body: Body,
-  part: Part,
+  shape: BodyGeometry,
   triangle: number,
   local: Vector3,
   t: number,
 ): ProbePoint {
-  if (part.to === null) {
+  if (shape.to === null) {
     return { body, triangle, local: () => local };
   }
-  const corners = cornersAt(part, triangle, t);
+  const corners = cornersAt(shape, triangle, t);
   const corner = (k: number): V3 => new V3().fromArray(corners, 3 * k);
-  const relative = new V3(...local).sub(new V3(...part.mesh.origin));
+  const relative = new V3(...local).sub(new V3(...shape.mesh.origin));
   const weights = Triangle.getBarycoord(relative, corner(0), corner(1), corner(2), new V3());
   const kept = weights?.toArray() ?? [1, 0, 0]; // A triangle without area is a line.
-  return { body, triangle, local: (now) => pointAt(part, triangle, kept, now) };
+  return { body, triangle, local: (now) => pointAt(shape, triangle, kept, now) };
 }
 
 export class Probe {

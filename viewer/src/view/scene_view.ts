@@ -19,7 +19,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { MeshData } from "../data/page_data";
 import type { Contact, Vector3 as Triple } from "../data/result";
 import type { Display } from "../display";
-import type { Body, Model, Part } from "../model";
+import type { Body, Model, BodyGeometry } from "../model";
 import { unplace } from "../motion/motion";
 import type { Player } from "../player";
 import { BodyView } from "./body_view";
@@ -42,7 +42,7 @@ import { ForceMarkers } from "./force_view";
 import { Ghosts } from "./ghosts";
 import { Grid } from "./grid";
 import { homeDirection } from "./home_view";
-import { fieldOfView, type PartView, type Surface } from "./part_view";
+import { fieldOfView, type GeometryView, type Surface } from "./geometry_view";
 import { Probe, probePoint } from "./probe";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
@@ -156,10 +156,10 @@ export class SceneView {
 
   /// The edges take a while to find: first the picture, then its lines.
   addEdges(): void {
-    const lacking = ({ drawn, hasEdges }: PartView): boolean =>
+    const lacking = ({ drawn, hasEdges }: GeometryView): boolean =>
       drawn.kind === "triangles" && !hasEdges;
     for (const piece of this.bodies.flatMap(({ shownPieces }) => shownPieces).filter(lacking)) {
-      const { mesh } = piece.part;
+      const { mesh } = piece.shape;
       const edges = this.edges.get(mesh) ?? edgeGeometry(mesh, piece.surface.geometry);
       this.edges.set(mesh, edges);
       if (edges) {
@@ -229,10 +229,10 @@ export class SceneView {
     this.shownContacts = contacts;
     this.contactsAt = t;
     this.markers.show(contacts);
-    this.bodies.forEach(({ body, parts }) =>
-      parts.forEach(({ group, part }) => {
+    this.bodies.forEach(({ body, geometries }) =>
+      geometries.forEach(({ group, shape }) => {
         group.remove(...group.children.filter(({ name }) => name === "touching"));
-        const surface = touchingSurface(body, part, contacts);
+        const surface = touchingSurface(body, shape, contacts);
         surface.name = "touching";
         surface.visible = this.display.contacts.value;
         group.add(surface);
@@ -264,12 +264,12 @@ export class SceneView {
       this.probe.clear();
       return;
     }
-    const found = hit.object.userData as { body: number; part: Part };
+    const found = hit.object.userData as { body: number; shape: BodyGeometry };
     const body = this.model.bodies[found.body]!;
     const t = this.player.t.value;
     const triangle = hit.faceIndex ?? hit.index ?? 0;
     const local = unplace(body.motion(t), hit.point.toArray());
-    this.probe.add(probePoint(body, found.part, triangle, local, t), this.display.measure.value);
+    this.probe.add(probePoint(body, found.shape, triangle, local, t), this.display.measure.value);
   }
 
   /// Draws now, for a picture of it.
@@ -344,7 +344,7 @@ export class SceneView {
         this.forces.dots.visible = shown;
       }
       this.bodies
-        .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
+        .flatMap(({ geometries }) => geometries.flatMap(({ group }) => group.children))
         .filter(({ name }) => name === "touching")
         .forEach((surface) => (surface.visible = shown));
       this.requestFrame();
@@ -384,7 +384,7 @@ export class SceneView {
   private fadeContacts(nearness: number): void {
     this.markers.fade(nearness);
     this.bodies
-      .flatMap(({ parts }) => parts.flatMap(({ group }) => group.children))
+      .flatMap(({ geometries }) => geometries.flatMap(({ group }) => group.children))
       .filter(({ name }) => name === "touching")
       .forEach((surface) => fadeSurface(surface, nearness));
   }

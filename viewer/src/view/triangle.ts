@@ -1,12 +1,12 @@
-/// Where a triangle of a part is as the part's frame sees it.
+/// Where a triangle of a geometry is as the geometry's frame sees it.
 
 import type { Vector3 } from "../data/result";
-import type { Part } from "../model";
+import type { BodyGeometry } from "../model";
 
-/// The corners of a triangle, relative to the origin of the part's mesh.
+/// The corners of a triangle, relative to the origin of the geometry's mesh.
 ///
 /// @param t  when; a deforming body has them elsewhere at each moment
-export function cornersAt({ mesh, to }: Part, triangle: number, t: number): Float32Array {
+export function cornersAt({ mesh, to }: BodyGeometry, triangle: number, t: number): Float32Array {
   const { positions, triangles, origin } = mesh;
   const corners = new Float32Array(9);
   for (let k = 0; k < 3; ++k) {
@@ -18,11 +18,16 @@ export function cornersAt({ mesh, to }: Part, triangle: number, t: number): Floa
   return corners;
 }
 
-/// The point of a triangle with these weights of its corners, in the frame of the part.
-export function pointAt(part: Part, triangle: number, weights: Vector3, t: number): Vector3 {
-  const corners = cornersAt(part, triangle, t);
+/// The point of a triangle with these weights of its corners, in the frame of the geometry.
+export function pointAt(
+  shape: BodyGeometry,
+  triangle: number,
+  weights: Vector3,
+  t: number,
+): Vector3 {
+  const corners = cornersAt(shape, triangle, t);
   const coordinate = (i: number): number =>
-    part.mesh.origin[i]! +
+    shape.mesh.origin[i]! +
     weights[0] * corners[i]! +
     weights[1] * corners[3 + i]! +
     weights[2] * corners[6 + i]!;

@@ -84,10 +84,11 @@ struct BatchUnits {
 /// In which free velocities and responses are about one.
 [[nodiscard]] BatchUnits units_of(const ContactRows& rows);
 
-/// A problem of bodies that are no links, in batches. Where that leaves few lanes empty each body
-/// meets its contacts in the order of the rows, so that a sweep does what one over the rows does,
-/// but for rounding and what slides. The state of its solution is all impulses, batch by batch,
-/// then x.
+/// A problem of bodies that are no links, in batches.
+///
+/// Where few lanes stay empty each body meets its contacts in the order of the rows. A sweep then
+/// does what one over the rows does, but for rounding and contacts that slide. The state of its
+/// solution is all impulses, batch by batch, then x.
 template <class Number>
 class ContactBatches {
  public:

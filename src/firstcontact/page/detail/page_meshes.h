@@ -21,7 +21,7 @@ class PageMeshes {
   /// @param mesh  lives as long as this
   [[nodiscard]] std::size_t add(const Mesh& mesh);
 
-  /// Adds the mesh of a piece of a link and returns its number, the same for the same file and
+  /// Adds the mesh of a geometry of a link and returns its number, the same for the same file and
   /// scale.
   ///
   /// Reads the file if it is neither known nor loaded.

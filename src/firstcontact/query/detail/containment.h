@@ -36,8 +36,8 @@ struct Containment {
 /// one lies in the other: testing one vertex of each is enough. `no` and `yes` are proven;
 /// `unsure` only where a vertex is about as close to the surface as positions are rounded.
 ///
-/// Derivation: how often a closed surface winds around a point is the number of times that a ray
-/// from the point leaves through it, less that of entering (any ray that meets no edge). The
+/// Derivation: take any ray from the point that meets no edge. The winding number of a closed
+/// surface around the point is how often the ray leaves through it, less how often it enters. The
 /// signs of the volumes that decide are certified for all points within gap_error of the rounded
 /// ones; a ray that passes an edge too closely is given up for another.
 Containment find_containment(const Shape& A, const Shape& B, const MovingPair& pair,

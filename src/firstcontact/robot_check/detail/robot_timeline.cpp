@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kUp = 1.0 + 0x1p-44;
 
-LinkPart ball_around(const Shape& shape) {
+RoundedBox ball_around(const Shape& shape) {
   const Hierarchy& hierarchy = shape.hierarchy();
   return {.centre = hierarchy.centre, .radius = (hierarchy.radius + shape.radius()) * kUp};
 }
 
-LinkPart box_around(const Shape& shape) {
+RoundedBox box_around(const Shape& shape) {
   const ShapeBounds& bounds = shape.bounds();
   return {bounds.centre, bounds.axes, bounds.half_extents, shape.radius() * kUp};
 }
@@ -47,7 +47,7 @@ bool is_at_rest(const std::vector<std::shared_ptr<const JointPath>>& pieces) {
 
 }  // namespace
 
-double GeometryPath::tracking_bound(const LinkPart& ball, const TimeWindow& window) const {
+double GeometryPath::tracking_bound(const RoundedBox& ball, const TimeWindow& window) const {
   if (errors.empty()) {
     return rest_error;
   }
@@ -124,7 +124,7 @@ RobotTimeline::Seat RobotTimeline::carried_seat(const BodyStretch::Carried& carr
 }
 
 std::vector<RobotTimeline::Seat> RobotTimeline::seats_of_body(std::size_t member) const {
-  const LinkPart ball = ball_around(scene_.geometries(member)[0].shape);
+  const RoundedBox ball = ball_around(scene_.geometries(member)[0].shape);
   std::vector<Seat> seats;
   for (const BodyStretch& stretch : scene_.stretches(member)) {
     Seat seat;

@@ -24,8 +24,8 @@ struct BoundedGeometry {
   std::size_t member = 0;
   std::size_t index = 0;  ///< Among the geometries of the member.
   const Shape* shape = nullptr;
-  LinkPart ball;       ///< Around the shape, thickening included, in its frame S.
-  LinkPart box;        ///< So too.
+  RoundedBox ball;     ///< Around the shape, thickening included, in its frame S.
+  RoundedBox box;      ///< So too.
   double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
   bool rests = false;  ///< Over the whole step.
 };
@@ -44,7 +44,7 @@ struct GeometryPath {
   double rest_error = 0.0;            ///< [m]  Of a body that was put down.
 
   /// [m]  How far any point may be from its place in the window.
-  [[nodiscard]] double tracking_bound(const LinkPart& ball, const TimeWindow& window) const;
+  [[nodiscard]] double tracking_bound(const RoundedBox& ball, const TimeWindow& window) const;
 };
 
 /// The seat of a geometry over a piece of time: a link, or its own path in the world.

@@ -9,7 +9,7 @@ constexpr double kUp = 1.0 + 0x1p-40;
 
 }  // namespace
 
-SweptBall swept_ball(const LinkPart& ball, const GeometryPath& path, const TimeWindow& window,
+SweptBall swept_ball(const RoundedBox& ball, const GeometryPath& path, const TimeWindow& window,
                      LinkScratch& scratch) {
   const double middle = 0.5 * (window.begin + window.end);
   const auto [pose, speed] = path.X_FS.swept(middle, window.begin, window.end, ball, scratch);

@@ -19,7 +19,7 @@ struct SweptBall {
   double tracking_error = 0.0;  ///< [m]  Bounds that of the geometry; not in the radius.
 };
 
-[[nodiscard]] SweptBall swept_ball(const LinkPart& ball, const GeometryPath& path,
+[[nodiscard]] SweptBall swept_ball(const RoundedBox& ball, const GeometryPath& path,
                                    const TimeWindow& window, LinkScratch& scratch);
 
 /// [m]  A proven lower bound of the distance of two geometries throughout the window; may be

@@ -23,7 +23,7 @@ constexpr double kRounding = 0x1p-46;
 constexpr double kTimeRounding = 0x1p-51;
 
 void enclose(SweptGeometry& swept, std::span<const GeometryPlace> places) {
-  const LinkPart& box = swept.geometry->box;
+  const RoundedBox& box = swept.geometry->box;
   swept.low = Vector3d::Constant(std::numeric_limits<double>::infinity());
   swept.high = -swept.low;
   for (const GeometryPlace& place : places) {

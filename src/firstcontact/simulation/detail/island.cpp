@@ -72,7 +72,7 @@ class Island {
   [[nodiscard]] double tumbling_span() const {
     double greatest = 0.0;  // [rad/s^2]
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      if (!state_.member(k).piece) {
+      if (!state_.member(k).link_body) {
         greatest =
             std::max(greatest, tumbling_acceleration(state_.member(k).inertia, state_.states[k]));
       }
@@ -139,7 +139,7 @@ class Island {
       end.w_WB =
           turned_along(state_.member(k).inertia, begin.w_WB + t * (plan.at_end[k].w - begin.w_WB),
                        t * plan.moves[k].rotation_vector);
-      if (state_.member(k).piece) {
+      if (state_.member(k).link_body) {
         const ContactBody body = state_.robots.body(k);
         end.v_WC = body.v;
         end.w_WB = body.w;
@@ -231,8 +231,8 @@ class Island {
       }
     }
     for (std::size_t k = 0; k < state_.size(); ++k) {
-      const bool is_piece = state_.member(k).piece.has_value();
-      const ContactBody& body = is_piece ? state_.robots.body(k) : solution.bodies[k];
+      const bool is_link_body = state_.member(k).link_body.has_value();
+      const ContactBody& body = is_link_body ? state_.robots.body(k) : solution.bodies[k];
       state_.states[k].v_WC = body.v;
       state_.states[k].w_WB = body.w;
     }

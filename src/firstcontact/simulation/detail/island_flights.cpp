@@ -68,8 +68,8 @@ RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span) con
   flight.drives = drives_by_end(robot.robot->laws, robot.state, origin, span);
   flight.predicted.assign(flight.drives.size(), 0.0);
   flight.inverse_mass = std::move(there.inverse_mass);
-  for (PiecePlace& piece : there.pieces) {
-    flight.J.push_back(std::move(piece.J));
+  for (LinkPlace& link : there.links) {
+    flight.J.push_back(std::move(link.J));
   }
   return flight;
 }
@@ -100,8 +100,8 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
   View there = view_of(robot, flight.end);
   flight.velocities = flight.end.velocities;
   flight.inverse_mass = std::move(there.inverse_mass);
-  for (PiecePlace& piece : there.pieces) {
-    flight.J.push_back(std::move(piece.J));
+  for (LinkPlace& link : there.links) {
+    flight.J.push_back(std::move(link.J));
   }
   if (!is_driven) {
     return flight;
@@ -155,8 +155,8 @@ void IslandRobots::set(const std::vector<RobotFlight>& flights, ContactProblem& 
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const Robot& robot = robots_[r];
     const RobotFlight& flight = flights[r];
-    for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
-      ContactBody& body = problem.bodies[robot.pieces[k].member];
+    for (std::size_t k = 0; k < robot.links.size(); ++k) {
+      ContactBody& body = problem.bodies[robot.links[k].member];
       const Eigen::Matrix<double, 6, 1> V = flight.J[k] * flight.velocities;
       body.v = V.head<3>();
       body.w = V.tail<3>();

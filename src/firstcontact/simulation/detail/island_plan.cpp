@@ -1,6 +1,9 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
 
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation/detail/island_state.h>
@@ -44,6 +47,11 @@ ContactPoint along_way(const ActingContact& acting) {
   return contact;
 }
 
+std::size_t count_touches(const std::map<BodyPair, Manifold>& manifolds) {
+  return std::transform_reduce(manifolds.begin(), manifolds.end(), std::size_t{0}, std::plus{},
+                               [](const auto& entry) { return entry.second.touches.size(); });
+}
+
 }  // namespace
 
 IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
@@ -51,7 +59,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   flight.at_end = bodies_.bodies();
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const SimBody& body = state_.member(k);
-    if (body.piece) {
+    if (body.link_body) {
       flight.rotation_vectors.emplace_back(Vector3d::Zero());
       continue;  // Flies with its robot.
     }
@@ -79,15 +87,18 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
     state_.add_others(pair, bodies_);
   }
   set_bodies();
+  by_end_ = is_heap(state_, count_touches(state_.manifolds));
   for (const auto& [pair, manifold] : state_.manifolds) {
     const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {
       // What will bounce has to arrive first.
       const ContactPoint contact = contact_at(touch, bodies_, 0.0, 0.0);
       if (!state_.bounces(pair, -normal_velocity(contact, bodies_.bodies()))) {
-        acting_.push_back(
-            acting(touch, -state_.model.distances.way_to_rest(touch.gap, lowest) / span_));
-        append(touch, by_mean(acting_.back()));
+        // In a heap each touch stops where it is: solutions there are too rough for the nearest.
+        const double way =
+            state_.model.distances.way_to_rest(touch.gap, by_end_ ? touch.gap : lowest);
+        acting_.push_back(acting(touch, -way / span_));
+        append(touch, by_end_ ? along_way(acting_.back()) : by_mean(acting_.back()));
       }
     }
   }
@@ -113,7 +124,7 @@ void IslandPlanner::choose_rules() {
   std::vector<bool> by_end = robots_by_end_;
   for (const ContactPoint& contact : problem_.contacts) {
     for (const std::size_t place : contact.bodies) {
-      if (is_piece(place)) {
+      if (is_link_body(place)) {
         const std::size_t r = state_.robots.robot_of(place);
         by_end[r] = by_end[r] || closes || (contact.guess[0] > 0.0 && leaves(r));
       }
@@ -131,8 +142,8 @@ bool IslandPlanner::leaves(std::size_t robot) const {
   return state_.robots.change_of_way(robot, flights_[robot], span_) > state_.model.distances.least;
 }
 
-bool IslandPlanner::is_piece(std::size_t place) const {
-  return place < state_.size() && state_.member(place).piece;
+bool IslandPlanner::is_link_body(std::size_t place) const {
+  return place < state_.size() && state_.member(place).link_body;
 }
 
 void IslandPlanner::fly_robots() {
@@ -248,6 +259,8 @@ void IslandPlanner::add(const PredictedContact& ahead) {
   }
   if (*k >= first_ahead_) {
     keep_push_from(contact);
+  } else {
+    acting_[*k].is_replaced = true;
   }
   const ContactPoint& before = problem_.contacts[*k];
   contact.guess = contact.frame * (before.frame.transpose() * before.guess);
@@ -284,7 +297,7 @@ Plan IslandPlanner::plan() {
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
   const bool by_chords =
-      by_end_ && state_.robots.empty() && !is_heap(state_, problem_) && any_turns();
+      by_end_ && state_.robots.empty() && !is_heap(state_, problem_.contacts.size()) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
   const std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
@@ -309,7 +322,7 @@ std::vector<ManifoldPoint> IslandPlanner::touches() const {
 double IslandPlanner::drift_along(const BodyPair& pair, const ContactPoint& contact) const {
   double way = 0.0;
   for (int side = 0; side < 2; ++side) {
-    if (state_.model.bodies[pair[side]].piece) {
+    if (state_.model.bodies[pair[side]].link_body) {
       const std::size_t k = state_.place.at(pair[side]);
       const Move drift = state_.robots.drift(k, state_.states[k].X_WB);
       const Vector3d& arm = side == 0 ? contact.arm_A : contact.arm_B;
@@ -348,6 +361,11 @@ bool IslandPlanner::mean_is_allowed() const {
   return true;
 }
 
+/// Whether a contact acts when the plan begins, and no predicted one has taken its place.
+bool IslandPlanner::acts(std::size_t k) const {
+  return k < first_ahead_ && !acting_[k].is_replaced;
+}
+
 /// [m/s]  How much slower than its least the mean of a normal velocity may be.
 double IslandPlanner::slack_of_mean() const {
   return 2.0 * projection_options(state_, problem_).tolerance +
@@ -356,7 +374,7 @@ double IslandPlanner::slack_of_mean() const {
 
 /// [m/s]  The least normal velocity that a contact asks of the mean.
 double IslandPlanner::least_of_mean(std::size_t k) const {
-  return k < first_ahead_ ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
+  return acts(k) ? acting_[k].least : problem_.contacts[k].least_normal_velocity;
 }
 
 /// Whether a pair that slides now sticks from the first half of the plan on: the mean would let it
@@ -398,9 +416,11 @@ bool IslandPlanner::any_turns() const {
 ContactSolution IslandPlanner::along_chords() const {
   ContactProblem problem = problem_;
   for (std::size_t k = 0; k < first_ahead_; ++k) {
-    const Vector3d guess = problem.contacts[k].guess;
-    problem.contacts[k] = along_way(acting_[k]);
-    problem.contacts[k].guess = guess;
+    if (acts(k)) {
+      const Vector3d guess = problem.contacts[k].guess;
+      problem.contacts[k] = along_way(acting_[k]);
+      problem.contacts[k].guess = guess;
+    }
   }
   return project_way(state_, problem, span_).velocities;
 }
@@ -417,7 +437,7 @@ std::vector<bool> IslandPlanner::led_by_end() const {
   return by_end;
 }
 
-/// Those of pieces of links are their robots' matter.
+/// Those of link bodies are determined by their robots.
 ///
 /// @param by_end  whether the velocities at the end lead a body, or the mean of those at both ends
 /// @param after   at the end

@@ -36,8 +36,9 @@ struct ActingContact {
   MovedContact halfway = {};
   /// [m/s]  How much the geometry changes the velocities of now from halfway to the end.
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
-  bool is_held = false;  ///< It presses, or bodies rest there: it goes on with them.
-  double least = 0.0;    ///< [m/s]  Of the mean normal velocity over the plan.
+  bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
+  double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
+  bool is_replaced = false;  ///< By a predicted contact of the same features.
 };
 
 /// The motions of the bodies over the plan's span: the rest of the step, or less.
@@ -79,10 +80,11 @@ class IslandPlanner {
   };
 
   [[nodiscard]] FreeFlight free_flight() const;
+  [[nodiscard]] bool acts(std::size_t k) const;
   [[nodiscard]] double slack_of_mean() const;
   [[nodiscard]] double least_of_mean(std::size_t k) const;
   [[nodiscard]] bool leaves(std::size_t robot) const;
-  [[nodiscard]] bool is_piece(std::size_t place) const;
+  [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);

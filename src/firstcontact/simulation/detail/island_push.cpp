@@ -79,7 +79,8 @@ ContactSolution IslandPlanner::find_push() const {
     around_options.sweeps = kPushSweepsAround;
     ContactSolution around =
         re_solve(problem, {.bodies = problem.bodies}, too_near, around_options);
-    if (around.residual <= (is_heap(state_, problem) ? options.enough : options.tolerance)) {
+    if (around.residual <=
+        (is_heap(state_, problem.contacts.size()) ? options.enough : options.tolerance)) {
       return around;
     }
   }

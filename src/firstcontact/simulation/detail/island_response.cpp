@@ -43,7 +43,7 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
                  const std::vector<Eigen::VectorXd>& mechanisms) {
   double sum = kinetic_energy(problem.mechanisms, mechanisms);
   for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).piece) {
+    if (!state.member(k).link_body) {
       sum +=
           kinetic_energy(state.member(k).inertia, {state.states[k].X_WB, bodies[k].v, bodies[k].w});
     }
@@ -115,7 +115,7 @@ ContactSolution as_one_body(const IslandState& state, const ContactProblem& prob
     return centre_of_mass(state.member(k).inertia, state.states[k].X_WB);
   };
   for (std::size_t k = 0; k < state.size(); ++k) {
-    if (!state.member(k).piece) {
+    if (!state.member(k).link_body) {
       const Inertia& of_body = state.member(k).inertia;
       Matrix6d inertia = of_body.mass * Matrix6d::Identity();
       inertia.bottomRightCorner<3, 3>() = rotational_inertia(of_body, state.states[k].X_WB);
@@ -232,8 +232,8 @@ bool limit_energy(const IslandState& state, const ContactProblem& problem,
 }
 
 /// Whether sweeps alone would not do.
-bool has_many(const IslandState& state, const ContactProblem& problem) {
-  return problem.contacts.size() >= kHeapContacts && state.size() >= kHeapBodies;
+bool has_many(const IslandState& state, std::size_t contacts) {
+  return contacts >= kHeapContacts && state.size() >= kHeapBodies;
 }
 
 /// Whether no member moves by more than what the solver may leave.
@@ -273,13 +273,13 @@ bool is_solved(const IslandState& state, const ContactSolution& solution) {
 
 double exact_tolerance(const IslandState& state) { return of_gravity(state, kExactTolerance); }
 
-bool is_heap(const IslandState& state, const ContactProblem& problem) {
-  return has_many(state, problem) && !stands(state);
+bool is_heap(const IslandState& state, std::size_t contacts) {
+  return has_many(state, contacts) && !stands(state);
 }
 
 ProjectionOptions projection_options(const IslandState& state, const ContactProblem& problem) {
   const double exact = exact_tolerance(state);
-  if (has_many(state, problem)) {
+  if (has_many(state, problem.contacts.size())) {
     if (stands(state)) {
       return {.tolerance = exact};
     }
@@ -322,7 +322,7 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
                                                const ContactProblem& problem,
                                                const PlanSolution& before,
                                                const std::vector<std::size_t>& changed) {
-  if (!is_heap(state, problem) || !state.robots.empty() || before.is_limited) {
+  if (!is_heap(state, problem.contacts.size()) || !state.robots.empty() || before.is_limited) {
     return std::nullopt;
   }
   PlanSolution plan{

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace firstcontact::detail {
 
 struct IslandState;
 
-/// Whether many bodies touch at many places: such problems are solved less exactly.
-[[nodiscard]] bool is_heap(const IslandState& state, const ContactProblem& problem);
+/// Whether many bodies that move touch at many places: such problems are solved less exactly.
+[[nodiscard]] bool is_heap(const IslandState& state, std::size_t contacts);
 
 /// [m/s]  To which problems of few contacts are solved.
 [[nodiscard]] double exact_tolerance(const IslandState& state);

@@ -22,9 +22,9 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-Pose piece_pose(const SimBody& body, const MechanismInstant& instant) {
-  const Pose& X_WL = instant.X_WL[body.piece->link];
-  const Pose& X_LB = body.piece->X_LB;
+Pose link_body_pose(const SimBody& body, const MechanismInstant& instant) {
+  const Pose& X_WL = instant.X_WL[body.link_body->link];
+  const Pose& X_LB = body.link_body->X_LB;
   return {X_WL.position + X_WL.rotation * X_LB.position,
           (X_WL.rotation * X_LB.rotation.normalized()).normalized()};
 }
@@ -44,10 +44,10 @@ IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
   std::vector<std::size_t> numbers;  // Of the world, of each robot here.
   for (std::size_t k = 0; k < members.size(); ++k) {
     const SimBody& body = model.bodies[members[k]];
-    if (!body.piece) {
+    if (!body.link_body) {
       continue;
     }
-    const std::size_t number = body.piece->robot;
+    const std::size_t number = body.link_body->robot;
     const auto found = std::ranges::find(numbers, number);
     const auto r = static_cast<std::size_t>(found - numbers.begin());
     if (found == numbers.end()) {
@@ -56,8 +56,8 @@ IslandRobots::IslandRobots(const SimulationModel& model, const StepStart& start,
       robots_.back().track.robot = number;
       robots_.back().impact = VectorXd::Zero(model.robots[number].mechanism.size());
     }
-    place_[k] = {r, robots_[r].pieces.size()};
-    robots_[r].pieces.push_back({.member = k, .body = &body});
+    place_[k] = {r, robots_[r].links.size()};
+    robots_[r].links.push_back({.member = k, .body = &body});
   }
   for (const std::size_t number : bare) {
     robots_.push_back({.robot = &model.robots[number], .state = start.robots[number]});
@@ -76,18 +76,18 @@ IslandRobots::View IslandRobots::view_of(const Robot& robot, const MechanismStat
   view.inverse_mass = Mechanism::inverse_mass(mechanism.mass_matrix(instant));
   view.bias = mechanism.bias_forces(instant, model_.gravity);
   view.gravity_forces = view.bias - mechanism.bias_forces(instant, Vector3d::Zero());
-  if (robot.pieces.empty()) {
+  if (robot.links.empty()) {
     for (const Jacobian& J : instant.J) {
       view.turns.emplace_back(J.bottomRows<3>());
     }
   }
-  for (const Piece& piece : robot.pieces) {
-    PiecePlace place{piece_pose(*piece.body, instant), instant.J[piece.body->piece->link]};
+  for (const LinkMember& piece : robot.links) {
+    LinkPlace place{link_body_pose(*piece.body, instant), instant.J[piece.body->link_body->link]};
     const Vector3d arm = centre_of_mass(piece.body->inertia, place.X_WB) - instant.reference;
     for (Eigen::Index k = 0; k < place.J.cols(); ++k) {
       place.J.col(k).head<3>() += Vector3d(place.J.col(k).tail<3>()).cross(arm);
     }
-    view.pieces.push_back(std::move(place));
+    view.links.push_back(std::move(place));
   }
   return view;
 }
@@ -100,7 +100,7 @@ bool IslandRobots::has_motors() const {
 double IslandRobots::longest_span() const {
   double fastest = 0.0;  // [rad/s]
   for (const Robot& robot : robots_) {
-    for (const PiecePlace& piece : robot.now.pieces) {
+    for (const LinkPlace& piece : robot.now.links) {
       const Vector3d w = piece.J.bottomRows<3>() * robot.state.velocities;
       fastest = std::max(fastest, w.norm());
     }
@@ -117,26 +117,26 @@ std::optional<Vector3d> IslandRobots::free_base(std::size_t r) const {
              : std::nullopt;
 }
 
-const IslandRobots::PiecePlace& IslandRobots::piece_of(std::size_t member) const {
+const IslandRobots::LinkPlace& IslandRobots::place_of(std::size_t member) const {
   const auto& [robot, piece] = place_[member];
-  return robots_[robot].now.pieces[piece];
+  return robots_[robot].now.links[piece];
 }
 
 ContactBody IslandRobots::body(std::size_t member) const {
   const std::size_t r = place_[member][0];
-  const PiecePlace& piece = piece_of(member);
+  const LinkPlace& piece = place_of(member);
   const Eigen::Matrix<double, 6, 1> V = piece.J * robots_[r].state.velocities;
   return {.v = V.head<3>(), .w = V.tail<3>(), .link = MechanismLink{r, piece.J}};
 }
 
 RigidState IslandRobots::state(std::size_t member) const {
   const ContactBody moving = body(member);
-  return {piece_of(member).X_WB, moving.v, moving.w};
+  return {place_of(member).X_WB, moving.v, moving.w};
 }
 
 Move IslandRobots::drift(std::size_t member, const Pose& X_WB) const {
   const auto& [robot, piece] = place_[member];
-  return move_between(*robots_[robot].pieces[piece].body, X_WB, piece_of(member).X_WB,
+  return move_between(*robots_[robot].links[piece].body, X_WB, place_of(member).X_WB,
                       Vector3d::Zero());
 }
 
@@ -251,8 +251,8 @@ std::vector<bool> IslandRobots::led_by_end(const ContactProblem& problem,
       led[r] = flights[r].by_end;
       continue;
     }
-    led[r] =
-        std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
+    led[r] = std::ranges::any_of(robot.links,
+                                 [&](const LinkMember& piece) { return by_end[piece.member]; });
     std::vector<double> drives = drives_of(r, problem, solution);
     for (std::size_t k = 0; k < drives.size(); ++k) {
       const JointDrive& drive = flights[r].drives[k];
@@ -282,8 +282,8 @@ std::vector<RobotPlan> IslandRobots::plan(const ContactProblem& problem,
     const RobotFlight& flight = flights[r];
     const Mechanism& mechanism = robot.robot->mechanism;
     const VectorXd v = balanced(r, flight, outer[r], solution.mechanisms[r]);
-    const bool end_leads =
-        std::ranges::any_of(robot.pieces, [&](const Piece& piece) { return by_end[piece.member]; });
+    const bool end_leads = std::ranges::any_of(
+        robot.links, [&](const LinkMember& piece) { return by_end[piece.member]; });
     const VectorXd changed = v - flight.end.velocities;
     VectorXd positions = flight.by_end ? mechanism.moved(flight.end.positions, span * changed)
                          : end_leads   ? mechanism.moved(robot.state.positions, span * v)
@@ -341,10 +341,11 @@ void IslandRobots::set_moves(const std::vector<RobotPlan>& plans,
     const Robot& robot = robots_[r];
     const MechanismInstant there = robot.robot->mechanism.at(plans[r].end);
     const VectorXd mean = 0.5 * (robot.state.velocities + plans[r].end.velocities);
-    for (std::size_t k = 0; k < robot.pieces.size(); ++k) {
-      const auto& [member, body] = robot.pieces[k];
-      const Vector3d w = (robot.now.pieces[k].J * mean).tail<3>();
-      moves[member] = move_between(*body, states[member].X_WB, piece_pose(*body, there), span * w);
+    for (std::size_t k = 0; k < robot.links.size(); ++k) {
+      const auto& [member, body] = robot.links[k];
+      const Vector3d w = (robot.now.links[k].J * mean).tail<3>();
+      moves[member] =
+          move_between(*body, states[member].X_WB, link_body_pose(*body, there), span * w);
     }
   }
 }

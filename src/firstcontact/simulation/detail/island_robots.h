@@ -50,7 +50,7 @@ struct RobotFlight {
   MechanismState end = {};
   Eigen::VectorXd velocities = {};      ///< Without contacts and the changes of drives.
   Eigen::MatrixXd inverse_mass = {};    ///< At the end, as
-  std::vector<Jacobian> J = {};         ///< of each piece.
+  std::vector<Jacobian> J = {};         ///< of each link body.
   std::vector<JointDrive> drives = {};  ///< Of the changes of impulses.
   std::vector<double> predicted = {};   ///< [N m s or N s]  Impulses in the flight, of each drive.
   PositionRule rule = {};
@@ -73,14 +73,14 @@ struct RobotPlan {
 
 /// Robots whose links are members of one island.
 ///
-/// Within a plan every piece of a link moves at constant rates from where it is to where the
+/// Within a plan every link body moves at constant rates from where it is to where the
 /// joints have it at the plan's end. Between the ends joints come apart by the sagitta of an arc, a
-/// quantity of second order in the plan's time. Where a plan is cut short, pieces stay off by as
-/// much, and the next plan makes up for it.
+/// quantity of second order in the plan's time. Where a plan is cut short, link bodies stay off by
+/// as much, and the next plan makes up for it.
 class IslandRobots {
  public:
-  /// @param members  of the island; all pieces of a robot's links, or none
-  /// @param bare     robots of the island whose links have no pieces
+  /// @param members  of the island; all link bodies of a robot, or none
+  /// @param bare     robots of the island without link bodies
   IslandRobots(const SimulationModel& model, const StepStart& start,
                const std::vector<std::size_t>& members, const std::vector<std::size_t>& bare = {});
 
@@ -93,14 +93,14 @@ class IslandRobots {
   /// So mass matrices and Jacobians change little in it. Infinite where nothing turns.
   [[nodiscard]] double longest_span() const;
 
-  /// How a member that is a piece of a link takes part in a contact problem; velocities are those
+  /// How a link body takes part in a contact problem; velocities are those
   /// of its robot now.
   [[nodiscard]] ContactBody body(std::size_t member) const;
 
   /// Where the joints have a member, and how it moves.
   [[nodiscard]] RigidState state(std::size_t member) const;
 
-  /// [m, rad]  From where a piece is to where its joints have it now.
+  /// [m, rad]  From where a link body is to where its joints have it now.
   [[nodiscard]] Move drift(std::size_t member, const Pose& X_WB) const;
 
   /// Adds the mechanisms as they move now.
@@ -111,7 +111,7 @@ class IslandRobots {
   /// [m]  Where the free base of a robot is; nothing of one that is held.
   [[nodiscard]] std::optional<Eigen::Vector3d> free_base(std::size_t robot) const;
 
-  /// The robot of a member that is a piece of a link, here.
+  /// The robot of a link body, here.
   [[nodiscard]] std::size_t robot_of(std::size_t member) const { return place_[member][0]; }
 
   /// Finds the flights over a span that are not known, or not of the kind that is wanted.
@@ -171,7 +171,7 @@ class IslandRobots {
   /// Adds displacements of coordinates, in order of robots.
   void displace(const std::vector<Eigen::VectorXd>& by, std::vector<RobotPlan>& plans) const;
 
-  /// Sets the moves that lead the members that are pieces of links to where a plan has them.
+  /// Sets the moves that lead the link bodies to where a plan has them.
   void set_moves(const std::vector<RobotPlan>& plans, const std::vector<RigidState>& states,
                  double span, std::vector<Move>& moves) const;
 
@@ -190,18 +190,18 @@ class IslandRobots {
 
  private:
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-  struct Piece {
+  struct LinkMember {
     std::size_t member;
     const SimBody* body;
   };
-  struct PiecePlace {
+  struct LinkPlace {
     Pose X_WB = {};   // As the joints have it.
     Jacobian J = {};  // Of (v_WC, w_WB).
   };
   /// A robot in one state.
   struct View {
-    std::vector<PiecePlace> pieces = {};
-    std::vector<Eigen::Matrix3Xd> turns = {};  // Of each link, where there are no pieces.
+    std::vector<LinkPlace> links = {};
+    std::vector<Eigen::Matrix3Xd> turns = {};  // Of each link, where there are no link bodies.
     Eigen::MatrixXd inverse_mass = {};
     Eigen::VectorXd bias = {};
     Eigen::VectorXd gravity_forces = {};
@@ -209,7 +209,7 @@ class IslandRobots {
   struct Robot {
     const SimRobot* robot;
     MechanismState state;
-    std::vector<Piece> pieces = {};
+    std::vector<LinkMember> links = {};
     View now = {};
     Eigen::VectorXd impact = {};  // Of motors, since the last piece of the track.
     RobotTrack track = {};
@@ -234,11 +234,11 @@ class IslandRobots {
                                           const Eigen::VectorXd& v,
                                           const Eigen::VectorXd& positions,
                                           const TimeSpan& span) const;
-  [[nodiscard]] const PiecePlace& piece_of(std::size_t member) const;
+  [[nodiscard]] const LinkPlace& place_of(std::size_t member) const;
 
   const SimulationModel& model_;
   std::vector<Robot> robots_;
-  std::vector<std::array<std::size_t, 2>> place_;  // Of each member: robot and piece.
+  std::vector<std::array<std::size_t, 2>> place_;  // Of each member: robot and link body.
 };
 
 /// The state at a share of the way over a span [s] in which gravity acts.

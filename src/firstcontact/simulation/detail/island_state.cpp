@@ -50,9 +50,9 @@ ProblemBodies IslandState::problem_bodies() const {
   for (std::size_t k = 0; k < size(); ++k) {
     const RigidState& state = states[k];
     bodies.add(members[k],
-               member(k).piece ? robots.body(k)
-                               : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
-                                             state.v_WC, state.w_WB},
+               member(k).link_body ? robots.body(k)
+                                   : ContactBody{inverse_inertia(member(k).inertia, state.X_WB),
+                                                 state.v_WC, state.w_WB},
                centre_of_mass(member(k).inertia, state.X_WB));
   }
   return bodies;

@@ -88,8 +88,8 @@ class Islands {
   void join_links() {
     std::vector<std::size_t> first(model_.robots.size(), kNone);
     for (const std::size_t b : free_) {
-      if (const auto& piece = model_.bodies[b].piece) {
-        std::size_t& one = first[piece->robot];
+      if (const auto& link_body = model_.bodies[b].link_body) {
+        std::size_t& one = first[link_body->robot];
         one = one == kNone ? b : one;
         join(one, b);
       }
@@ -119,7 +119,7 @@ class Islands {
   /// As the body moves over the step by itself. Links rest: their joints lead them.
   [[nodiscard]] Move inertial_move(std::size_t b) const {
     const RigidState& state = start_.states[b];
-    if (model_.bodies[b].piece || start_.rests[b]) {
+    if (model_.bodies[b].link_body || start_.rests[b]) {
       return {};
     }
     return {start_.h * (state.v_WC + 0.5 * start_.h * model_.gravity), start_.h * state.w_WB};
@@ -171,14 +171,14 @@ class Islands {
 
   /// Robots without geometry touch nothing: each moves by itself. Returns false if it was stopped.
   bool advance_bare_robots() {
-    std::vector<bool> has_pieces(model_.robots.size(), false);
+    std::vector<bool> has_link_bodies(model_.robots.size(), false);
     for (const SimBody& body : model_.bodies) {
-      if (body.piece) {
-        has_pieces[body.piece->robot] = true;
+      if (body.link_body) {
+        has_link_bodies[body.link_body->robot] = true;
       }
     }
     for (std::size_t r = 0; r < model_.robots.size(); ++r) {
-      if (!has_pieces[r]) {
+      if (!has_link_bodies[r]) {
         std::optional<IslandTrack> track = advance_island(step_, {}, workspace_, {r});
         if (!track) {
           return false;

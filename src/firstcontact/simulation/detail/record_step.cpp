@@ -250,7 +250,7 @@ class StepRecorder {
     }
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
       const SimBody& body = model_.bodies[b];
-      if (body.kind != BodyKind::free || body.piece) {
+      if (body.kind != BodyKind::free || body.link_body) {
         continue;
       }
       const RigidState& state = state_.states[b];

@@ -112,7 +112,7 @@ void SeamFinder::add_directions(std::size_t body, const Feature& feature,
     }
   };
   if (feature.type != FeatureType::face) {
-    state_.model.neighbours[body]->for_each_way(feature, add);
+    state_.model.neighbours[body]->for_each_offset(feature, add);
     return;
   }
   const auto& [a, b, c] = shape.mesh().triangles[feature.index];

@@ -88,9 +88,9 @@ inline constexpr double kStepsWithoutBounce = 2.0;
 inline constexpr std::size_t kAnswersOfPair = 100;
 /// [-]  Pairs that close more slowly than this part of the fastest impact end the sequence.
 inline constexpr double kSlowOfFirst = 1e-6;
-/// [-]  A contact ahead is slight, and becomes a constraint, if the bodies approach by less than
-/// this over the plan, by the radius of the smaller one, and would not bounce. Larger: fewer
-/// impacts, and more motion that is not straight.
+/// [-]  A contact ahead is slight if the bodies approach by less than this over the plan, by the
+/// radius of the smaller one, and would not bounce. It becomes a constraint. Larger: fewer impacts,
+/// and more motion that is not straight.
 inline constexpr double kSlightApproach = 0.4;
 /// [impacts]  After so many in a row that let no more time pass than a stall, an island is jammed:
 /// the rest of the step is lost.
@@ -118,8 +118,8 @@ inline constexpr double kMostTurnOfLinks = 0.1;
 /// are, too: of bricks that fall together and come to rest row by row each row would meet the next
 /// one.
 inline constexpr int kExactRoundsOfIslands = 2;
-/// [-]  A touch ahead takes the place of what the same features say if that is as near as this, by
-/// the reach of the smaller body, with normals of this cosine.
+/// [-]  A predicted contact replaces one of the same features that is as near as this, by the reach
+/// of the smaller body, with normals of this cosine.
 inline constexpr double kReplacedWithin = 0.1;
 inline constexpr double kReplacedNormal = 1.0 - 1e-3;
 /// [-]  Where plans are made again, bodies have so much room, of their reach and of their way,

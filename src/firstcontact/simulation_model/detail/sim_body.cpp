@@ -70,8 +70,8 @@ const SimBody* smallest_free_body(const std::vector<SimBody>& bodies) {
   const SimBody* smallest = nullptr;
   for (const SimBody& body : bodies) {
     const bool is_smaller =
-        smallest == nullptr || std::pair(body.piece.has_value(), body.reach) <
-                                   std::pair(smallest->piece.has_value(), smallest->reach);
+        smallest == nullptr || std::pair(body.link_body.has_value(), body.reach) <
+                                   std::pair(smallest->link_body.has_value(), smallest->reach);
     if (body.kind == BodyKind::free && is_smaller) {
       smallest = &body;
     }
@@ -94,15 +94,16 @@ std::uint64_t key(const BodyPair& pair) {
 
 std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& linked) {
   const LoadedScene& loaded = linked.loaded;
-  const std::size_t first_piece = loaded.scene.bodies.size() - linked.pieces.size();
+  const std::size_t first_link_body = loaded.scene.bodies.size() - linked.geometries.size();
   std::vector<SimBody> bodies;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
     const Body& described = loaded.scene.bodies[b];
     SimBody body{.shape = loaded.bodies.shape(b)};
-    if (described.free && b >= first_piece) {
-      const LinkPiece& piece = linked.pieces[b - first_piece];
+    if (described.free && b >= first_link_body) {
+      const LinkGeometryPose& geometry = linked.geometries[b - first_link_body];
       body.kind = BodyKind::free;
-      body.piece = RobotPiece{number_in_world(scene, piece.robot), piece.link, piece.X_LG};
+      body.link_body =
+          LinkBody{number_in_world(scene, geometry.robot), geometry.link, geometry.X_LG};
       body.inertia.p_BC = described.free->centre_of_mass.value();
     } else if (described.free) {
       body.kind = BodyKind::free;

@@ -32,8 +32,8 @@ enum class BodyKind {
   free,      ///< Moves under forces and contacts, by itself or as a link of a robot.
 };
 
-/// A body that is a piece of a link.
-struct RobotPiece {
+/// A geometry of a link as a body of its own.
+struct LinkBody {
   std::size_t robot = 0;  ///< Of the world.
   std::size_t link = 0;
   Pose X_LB = {};
@@ -42,9 +42,9 @@ struct RobotPiece {
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
-  /// The inertia of a free body; of another, or of a piece of a link, only p_BC, its pivot.
+  /// The inertia of a free body; of another, or of a link body, only p_BC, its pivot.
   Inertia inertia = {};
-  std::optional<RobotPiece> piece = {};
+  std::optional<LinkBody> link_body = {};
   double reach = 0.0;              ///< [m]  From C to the farthest point of the thickened surface.
   Eigen::AlignedBox3d box_B = {};  ///< [m]  Around it, in the body frame.
   std::vector<TimedForce> forces = {};

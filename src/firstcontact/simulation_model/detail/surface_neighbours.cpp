@@ -13,16 +13,16 @@ using Eigen::Vector3d;
 /// The sine of the angle by which rounding may tilt a direction between points that are near.
 constexpr double kTilt = 1e-6;
 
-/// Sorts pairs of (feature, way) into rows.
-template <class Ways>
-Ways in_rows(std::size_t count, double slack,
+/// Sorts pairs of (feature, vector) into rows.
+template <class Rows>
+Rows in_rows(std::size_t count, double slack,
              std::vector<std::pair<std::uint32_t, Vector3d>>&& pairs) {
   std::ranges::stable_sort(pairs, {}, [](const auto& pair) { return pair.first; });
-  Ways rows;
+  Rows rows;
   rows.first.assign(count + 1, 0);
-  for (const auto& [feature, way] : pairs) {
+  for (const auto& [feature, vector] : pairs) {
     ++rows.first[feature + 1];
-    rows.ways.push_back({way, std::max(slack, kTilt * way.norm())});
+    rows.offsets.push_back({vector, std::max(slack, kTilt * vector.norm())});
   }
   for (std::size_t k = 0; k < count; ++k) {
     rows.first[k + 1] += rows.first[k];
@@ -30,14 +30,14 @@ Ways in_rows(std::size_t count, double slack,
   return rows;
 }
 
-/// Whether an edge with these ways across its faces divides a flat one.
-template <class Way>
-bool are_flat(std::span<const Way> ways) {
-  if (ways.size() != 2) {
+/// Whether an edge with these offsets across its faces divides a flat one.
+template <class Offset>
+bool are_flat(std::span<const Offset> offsets) {
+  if (offsets.size() != 2) {
     return false;
   }
-  const Vector3d& a = ways[0].way;
-  const Vector3d& b = ways[1].way;
+  const Vector3d& a = offsets[0].vector;
+  const Vector3d& b = offsets[1].vector;
   return a.dot(b) < 0.0 && a.cross(b).norm() <= kTilt * a.norm() * b.norm();
 }
 
@@ -68,16 +68,17 @@ SurfaceNeighbours::SurfaceNeighbours(const Shape& shape, double slack) {
       }
     }
   }
-  edges_ = in_rows<Ways>(shape.edge_count(), slack, std::move(across_faces));
-  vertices_ = in_rows<Ways>(mesh.vertices.size(), slack, std::move(along_edges));
+  edges_ = in_rows<OffsetRows>(shape.edge_count(), slack, std::move(across_faces));
+  vertices_ = in_rows<OffsetRows>(mesh.vertices.size(), slack, std::move(along_edges));
   for (std::uint32_t e = 0; e < shape.edge_count(); ++e) {
     is_flat_.push_back(are_flat(edges_.of(e)));
   }
 }
 
-bool SurfaceNeighbours::none_is_farther(std::span<const Way> ways, const Vector3d& direction_B) {
-  return std::ranges::all_of(ways,
-                             [&](const Way& way) { return way.way.dot(direction_B) <= way.most; });
+bool SurfaceNeighbours::none_is_farther(std::span<const Offset> offsets,
+                                        const Vector3d& direction_B) {
+  return std::ranges::all_of(
+      offsets, [&](const Offset& offset) { return offset.vector.dot(direction_B) <= offset.most; });
 }
 
 bool SurfaceNeighbours::is_outermost(const Feature& feature, const Vector3d& direction_B) const {

@@ -36,37 +36,37 @@ class SurfaceNeighbours {
     return feature.type == FeatureType::edge && is_flat_[feature.index];
   }
 
-  /// Calls use(way) for the ways [m] from an edge or a vertex to the ends of its neighbours.
+  /// Calls use(vector) for the offsets [m] from an edge or a vertex to the ends of its neighbours.
   template <class Use>
-  void for_each_way(const Feature& feature, const Use& use) const {
-    const Ways& ways = feature.type == FeatureType::edge ? edges_ : vertices_;
-    for (const Way& way : ways.of(feature.index)) {
-      use(way.way);
+  void for_each_offset(const Feature& feature, const Use& use) const {
+    const OffsetRows& rows = feature.type == FeatureType::edge ? edges_ : vertices_;
+    for (const Offset& offset : rows.of(feature.index)) {
+      use(offset.vector);
     }
   }
 
  private:
   /// From a feature to the end of a neighbour.
-  struct Way {
-    Eigen::Vector3d way;  // [m]
-    double most;          // [m]  It may reach so much farther than the feature.
+  struct Offset {
+    Eigen::Vector3d vector;  // [m]
+    double most;             // [m]  It may reach so much farther than the feature.
   };
 
-  /// Ways from each feature to the ends of its neighbours: of an edge across its faces, of a vertex
-  /// along its edges.
-  struct Ways {
+  /// Offsets from each feature to the ends of its neighbours: of an edge across its faces, of a
+  /// vertex along its edges.
+  struct OffsetRows {
     std::vector<std::uint32_t> first;  // Of feature k: first[k] to first[k + 1].
-    std::vector<Way> ways;
+    std::vector<Offset> offsets;
 
-    [[nodiscard]] std::span<const Way> of(std::uint32_t feature) const {
-      return {ways.data() + first[feature], ways.data() + first[feature + 1]};
+    [[nodiscard]] std::span<const Offset> of(std::uint32_t feature) const {
+      return {offsets.data() + first[feature], offsets.data() + first[feature + 1]};
     }
   };
-  static bool none_is_farther(std::span<const Way> ways, const Eigen::Vector3d& direction_B);
+  static bool none_is_farther(std::span<const Offset> offsets, const Eigen::Vector3d& direction_B);
 
   std::vector<bool> is_flat_;  // Of each edge.
-  Ways edges_;
-  Ways vertices_;
+  OffsetRows edges_;
+  OffsetRows vertices_;
 };
 
 }  // namespace firstcontact::detail

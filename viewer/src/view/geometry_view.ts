@@ -18,7 +18,7 @@ import {
   Quaternion,
   Vector3,
 } from "three";
-import type { Part } from "../model";
+import type { BodyGeometry } from "../model";
 import type { Pose } from "../motion/motion";
 import type { DrawnShape } from "./drawn_shape";
 
@@ -99,7 +99,7 @@ function pointMaterial(color: string, radius: number): PointsMaterial {
   return material;
 }
 
-export class PartView {
+export class GeometryView {
   readonly group = new Group();
   readonly surface: Surface;
   private edges: LineSegments<BufferGeometry, LineBasicMaterial> | null = null;
@@ -114,7 +114,7 @@ export class PartView {
 
   /// @param body  index of the body, for whoever finds the surface
   constructor(
-    readonly part: Part,
+    readonly shape: BodyGeometry,
     readonly drawn: DrawnShape,
     private readonly color: string,
     body: number,
@@ -122,12 +122,12 @@ export class PartView {
     const { geometry, kind, origin } = drawn;
     this.surface =
       kind === "points"
-        ? new Points(geometry, pointMaterial(color, part.radius))
+        ? new Points(geometry, pointMaterial(color, shape.radius))
         : new Mesh(geometry, surfaceMaterial(color, kind === "triangles"));
     this.surface.position.set(...origin);
-    this.surface.userData = { body, part };
+    this.surface.userData = { body, shape };
     this.shownColor = color;
-    setPose(this.group, part.pose);
+    setPose(this.group, shape.pose);
     this.group.add(this.surface);
   }
 
@@ -163,7 +163,7 @@ export class PartView {
 
   /// The colour that the piece looks like, if it has one, or that of its body.
   setOwnColor(own: boolean): void {
-    this.shownColor = (own ? this.part.color : null) ?? this.color;
+    this.shownColor = (own ? this.shape.color : null) ?? this.color;
     this.surface.material.color.set(this.shownColor);
     this.edges?.material.color.copy(edgeColor(this.shownColor));
   }
@@ -224,7 +224,7 @@ export class PartView {
       deform(copy, t);
       group.add(copy);
     }
-    setPose(group, this.part.pose);
+    setPose(group, this.shape.pose);
     return group;
   }
 }

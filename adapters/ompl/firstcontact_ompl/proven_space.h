@@ -1,0 +1,155 @@
+/// @file
+/// The states of OMPL's spaces as places of a planner here.
+
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
+
+#include <firstcontact/planning/configuration_space.h>
+
+namespace firstcontact {
+
+/// Reads states of an OMPL space as configurations of a space here.
+///
+/// A body has an SE3StateSpace: straight lines with slerp on both sides. Joints have
+/// RealVectorStateSpaces, and SO2StateSpaces for those that go the short way round, in the order of
+/// the coordinates; several are joined by a CompoundStateSpace, whatever its weights. All other
+/// spaces, those that derive from these among them, are refused: their edges may be other curves.
+class OmplStates {
+ public:
+  /// @throws std::invalid_argument  names the type of the space, or the coordinate, that does not
+  ///         fit
+  OmplStates(const ompl::base::StateSpace& states, const ConfigurationSpace& places) {
+    if (places.is_body()) {
+      if (typeid(states) != typeid(ompl::base::SE3StateSpace)) {
+        refuse(states, "a body has an SE3StateSpace");
+      }
+      is_body_ = true;
+      return;
+    }
+    add(states, places);
+    if (read_ != places.size()) {
+      refuse(states, "it has " + std::to_string(read_) + " numbers, the joints have " +
+                         std::to_string(places.size()));
+    }
+  }
+
+  [[nodiscard]] Configuration read(const ompl::base::State* state) const {
+    Configuration q;
+    if (is_body_) {
+      const auto* pose = state->as<ompl::base::SE3StateSpace::StateType>();
+      const auto& r = pose->rotation();
+      return {pose->getX(), pose->getY(), pose->getZ(), r.w, r.x, r.y, r.z};
+    }
+    for (const Part& part : parts_) {
+      const ompl::base::State* found = state;
+      for (const std::size_t step : part.way) {
+        found = found->as<ompl::base::CompoundState>()->components[step];
+      }
+      if (part.turns) {
+        q.push_back(found->as<ompl::base::SO2StateSpace::StateType>()->value);
+      } else {
+        const double* values = found->as<ompl::base::RealVectorStateSpace::StateType>()->values;
+        q.insert(q.end(), values, values + part.count);
+      }
+    }
+    return q;
+  }
+
+ private:
+  struct Part {
+    std::vector<std::size_t> way;  // Through compound states.
+    std::size_t count = 1;
+    bool turns = false;
+  };
+
+  [[noreturn]] static void refuse(const ompl::base::StateSpace& states, const std::string& why) {
+    throw std::invalid_argument("OMPL space \"" + states.getName() + "\" of type " +
+                                typeid(states).name() + ": " + why);
+  }
+
+  void add(const ompl::base::StateSpace& states, const ConfigurationSpace& places,
+           const std::vector<std::size_t>& way = {}) {
+    if (typeid(states) == typeid(ompl::base::CompoundStateSpace)) {
+      const auto& compound = static_cast<const ompl::base::CompoundStateSpace&>(states);
+      for (std::size_t k = 0; k < compound.getSubspaceCount(); ++k) {
+        std::vector<std::size_t> further = way;
+        further.push_back(k);
+        add(*compound.getSubspace(static_cast<unsigned int>(k)), places, further);
+      }
+      return;
+    }
+    const bool turns = typeid(states) == typeid(ompl::base::SO2StateSpace);
+    if (!turns && typeid(states) != typeid(ompl::base::RealVectorStateSpace)) {
+      refuse(states, "joints have RealVectorStateSpaces and SO2StateSpaces");
+    }
+    const std::size_t count = turns ? 1 : states.getDimension();
+    for (std::size_t k = 0; k < count; ++k) {
+      if (read_ + k >= places.size()) {
+        refuse(states, "it has more numbers than there are joints");
+      }
+      const SpaceCoordinate& coordinate = places.coordinates()[read_ + k];
+      if (coordinate.turns_short != turns) {
+        refuse(states, "joint \"" + coordinate.name +
+                           (turns ? "\" does not go the short way round"
+                                  : "\" goes the short way round: give it an SO2StateSpace"));
+      }
+    }
+    parts_.push_back({way, count, turns});
+    read_ += count;
+  }
+
+  std::vector<Part> parts_;
+  std::size_t read_ = 0;
+  bool is_body_ = false;
+};
+
+/// The OMPL space of a space here, with its limits as bounds: neighbouring joints with a long way
+/// share one RealVectorStateSpace.
+///
+/// @param low, high  [m]  of the origin of a body; of no meaning for joints
+inline ompl::base::StateSpacePtr make_ompl_space(
+    const ConfigurationSpace& places, const Eigen::Vector3d& low = Eigen::Vector3d::Zero(),
+    const Eigen::Vector3d& high = Eigen::Vector3d::Zero()) {
+  if (places.is_body()) {
+    auto space = std::make_shared<ompl::base::SE3StateSpace>();
+    ompl::base::RealVectorBounds bounds(3);
+    for (unsigned int k = 0; k < 3; ++k) {
+      bounds.setLow(k, low[k]);
+      bounds.setHigh(k, high[k]);
+    }
+    space->setBounds(bounds);
+    return space;
+  }
+  auto compound = std::make_shared<ompl::base::CompoundStateSpace>();
+  const auto coordinates = places.coordinates();
+  for (std::size_t k = 0; k < coordinates.size();) {
+    if (coordinates[k].turns_short) {
+      compound->addSubspace(std::make_shared<ompl::base::SO2StateSpace>(), 1.0);
+      ++k;
+      continue;
+    }
+    auto several = std::make_shared<ompl::base::RealVectorStateSpace>();
+    for (; k < coordinates.size() && !coordinates[k].turns_short; ++k) {
+      several->addDimension(coordinates[k].name, coordinates[k].lower, coordinates[k].upper);
+    }
+    compound->addSubspace(several, 1.0);
+  }
+  if (compound->getSubspaceCount() == 1) {
+    return compound->getSubspace(0);  // Some planners know no compounds.
+  }
+  return compound;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,310 @@
+#include "plan_command.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+#include <firstcontact/text/parse_error.h>
+
+#include "atomic_file.h"
+#include "command_line_file.h"
+#include "command_line_number.h"
+#include "interrupt.h"
+#include "output_files.h"
+#include "progress.h"
+#include "quantity_text.h"
+#include "robot_options.h"
+#include "scene_source.h"
+#include "standard_streams.h"
+#include "terminal_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 53) - 1;  // That JSON keeps.
+constexpr std::size_t kListedPairs = 3;
+
+struct Arguments {
+  std::string scene;
+  std::string output;
+  bool json = false;
+  bool lenient = false;
+  bool approximate = false;
+  RobotArguments robot;
+  std::optional<double> margin;
+  std::optional<double> tolerance;
+  std::optional<double> time;
+  std::optional<std::uint64_t> seed;
+  std::string planner;
+  std::size_t shortcuts = PlanOptions().shortcuts;
+  int threads = 0;
+};
+
+/// The work, of which all that is wrong with the question names the file that holds it.
+template <class Work>
+auto in_file(const std::string& source, const Work& work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(source, error.what());
+  }
+}
+
+class Plan {
+ public:
+  explicit Plan(const Arguments& arguments)
+      : arguments_(arguments),
+        source_(arguments.scene.empty() ? named_in_errors(arguments.robot) : arguments.scene) {
+    const std::vector<OutputFile> outputs{{"-o", arguments.output}};
+    const std::vector<std::string> inputs = files_of(arguments.robot);
+    require_no_input(outputs, {inputs.begin(), inputs.end()});
+    require_no_input(outputs, {arguments.scene});
+  }
+
+  ExitStatus run() {
+    progress_.doing("reading");
+    const ScenePlan scene = in_file(source_, [&] { return make(); });
+    PlanOptions options = scene.options;
+    take_options(options);
+    progress_.doing("planning");
+    const PlanResult result =
+        in_file(source_, [&] { return plan_path(scene.plan, scene.start, scene.goals, options); });
+    return answer(scene, options, result);
+  }
+
+ private:
+  ScenePlan make() const {
+    const ReadingOptions reading{.lenient = arguments_.lenient};
+    Scene scene = read(reading);
+    require_no_input({{"-o", arguments_.output}}, files_of(scene));
+    if (arguments_.tolerance) {
+      scene.options.tolerance = *arguments_.tolerance;
+    }
+    PlanQuestion question;
+    if (arguments_.scene.empty()) {
+      question = question_of_trajectory(scene);
+    } else if (scene.plan) {
+      question = *scene.plan;
+    } else {
+      throw ParseError(source_, "expected \"plan\": what moves, and its goal; the scene has none");
+    }
+    if (arguments_.margin) {
+      question.margin = arguments_.margin;
+    }
+    ShapeCache cache;
+    return make_scene_plan(std::move(scene), question, cache);
+  }
+
+  Scene read(const ReadingOptions& reading) const {
+    if (arguments_.scene.empty()) {
+      return read_robot_scene(arguments_.robot, reading);
+    }
+    std::optional<Scene> scene;
+    for_each_scene(arguments_.scene, reading, [&](const SceneSource& source) {
+      if (scene || source.line) {
+        throw ParseError(source_, "expected one scene, got lines of scenes");
+      }
+      scene = source.read();
+      return true;
+    });
+    return *std::move(scene);
+  }
+
+  void take_options(PlanOptions& options) {
+    if (!arguments_.planner.empty()) {
+      const auto found = std::find(kPlannerWords.begin(), kPlannerWords.end(), arguments_.planner);
+      options.planner = static_cast<Planner>(found - kPlannerWords.begin());
+    }
+    options.seed = arguments_.seed.value_or(options.seed);
+    options.time = arguments_.time.value_or(options.time);
+    options.shortcuts = arguments_.shortcuts;
+    options.approximate = arguments_.approximate;
+    options.threads = arguments_.threads;
+    options.stop = interrupt_.token();
+    options.progress = [this](const PlanProgress& done) {
+      progress_.doing(fmt::format("planning: {} places{}", done.nodes,
+                                  done.cost ? fmt::format(", a path of {:.4g}", *done.cost) : ""));
+    };
+  }
+
+  ExitStatus answer(const ScenePlan& scene, const PlanOptions& options,
+                    const PlanResult& result) const {
+    std::optional<PlannedPath> path;
+    if (result.verdict != PlanVerdict::none) {
+      path = planned_path(scene, options, result);
+      const std::string text = write_planned_path(*path) + '\n';
+      if (!arguments_.output.empty()) {
+        write_file(arguments_.output, text);
+      }
+      if (arguments_.json) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+      }
+    }
+    if (!arguments_.json) {
+      say(describe(scene, options, result, path));
+    } else if (!path) {
+      say_on_stderr(visible(describe_failure(scene, options, result)) + '\n');
+    }
+    flush_stdout();
+    return result.verdict == PlanVerdict::proven        ? ExitStatus::free
+           : result.verdict == PlanVerdict::approximate ? ExitStatus::undecided
+                                                        : ExitStatus::contact;
+  }
+
+  [[nodiscard]] static std::string pair_name(const ScenePlan& scene, const BodyPair& pair) {
+    return member_name(scene.loaded.scene, pair[0]) + " and " +
+           member_name(scene.loaded.scene, pair[1]);
+  }
+
+  [[nodiscard]] static std::string blocking_text(const ScenePlan& scene,
+                                                 const PlanStatistics& statistics) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(kListedPairs, statistics.blocked.size()); ++k) {
+      const BlockingPair& blocking = statistics.blocked[k];
+      text += fmt::format("{}{} ({} times)", k == 0 ? "" : "; ", pair_name(scene, blocking.members),
+                          blocking.count);
+    }
+    return text.empty() ? "nothing" : text;
+  }
+
+  [[nodiscard]] std::string describe_failure(const ScenePlan& scene, const PlanOptions& options,
+                                             const PlanResult& result) const {
+    return fmt::format("{}: no path was found in {}{}; most in the way: {}", source_,
+                       time_text(result.statistics.seconds),
+                       options.stop.stop_requested() ? ", when it was stopped" : "",
+                       blocking_text(scene, result.statistics));
+  }
+
+  [[nodiscard]] std::string describe(const ScenePlan& scene, const PlanOptions& options,
+                                     const PlanResult& result,
+                                     const std::optional<PlannedPath>& path) const {
+    std::string text;
+    const auto line = [&](const char* label, const std::string& value) {
+      text += fmt::format("  {:<10} {}\n", label, visible(value));
+    };
+    if (!path) {
+      text = visible(describe_failure(scene, options, result)) + '\n';
+    } else {
+      text = fmt::format("{}: {}\n", visible(source_),
+                         path->is_proven ? "a path to the goal, proven edge by edge"
+                                         : "approximate: proven, but it ends before a goal");
+      line("path", fmt::format("{} places, {} edges, length {:.6g}{}", path->waypoints.size(),
+                               path->clearances.size(), path->cost,
+                               result.statistics.first_cost
+                                   ? fmt::format(" ({:.6g} before it was shortened)",
+                                                 *result.statistics.first_cost)
+                                   : ""));
+      line("clearance", path->clearance
+                            ? lower_bound_text(*path->clearance) + " or more everywhere (proven)"
+                            : "no pair is tested");
+      if (!path->is_proven) {
+        line("to goal", fmt::format("{:.6g} left", path->distance_to_goal));
+      }
+      line("in the way", blocking_text(scene, result.statistics));
+    }
+    const PlanStatistics& counts = result.statistics;
+    line("time", fmt::format("{}; {} edges checked, {} undecided, {} places in trees",
+                             time_text(counts.seconds), counts.edges_checked, counts.undecided,
+                             counts.nodes));
+    line("planner",
+         fmt::format("{}, seed {}", kPlannerWords.at(static_cast<std::size_t>(options.planner)),
+                     options.seed));
+    for (const std::string& warning : scene.loaded.warnings) {
+      line("warning", warning);
+    }
+    for (const std::string& warning : result.warnings) {
+      line("warning", warning);
+    }
+    return text;
+  }
+
+  Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Progress progress_;
+  const Arguments& arguments_;
+  std::string source_;
+};
+
+void require_one_plan(const Arguments& arguments) {
+  if (!arguments.scene.empty() && arguments.robot.robot.empty()) {
+    require_no_option_of_a_robot(arguments.robot);
+  }
+  if (arguments.scene.empty() == arguments.robot.robot.empty()) {
+    throw std::invalid_argument(arguments.scene.empty()
+                                    ? "expected a SCENE, or --robot (see firstcontact plan --help)"
+                                    : "expected a SCENE or --robot, got both");
+  }
+  if (arguments.robot.turning == "long") {
+    throw std::invalid_argument("--turning long: edges of continuous joints go the short way");
+  }
+  if (!arguments.robot.trajectory.empty()) {
+    throw std::invalid_argument(
+        "--trajectory gives a motion; a plan takes --request, or --start and --goal");
+  }
+}
+
+constexpr const char* kPlanFooter = R"(
+Robot, request and surroundings as MoveIt has them:
+    firstcontact plan --robot R.urdf --srdf R.srdf --environment S.yaml --request Q.yaml -o P.json
+
+Exit status: 0 a proven path, 1 none was found in the time, 2 bad input (a start or goal that is not
+free among it), 3 a path that is only approximate (with --approximate).
+Ctrl-C ends with the best path so far; again, at once.)";
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command =
+      app.add_subcommand("plan", "A path of a robot or body to a goal, proven edge by edge");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("SCENE", arguments->scene,
+                      ".json with \"plan\": what moves, from where, to where");
+  add_file(*command, "-o,--output", arguments->output,
+           "Writes the path, with all that it takes to prove it again, to a file");
+  command->add_flag("--json", arguments->json, "Prints the path as JSON in place of text");
+  command
+      ->add_option("--planner", arguments->planner,
+                   "rrt_connect, the default, or lazy_prm_star, which looks for short paths")
+      ->check(CLI::IsMember(std::vector<std::string>(kPlannerWords.begin(), kPlannerWords.end())));
+  command
+      ->add_option("--seed", arguments->seed,
+                   "Seed of the random numbers; 1 by default. The same seed finds the same path")
+      ->check(CLI::Range(std::uint64_t{0}, kLargestSeed));
+  add_number(*command, "--time", arguments->time, Range::positive, "[s] At most; 10 by default");
+  add_number(*command, "--margin", arguments->margin, Range::not_negative,
+             "[m] All pairs stay farther apart than this; in place of the scene's");
+  add_number(*command, "--tolerance", arguments->tolerance, Range::positive,
+             "[m] What is nearer than margin + tolerance may count as blocked");
+  command
+      ->add_option("--shortcuts", arguments->shortcuts,
+                   "Tries to shorten the path; 0 leaves it as it was found")
+      ->check(CLI::Range(std::size_t{0}, std::size_t{1'000'000}));
+  command->add_flag("--approximate", arguments->approximate,
+                    "Without a path, one that ends as near to a goal as was reached");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "At most so many; 0, the default, for one on each core. The path is the same")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("--lenient", arguments->lenient,
+                    "Names in files that nobody knows are warnings, not errors");
+  add_robot_options(*command, arguments->robot);
+  command->footer(kPlanFooter);
+  command->callback([arguments, &status] {
+    require_one_plan(*arguments);
+    status = Plan(*arguments).run();
+  });
+}
+
+}  // namespace firstcontact::app

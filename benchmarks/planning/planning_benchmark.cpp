@@ -1,0 +1,291 @@
+// Plans of the Panda in MotionBenchMaker's 400 problems, and the edges that they are made of.
+//
+//   planning_benchmark [--seeds N] [--every N] [--only plans|edges] [--time SECONDS] [--range RAD]
+//                      [--shortcuts N] [OUTPUT.json]
+//
+// Processor times of one thread. Needs FIRSTCONTACT_DATA_DIR.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/robot_question.h>
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr const char* kFamilies[] = {"bookshelf_small_panda", "box_panda", "cage_panda",
+                                     "table_pick_panda"};
+constexpr int kProblems = 100;
+constexpr double kEdgeLengths[] = {0.5, 2.0};  // [rad]
+constexpr int kEdgesOfProblem = 50;
+
+struct Settings {
+  std::uint64_t seeds = 5;
+  int every = 1;
+  double time = 10.0;  // [s]
+  double range = PlanOptions().range;
+  std::size_t shortcuts = PlanOptions().shortcuts;
+  std::string only;
+  std::string output;
+};
+
+/// [us]  Processor time that this thread has used.
+double thread_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) {
+    return std::nan("");
+  }
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::ceil(q * last))];
+}
+
+json summary_of(const std::vector<double>& values) {
+  return {{"count", values.size()},
+          {"median", quantile(values, 0.5)},
+          {"p95", quantile(values, 0.95)},
+          {"p99", quantile(values, 0.99)},
+          {"max", quantile(values, 1.0)}};
+}
+
+RobotQuestion problem_of(const fs::path& data, const std::string& family, int problem) {
+  const fs::path panda = data / "robots/moveit_resources_panda_description";
+  char number[5];
+  std::snprintf(number, sizeof number, "%04d", problem);
+  const fs::path folder = data / "planning_mbm/panda" / family;
+  RobotQuestion question;
+  question.robot = {panda / "urdf/panda.urdf", {data / "robots"}};
+  question.srdf = panda / "srdf/panda.srdf";
+  question.request = folder / ("request" + std::string(number) + ".yaml");
+  question.environment = {folder / ("scene" + std::string(number) + ".yaml")};
+  return question;
+}
+
+/// Times of plans, in milliseconds; a run without a path counts with the time that it was allowed.
+struct PlanTimes {
+  std::vector<double> plan;
+  std::vector<double> whole;
+  std::vector<double> rest;  // Of solved runs: shortcuts and the proof.
+  std::vector<double> edges;
+  std::vector<double> places;
+  std::vector<double> shortened;  // Cost after the shortcuts over that before.
+  std::size_t solved = 0;
+  std::size_t solved_in_a_second = 0;
+  std::size_t undecided = 0;
+  std::size_t unproven = 0;
+  std::size_t refused = 0;
+
+  void take(const PlanResult& result, double first, double processor_ms, double allowed_ms) {
+    const bool is_solved = result.verdict == PlanVerdict::proven;
+    solved += is_solved ? 1 : 0;
+    unproven += !is_solved && result.statistics.first_path_seconds ? 1 : 0;
+    solved_in_a_second += is_solved && processor_ms <= 1e3 ? 1 : 0;
+    undecided += result.statistics.undecided;
+    plan.push_back(is_solved ? first : allowed_ms);
+    whole.push_back(is_solved ? processor_ms : allowed_ms);
+    edges.push_back(static_cast<double>(result.statistics.edges_checked));
+    if (is_solved) {
+      rest.push_back(processor_ms - first);
+      places.push_back(static_cast<double>(result.path.size()));
+      shortened.push_back(result.cost / result.statistics.first_cost.value_or(result.cost));
+    }
+  }
+
+  [[nodiscard]] json summary() const {
+    return {{"runs", plan.size()},
+            {"refused", refused},
+            {"solved", solved},
+            {"solved_within_1_s", solved_in_a_second},
+            {"unproven", unproven},
+            {"undecided_edges", undecided},
+            {"plan_ms", summary_of(plan)},
+            {"shortcuts_and_proof_ms", summary_of(rest)},
+            {"whole_ms", summary_of(whole)},
+            {"edges_checked", summary_of(edges)},
+            {"places", summary_of(places)},
+            {"cost_after_shortcuts", summary_of(shortened)}};
+  }
+};
+
+template <class Use>
+void for_each_problem(const Settings& settings, const std::string& family, const Use& use) {
+  const char* data = std::getenv("FIRSTCONTACT_DATA_DIR");
+  if (data == nullptr) {
+    std::cerr << "planning_benchmark: needs FIRSTCONTACT_DATA_DIR\n";
+    std::exit(2);
+  }
+  ShapeCache cache;
+  for (int problem = 1; problem <= kProblems; problem += settings.every) {
+    const Scene scene = read_robot_question(problem_of(data, family, problem));
+    use(make_scene_plan(scene, question_of_trajectory(scene), cache), problem);
+  }
+}
+
+json plans(const Settings& settings) {
+  json out;
+  PlanTimes all;
+  for (const std::string family : kFamilies) {
+    PlanTimes times;
+    for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
+      for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
+        PlanOptions options = scene.options;
+        options.seed = seed;
+        options.time = settings.time;
+        options.threads = 1;
+        options.range = settings.range;
+        options.shortcuts = settings.shortcuts;
+        try {
+          const double begin = thread_time();
+          double first = 0.0;
+          options.progress = [&](const PlanProgress& done) {
+            if (done.cost && first == 0.0) {
+              first = 1e-3 * (thread_time() - begin);
+            }
+          };
+          const PlanResult result = plan_path(scene.plan, scene.start, scene.goals, options);
+          const double took = 1e-3 * (thread_time() - begin);
+          times.take(result, first, took, settings.time * 1e3);
+          all.take(result, first, took, settings.time * 1e3);
+        } catch (const std::invalid_argument& error) {
+          ++times.refused;
+          ++all.refused;
+          std::cerr << family << ' ' << problem << ": " << error.what() << '\n';
+          break;
+        }
+      }
+    });
+    out[family] = times.summary();
+    std::cerr << family << ": " << out[family].dump() << '\n';
+  }
+  out["all"] = all.summary();
+  return out;
+}
+
+/// Edges from the start and goal of a problem in random directions.
+json edges(const Settings& settings) {
+  json out = json::array();
+  for (const double length : kEdgeLengths) {
+    std::vector<double> free_times;
+    std::vector<double> blocked_times;
+    std::vector<double> quick_times;
+    std::vector<double> state_times;
+    std::vector<double> clearance_times;
+    std::size_t undecided = 0;
+    for (const std::string family : kFamilies) {
+      for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
+        const EdgeChecker checker(scene.plan);
+        detail::PlanRandom random(static_cast<std::uint64_t>(problem));
+        const ConfigurationSpace& space = scene.plan.space;
+        for (int k = 0; k < kEdgesOfProblem; ++k) {
+          const Configuration& from = k % 2 == 0 ? scene.start : scene.goals.front();
+          const Configuration far = space.sample(random);
+          const double share = std::min(1.0, length / space.distance(from, far));
+          const Configuration to = space.interpolate(from, far, share);
+          EdgeAnswer answer;
+          double best = 1e300;
+          for (int turn = 0; turn < 3; ++turn) {
+            const double begin = thread_time();
+            answer = checker.check(from, to);
+            best = std::min(best, thread_time() - begin);
+          }
+          if (answer.verdict == EdgeVerdict::blocked) {
+            const double start = thread_time();
+            (void)checker.check_quickly(from, to);
+            quick_times.push_back(thread_time() - start);
+          }
+          undecided += answer.verdict == EdgeVerdict::undecided ? 1 : 0;
+          if (answer.verdict == EdgeVerdict::free) {
+            free_times.push_back(best);
+          } else if (answer.fraction > 0.0) {
+            blocked_times.push_back(best);
+          }
+          const double begin = thread_time();
+          (void)checker.is_free(to);
+          state_times.push_back(thread_time() - begin);
+          if (k % 10 == 0) {
+            const double start = thread_time();
+            (void)checker.state(to);
+            clearance_times.push_back(thread_time() - start);
+          }
+        }
+      });
+    }
+    out.push_back({{"length_rad", length},
+                   {"free_us", summary_of(free_times)},
+                   {"blocked_us", summary_of(blocked_times)},
+                   {"blocked_verdict_us", summary_of(quick_times)},
+                   {"is_free_us", summary_of(state_times)},
+                   {"state_us", summary_of(clearance_times)},
+                   {"undecided", undecided}});
+    std::cerr << out.back().dump() << '\n';
+  }
+  return out;
+}
+
+int run(const Settings& settings) {
+  json out = {{"seeds", settings.seeds}, {"every", settings.every}, {"time_s", settings.time}};
+  if (settings.only != "plans") {
+    out["edges"] = edges(settings);
+  }
+  if (settings.only != "edges") {
+    out["plans"] = plans(settings);
+  }
+  if (settings.output.empty()) {
+    std::cout << out.dump(2) << '\n';
+  } else {
+    std::ofstream(settings.output) << out.dump(2) << '\n';
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace firstcontact::benchmarks
+
+int main(int argc, char** argv) {
+  firstcontact::benchmarks::Settings settings;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool has_value = k + 1 < argc;
+    if (word == "--seeds" && has_value) {
+      settings.seeds = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--every" && has_value) {
+      settings.every = std::max(1, std::atoi(argv[++k]));
+    } else if (word == "--time" && has_value) {
+      settings.time = std::atof(argv[++k]);
+    } else if (word == "--range" && has_value) {
+      settings.range = std::atof(argv[++k]);
+    } else if (word == "--shortcuts" && has_value) {
+      settings.shortcuts = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--only" && has_value) {
+      settings.only = argv[++k];
+    } else {
+      settings.output = word;
+    }
+  }
+  return firstcontact::benchmarks::run(settings);
+}

@@ -1,0 +1,237 @@
+#include <firstcontact/planning/plan_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "interrupts.h"
+#include "query.h"
+#include "scene.h"
+#include "words.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+
+namespace {
+
+ScenePlan plan_of(const HeldScene& scene) {
+  const py::gil_scoped_release release;
+  if (!scene.scene().plan) {
+    throw std::invalid_argument("scene: expected \"plan\": what moves, and its goal; it has none");
+  }
+  ShapeCache cache;
+  return make_scene_plan(scene.scene(), *scene.scene().plan, cache);
+}
+
+/// A class of firstcontact/_tuples.py.
+py::object tuple_of_planning(const char* name) {
+  return py::module_::import("firstcontact._tuples").attr(name);
+}
+
+double or_nan(const std::optional<double>& number) {
+  return number.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+py::array rows_from(const std::vector<Configuration>& rows, std::size_t columns) {
+  py::array_t<double> array({rows.size(), columns});
+  auto numbers = array.mutable_unchecked<2>();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      numbers(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(j)) = rows[k][j];
+    }
+  }
+  return array;
+}
+
+std::vector<Configuration> places_from(py::handle value, const char* name, std::size_t columns) {
+  const py::array_t<double> array = matrix_from(value, name);
+  if (array.ndim() != 2 || static_cast<std::size_t>(array.shape(1)) != columns) {
+    throw py::value_error(std::string(name) + ": expected n×" + std::to_string(columns) +
+                          " numbers, one place per row");
+  }
+  const auto numbers = array.unchecked<2>();
+  std::vector<Configuration> places(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      places[k].push_back(numbers(static_cast<py::ssize_t>(k), static_cast<py::ssize_t>(j)));
+    }
+  }
+  return places;
+}
+
+void require_places_of(const ConfigurationSpace& space, const std::vector<Configuration>& places,
+                       const char* name) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (const double number : places[k]) {
+      if (!(std::abs(number) <= 1e8)) {
+        throw py::value_error(std::string(name) + ": row " + std::to_string(k) + ": " +
+                              space.defect(places[k]).value_or("expected finite numbers"));
+      }
+    }
+  }
+}
+
+/// Edges of the question of a scene.
+class HeldEdges {
+ public:
+  HeldEdges(ScenePlan plan, const EdgeCheckOptions& options)
+      : plan_(std::move(plan)), checker_(plan_.plan, options) {}
+
+  [[nodiscard]] std::size_t size() const { return plan_.plan.space.size(); }
+  [[nodiscard]] const ScenePlan& plan() const { return plan_; }
+
+  py::object check(py::handle from, py::handle to, int threads) const {
+    const std::vector<Configuration> begins = places_from(from, "start", size());
+    const std::vector<Configuration> ends = places_from(to, "end", size());
+    require_places_of(plan_.plan.space, begins, "start");
+    require_places_of(plan_.plan.space, ends, "end");
+    const std::vector<EdgeAnswer> answers = [&] {
+      const py::gil_scoped_release release;
+      return checker_.check(begins, ends, threads);
+    }();
+    const auto count = static_cast<py::ssize_t>(answers.size());
+    py::array_t<bool> is_free(count);
+    py::array_t<bool> is_undecided(count);
+    py::array_t<double> fractions(count);
+    py::array_t<double> clearances(count);
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      const auto at = static_cast<py::ssize_t>(k);
+      is_free.mutable_at(at) = answers[k].verdict == EdgeVerdict::free;
+      is_undecided.mutable_at(at) = answers[k].verdict == EdgeVerdict::undecided;
+      fractions.mutable_at(at) = answers[k].fraction;
+      clearances.mutable_at(at) = or_nan(answers[k].clearance);
+    }
+    return tuple_of_planning("EdgeAnswers")(is_free, is_undecided, fractions, clearances);
+  }
+
+  /// [m]  Of each place: 0 where it is not free, NaN where no pair is tested.
+  py::array clearances(py::handle places) const {
+    const std::vector<Configuration> all = places_from(places, "places", size());
+    require_places_of(plan_.plan.space, all, "places");
+    std::vector<double> found;
+    {
+      const py::gil_scoped_release release;
+      for (const Configuration& place : all) {
+        found.push_back(or_nan(checker_.state(place).clearance));
+      }
+    }
+    return owning(std::move(found));
+  }
+
+ private:
+  ScenePlan plan_;
+  EdgeChecker checker_;
+};
+
+std::vector<std::string> names_of(const HeldEdges& edges) {
+  std::vector<std::string> names;
+  for (const SpaceCoordinate& coordinate : edges.plan().plan.space.coordinates()) {
+    names.push_back(coordinate.name);
+  }
+  return names;
+}
+
+py::object plan(const HeldScene& scene, const std::optional<std::string>& planner,
+                const std::optional<std::uint64_t>& seed, const std::optional<double>& time,
+                std::size_t shortcuts, bool approximate, int threads,
+                OrNone<std::stop_source> stop) {
+  const ScenePlan asked = plan_of(scene);
+  PlanOptions options = asked.options;
+  if (planner) {
+    const auto found = std::find(kPlannerWords.begin(), kPlannerWords.end(), *planner);
+    if (found == kPlannerWords.end()) {
+      throw py::value_error("planner: expected \"rrt_connect\" or \"lazy_prm_star\", got \"" +
+                            *planner + "\"");
+    }
+    options.planner = static_cast<Planner>(found - kPlannerWords.begin());
+  }
+  options.seed = seed.value_or(options.seed);
+  options.time = time.value_or(options.time);
+  options.shortcuts = shortcuts;
+  options.approximate = approximate;
+  options.threads = threads;
+  const PlanResult result = run_query(stop, [&](QueryStop& query) {
+    PlanOptions stoppable = options;
+    stoppable.stop = query.token();
+    return plan_path(asked.plan, asked.start, asked.goals, stoppable);
+  });
+  std::vector<double> clearances;
+  for (const std::optional<double>& clearance : result.clearances) {
+    clearances.push_back(or_nan(clearance));
+  }
+  py::list blocked;
+  for (const BlockingPair& blocking : result.statistics.blocked) {
+    blocked.append(py::make_tuple(member_name(asked.loaded.scene, blocking.members[0]),
+                                  member_name(asked.loaded.scene, blocking.members[1]),
+                                  blocking.count));
+  }
+  const bool has_path = result.verdict != PlanVerdict::none;
+  return tuple_of_planning("PlanAnswer")(
+      kPlanVerdictWords.at(static_cast<std::size_t>(result.verdict)),
+      rows_from(result.path, asked.plan.space.size()), owning(std::move(clearances)), result.cost,
+      result.goal, result.distance_to_goal, py::tuple(blocked),
+      py::tuple(py::cast(result.warnings)),
+      has_path ? py::object(py::str(write_planned_path(planned_path(asked, options, result))))
+               : py::none());
+}
+
+}  // namespace
+
+void bind_planning(py::module_& m) {
+  const EdgeCheckOptions defaults;
+  py::class_<HeldEdges>(m, "EdgeChecker",
+                        R"(Edges and places of a planner, proven to be free.
+
+scene: with "plan", whose mover and start and goals it takes. extra_clearance: [m] what edges keep
+beyond the margins. effort: steps of the search for each two geometries; more is undecided. From
+many threads at a time.)")
+      .def(py::init([](const HeldScene& scene, double extra_clearance, std::uint64_t effort) {
+             ScenePlan asked = plan_of(scene);
+             const double tolerance = asked.options.tolerance;
+             return std::make_unique<HeldEdges>(std::move(asked),
+                                                EdgeCheckOptions{.tolerance = tolerance,
+                                                                 .extra_clearance = extra_clearance,
+                                                                 .effort = effort});
+           }),
+           py::arg("scene"), py::kw_only(), py::arg("extra_clearance") = defaults.extra_clearance,
+           py::arg("effort") = defaults.effort)
+      .def_property_readonly("joints", &names_of, "The coordinates of a place; none of a body.")
+      .def_property_readonly(
+          "start", [](const HeldEdges& edges) { return owning(edges.plan().start); },
+          "The start of the scene's plan.")
+      .def_property_readonly(
+          "goals",
+          [](const HeldEdges& edges) { return rows_from(edges.plan().goals, edges.size()); },
+          "The goals of the scene's plan, one per row.")
+      .def("check", &HeldEdges::check, py::arg("start"), py::arg("end"), py::kw_only(),
+           py::arg("threads") = 0,
+           R"(Checks edges, n×d numbers each: the k-th leads from start[k] to end[k].
+
+threads: at most; 0 for one on each core. Other threads of Python run meanwhile.)")
+      .def("clearance", &HeldEdges::clearances, py::arg("places"),
+           R"([m] A proven lower bound of the distance of all tested pairs at each place, n×d numbers.
+
+0 where a place is not free; NaN where no pair is tested.)");
+  m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("seed"),
+        py::arg("time"), py::arg("shortcuts"), py::arg("approximate"), py::arg("threads"),
+        py::arg("stop"));
+}
+
+}  // namespace firstcontact::python

@@ -1,0 +1,310 @@
+#include <firstcontact/planning/configuration_space.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+constexpr double kLimitTolerance = 1e-9;  // [rad or m]  As that of limit_report().
+constexpr std::array<double, 2> kEdgeTimes = {0.0, 1.0};
+
+[[noreturn]] void refuse_space(const std::string& what) { throw std::invalid_argument(what); }
+
+Pose pose_of(const Configuration& q) {
+  return {{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])};
+}
+
+Configuration configuration_of(const Pose& pose) {
+  const Eigen::Quaterniond& r = pose.rotation;
+  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
+}
+
+/// [rad]  Of the shortest rotation between two quaternions of any length.
+double angle_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::Quaterniond way = from.conjugate() * to;
+  return 2.0 * std::atan2(way.vec().norm(), std::abs(way.w()));
+}
+
+double way_of(const SpaceCoordinate& coordinate, double from, double to) {
+  return coordinate.turns_short ? shortest_way(from, to) : to - from;
+}
+
+Turning turning_of(const SpaceCoordinate& coordinate) {
+  return coordinate.turns_short ? Turning::shortest : Turning::as_given;
+}
+
+/// The limits of a coordinate, or what is sampled where it has none.
+void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
+  coordinate.slides = joint.type == JointType::prismatic ||
+                      (joint.type == JointType::planar && coordinate.index != 2);
+  const bool has_own = joint.type == JointType::revolute || joint.type == JointType::prismatic ||
+                       joint.type == JointType::screw;
+  if (has_own && joint.limits.lower && joint.limits.upper) {
+    coordinate.lower = *joint.limits.lower;
+    coordinate.upper = *joint.limits.upper;
+    return;
+  }
+  coordinate.has_limits = false;
+  if (!coordinate.slides) {
+    coordinate.lower = -std::numbers::pi;
+    coordinate.upper = std::numbers::pi;
+  }
+}
+
+/// [m]  No point of the robot is farther from the root than this plus the ways of sliding joints.
+double length_of(const RobotModel& model) {
+  double length = 0.0;
+  for (const Joint& joint : model.joints()) {
+    length += joint.X_PJ.position.norm();
+  }
+  double part = 0.0;
+  for (const Link& link : model.links()) {
+    for (const LinkGeometry& geometry : link.collision) {
+      if (geometry.shape) {
+        const Hierarchy& hierarchy = geometry.shape->hierarchy();
+        part = std::max(part, geometry.X_LG.position.norm() + hierarchy.centre.norm() +
+                                  hierarchy.radius + geometry.shape->radius());
+      }
+    }
+  }
+  return length + part;
+}
+
+}  // namespace
+
+ConfigurationSpace::ConfigurationSpace(RobotModel model, Motion base)
+    : model_(std::move(model)), base_(std::move(base)), reach_(length_of(model_)) {}
+
+ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
+                                                 std::span<const std::string> names,
+                                                 std::map<std::string, JointMotion> held,
+                                                 Motion base) {
+  ConfigurationSpace space(std::move(model), std::move(base));
+  space.held_ = std::move(held);
+  if (names.empty()) {
+    refuse_space("expected at least one joint that moves, got none");
+  }
+  for (const std::string& name : names) {
+    const JointCoordinate found = find_coordinate(space.model_, name);
+    const Joint& joint = space.model_.joints()[found.joint];
+    const std::string quoted = detail::in_quotes(name);
+    if (joint.mimic) {
+      refuse_space("joint " + quoted + " mimics " + detail::in_quotes(joint.mimic->joint) +
+                   ": it follows that one and is not planned by itself");
+    }
+    SpaceCoordinate coordinate{.name = coordinate_name(space.model_, found),
+                               .turns_short = takes_short_way(space.model_, found),
+                               .joint = found.joint,
+                               .index = found.index};
+    const auto is_same = [&](const SpaceCoordinate& other) {
+      return other.joint == found.joint && other.index == found.index;
+    };
+    if (std::any_of(space.coordinates_.begin(), space.coordinates_.end(), is_same)) {
+      refuse_space("joint " + quoted + " is named twice");
+    }
+    take_limits(joint, coordinate);
+    space.coordinates_.push_back(std::move(coordinate));
+  }
+  return space;
+}
+
+ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Shape& shape,
+                                               const Eigen::Vector3d& low,
+                                               const Eigen::Vector3d& high) {
+  if (!(low.allFinite() && high.allFinite() && (low.array() <= high.array()).all())) {
+    refuse_space("body " + detail::in_quotes(name) +
+                 ": expected a box of places with finite corners, the low one first");
+  }
+  RobotDescription description{.name = name, .links = {{.name = "body"}}, .joints = {}};
+  description.links[0].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
+  ConfigurationSpace space(RobotModel(std::move(description)), Motion::fixed());
+  space.is_body_ = true;
+  space.low_ = low;
+  space.high_ = high;
+  return space;
+}
+
+std::optional<std::string> ConfigurationSpace::defect_of_body(const Configuration& q) const {
+  const double size = Eigen::Vector4d(q[3], q[4], q[5], q[6]).norm();
+  if (!(std::abs(size - 1.0) <= 1e-6)) {
+    return "expected a quaternion of length 1, got one of length " + detail::write_json(size);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) const {
+  if (q.size() != size()) {
+    return "expected " + std::to_string(size()) + " numbers, got " + std::to_string(q.size());
+  }
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    if (!(std::abs(q[k]) <= 1e8)) {
+      const std::string what =
+          is_body_ ? "its pose" : "joint " + detail::in_quotes(coordinates_[k].name);
+      return what + ": expected a finite number of at most 1e8";
+    }
+  }
+  if (is_body_) {
+    return defect_of_body(q);
+  }
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const SpaceCoordinate& coordinate = coordinates_[k];
+    if (coordinate.has_limits && !(q[k] >= coordinate.lower - kLimitTolerance &&
+                                   q[k] <= coordinate.upper + kLimitTolerance)) {
+      return "joint " + detail::in_quotes(coordinate.name) + " is at " + detail::write_json(q[k]) +
+             ", outside of its limits " + detail::write_json(coordinate.lower) + " to " +
+             detail::write_json(coordinate.upper);
+    }
+  }
+  return std::nullopt;
+}
+
+double ConfigurationSpace::distance(const Configuration& from, const Configuration& to) const {
+  if (is_body_) {
+    const Pose a = pose_of(from);
+    const Pose b = pose_of(to);
+    return (b.position - a.position).norm() + reach_ * angle_between(a.rotation, b.rotation);
+  }
+  double square = 0.0;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const double way = way_of(coordinates_[k], from[k], to[k]);
+    square += way * way;
+  }
+  return std::sqrt(square);
+}
+
+Configuration ConfigurationSpace::interpolate(const Configuration& from, const Configuration& to,
+                                              double share) const {
+  if (share <= 0.0) {
+    return from;
+  }
+  if (share >= 1.0) {
+    return to;
+  }
+  if (is_body_) {
+    return configuration_of(Motion::constant_velocity(pose_of(from), pose_of(to)).pose(share));
+  }
+  Configuration q(from.size());
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    q[k] = from[k] + share * way_of(coordinates_[k], from[k], to[k]);
+    if (!coordinates_[k].turns_short) {
+      const auto [low, high] = std::minmax(from[k], to[k]);
+      q[k] = std::clamp(q[k], low, high);  // Rounding must not leave a limit.
+    }
+  }
+  return q;
+}
+
+double ConfigurationSpace::rounding_bound(const Configuration& from, const Configuration& to,
+                                          double carried) const {
+  constexpr double kUlps = 0x1p-48;  // Far more than the few roundings of a place and of its edge.
+  double numbers = 0.0;
+  double slides = 0.0;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const double size = std::abs(from[k]) + std::abs(to[k]);
+    numbers += size;
+    slides += size;
+  }
+  // Each radian moves a point by no more than the robot is long, with what slides drawn out.
+  return kUlps * numbers * (1.0 + reach_ + carried + slides);
+}
+
+RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to) const {
+  if (is_body_) {
+    return {model_, {}, Motion::constant_velocity(pose_of(from), pose_of(to))};
+  }
+  std::map<std::string, JointMotion> joints = held_;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const SpaceCoordinate& coordinate = coordinates_[k];
+    const std::array<double, 2> ends = {from[k], to[k]};
+    CoordinatePath path = CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate));
+    JointMotion& joint = joints.at(model_.joints()[coordinate.joint].name);
+    if (auto* planar = std::get_if<PlanarPath>(&joint)) {
+      (*planar)[coordinate.index] = std::move(path);
+    } else {
+      joint = std::move(path);
+    }
+  }
+  return {model_, std::move(joints), base_};
+}
+
+Configuration ConfigurationSpace::sample(detail::PlanRandom& random) const {
+  if (!is_body_) {
+    Configuration q;
+    q.reserve(coordinates_.size());
+    for (const SpaceCoordinate& coordinate : coordinates_) {
+      q.push_back(random.uniform(coordinate.lower, coordinate.upper));
+    }
+    return q;
+  }
+  Pose pose;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    pose.position[k] = random.uniform(low_[k], high_[k]);
+  }
+  // K. Shoemake, "Uniform random rotations", Graphics Gems III (1992).
+  const double u = random.unit();
+  const double a = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const double b = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const double r = std::sqrt(1.0 - u);
+  const double s = std::sqrt(u);
+  pose.rotation =
+      Eigen::Quaterniond(s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b))
+          .normalized();
+  return configuration_of(pose);
+}
+
+void ConfigurationSpace::include(const Configuration& q) {
+  if (is_body_) {
+    const Eigen::Vector3d place(q[0], q[1], q[2]);
+    low_ = low_.cwiseMin(place);
+    high_ = high_.cwiseMax(place);
+    return;
+  }
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    SpaceCoordinate& coordinate = coordinates_[k];
+    if (!coordinate.has_limits && !coordinate.turns_short) {
+      coordinate.lower = std::min(coordinate.lower, q[k]);
+      coordinate.upper = std::max(coordinate.upper, q[k]);
+    }
+  }
+}
+
+void ConfigurationSpace::set_limits(const std::string& name, double lower, double upper) {
+  const auto found = std::find_if(coordinates_.begin(), coordinates_.end(),
+                                  [&](const SpaceCoordinate& c) { return c.name == name; });
+  if (found == coordinates_.end()) {
+    refuse_space("limits of joint " + detail::in_quotes(name) + ", which is not planned");
+  }
+  if (!(lower <= upper && std::isfinite(lower) && std::isfinite(upper))) {
+    refuse_space("limits of joint " + detail::in_quotes(name) +
+                 ": expected two finite numbers, the lower one first");
+  }
+  found->lower = lower;
+  found->upper = upper;
+  found->has_limits = true;
+}
+
+std::optional<std::string> ConfigurationSpace::unbounded() const {
+  for (const SpaceCoordinate& coordinate : coordinates_) {
+    if (coordinate.slides && !coordinate.has_limits) {
+      return coordinate.name;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace firstcontact

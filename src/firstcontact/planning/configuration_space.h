@@ -1,0 +1,134 @@
+/// @file
+/// The space in which a planner moves: the coordinates of a robot's joints, or the pose of a body.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot/robot_motion.h>
+
+namespace firstcontact {
+
+namespace detail {
+class PlanRandom;
+}
+
+/// A point of a space: one number for each coordinate of joints [rad or m].
+///
+/// Of a body it is the position [m], then the quaternion w, x, y, z.
+using Configuration = std::vector<double>;
+
+/// One number of a configuration of joints.
+struct SpaceCoordinate {
+  std::string name;          ///< As trajectories call it.
+  double lower = 0.0;        ///< [rad or m]  Samples lie between these two.
+  double upper = 0.0;        ///< [rad or m]
+  bool has_limits = true;    ///< Whether configurations beyond the two are refused.
+  bool slides = false;       ///< Along an axis, in place of turning.
+  bool turns_short = false;  ///< Edges take the way of at most half a turn: Turning::shortest.
+  std::size_t joint = 0;     ///< Of the model.
+  std::size_t index = 0;     ///< Of the coordinate in it; up to 2 for planar joints.
+};
+
+/// The mover of a plan: its coordinates, its motion along an edge, the distance of two places.
+///
+/// An edge takes every coordinate of joints from its first number to its second one at a constant
+/// rate. A body moves its origin on a line and turns at a constant rate by the shortest rotation:
+/// Motion::constant_velocity(). All else that the robot has rests. Immutable.
+class FIRSTCONTACT_API ConfigurationSpace {
+ public:
+  /// Makes the space of some coordinates of a robot; the other ones rest where `held` has them.
+  ///
+  /// The limits are those of the joints. A revolute or planar joint without limits is sampled over
+  /// one turn.
+  ///
+  /// @param names  of coordinates, as find_coordinate() takes them; at least one
+  /// @param held   every joint that moves, at rest; its place does not matter for the names
+  /// @throws std::invalid_argument  names the joint: unknown, fixed, mimicking another, named
+  ///         twice, or sliding without limits
+  static ConfigurationSpace of_joints(RobotModel model, std::span<const std::string> names,
+                                      std::map<std::string, JointMotion> held,
+                                      Motion base = Motion::fixed());
+
+  /// Makes the space of poses of a body whose origin stays in a box.
+  ///
+  /// The body is the only link, "body", of a robot of its own that has no joints.
+  ///
+  /// @param low, high  [m]  corners of the box, in the world
+  /// @throws std::invalid_argument if the box is empty or not finite, or the shape deforms
+  static ConfigurationSpace of_body(const std::string& name, const Shape& shape,
+                                    const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
+  /// Numbers of a configuration; 7 for a body.
+  [[nodiscard]] std::size_t size() const { return is_body_ ? 7 : coordinates_.size(); }
+  [[nodiscard]] bool is_body() const { return is_body_; }
+  [[nodiscard]] const RobotModel& model() const { return model_; }
+  /// The coordinates of joints; empty for a body.
+  [[nodiscard]] std::span<const SpaceCoordinate> coordinates() const { return coordinates_; }
+
+  /// A reason why something is no configuration of the space, with the name of the coordinate; none
+  /// where it is one. Beyond a limit by no more than 1e-9 is within it.
+  [[nodiscard]] std::optional<std::string> defect(const Configuration& q) const;
+
+  /// The length of an edge.
+  ///
+  /// That of joints is Euclid's [rad and m alike]. That of a body is the way of its origin plus its
+  /// reach times the angle [m].
+  [[nodiscard]] double distance(const Configuration& from, const Configuration& to) const;
+
+  /// The place at a share of an edge, rounded to doubles; bit for bit an end for a share of 0 or 1.
+  [[nodiscard]] Configuration interpolate(const Configuration& from, const Configuration& to,
+                                          double share) const;
+
+  /// [m]  A bound of how far any point of an edge's piece between rounded places may be from the
+  /// edge itself.
+  ///
+  /// @param carried  [m]  how far what the robot holds reaches from the links that hold it
+  [[nodiscard]] double rounding_bound(const Configuration& from, const Configuration& to,
+                                      double carried = 0.0) const;
+
+  /// The motion of the robot along an edge, t in [0, 1].
+  [[nodiscard]] RobotMotion motion(const Configuration& from, const Configuration& to) const;
+
+  /// A place drawn evenly: within the limits; of poses within the box, turned in any way.
+  [[nodiscard]] Configuration sample(detail::PlanRandom& random) const;
+
+  /// Widens what is sampled, without effect on limits, so that it holds a configuration.
+  void include(const Configuration& q);
+
+  /// Sets the limits of a coordinate of joints, in place of its own.
+  ///
+  /// @param name  of the coordinate
+  /// @throws std::invalid_argument if the space has no such coordinate, or lower > upper, or one of
+  ///         them is not finite
+  void set_limits(const std::string& name, double lower, double upper);
+
+  /// The name of a coordinate that slides without limits, so that nothing can be drawn from it.
+  [[nodiscard]] std::optional<std::string> unbounded() const;
+
+ private:
+  ConfigurationSpace(RobotModel model, Motion base);
+
+  [[nodiscard]] std::optional<std::string> defect_of_body(const Configuration& q) const;
+
+  RobotModel model_;
+  Motion base_;
+  std::map<std::string, JointMotion> held_;
+  std::vector<SpaceCoordinate> coordinates_;
+  bool is_body_ = false;
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();   // [m]
+  Eigen::Vector3d high_ = Eigen::Vector3d::Zero();  // [m]
+  double reach_ = 0.0;  // [m]  Of a body from its origin; of a robot, how long it can be.
+};
+
+}  // namespace firstcontact

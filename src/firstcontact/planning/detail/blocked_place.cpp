@@ -1,0 +1,152 @@
+#include <firstcontact/planning/detail/blocked_place.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/workspace.h>
+#include <firstcontact/text/quantity.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr std::size_t kRings = 12;  // Each twice as wide as the one before.
+constexpr std::size_t kPlacesOfRing = 128;
+constexpr double kFirstRing = 1e-3;  // [-]  Of what is sampled.
+constexpr int kHalvingsToFree = 12;
+
+Pose pose_of_geometry(const RobotScene& scene, std::size_t member, std::size_t geometry) {
+  const Pose X_WM = scene.pose(member, 0.0);
+  const Pose& X_MG = scene.geometries(member)[geometry].X_MG;
+  const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
+  return {X_WM.position + R_WM * X_MG.position, R_WM * X_MG.rotation.normalized()};
+}
+
+/// [m]  The way along a direction from which on A, moved along it, does not touch B any more.
+std::optional<double> way_out(const Shape& A, const Pose& X_WA, const Shape& B, const Pose& X_WB,
+                              const Eigen::Vector3d& direction, Workspace& workspace) {
+  const double far = 2.0 * (A.hierarchy().radius + B.hierarchy().radius + A.radius() + B.radius()) +
+                     (X_WA.position + X_WA.rotation * A.hierarchy().centre - X_WB.position -
+                      X_WB.rotation * B.hierarchy().centre)
+                         .norm();
+  const Pose begin{X_WA.position + far * direction, X_WA.rotation};
+  const Motion inwards = Motion::constant_velocity(begin, -far * direction);
+  const Motion rests = Motion::fixed(X_WB);
+  const FirstContactResult found =
+      first_contact({A, inwards}, {B, rests}, workspace, {.contacts = ContactState::none});
+  if (found.verdict == Verdict::free) {
+    return 0.0;
+  }
+  return found.verdict == Verdict::contact ? std::optional(far * (1.0 - found.t)) : std::nullopt;
+}
+
+std::vector<Eigen::Vector3d> directions_of_cube() {
+  std::vector<Eigen::Vector3d> all;
+  for (int k = 0; k < 27; ++k) {
+    const Eigen::Vector3d v(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (!v.isZero(0.0)) {
+      all.push_back(v.normalized());
+    }
+  }
+  return all;
+}
+
+/// The scene with its robot at a place.
+RobotScene placed_scene(const EdgeChecker& checker, const Configuration& q) {
+  RobotScene scene = checker.scene().scene;
+  scene.set_motion(checker.scene().robot, checker.space().motion(q, q));
+  return scene;
+}
+
+std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) {
+  std::string text;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    text += k == 0 ? "" : space.is_body() ? " " : ", ";
+    text += space.is_body() ? "" : space.coordinates()[k].name + "=";
+    text += write_json(q[k]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members) {
+  Workspace workspace;
+  double deepest = 0.0;
+  for (std::size_t a = 0; a < scene.geometries(members[0]).size(); ++a) {
+    for (std::size_t b = 0; b < scene.geometries(members[1]).size(); ++b) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Eigen::Vector3d& direction : directions_of_cube()) {
+        const std::optional<double> way =
+            way_out(scene.geometries(members[0])[a].shape, pose_of_geometry(scene, members[0], a),
+                    scene.geometries(members[1])[b].shape, pose_of_geometry(scene, members[1], b),
+                    direction, workspace);
+        least = std::min(least, way.value_or(least));
+      }
+      deepest = std::max(deepest, least);
+    }
+  }
+  return std::isfinite(deepest) ? std::optional(deepest) : std::nullopt;
+}
+
+std::optional<Configuration> free_place_near(const EdgeChecker& checker, const Configuration& q) {
+  const ConfigurationSpace& space = checker.space();
+  PlanRandom random(1);
+  double share = kFirstRing;
+  for (std::size_t ring = 0; ring < kRings; ++ring, share = std::min(1.0, 2.0 * share)) {
+    std::optional<Configuration> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < kPlacesOfRing; ++k) {
+      const Configuration place = space.interpolate(q, space.sample(random), share * random.unit());
+      const double distance = space.distance(q, place);
+      if (distance < least && checker.is_free(place)) {
+        least = distance;
+        best = place;
+      }
+    }
+    if (best) {
+      Configuration blocked = q;
+      for (int k = 0; k < kHalvingsToFree; ++k) {
+        Configuration middle = space.interpolate(blocked, *best, 0.5);
+        (checker.is_free(middle) ? *best : blocked) = std::move(middle);
+      }
+      return best;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
+                             const std::string& what) {
+  const EdgeAnswer answer = checker.check(q, q);
+  std::string text = what + " is not free";
+  if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
+    return text + ": it was not decided with the effort that is allowed";
+  }
+  const PlanScene& scene = checker.scene();
+  const BodyPair& pair = *answer.pair;
+  const RobotScene placed = placed_scene(checker, q);
+  text += ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
+  const std::optional<double> depth = depth_of(placed, pair);
+  if (depth && *depth > 0.0) {
+    text += " touch, up to " + quantity(*depth, "m") + " deep";
+  } else {
+    text += " are within their margin of " + quantity(placed.margin(pair).value_or(0.0), "m");
+  }
+  if (const std::optional<Configuration> place = free_place_near(checker, q)) {
+    text += "; the nearest free place that was found is at " + numbers_of(checker.space(), *place);
+  } else {
+    text += "; no free place was found near it";
+  }
+  return text;
+}
+
+}  // namespace firstcontact::detail

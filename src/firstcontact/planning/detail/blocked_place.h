@@ -1,0 +1,27 @@
+/// @file
+/// What to tell of a place that is not free.
+
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <firstcontact/planning/edge_checker.h>
+
+namespace firstcontact::detail {
+
+/// [m]  The shortest straight way, of 26 directions, on which the first shape leaves the second one
+/// for good: an upper bound of how deep the two are in each other. None where it was not found.
+[[nodiscard]] std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members);
+
+/// A free place near to one that is not: the nearest of some thousand that were looked at.
+[[nodiscard]] std::optional<Configuration> free_place_near(const EdgeChecker& checker,
+                                                           const Configuration& q);
+
+/// One sentence: the pair, how deep it is, and the nearest free place that was found.
+///
+/// @param what  "the start"
+[[nodiscard]] std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
+                                           const std::string& what);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,92 @@
+#include <firstcontact/planning/detail/edge_search.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/robot_check/detail/geometry_search.h>
+
+namespace firstcontact::detail {
+
+EdgeSearch::EdgeSearch(RobotScene scene, const RobotCheckOptions& options)
+    : scene_(std::move(scene)), options_(options), timeline_(scene_), candidates_(timeline_) {
+  options_.contacts = ContactState::none;
+  options_.contact_band = 0.0;
+}
+
+void EdgeSearch::set_motion(std::size_t robot, RobotMotion motion) {
+  scene_.set_motion(robot, std::move(motion));
+  timeline_.follow_motions();
+}
+
+FirstContactResult EdgeSearch::ask(const GeometryCandidate& candidate, const TimeWindow& window) {
+  GeometrySearch search(timeline_, candidate, options_, workspace_);
+  return search.first_contact(window);
+}
+
+EdgeFound EdgeSearch::found_by(const GeometryCandidate& candidate,
+                               const FirstContactResult& result) const {
+  return {result.verdict, result.t, timeline_.pairs()[candidate.pair].members, result.reason};
+}
+
+EdgeFound EdgeSearch::first_contact() {
+  EdgeFound first;
+  if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
+    return {Verdict::undecided, 0.0, {}, reason};
+  }
+  for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
+    if (timeline_.piece(piece).begin > first.t) {
+      break;
+    }
+    for (const GeometryCandidate& candidate : candidates_.find(piece, {})) {
+      if (candidate.window.begin > first.t) {
+        continue;
+      }
+      const FirstContactResult result =
+          ask(candidate, {candidate.window.begin, std::min(candidate.window.end, first.t)});
+      if (result.verdict == Verdict::free) {
+        continue;
+      }
+      // A contact at the same time decides rather than what is not known.
+      const bool is_earlier =
+          result.t < first.t || first.verdict == Verdict::free ||
+          (result.t == first.t && is_contact(result.verdict) && !is_contact(first.verdict));
+      if (is_earlier) {
+        first = found_by(candidate, result);
+      }
+    }
+  }
+  return first;
+}
+
+EdgeFound EdgeSearch::any_contact() {
+  EdgeFound unknown;
+  if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
+    return {Verdict::undecided, 0.0, {}, reason};
+  }
+  for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
+    const std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
+    for (const GeometryCandidate& candidate : candidates) {
+      if (candidate.gap < 0.0) {
+        const double middle = 0.5 * (candidate.window.begin + candidate.window.end);
+        const FirstContactResult result = ask(candidate, {middle, middle});
+        if (is_contact(result.verdict)) {
+          return {Verdict::contact, 0.0, timeline_.pairs()[candidate.pair].members, {}};
+        }
+      }
+    }
+    for (const GeometryCandidate& candidate : candidates) {
+      const FirstContactResult result = ask(candidate, candidate.window);
+      if (is_contact(result.verdict)) {
+        return {Verdict::contact, 0.0, timeline_.pairs()[candidate.pair].members, {}};
+      }
+      if (result.verdict == Verdict::undecided) {
+        unknown = found_by(candidate, result);
+        unknown.t = 0.0;
+      }
+    }
+  }
+  return unknown;
+}
+
+}  // namespace firstcontact::detail

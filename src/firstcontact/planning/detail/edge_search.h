@@ -1,0 +1,62 @@
+/// @file
+/// The search for contacts along one edge after the other, with memory that they share.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/outcome.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/candidates.h>
+#include <firstcontact/robot_check/detail/link_query.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact::detail {
+
+/// What a search found.
+struct EdgeFound {
+  Verdict verdict = Verdict::free;
+  double t = 1.0;  ///< [-]  Before it all pairs are proven free; 0 where only a verdict was asked.
+  std::optional<BodyPair> pair = {};
+  UndecidedReason reason = UndecidedReason::none;
+};
+
+/// As RobotChecker, for robots of which all paths have one piece: no answers of pairs, no contacts.
+///
+/// For one thread.
+class EdgeSearch {
+ public:
+  /// @param options  tolerance and budget; all else is of no meaning
+  EdgeSearch(RobotScene scene, const RobotCheckOptions& options);
+  EdgeSearch(const EdgeSearch&) = delete;
+  EdgeSearch& operator=(const EdgeSearch&) = delete;
+
+  void set_motion(std::size_t robot, RobotMotion motion);
+
+  /// The first contact.
+  [[nodiscard]] EdgeFound first_contact();
+
+  /// Whether there is a contact; of several not the first one. Where geometries are in each other
+  /// half way, that is seen at once.
+  [[nodiscard]] EdgeFound any_contact();
+
+  /// [m]  Of all pairs; infinite where there are none.
+  [[nodiscard]] double least_margin() const { return timeline_.least_margin(); }
+
+ private:
+  [[nodiscard]] FirstContactResult ask(const GeometryCandidate& candidate,
+                                       const TimeWindow& window);
+  [[nodiscard]] EdgeFound found_by(const GeometryCandidate& candidate,
+                                   const FirstContactResult& result) const;
+
+  RobotScene scene_;
+  RobotCheckOptions options_;
+  RobotTimeline timeline_;
+  CandidateSearch candidates_;
+  LinkWorkspace workspace_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,59 @@
+/// @file
+/// The checks of a planner, counted, and the end of its time.
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+
+namespace firstcontact::detail {
+
+class PlanWork {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  PlanWork(const EdgeChecker& checker, const PlanOptions& options, Clock::time_point begin,
+           Clock::time_point end)
+      : checker_(checker), options_(options), begin_(begin), end_(end) {}
+
+  [[nodiscard]] const ConfigurationSpace& space() const { return checker_.space(); }
+  [[nodiscard]] const PlanOptions& options() const { return options_; }
+
+  /// With the fraction that is free.
+  EdgeAnswer check(const Configuration& from, const Configuration& to);
+  /// Whether the whole edge is free, which is quicker to know.
+  bool is_free(const Configuration& from, const Configuration& to);
+  bool is_free(const Configuration& q);
+
+  /// Whether the time is over, or the search is to end.
+  [[nodiscard]] bool is_over() const;
+  [[nodiscard]] double seconds() const;
+  void report(std::size_t nodes, const std::optional<double>& cost);
+
+  /// With the pairs that blocked.
+  [[nodiscard]] PlanStatistics statistics() const;
+  PlanStatistics& counts() { return counts_; }
+
+ private:
+  void count(const EdgeAnswer& answer);
+
+  const EdgeChecker& checker_;
+  const PlanOptions& options_;
+  Clock::time_point begin_;
+  Clock::time_point end_;
+  PlanStatistics counts_;
+  std::map<BodyPair, std::size_t> blocked_;
+};
+
+/// The sum of the lengths of the edges.
+[[nodiscard]] double cost_of(const ConfigurationSpace& space,
+                             const std::vector<Configuration>& path);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,173 @@
+#include <firstcontact/planning/detail/shorten_path.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr double kWorthwhile = 1e-4;  // [-]  Share of the cost of a stretch that is to be saved.
+constexpr std::size_t kLongestWait = 25;  // Tries in a row that have not helped.
+
+class Shortcuts {
+ public:
+  Shortcuts(PlanWork& work, std::vector<Configuration>& path, std::size_t tries)
+      : work_(work), path_(path), left_(tries) {}
+
+  void run(PlanRandom& random) {
+    skip_places();
+    std::size_t waited = 0;
+    while (path_.size() > 2 && may_try() && waited < kLongestWait) {
+      const bool in_one_coordinate = !work_.space().is_body() && random.below(3) == 0;
+      waited = (in_one_coordinate ? cut_coordinate(random) : cut(random)) ? 0 : waited + 1;
+    }
+    skip_places();
+  }
+
+ private:
+  /// A place of an edge of the path, and the number of that edge.
+  struct OnPath {
+    std::size_t edge = 0;
+    Configuration q;
+  };
+
+  [[nodiscard]] bool may_try() const { return left_ > 0 && !work_.is_over(); }
+
+  bool is_free(const Configuration& from, const Configuration& to) {
+    left_ -= left_ > 0 ? 1 : 0;
+    return work_.is_free(from, to);
+  }
+
+  [[nodiscard]] double length(const Configuration& from, const Configuration& to) const {
+    return work_.space().distance(from, to);
+  }
+
+  [[nodiscard]] double cost(const std::vector<Configuration>& places) const {
+    return cost_of(work_.space(), places);
+  }
+
+  /// Leads from each place to a far one that it sees: halves the way ahead until it sees one.
+  void skip_places() {
+    for (std::size_t from = 0; from + 2 < path_.size(); ++from) {
+      for (std::size_t to = path_.size() - 1; to > from + 1 && !work_.is_over();
+           to = from + (to - from) / 2) {
+        const std::vector<Configuration> stretch(path_.begin() + at(from),
+                                                 path_.begin() + at(to + 1));
+        if (length(path_[from], path_[to]) <= cost(stretch) &&
+            work_.is_free(path_[from], path_[to])) {
+          path_.erase(path_.begin() + at(from + 1), path_.begin() + at(to));
+          break;
+        }
+      }
+    }
+  }
+
+  static std::ptrdiff_t at(std::size_t k) { return static_cast<std::ptrdiff_t>(k); }
+
+  /// Two places on different edges, the earlier one first; evenly along the path.
+  bool draw(PlanRandom& random, OnPath& first, OnPath& second) const {
+    double a = random.unit();
+    double b = random.unit();
+    if (b < a) {
+      std::swap(a, b);
+    }
+    const double whole = cost(path_);
+    first = place_at(a * whole);
+    second = place_at(b * whole);
+    return first.edge < second.edge;
+  }
+
+  [[nodiscard]] OnPath place_at(double way) const {
+    for (std::size_t edge = 0; edge + 1 < path_.size(); ++edge) {
+      const double step = length(path_[edge], path_[edge + 1]);
+      if (way < step) {
+        return {edge, work_.space().interpolate(path_[edge], path_[edge + 1], way / step)};
+      }
+      way -= step;
+    }
+    return {path_.size() - 2, path_.back()};
+  }
+
+  /// The places from one before the first to one behind the second, both between them.
+  [[nodiscard]] std::vector<Configuration> stretch_of(const OnPath& first,
+                                                      const OnPath& second) const {
+    return {path_.begin() + at(first.edge), path_.begin() + at(second.edge + 2)};
+  }
+
+  /// Takes a stretch in, if that is shorter and its edges within it are free.
+  ///
+  /// @param proven  the first and the last edge are pieces of edges of the path
+  bool take(const OnPath& first, const OnPath& second, std::vector<Configuration> places) {
+    const std::vector<Configuration> before = stretch_of(first, second);
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    if (!(cost(places) < (1.0 - kWorthwhile) * cost(before))) {
+      return false;
+    }
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+      const bool is_piece = (places[k] == before.front() && places[k + 1] == first.q) ||
+                            (places[k] == second.q && places[k + 1] == before.back());
+      if (!is_piece && !is_free(places[k], places[k + 1])) {
+        return false;
+      }
+    }
+    path_.erase(path_.begin() + at(first.edge), path_.begin() + at(second.edge + 2));
+    path_.insert(path_.begin() + at(first.edge), places.begin(), places.end());
+    return true;
+  }
+
+  bool cut(PlanRandom& random) {
+    OnPath first;
+    OnPath second;
+    if (!draw(random, first, second)) {
+      left_ -= 1;
+      return false;
+    }
+    const Configuration& before = path_[first.edge];
+    const Configuration& behind = path_[second.edge + 1];
+    return take(first, second, {before, first.q, second.q, behind});
+  }
+
+  /// Leads one coordinate straight from one place to another; the others stay as they are.
+  bool cut_coordinate(PlanRandom& random) {
+    OnPath first;
+    OnPath second;
+    const std::size_t coordinate = random.below(work_.space().size());
+    if (!draw(random, first, second)) {
+      left_ -= 1;
+      return false;
+    }
+    std::vector<Configuration> inner = {first.q};
+    inner.insert(inner.end(), path_.begin() + at(first.edge + 1),
+                 path_.begin() + at(second.edge + 1));
+    inner.push_back(second.q);
+    const double whole = cost(inner);
+    double way = 0.0;
+    std::vector<Configuration> places = {path_[first.edge]};
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+      way += k == 0 ? 0.0 : length(inner[k - 1], inner[k]);
+      Configuration q = inner[k];
+      if (k > 0 && k + 1 < inner.size()) {
+        q[coordinate] = work_.space().interpolate(first.q, second.q, way / whole)[coordinate];
+      }
+      places.push_back(std::move(q));
+    }
+    places.push_back(path_[second.edge + 1]);
+    return take(first, second, std::move(places));
+  }
+
+  PlanWork& work_;
+  std::vector<Configuration>& path_;
+  std::size_t left_;
+};
+
+}  // namespace
+
+void shorten_path(PlanWork& work, std::vector<Configuration>& path, std::size_t tries,
+                  PlanRandom& random) {
+  if (path.size() > 2) {
+    Shortcuts(work, path, tries).run(random);
+  }
+}
+
+}  // namespace firstcontact::detail

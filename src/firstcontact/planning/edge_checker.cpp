@@ -1,0 +1,233 @@
+#include <firstcontact/planning/edge_checker.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/planning/detail/edge_search.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+void require_option(bool condition, const char* what) {
+  if (!condition) {
+    throw std::invalid_argument(std::string("EdgeCheckOptions::") + what);
+  }
+}
+
+void require_options(const EdgeCheckOptions& options) {
+  require_option(options.tolerance > 0.0 && std::isfinite(options.tolerance),
+                 "tolerance must be finite and > 0");
+  require_option(options.extra_clearance >= 0.0 && std::isfinite(options.extra_clearance),
+                 "extra_clearance must be finite and >= 0");
+  require_option(options.effort >= 1, "effort must be at least 1");
+}
+
+bool rests(const RobotMotion& motion) {
+  bool all = motion.breaks().size() == 2 && motion.base_path(0.5).rest() != nullptr;
+  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
+    const JointPath* path = motion.joint_path(joint, 0.5);
+    all = all && (path == nullptr || path->rest() != nullptr);
+  }
+  return all;
+}
+
+/// Refuses what moves by itself.
+void require_at_rest(const PlanScene& plan) {
+  const RobotScene& scene = plan.scene;
+  for (const Attachment& attachment : scene.attachments()) {
+    if (attachment.t_from > 0.0 || attachment.t_to < 1.0) {
+      throw std::invalid_argument("body " + detail::in_quotes(scene.name(attachment.body)) +
+                                  " is held for a part of the time only; a path is planned for "
+                                  "what is held all the time");
+    }
+  }
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    const bool is_held =
+        std::any_of(scene.attachments().begin(), scene.attachments().end(),
+                    [&](const Attachment& attachment) { return attachment.body == member; });
+    if (!scene.robot_link(member) && !is_held && !scene.rests(member)) {
+      throw std::invalid_argument("body " + detail::in_quotes(scene.name(member)) +
+                                  " moves; a path is planned among bodies at rest");
+    }
+  }
+  for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
+    if (robot != plan.robot && !rests(scene.robot_motion(robot))) {
+      throw std::invalid_argument("robot " + detail::in_quotes(scene.robot_name(robot)) +
+                                  " moves by itself; a path is planned among robots at rest");
+    }
+  }
+}
+
+/// [m]  How far what robots hold reaches from the links that hold it.
+double carried_reach(const RobotScene& scene) {
+  double reach = 0.0;
+  for (const Attachment& attachment : scene.attachments()) {
+    const Shape& shape = scene.geometries(attachment.body)[0].shape;
+    const double place = scene.stretches(attachment.body).empty() || !attachment.X_LB
+                             ? 0.0
+                             : attachment.X_LB->position.norm();
+    reach = std::max(
+        reach, place + shape.hierarchy().centre.norm() + shape.hierarchy().radius + shape.radius());
+  }
+  return reach;
+}
+
+RobotScene with_extra(RobotScene scene, double extra) {
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    scene.set_padding(member, scene.padding(member) + 0.5 * extra);
+  }
+  return scene;
+}
+
+std::optional<double> finite_clearance(double clearance) {
+  return std::isfinite(clearance) ? std::optional(std::max(0.0, clearance)) : std::nullopt;
+}
+
+}  // namespace
+
+struct EdgeChecker::Data {
+  /// What one thread works with.
+  struct ThreadWork {
+    ThreadWork(const RobotScene& scene, const RobotCheckOptions& options)
+        : search(scene, options) {}
+
+    detail::EdgeSearch search;
+    std::optional<RobotChecker> closest;  // Made where it is needed.
+  };
+
+  Data(PlanScene given, const EdgeCheckOptions& asked)
+      : plan(std::move(given)),
+        options(asked),
+        carried(carried_reach(plan.scene)),
+        padded(with_extra(plan.scene, options.extra_clearance)),
+        works([this] { return std::make_unique<ThreadWork>(padded, question()); }) {}
+
+  [[nodiscard]] RobotCheckOptions question() const {
+    RobotCheckOptions asked;
+    asked.tolerance = options.tolerance;
+    asked.contacts = ContactState::none;
+    asked.budget.steps = options.effort;
+    asked.budget.deadline = options.deadline;
+    asked.budget.stop = options.stop;
+    asked.threads = 1;
+    return asked;
+  }
+
+  detail::EdgeSearch& search_along(const Configuration& from, const Configuration& to) {
+    detail::EdgeSearch& search = works.local()->search;
+    search.set_motion(plan.robot, plan.space.motion(from, to));
+    return search;
+  }
+
+  /// The answer that a search has found.
+  ///
+  /// Before t all is free, with the extra; a piece to a rounded place departs by far less.
+  [[nodiscard]] EdgeAnswer answer(const Configuration& from, const Configuration& to,
+                                  const detail::EdgeFound& found, double least_margin) const {
+    EdgeAnswer answer;
+    answer.pair = found.pair;
+    answer.reason = found.reason;
+    answer.clearance = finite_clearance(least_margin);
+    if (found.verdict == Verdict::free) {
+      answer.verdict = EdgeVerdict::free;
+      answer.fraction = 1.0;
+      return answer;
+    }
+    answer.verdict = is_contact(found.verdict) ? EdgeVerdict::blocked : EdgeVerdict::undecided;
+    const bool inherits = plan.space.rounding_bound(from, to, carried) <= options.extra_clearance;
+    answer.fraction = inherits ? found.t : 0.0;
+    if (found.t == 0.0) {
+      answer.clearance = 0.0;
+    }
+    return answer;
+  }
+
+  PlanScene plan;
+  EdgeCheckOptions options;
+  double carried;     // [m]
+  RobotScene padded;  // With the extra clearance; each thread has a copy.
+  tbb::enumerable_thread_specific<std::unique_ptr<ThreadWork>> works;
+};
+
+EdgeChecker::EdgeChecker(PlanScene scene, const EdgeCheckOptions& options) {
+  require_options(options);
+  if (scene.robot >= scene.scene.robot_count()) {
+    throw std::invalid_argument("expected a scene with something to move, it has no such robot");
+  }
+  require_at_rest(scene);
+  const FloatEnvironmentGuard guard;
+  data_ = std::make_unique<Data>(std::move(scene), options);
+}
+
+EdgeChecker::~EdgeChecker() = default;
+EdgeChecker::EdgeChecker(EdgeChecker&&) noexcept = default;
+EdgeChecker& EdgeChecker::operator=(EdgeChecker&&) noexcept = default;
+
+const PlanScene& EdgeChecker::scene() const { return data_->plan; }
+const EdgeCheckOptions& EdgeChecker::options() const { return data_->options; }
+
+EdgeAnswer EdgeChecker::check(const Configuration& from, const Configuration& to) const {
+  const FloatEnvironmentGuard guard;
+  detail::EdgeSearch& search = data_->search_along(from, to);
+  return data_->answer(from, to, search.first_contact(), search.least_margin());
+}
+
+EdgeAnswer EdgeChecker::check_quickly(const Configuration& from, const Configuration& to) const {
+  const FloatEnvironmentGuard guard;
+  detail::EdgeSearch& search = data_->search_along(from, to);
+  return data_->answer(from, to, search.any_contact(), search.least_margin());
+}
+
+EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configuration& to) const {
+  const FloatEnvironmentGuard guard;
+  std::optional<RobotChecker>& closest = data_->works.local()->closest;
+  if (!closest) {
+    closest.emplace(data_->padded);
+  }
+  closest->set_motion(data_->plan.robot, space().motion(from, to));
+  RobotCheckOptions question = data_->question();
+  question.closest = true;
+  const SceneResult found = closest->check(question);
+  detail::EdgeFound first{found.verdict, found.t, {}, found.reason};
+  if (found.first) {
+    first.pair = found.pairs[*found.first].members;
+  } else if (found.closest) {
+    first.pair = found.pairs[*found.closest].members;
+  }
+  return data_->answer(from, to, first, found.clearance);
+}
+
+std::vector<EdgeAnswer> EdgeChecker::check(std::span<const Configuration> from,
+                                           std::span<const Configuration> to, int threads) const {
+  if (from.size() != to.size()) {
+    throw std::invalid_argument("expected as many ends of edges as starts, got " +
+                                std::to_string(to.size()) + " and " + std::to_string(from.size()));
+  }
+  std::vector<EdgeAnswer> answers(from.size());
+  parallel_for(threads, from.size(), [&](std::size_t k) { answers[k] = check(from[k], to[k]); });
+  return answers;
+}
+
+bool EdgeChecker::is_free(const Configuration& q) const {
+  return check_quickly(q, q).verdict == EdgeVerdict::free;
+}
+
+StateAnswer EdgeChecker::state(const Configuration& q) const {
+  const EdgeAnswer found = check_closely(q, q);
+  return {found.verdict, found.verdict == EdgeVerdict::free ? found.clearance : std::optional(0.0),
+          found.pair};
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,122 @@
+/// @file
+/// Edges and places of a planner, proven to be free.
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/query/outcome.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact {
+
+/// A scene of which one robot is planned, with all else at rest.
+struct PlanScene {
+  RobotScene scene;
+  std::size_t robot = 0;                ///< That the space is of.
+  ConfigurationSpace space;             ///< Its model is that of the robot.
+  std::vector<std::string> names = {};  ///< Of members, in messages; else those of the scene.
+
+  [[nodiscard]] const std::string& name(std::size_t member) const {
+    return names.empty() ? scene.name(member) : names[member];
+  }
+};
+
+struct EdgeCheckOptions {
+  double tolerance = 1e-6;  ///< [m]  Nothing that is farther than its margin by this is blocked.
+  /// [m]  Added to the margins of all pairs, so that pieces of a free edge between rounded places
+  /// keep the margins themselves; >= 0.
+  double extra_clearance = 1e-9;
+  /// Steps of the search for each two geometries; more is undecided. At least 1.
+  std::uint64_t effort = 100'000;
+  std::optional<std::chrono::steady_clock::time_point> deadline = {};
+  std::stop_token stop = {};
+};
+
+enum class EdgeVerdict {
+  free,       ///< Proven: every tested pair is farther apart than its margin and the extra.
+  blocked,    ///< A pair is no farther apart than its margin, the extra and the tolerance.
+  undecided,  ///< The effort was spent, or the check was ended.
+};
+
+/// The answer about an edge.
+struct EdgeAnswer {
+  EdgeVerdict verdict = EdgeVerdict::undecided;
+  /// [-]  Proven: the edge from its start to the rounded interpolation at this share keeps the
+  /// margins. 1 when free; 0 also where nothing of it is known to be free.
+  double fraction = 0.0;
+  /// [m]  Proven lower bound of the distance of every tested pair until there; 0 where the start
+  /// is not free. None where no pair is tested.
+  std::optional<double> clearance = 0.0;
+  std::optional<BodyPair> pair = {};  ///< Members that block it, or are undecided.
+  UndecidedReason reason = UndecidedReason::none;
+};
+
+/// The answer about a place.
+struct StateAnswer {
+  EdgeVerdict verdict = EdgeVerdict::undecided;
+  /// [m]  Proven lower bound of the distance of every tested pair; 0 unless the place is free. None
+  /// where no pair is tested. Never infinite.
+  std::optional<double> clearance = 0.0;
+  std::optional<BodyPair> pair = {};  ///< Of members: what blocks, else what is nearest.
+};
+
+/// Checks the edges of a planner against a scene at rest. Members are those of the scene.
+///
+/// Thread-safe without locks: every thread has memory of its own. Answers depend neither on other
+/// questions nor on the number of threads, as long as neither the deadline nor the stop token ends
+/// one.
+class FIRSTCONTACT_API EdgeChecker {
+ public:
+  /// @throws std::invalid_argument if an option is out of its range; if a body or another robot
+  ///         moves, or is held for a part of the time only; names it
+  explicit EdgeChecker(PlanScene scene, const EdgeCheckOptions& options = {});
+  ~EdgeChecker();
+  EdgeChecker(EdgeChecker&&) noexcept;
+  EdgeChecker& operator=(EdgeChecker&&) noexcept;
+
+  [[nodiscard]] const PlanScene& scene() const;
+  [[nodiscard]] const ConfigurationSpace& space() const { return scene().space; }
+  [[nodiscard]] const EdgeCheckOptions& options() const;
+
+  /// Checks an edge. The clearance of a free one is at least the least margin.
+  [[nodiscard]] EdgeAnswer check(const Configuration& from, const Configuration& to) const;
+
+  /// The same, with a clearance that is near the least distance, which takes longer.
+  [[nodiscard]] EdgeAnswer check_closely(const Configuration& from, const Configuration& to) const;
+
+  /// Checks an edge where only the verdict is of interest: quicker where it is blocked. The
+  /// fraction of one that is not free is 0, and the pair need not be the first that blocks it.
+  [[nodiscard]] EdgeAnswer check_quickly(const Configuration& from, const Configuration& to) const;
+
+  /// Checks many edges, from[k] to to[k], on several threads.
+  ///
+  /// @param threads  at most; 0 for one on each core
+  /// @throws std::invalid_argument if the two have not as many places
+  [[nodiscard]] std::vector<EdgeAnswer> check(std::span<const Configuration> from,
+                                              std::span<const Configuration> to,
+                                              int threads = 0) const;
+
+  /// Whether a place is free, which is quicker to know than its clearance.
+  [[nodiscard]] bool is_free(const Configuration& q) const;
+
+  /// Checks a place, with a clearance that is near the least distance.
+  [[nodiscard]] StateAnswer state(const Configuration& q) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,196 @@
+#include <firstcontact/planning/plan_path.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/lazy_prm.h>
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/detail/plan_work.h>
+#include <firstcontact/planning/detail/rrt_connect.h>
+#include <firstcontact/planning/detail/shorten_path.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::FoundPath;
+using detail::PlanRandom;
+using detail::PlanWork;
+
+constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
+constexpr int kSamplesOfRange = 64;
+
+void require_plan(bool condition, const std::string& what) {
+  if (!condition) {
+    throw std::invalid_argument(what);
+  }
+}
+
+void require_plan_options(const PlanOptions& options) {
+  require_plan(options.time > 0.0 && std::isfinite(options.time),
+               "the time must be finite and > 0 s, got " + std::to_string(options.time));
+  require_plan(options.range >= 0.0 && std::isfinite(options.range),
+               "the range must be finite and >= 0");
+}
+
+void require_places(const ConfigurationSpace& space, const Configuration& start,
+                    const std::vector<Configuration>& goals) {
+  require_plan(!goals.empty(), "expected at least one goal, got none");
+  const std::optional<std::string> of_start = space.defect(start);
+  require_plan(!of_start, "the start: " + of_start.value_or(""));
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    const std::optional<std::string> of_goal = space.defect(goals[k]);
+    const std::string which = goals.size() == 1 ? "" : " " + std::to_string(k);
+    require_plan(!of_goal, "the goal" + which + ": " + of_goal.value_or(""));
+  }
+  const std::optional<std::string> unbounded = space.unbounded();
+  require_plan(!unbounded, "joint " + detail::in_quotes(unbounded.value_or("")) +
+                               " slides without limits; give it bounds");
+}
+
+double default_range(const ConfigurationSpace& space) {
+  PlanRandom random(0);
+  double sum = 0.0;
+  for (int k = 0; k < kSamplesOfRange; ++k) {
+    const Configuration from = space.sample(random);
+    sum += space.distance(from, space.sample(random));
+  }
+  return kShareOfRange * sum / kSamplesOfRange;
+}
+
+/// One question, from the start to the proof.
+class PlanSearch {
+ public:
+  PlanSearch(const PlanScene& scene, const PlanOptions& options)
+      : scene_(scene),
+        options_(options),
+        begin_(PlanWork::Clock::now()),
+        end_(begin_ + std::chrono::duration_cast<PlanWork::Clock::duration>(
+                          std::chrono::duration<double>(std::min(options.time, 1e9)))),
+        checker_(scene, {.tolerance = options.tolerance,
+                         .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
+                         .effort = options.effort,
+                         .stop = options.stop}),
+        work_(checker_, options_, begin_, end_) {}
+
+  PlanResult run(const Configuration& start, const std::vector<Configuration>& goals) {
+    require_free(start, goals);
+    PlanRandom random(options_.seed);
+    FoundPath found = search(start, random);
+    PlanResult result;
+    result.warnings = warnings_;
+    if (found.reaches_goal) {
+      work_.counts().first_path_seconds = work_.seconds();
+      work_.counts().first_cost = detail::cost_of(scene_.space, found.places);
+      work_.report(work_.counts().nodes, work_.counts().first_cost);
+      detail::shorten_path(work_, found.places, options_.shortcuts, random);
+    }
+    if (found.reaches_goal || options_.approximate) {
+      prove(std::move(found), goals, result);
+    }
+    result.statistics = work_.statistics();
+    result.statistics.seconds = work_.seconds();
+    return result;
+  }
+
+ private:
+  /// Leaves out goals that are not free, as long as one is.
+  void require_free(const Configuration& start, const std::vector<Configuration>& goals) {
+    const auto refuse_if_blocked = [&](const Configuration& q, const std::string& what) {
+      if (!work_.is_free(q)) {
+        throw std::invalid_argument(detail::describe_blocked(checker_, q, what));
+      }
+    };
+    refuse_if_blocked(start, "the start");
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+      if (goals.size() == 1) {
+        refuse_if_blocked(goals[k], "the goal");
+        goals_.push_back(goals[k]);
+      } else if (work_.is_free(goals[k])) {
+        goals_.push_back(goals[k]);
+      } else {
+        warnings_.push_back(
+            detail::describe_blocked(checker_, goals[k], "goal " + std::to_string(k)));
+      }
+    }
+    if (goals_.empty()) {
+      throw std::invalid_argument("no goal is free: " + warnings_.front());
+    }
+  }
+
+  FoundPath search(const Configuration& start, PlanRandom& random) {
+    if (std::find(goals_.begin(), goals_.end(), start) != goals_.end()) {
+      return {{start}, true};
+    }
+    if (options_.planner == Planner::lazy_prm_star) {
+      return detail::lazy_prm_star(work_, start, goals_, random);
+    }
+    const double range = options_.range > 0.0 ? options_.range : default_range(scene_.space);
+    return detail::rrt_connect(work_, start, goals_, range, random);
+  }
+
+  /// Proves the edges anew, by a checker that has not seen them.
+  void prove(FoundPath found, const std::vector<Configuration>& goals, PlanResult& result) const {
+    const EdgeChecker fresh(scene_, {.tolerance = options_.tolerance,
+                                     .extra_clearance = options_.extra_clearance,
+                                     .effort = options_.effort});
+    const std::vector<Configuration>& path = found.places;
+    const std::size_t edges = std::max<std::size_t>(path.size() - 1, 1);
+    std::vector<EdgeAnswer> answers(edges);
+    parallel_for(options_.threads, edges, [&](std::size_t k) {
+      answers[k] = fresh.check_closely(path[k], path[std::min(k + 1, path.size() - 1)]);
+    });
+    for (const EdgeAnswer& answer : answers) {
+      if (answer.verdict != EdgeVerdict::free) {
+        result.warnings.emplace_back("a path was found, but its edges could not be proven again");
+        return;
+      }
+      result.clearances.push_back(answer.clearance);
+    }
+    result.cost = detail::cost_of(scene_.space, path);
+    result.distance_to_goal = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < goals.size(); ++k) {
+      result.distance_to_goal =
+          std::min(result.distance_to_goal, scene_.space.distance(path.back(), goals[k]));
+      if (found.reaches_goal && !result.goal && goals[k] == path.back()) {
+        result.goal = k;
+      }
+    }
+    result.distance_to_goal = found.reaches_goal ? 0.0 : result.distance_to_goal;
+    result.verdict = found.reaches_goal ? PlanVerdict::proven : PlanVerdict::approximate;
+    result.path = std::move(found.places);
+  }
+
+  const PlanScene& scene_;
+  const PlanOptions& options_;
+  PlanWork::Clock::time_point begin_;
+  PlanWork::Clock::time_point end_;
+  EdgeChecker checker_;
+  PlanWork work_;
+  std::vector<Configuration> goals_;  // That are free.
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+PlanResult plan_path(const PlanScene& scene, const Configuration& start,
+                     const std::vector<Configuration>& goals, const PlanOptions& options) {
+  const FloatEnvironmentGuard guard;
+  require_plan_options(options);
+  PlanScene widened = scene;
+  require_places(scene.space, start, goals);
+  widened.space.include(start);
+  for (const Configuration& goal : goals) {
+    widened.space.include(goal);
+  }
+  return PlanSearch(widened, options).run(start, goals);
+}
+
+}  // namespace firstcontact

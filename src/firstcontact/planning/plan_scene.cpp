@@ -1,0 +1,368 @@
+#include <firstcontact/planning/plan_scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene/version.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::in_quotes;
+
+[[noreturn]] void refuse_plan(const std::string& what) { throw std::invalid_argument(what); }
+
+/// Takes the first point of a trajectory among the positions at which the robot rests.
+void rest_at_begin(SceneRobot& robot, bool is_planned) {
+  const Trajectory& trajectory = robot.trajectory;
+  const bool moves = trajectory.points.size() > 1 && !trajectory.joint_names.empty();
+  if (moves && !is_planned) {
+    refuse_plan("robot " + in_quotes(robot.name) +
+                " moves by itself; a path is planned among robots at rest");
+  }
+  for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
+    robot.state[trajectory.joint_names[k]] = trajectory.points.front().positions[k];
+  }
+  robot.trajectory = Trajectory{.joint_names = {}, .points = {TrajectoryPoint{}}};
+}
+
+void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
+  for (const SceneAttachment& held : robot.attached) {
+    if (held.from_time > 0.0 || (held.to_time && *held.to_time < scene.duration)) {
+      refuse_plan("body " + in_quotes(scene.bodies[held.body].name) +
+                  " is held for a part of the time only; a path is planned for what is held all "
+                  "the time");
+    }
+  }
+}
+
+/// The scene at rest, with the mover at its start and the margin of the question.
+Scene resting_scene(Scene scene, const PlanQuestion& question) {
+  for (std::size_t k = 0; k < scene.robots.size(); ++k) {
+    SceneRobot& robot = scene.robots[k];
+    require_all_the_time(scene, robot);
+    for (SceneAttachment& held : robot.attached) {
+      held.to_time.reset();
+    }
+    rest_at_begin(robot, question.robot == k);
+    if (!std::holds_alternative<FixedMotion>(robot.base)) {
+      refuse_plan("the base of robot " + in_quotes(robot.name) +
+                  " moves; a path is planned for a base at rest");
+    }
+    if (question.robot == k) {
+      for (const auto& [name, position] : question.start) {
+        robot.state[coordinate_name(robot.model, find_coordinate(robot.model, name))] = position;
+      }
+    }
+    robot.dynamics.reset();
+  }
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    Body& body = scene.bodies[k];
+    body.free.reset();
+    if (question.body == k && question.start_pose) {
+      body.motion = FixedMotion{*question.start_pose};
+    }
+    if (!std::holds_alternative<FixedMotion>(body.motion)) {
+      refuse_plan("body " + in_quotes(body.name) +
+                  " moves; a path is planned among bodies at rest");
+    }
+  }
+  scene.options.margin = question.margin.value_or(scene.options.margin);
+  scene.options.start_contacts = StartContacts::report;
+  scene.simulation.reset();
+  scene.plan.reset();
+  scene.duration = 1.0;
+  return scene;
+}
+
+/// Gives what is held the place in its link that it has at the start. Whether any was given.
+bool freeze_held(const LoadedScene& loaded, Scene& scene) {
+  bool any = false;
+  for (SceneRobot& robot : scene.robots) {
+    for (SceneAttachment& held : robot.attached) {
+      const auto stretches = loaded.robots->stretches(held.body);
+      const auto* carried = std::get_if<BodyStretch::Carried>(&stretches.front().how);
+      if (!held.pose && carried != nullptr) {
+        held.pose = carried->X_LB;
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+/// The coordinates of a robot at the start, by their names.
+double start_of(const SceneRobot& robot, const std::string& name, const Joint& joint) {
+  const auto found = robot.state.find(name);
+  return found != robot.state.end() ? found->second : default_position(joint);
+}
+
+/// What is asked for by name, or named by a goal; without joints that mimic others.
+std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuestion& question) {
+  if (!question.joints.empty()) {
+    return question.joints;
+  }
+  std::set<JointCoordinate> named;
+  for (const JointPositions& goal : question.goals) {
+    for (const auto& [name, position] : goal) {
+      const JointCoordinate coordinate = find_coordinate(model, name);
+      if (!model.joints()[coordinate.joint].mimic) {
+        named.insert(coordinate);
+      }
+    }
+  }
+  std::vector<std::string> joints;
+  for (const JointCoordinate& coordinate : named) {
+    joints.push_back(coordinate_name(model, coordinate));
+  }
+  return joints;
+}
+
+std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
+  std::map<std::string, JointMotion> held;
+  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
+    if (const std::optional<JointMotion> given = motion.given(joint)) {
+      held.emplace(motion.model().joints()[joint].name, *given);
+    }
+  }
+  return held;
+}
+
+Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
+                      const JointPositions& positions, const Configuration& start) {
+  Configuration goal = start;
+  for (const auto& [name, position] : positions) {
+    const JointCoordinate coordinate = find_coordinate(model, name);
+    const auto coordinates = space.coordinates();
+    const auto found =
+        std::find_if(coordinates.begin(), coordinates.end(), [&](const SpaceCoordinate& one) {
+          return one.joint == coordinate.joint && one.index == coordinate.index;
+        });
+    if (found != coordinates.end()) {
+      goal[static_cast<std::size_t>(found - coordinates.begin())] = position;
+    } else if (!model.joints()[coordinate.joint].mimic) {
+      refuse_plan("a goal names joint " + in_quotes(name) + ", which is not among those planned");
+    }
+  }
+  return goal;
+}
+
+ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
+  const std::size_t robot = *question.robot;
+  const SceneRobot& described = loaded.scene.robots[robot];
+  const RobotMotion& motion = loaded.robots->robot_motion(robot);
+  const RobotModel& model = motion.model();
+  const std::vector<std::string> joints = planned_joints(model, question);
+  if (joints.empty()) {
+    refuse_plan("robot " + in_quotes(described.name) + ": no goal names a joint that moves");
+  }
+  ConfigurationSpace space =
+      ConfigurationSpace::of_joints(model, joints, held_motions(motion), motion.base());
+  for (const auto& [name, limits] : question.bounds) {
+    space.set_limits(name, limits[0], limits[1]);
+  }
+  Configuration start;
+  for (const SpaceCoordinate& coordinate : space.coordinates()) {
+    start.push_back(start_of(described, coordinate.name, model.joints()[coordinate.joint]));
+  }
+  std::vector<Configuration> goals;
+  for (const JointPositions& goal : question.goals) {
+    goals.push_back(goal_of(model, space, goal, start));
+  }
+  PlanScene plan{.scene = *loaded.robots, .robot = robot, .space = std::move(space)};
+  return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
+}
+
+Configuration configuration_of_pose(const Pose& pose) {
+  const Eigen::Quaterniond& r = pose.rotation;
+  return {pose.position.x(), pose.position.y(), pose.position.z(), r.w(), r.x(), r.y(), r.z()};
+}
+
+/// [m]  Corners of a box around all that there is, with room for the mover around it.
+std::array<Eigen::Vector3d, 2> box_around(const LoadedScene& loaded, std::size_t mover,
+                                          const std::vector<Pose>& goals) {
+  Eigen::AlignedBox3d box;
+  const Hierarchy& of_mover = shape_of_body(loaded, mover).hierarchy();
+  const double reach = of_mover.centre.norm() + of_mover.radius;
+  for (std::size_t k = 0; k < loaded.scene.bodies.size(); ++k) {
+    const Pose& pose = std::get<FixedMotion>(loaded.scene.bodies[k].motion).pose;
+    const Hierarchy& hierarchy = shape_of_body(loaded, k).hierarchy();
+    const Eigen::Vector3d centre = pose.position + pose.rotation.normalized() * hierarchy.centre;
+    box.extend(centre - Eigen::Vector3d::Constant(hierarchy.radius));
+    box.extend(centre + Eigen::Vector3d::Constant(hierarchy.radius));
+  }
+  for (const Pose& goal : goals) {
+    box.extend(goal.position);
+  }
+  return {box.min() - Eigen::Vector3d::Constant(2.0 * reach),
+          box.max() + Eigen::Vector3d::Constant(2.0 * reach)};
+}
+
+/// The scene as its check has it, with the mover as a robot of its own: numbered alike.
+RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
+                         const ConfigurationSpace& space, const Configuration& start) {
+  const Scene& scene = loaded.scene;
+  RobotScene made(loaded.robots ? loaded.robots->rules() : loaded.bodies.rules());
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    if (k == mover) {
+      made.add_robot(scene.bodies[k].name, space.motion(start, start));
+    } else {
+      made.add_body(scene.bodies[k].name, shape_of_body(loaded, k),
+                    Motion::fixed(std::get<FixedMotion>(scene.bodies[k].motion).pose));
+    }
+  }
+  for (std::size_t k = 0; k < scene.robots.size(); ++k) {
+    const std::size_t robot = made.add_robot(scene.robots[k].name, loaded.robots->robot_motion(k),
+                                             scene.robots[k].semantics.disabled);
+    for (const auto& [joint, error] : scene.robots[k].tracking_error) {
+      made.set_tracking_error(robot, scene.robots[k].model.joints()[joint].name, error);
+    }
+  }
+  if (loaded.robots) {
+    for (std::size_t member = 0; member < made.size(); ++member) {
+      made.set_padding(member, loaded.robots->padding(member));
+    }
+    for (const Attachment& attachment : loaded.robots->attachments()) {
+      if (attachment.body == mover) {
+        refuse_plan("body " + in_quotes(scene.bodies[mover].name) +
+                    " is held by a robot; plan the robot");
+      }
+      made.attach(attachment);
+    }
+  }
+  return made;
+}
+
+ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
+  const std::size_t mover = *question.body;
+  const Body& body = loaded.scene.bodies[mover];
+  const std::array<Eigen::Vector3d, 2> box =
+      question.box ? *question.box : box_around(loaded, mover, question.goal_poses);
+  ConfigurationSpace space =
+      ConfigurationSpace::of_body(body.name, shape_of_body(loaded, mover), box[0], box[1]);
+  Configuration start = configuration_of_pose(std::get<FixedMotion>(body.motion).pose);
+  std::vector<Configuration> goals;
+  for (const Pose& goal : question.goal_poses) {
+    goals.push_back(configuration_of_pose(goal));
+  }
+  RobotScene scene = scene_of_body(loaded, mover, space, start);
+  PlanScene plan{.scene = std::move(scene), .robot = 0, .space = std::move(space)};
+  for (std::size_t member = 0; member < plan.scene.size(); ++member) {
+    plan.names.push_back(member_name(loaded.scene, member));
+  }
+  return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
+}
+
+}  // namespace
+
+ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache& cache) {
+  const FloatEnvironmentGuard guard;
+  if (question.robot.has_value() == question.body.has_value()) {
+    refuse_plan("expected a robot or a body that moves");
+  }
+  if (question.robot.value_or(0) >= std::max<std::size_t>(scene.robots.size(), 1) ||
+      question.body.value_or(0) >= std::max<std::size_t>(scene.bodies.size(), 1) ||
+      (question.robot && scene.robots.empty()) || (question.body && scene.bodies.empty())) {
+    refuse_plan("expected a scene with something to move, it has no such robot or body");
+  }
+  Scene resting = resting_scene(std::move(scene), question);
+  LoadedScene loaded = load_scene(resting, cache);
+  if (loaded.robots && freeze_held(loaded, resting)) {
+    loaded = load_scene(std::move(resting), cache);
+  }
+  ScenePlan made = question.robot ? plan_of_robot(std::move(loaded), question)
+                                  : plan_of_body(std::move(loaded), question);
+  const PlanOptions defaults;
+  made.options.planner = question.planner.value_or(defaults.planner);
+  made.options.seed = question.seed.value_or(defaults.seed);
+  made.options.time = question.time.value_or(defaults.time);
+  made.options.tolerance = made.loaded.scene.options.tolerance;
+  return made;
+}
+
+PlanQuestion question_of_trajectory(const Scene& scene) {
+  if (scene.robots.size() != 1) {
+    refuse_plan("expected a scene with one robot, got " + std::to_string(scene.robots.size()));
+  }
+  const Trajectory& trajectory = scene.robots.front().trajectory;
+  if (trajectory.joint_names.empty() || trajectory.points.size() < 2) {
+    refuse_plan("expected a start and a goal; nothing tells where robot " +
+                in_quotes(scene.robots.front().name) + " is to go");
+  }
+  PlanQuestion question;
+  question.robot = 0;
+  question.goals.emplace_back();
+  for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
+    const std::string& name = trajectory.joint_names[k];
+    question.start[name] = trajectory.points.front().positions[k];
+    question.goals.front()[name] = trajectory.points.back().positions[k];
+  }
+  return question;
+}
+
+PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
+                         const PlanResult& result) {
+  if (result.path.empty()) {
+    refuse_plan("expected a result with a path, got none");
+  }
+  PlannedPath path;
+  const Scene& resting = scene.loaded.scene;
+  const ConfigurationSpace& space = scene.plan.space;
+  path.is_proven = result.verdict == PlanVerdict::proven;
+  (space.is_body() ? path.body : path.robot) = scene.plan.scene.robot_name(scene.plan.robot);
+  for (const SpaceCoordinate& coordinate : space.coordinates()) {
+    path.joints.push_back(coordinate.name);
+    path.turnings.push_back(coordinate.turns_short ? Turning::shortest : Turning::as_given);
+  }
+  path.waypoints = result.path;
+  if (path.waypoints.size() > 1) {
+    path.clearances = result.clearances;
+  }
+  for (const std::optional<double>& clearance : result.clearances) {
+    if (clearance) {
+      path.clearance = std::min(path.clearance.value_or(*clearance), *clearance);
+    }
+  }
+  path.margin = resting.options.margin;
+  path.tolerance = options.tolerance;
+  path.extra_clearance = options.extra_clearance;
+  path.goals = scene.goals;
+  path.goal = result.goal;
+  path.distance_to_goal = result.distance_to_goal;
+  path.cost = result.cost;
+  path.planner = options.planner;
+  path.seed = options.seed;
+  path.time = options.time;
+  const PlanStatistics& counts = result.statistics;
+  path.statistics = {counts.seconds,   counts.first_path_seconds, counts.iterations,
+                     counts.nodes,     counts.edges_checked,      counts.states_checked,
+                     counts.undecided, counts.first_cost,         {}};
+  for (const BlockingPair& blocking : counts.blocked) {
+    path.statistics.blocked.push_back(
+        {{member_name(resting, blocking.members[0]), member_name(resting, blocking.members[1])},
+         blocking.count});
+  }
+  path.scene = resting;
+  path.scene.options.tolerance = options.tolerance;
+  path.version = version();
+  path.input_digest = scene.loaded.input_digest;
+  return path;
+}
+
+}  // namespace firstcontact

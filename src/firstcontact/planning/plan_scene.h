@@ -1,0 +1,55 @@
+/// @file
+/// The plan of a scene, and its answer as a path file.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/plan_question.h>
+#include <firstcontact/scene/planned_path.h>
+
+namespace firstcontact {
+
+class ShapeCache;
+
+/// A question about a scene, ready for plan_path().
+struct ScenePlan {
+  /// All that stands still, and the mover at its start; its margin is that of the question. Members
+  /// are numbered as those of `plan`.
+  LoadedScene loaded;
+  PlanScene plan;
+  Configuration start;
+  std::vector<Configuration> goals;
+  PlanOptions options;  ///< What the question has; else the defaults.
+};
+
+/// Loads a scene and makes its question ready.
+///
+/// A robot begins where its trajectory does; one-point trajectories of other robots are where these
+/// rest. What a robot holds keeps the place in its link that it has at the start.
+///
+/// @throws std::invalid_argument  names what cannot be planned: a joint or a goal that is none, a
+///         body or robot that moves by itself, a deforming body, a body that is held for a while
+/// @throws as load_scene
+[[nodiscard]] FIRSTCONTACT_API ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question,
+                                                         ShapeCache& cache);
+
+/// The question that the trajectory of a scene's only robot is: from its first to its last point.
+///
+/// @throws std::invalid_argument if there is no such robot, or its trajectory has no two points
+[[nodiscard]] FIRSTCONTACT_API PlanQuestion question_of_trajectory(const Scene& scene);
+
+/// The contents of a path file.
+///
+/// @param options  with which the path was planned
+/// @param result   with a path
+[[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
+                                                        const PlanOptions& options,
+                                                        const PlanResult& result);
+
+}  // namespace firstcontact

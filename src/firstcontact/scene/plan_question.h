@@ -1,0 +1,58 @@
+/// @file
+/// The question to a planner about a scene: the mover, its start, its goals.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/trajectory.h>
+
+namespace firstcontact {
+
+enum class Planner {
+  /// Two trees of edges that grow towards each other: J. Kuffner, S. LaValle, "RRT-Connect", ICRA
+  /// 2000. The free part of an edge that is blocked is kept.
+  rrt_connect,
+  /// A graph of places whose edges are only checked along the shortest path.
+  ///
+  /// R. Bohlin, L. Kavraki, "Path planning using lazy PRM", ICRA 2000. The numbers of neighbours
+  /// are
+  /// those of S. Karaman, E. Frazzoli, "Sampling-based algorithms for optimal motion planning",
+  /// IJRR
+  /// 30 (2011).
+  lazy_prm_star,
+};
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 2> kPlannerWords{"rrt_connect", "lazy_prm_star"};
+
+/// A path that is asked for, of a robot or of a body of the scene.
+struct PlanQuestion {
+  std::optional<std::size_t> robot = {};  ///< Of the scene; or a body.
+  std::optional<std::size_t> body = {};
+  /// The coordinates that are planned, as trajectories call them; without any, those that goals
+  /// name.
+  std::vector<std::string> joints = {};
+  JointPositions start = {};               ///< Of a robot; others begin where the scene has them.
+  std::vector<JointPositions> goals = {};  ///< Joints that they do not name keep their start.
+  std::map<std::string, std::array<double, 2>> bounds = {};  ///< [rad or m]  By coordinates.
+  std::optional<Pose> start_pose = {};  ///< Of a body; else where the scene has it.
+  std::vector<Pose> goal_poses = {};    ///< Of a body.
+  /// [m]  Corners of the box in which the body's origin stays; else around all that there is.
+  std::optional<std::array<Eigen::Vector3d, 2>> box = {};
+  std::optional<double> margin = {};  ///< [m]  In place of the scene's; >= 0.
+  std::optional<Planner> planner = {};
+  std::optional<std::uint64_t> seed = {};
+  std::optional<double> time = {};  ///< [s]  > 0.
+};
+
+}  // namespace firstcontact

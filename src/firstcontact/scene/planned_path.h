@@ -1,0 +1,68 @@
+/// @file
+/// A path that is proven edge by edge, with the scene in which it is: what a path file holds.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/plan_question.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// Two members of a scene by name, and how many edges and places they ended.
+struct NamedBlockingPair {
+  std::array<std::string, 2> pair;
+  std::size_t count = 0;
+};
+
+/// How a path was found; see docs/path_format.md.
+struct PlannedPathStatistics {
+  double seconds = 0.0;                           ///< [s]
+  std::optional<double> first_path_seconds = {};  ///< [s]
+  std::size_t iterations = 0;
+  std::size_t nodes = 0;
+  std::size_t edges_checked = 0;
+  std::size_t states_checked = 0;
+  std::size_t undecided = 0;
+  std::optional<double> first_cost = {};
+  std::vector<NamedBlockingPair> blocked = {};  ///< The most frequent first.
+};
+
+/// The contents of a path file. Numbers are those of the file, bit for bit.
+struct PlannedPath {
+  bool is_proven = false;  ///< Else approximate: its edges are proven, but it ends before a goal.
+  std::string robot = {};  ///< That moves; empty where a body does.
+  std::string body = {};   ///< So, too.
+  std::vector<std::string> joints = {};  ///< Coordinates that the numbers of waypoints are of.
+  std::vector<Turning> turnings = {};    ///< Of each of them.
+  /// At least one. Of a body a position, then a quaternion w, x, y, z.
+  std::vector<std::vector<double>> waypoints = {};
+  /// [m]  Of each edge: a proven lower bound of the distance of tested pairs; none where none is.
+  std::vector<std::optional<double>> clearances = {};
+  double margin = 0.0;                   ///< [m]
+  double tolerance = 1e-6;               ///< [m]
+  double extra_clearance = 0.0;          ///< [m]
+  std::optional<double> clearance = {};  ///< [m]  The least, or that of the only waypoint.
+  std::vector<std::vector<double>> goals = {};
+  std::optional<std::size_t> goal = {};
+  double distance_to_goal = 0.0;
+  double cost = 0.0;
+  Planner planner = Planner::rrt_connect;
+  std::uint64_t seed = 1;
+  double time = 1.0;  ///< [s]
+  PlannedPathStatistics statistics = {};
+  /// All that stands still, and the mover at its start. Its text_digest is that of the text from
+  /// which the path was planned.
+  Scene scene = {};
+  std::string version = {};
+  std::string input_digest = {};  ///< SHA-256 of everything read, in hexadecimal.
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,216 @@
+#include <firstcontact/scene_files/detail/read_plan.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene_files/detail/read_pose.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr std::size_t kSeeds = std::size_t{1} << 53;  // Whole numbers that JSON keeps.
+
+class PlanReader {
+ public:
+  PlanReader(const Scene& scene, const JsonReader& read) : scene_(scene), read_(read) {}
+
+  PlanQuestion plan(const JsonValue& value) const {
+    const JsonObject& object =
+        read_.object(value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box",
+                              "margin", "planner", "seed", "time"}});
+    PlanQuestion plan;
+    take_mover(value, object, plan);
+    take_options(object, plan);
+    if (plan.robot) {
+      take_joints(object, scene_.robots[*plan.robot], plan);
+    } else {
+      take_body(object, plan);
+    }
+    take_goals(value, object, plan);
+    return plan;
+  }
+
+ private:
+  void take_mover(const JsonValue& value, const JsonObject& object, PlanQuestion& plan) const {
+    const JsonValue* robot = find(object, "robot");
+    const JsonValue* body = find(object, "body");
+    if (robot != nullptr && body != nullptr) {
+      read_.fail(*body, "expected either \"robot\" or \"body\", got both");
+    }
+    if (body != nullptr) {
+      plan.body = numbered(*body, "body", scene_.bodies);
+    } else if (robot != nullptr) {
+      plan.robot = numbered(*robot, "robot", scene_.robots);
+    } else if (scene_.robots.size() == 1) {
+      plan.robot = 0;
+    } else {
+      read_.fail(value, "expected \"robot\" or \"body\", the name of what moves");
+    }
+  }
+
+  template <class Named>
+  std::size_t numbered(const JsonValue& value, const std::string& what,
+                       const std::vector<Named>& all) const {
+    const std::string& name = read_.string(value, "the name of a " + what);
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    if (found == all.end()) {
+      std::vector<std::string_view> names;
+      for (const Named& one : all) {
+        names.push_back(one.name);
+      }
+      const std::string_view near = nearest_word(name, names);
+      read_.fail(value, "expected the name of a " + what + " of the scene, got " + in_quotes(name) +
+                            (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?"));
+    }
+    return static_cast<std::size_t>(found - all.begin());
+  }
+
+  void take_options(const JsonObject& object, PlanQuestion& plan) const {
+    if (const JsonValue* margin = find(object, "margin")) {
+      plan.margin = read_.not_negative(*margin);
+    }
+    if (const JsonValue* planner = find(object, "planner")) {
+      plan.planner = read_.enumerator<Planner>(*planner, kPlannerWords);
+    }
+    if (const JsonValue* seed = find(object, "seed")) {
+      plan.seed = read_.index(*seed, kSeeds, "a seed, a whole number");
+    }
+    if (const JsonValue* time = find(object, "time")) {
+      plan.time = read_.positive(*time);
+    }
+  }
+
+  void take_joints(const JsonObject& object, const SceneRobot& robot, PlanQuestion& plan) const {
+    if (const JsonValue* box = find(object, "box")) {
+      read_.fail(*box, "\"box\" is of a body; a robot has \"bounds\"");
+    }
+    if (const JsonValue* joints = find(object, "joints")) {
+      for (const JsonValue& joint : read_.array(*joints, "an array of names of joints")) {
+        plan.joints.push_back(
+            known_joint(joint, read_.string(joint, "the name of a joint"), robot));
+      }
+    }
+    if (const JsonValue* start = find(object, "start")) {
+      plan.start = state(*start, robot);
+    }
+    if (const JsonValue* bounds = find(object, "bounds")) {
+      const auto* all = std::get_if<JsonObject>(&bounds->value);
+      if (all == nullptr) {
+        read_.fail_expected("limits by joint, such as {\"joint\": [-1, 1]}", *bounds);
+      }
+      for (const auto& [name, limits] : *all) {
+        const JsonArray& two = read_.array(limits, "two numbers");
+        if (two.size() != 2) {
+          read_.fail_expected("two numbers, the lower limit first", limits);
+        }
+        plan.bounds[known_joint(limits, name, robot)] = {read_.number(two[0]),
+                                                         read_.number(two[1])};
+      }
+    }
+  }
+
+  void take_body(const JsonObject& object, PlanQuestion& plan) const {
+    for (const char* key : {"joints", "bounds"}) {
+      if (const JsonValue* given = find(object, key)) {
+        read_.fail(*given, in_quotes(key) + " is of a robot; a body has \"box\"");
+      }
+    }
+    if (const JsonValue* start = find(object, "start")) {
+      plan.start_pose = read_pose(*start, read_);
+    }
+    if (const JsonValue* box = find(object, "box")) {
+      const JsonArray& corners = read_.array(*box, "two corners");
+      if (corners.size() != 2) {
+        read_.fail_expected("two corners, the low one first", *box);
+      }
+      plan.box = {read_.vector3(corners[0]), read_.vector3(corners[1])};
+    }
+  }
+
+  void take_goals(const JsonValue& value, const JsonObject& object, PlanQuestion& plan) const {
+    const JsonValue* goal = find(object, "goal");
+    const JsonValue* goals = find(object, "goals");
+    if ((goal == nullptr) == (goals == nullptr)) {
+      read_.fail(value, goal == nullptr ? "expected \"goal\" or \"goals\", got neither"
+                                        : "expected either \"goal\" or \"goals\", got both");
+    }
+    std::vector<const JsonValue*> all;
+    if (goal != nullptr) {
+      all.push_back(goal);
+    } else {
+      for (const JsonValue& one : read_.array(*goals, "an array of goals")) {
+        all.push_back(&one);
+      }
+    }
+    if (all.empty()) {
+      read_.fail_expected("at least one goal", *goals);
+    }
+    for (const JsonValue* one : all) {
+      if (plan.robot) {
+        plan.goals.push_back(state(*one, scene_.robots[*plan.robot]));
+      } else {
+        plan.goal_poses.push_back(read_pose(*one, read_));
+      }
+    }
+  }
+
+  std::string known_joint(const JsonValue& where, const std::string& name,
+                          const SceneRobot& robot) const {
+    try {
+      return coordinate_name(robot.model, find_coordinate(robot.model, name));
+    } catch (const std::invalid_argument& error) {
+      read_.fail(where, error.what());
+    }
+  }
+
+  /// A state of the SRDF by its name, coordinates by theirs, or an array of both.
+  JointPositions state(const JsonValue& value, const SceneRobot& robot) const {
+    JointPositions positions;
+    add_state(value, robot, positions);
+    return positions;
+  }
+
+  void add_state(const JsonValue& value, const SceneRobot& robot, JointPositions& positions) const {
+    if (const auto* array = std::get_if<JsonArray>(&value.value)) {
+      for (const JsonValue& element : *array) {
+        add_state(element, robot, positions);
+      }
+    } else if (const auto* name = std::get_if<std::string>(&value.value)) {
+      try {
+        for (const auto& [joint, position] : group_state(robot.model, robot.semantics, *name)) {
+          positions[joint] = position;
+        }
+      } catch (const std::invalid_argument& error) {
+        read_.fail(value, error.what());
+      }
+    } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
+      for (const auto& [joint, position] : *object) {
+        positions[known_joint(position, joint, robot)] = read_.number(position);
+      }
+    } else {
+      read_.fail_expected(
+          "positions by joint, such as {\"joint\": 0.1}, or the name of a state of the SRDF",
+          value);
+    }
+  }
+
+  const Scene& scene_;
+  const JsonReader& read_;
+};
+
+}  // namespace
+
+PlanQuestion read_plan(const JsonValue& value, const Scene& scene, const JsonReader& read) {
+  return PlanReader(scene, read).plan(value);
+}
+
+}  // namespace firstcontact::detail

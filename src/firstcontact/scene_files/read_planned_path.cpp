@@ -1,0 +1,239 @@
+#include <firstcontact/scene_files/read_planned_path.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::find;
+using detail::JsonArray;
+using detail::JsonNull;
+using detail::JsonObject;
+using detail::JsonReader;
+using detail::JsonValue;
+
+constexpr std::size_t kMostCounted = std::size_t{1} << 53;
+
+class PathReader {
+ public:
+  explicit PathReader(const JsonReader& read) : read_(read) {}
+
+  void take(const JsonValue& root, PlannedPath& path) const {
+    (void)read_.object(root, {{"firstcontact_path", "verdict", "moves", "waypoints", "edges",
+                               "margin", "tolerance", "extra_clearance", "clearance", "goals",
+                               "goal", "distance_to_goal", "cost", "planner", "statistics", "scene",
+                               "version", "scene_digest", "input_digest"}});
+    path.is_proven = read_.word(read_.member(root, "verdict"), {{"proven", "approximate"}}) == 0;
+    take_mover(read_.member(root, "moves"), path);
+    path.waypoints = rows(read_.member(root, "waypoints"), path);
+    path.goals = rows(read_.member(root, "goals"), path);
+    take_edges(read_.member(root, "edges"), path);
+    path.margin = read_.not_negative(read_.member(root, "margin"));
+    path.tolerance = read_.positive(read_.member(root, "tolerance"));
+    path.extra_clearance = read_.not_negative(read_.member(root, "extra_clearance"));
+    path.clearance = not_negative_or_null(read_.member(root, "clearance"));
+    take_goal(read_.member(root, "goal"), path);
+    path.distance_to_goal = read_.not_negative(read_.member(root, "distance_to_goal"));
+    path.cost = read_.not_negative(read_.member(root, "cost"));
+    take_planner(read_.member(root, "planner"), path);
+    take_statistics(read_.member(root, "statistics"), path.statistics);
+    path.version = string_of(read_.member(root, "version"));
+    path.scene.text_digest = string_of(read_.member(root, "scene_digest"));
+    path.input_digest = string_of(read_.member(root, "input_digest"));
+    if (path.input_digest.size() != 64) {
+      read_.fail_expected("a SHA-256 in hexadecimal", read_.member(root, "input_digest"));
+    }
+  }
+
+ private:
+  std::string string_of(const JsonValue& value) const {
+    const auto* text = std::get_if<std::string>(&value.value);
+    return text != nullptr ? *text : read_.string(value, "a string");
+  }
+
+  std::optional<double> not_negative_or_null(const JsonValue& value) const {
+    return std::holds_alternative<JsonNull>(value.value) ? std::nullopt
+                                                         : std::optional(read_.not_negative(value));
+  }
+
+  std::size_t count(const JsonValue& value) const {
+    return read_.index(value, kMostCounted, "a whole number");
+  }
+
+  void take_mover(const JsonValue& value, PlannedPath& path) const {
+    const JsonObject& object = read_.object(value, {{"robot", "joints", "turning", "body"}});
+    if (const JsonValue* body = find(object, "body")) {
+      if (object.size() != 1) {
+        read_.fail(value, "expected \"body\" alone, or a robot");
+      }
+      path.body = read_.string(*body, "the name of a body");
+      require_name(path.scene.bodies, path.body, *body);
+      return;
+    }
+    path.robot = read_.string(read_.member(value, "robot"), "the name of a robot");
+    const SceneRobot& robot =
+        require_name(path.scene.robots, path.robot, read_.member(value, "robot"));
+    for (const JsonValue& joint : read_.array(read_.member(value, "joints"), "names of joints")) {
+      path.joints.push_back(read_.string(joint, "the name of a joint"));
+      if (!known_coordinate(robot.model, path.joints.back())) {
+        read_.fail_expected("the name of a joint of the robot", joint);
+      }
+      if (std::count(path.joints.begin(), path.joints.end(), path.joints.back()) > 1) {
+        read_.fail(joint, "expected each joint once, got one twice");
+      }
+    }
+    for (const JsonValue& turning : read_.array(read_.member(value, "turning"), "turnings")) {
+      path.turnings.push_back(read_.enumerator<Turning>(turning, kTurningWords));
+    }
+    if (path.joints.empty() || path.turnings.size() != path.joints.size()) {
+      read_.fail(value, "expected at least one joint, and a turning for each");
+    }
+  }
+
+  template <class Named>
+  const Named& require_name(const std::vector<Named>& all, const std::string& name,
+                            const JsonValue& where) const {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    if (found == all.end()) {
+      read_.fail_expected("a name that the scene has", where);
+    }
+    return *found;
+  }
+
+  std::vector<std::vector<double>> rows(const JsonValue& value, const PlannedPath& path) const {
+    const std::size_t size = path.body.empty() ? path.joints.size() : 7;
+    std::vector<std::vector<double>> all;
+    for (const JsonValue& row : read_.array(value, "an array of waypoints")) {
+      std::vector<double> numbers;
+      for (const JsonValue& number : read_.array(row, "a waypoint")) {
+        numbers.push_back(read_.number(number));
+      }
+      if (numbers.size() != size) {
+        read_.fail(row, "expected " + std::to_string(size) + " numbers, got " +
+                            std::to_string(numbers.size()));
+      }
+      all.push_back(std::move(numbers));
+    }
+    if (all.empty()) {
+      read_.fail_expected("at least one waypoint", value);
+    }
+    return all;
+  }
+
+  void take_edges(const JsonValue& value, PlannedPath& path) const {
+    for (const JsonValue& edge : read_.array(value, "an array of edges")) {
+      (void)read_.object(edge, {{"verdict", "clearance"}});
+      (void)read_.word(read_.member(edge, "verdict"), {{"proven"}});
+      path.clearances.push_back(not_negative_or_null(read_.member(edge, "clearance")));
+    }
+    if (path.clearances.size() + 1 != path.waypoints.size()) {
+      read_.fail(value, "expected an edge for each two neighbouring waypoints, " +
+                            std::to_string(path.waypoints.size() - 1) + ", got " +
+                            std::to_string(path.clearances.size()));
+    }
+  }
+
+  void take_goal(const JsonValue& value, PlannedPath& path) const {
+    if (!std::holds_alternative<JsonNull>(value.value)) {
+      path.goal = read_.index(value, path.goals.size(), "the number of a goal");
+    }
+    if (path.goal.has_value() != path.is_proven) {
+      read_.fail(value, "expected a goal in a proven path, and null in an approximate one");
+    }
+    if (path.goal && path.goals[*path.goal] != path.waypoints.back()) {
+      read_.fail(value, "expected the goal that the last waypoint is, got another one");
+    }
+  }
+
+  void take_planner(const JsonValue& value, PlannedPath& path) const {
+    (void)read_.object(value, {{"name", "seed", "time"}});
+    path.planner = read_.enumerator<Planner>(read_.member(value, "name"), kPlannerWords);
+    path.seed = count(read_.member(value, "seed"));
+    path.time = read_.positive(read_.member(value, "time"));
+  }
+
+  void take_statistics(const JsonValue& value, PlannedPathStatistics& statistics) const {
+    (void)read_.object(value,
+                       {{"seconds", "first_path_seconds", "iterations", "nodes", "edges_checked",
+                         "states_checked", "undecided", "first_cost", "blocked"}});
+    statistics.seconds = read_.not_negative(read_.member(value, "seconds"));
+    statistics.first_path_seconds = not_negative_or_null(read_.member(value, "first_path_seconds"));
+    statistics.iterations = count(read_.member(value, "iterations"));
+    statistics.nodes = count(read_.member(value, "nodes"));
+    statistics.edges_checked = count(read_.member(value, "edges_checked"));
+    statistics.states_checked = count(read_.member(value, "states_checked"));
+    statistics.undecided = count(read_.member(value, "undecided"));
+    statistics.first_cost = not_negative_or_null(read_.member(value, "first_cost"));
+    for (const JsonValue& one : read_.array(read_.member(value, "blocked"), "an array")) {
+      (void)read_.object(one, {{"pair", "count"}});
+      const JsonValue& pair = read_.member(one, "pair");
+      const JsonArray& names = read_.array(pair, "a pair of names");
+      if (names.size() != 2) {
+        read_.fail_expected("a pair of names", pair);
+      }
+      statistics.blocked.push_back(
+          {{read_.string(names[0], "a name"), read_.string(names[1], "a name")},
+           count(read_.member(one, "count"))});
+    }
+  }
+
+  const JsonReader& read_;
+};
+
+void require_format(const JsonValue& root, const JsonReader& read) {
+  const auto* object = std::get_if<JsonObject>(&root.value);
+  const JsonValue* version = object == nullptr ? nullptr : find(*object, "firstcontact_path");
+  const auto* number = version == nullptr ? nullptr : std::get_if<double>(&version->value);
+  if (number == nullptr || *number != 1.0) {
+    read.fail(root, "expected a path, an object with \"firstcontact_path\": 1");
+  }
+}
+
+}  // namespace
+
+PlannedPath parse_planned_path(std::string_view text, const std::filesystem::path& source,
+                               const ReadingOptions& options) {
+  const FloatEnvironmentGuard guard;
+  const std::string name = source.string();
+  const JsonValue root = detail::parse_json(text, name);
+  const JsonReader read(root, name);
+  require_format(root, read);
+  PlannedPath path;
+  path.scene = parse_embedded_scene(text, name, 1, options);
+  PathReader(read).take(root, path);
+  return path;
+}
+
+PlannedPath read_planned_path(const std::filesystem::path& file, const ReadingOptions& options) {
+  return parse_planned_path(detail::read_file(file, "a path file"), file, options);
+}
+
+LoadedScene load_scene_of(const PlannedPath& path, ShapeCache& cache) {
+  LoadedScene loaded = load_scene(path.scene, cache);
+  if (loaded.input_digest != path.input_digest) {
+    throw std::invalid_argument(
+        "a mesh or robot file of its scene is not what it was when the path was planned; restore "
+        "the file, or plan again");
+  }
+  return loaded;
+}
+
+}  // namespace firstcontact

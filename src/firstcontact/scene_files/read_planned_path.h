@@ -1,0 +1,40 @@
+/// @file
+/// Reads a planned path (see docs/path_format.md).
+
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+class ShapeCache;
+struct LoadedScene;
+
+/// Parses the text of a path file.
+///
+/// Checked is the form: keys, kinds of values, counts that belong together, names that the scene
+/// has. Nothing is proven, and no mesh is read.
+///
+/// @param source  names the text in errors
+/// @throws ParseError
+[[nodiscard]] FIRSTCONTACT_API PlannedPath parse_planned_path(std::string_view text,
+                                                              const std::filesystem::path& source,
+                                                              const ReadingOptions& options = {});
+
+/// Reads a path file, as parse_planned_path() reads its text.
+[[nodiscard]] FIRSTCONTACT_API PlannedPath read_planned_path(const std::filesystem::path& file,
+                                                             const ReadingOptions& options = {});
+
+/// Reads the meshes and robots that the scene of a path names.
+///
+/// @throws std::invalid_argument if one of them is not what it was when the path was planned
+/// @throws as load_scene
+[[nodiscard]] FIRSTCONTACT_API LoadedScene load_scene_of(const PlannedPath& path,
+                                                         ShapeCache& cache);
+
+}  // namespace firstcontact

@@ -1,0 +1,128 @@
+#include <firstcontact/scene_files/write_planned_path.h>
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene_files/write_scene.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonArray;
+using detail::JsonNull;
+using detail::JsonObject;
+using detail::JsonText;
+using detail::JsonValue;
+
+JsonValue number_of(double number) {
+  if (!std::isfinite(number)) {
+    throw std::invalid_argument("a path file holds finite numbers only, got " +
+                                std::to_string(number));
+  }
+  return {.value = number};
+}
+
+JsonValue count_of(std::size_t count) { return {.value = static_cast<double>(count)}; }
+JsonValue text_of(std::string_view text) { return {.value = std::string(text)}; }
+
+JsonValue number_or_null(const std::optional<double>& number) {
+  return number ? number_of(*number) : JsonValue{.value = JsonNull{}};
+}
+
+JsonValue rows_of(const std::vector<std::vector<double>>& rows) {
+  JsonArray array;
+  for (const std::vector<double>& row : rows) {
+    JsonArray numbers;
+    for (const double number : row) {
+      numbers.push_back(number_of(number));
+    }
+    array.push_back({.value = std::move(numbers)});
+  }
+  return {.value = std::move(array)};
+}
+
+JsonValue mover_of(const PlannedPath& path) {
+  if (!path.body.empty()) {
+    return {.value = JsonObject{{"body", text_of(path.body)}}};
+  }
+  JsonArray joints;
+  JsonArray turnings;
+  for (const std::string& joint : path.joints) {
+    joints.push_back(text_of(joint));
+  }
+  for (const Turning turning : path.turnings) {
+    turnings.push_back(text_of(to_string(turning)));
+  }
+  return {.value = JsonObject{{"robot", text_of(path.robot)},
+                              {"joints", {.value = std::move(joints)}},
+                              {"turning", {.value = std::move(turnings)}}}};
+}
+
+JsonValue edges_of(const PlannedPath& path) {
+  JsonArray edges;
+  for (const std::optional<double>& clearance : path.clearances) {
+    edges.push_back({.value = JsonObject{{"verdict", text_of("proven")},
+                                         {"clearance", number_or_null(clearance)}}});
+  }
+  return {.value = std::move(edges)};
+}
+
+JsonValue statistics_of(const PlannedPathStatistics& statistics) {
+  JsonArray blocked;
+  for (const NamedBlockingPair& blocking : statistics.blocked) {
+    blocked.push_back(
+        {.value = JsonObject{
+             {"pair", {.value = JsonArray{text_of(blocking.pair[0]), text_of(blocking.pair[1])}}},
+             {"count", count_of(blocking.count)}}});
+  }
+  return {.value = JsonObject{{"seconds", number_of(statistics.seconds)},
+                              {"first_path_seconds", number_or_null(statistics.first_path_seconds)},
+                              {"iterations", count_of(statistics.iterations)},
+                              {"nodes", count_of(statistics.nodes)},
+                              {"edges_checked", count_of(statistics.edges_checked)},
+                              {"states_checked", count_of(statistics.states_checked)},
+                              {"undecided", count_of(statistics.undecided)},
+                              {"first_cost", number_or_null(statistics.first_cost)},
+                              {"blocked", {.value = std::move(blocked)}}}};
+}
+
+}  // namespace
+
+std::string write_planned_path(const PlannedPath& path) {
+  const JsonValue planner = {
+      .value =
+          JsonObject{{"name", text_of(kPlannerWords.at(static_cast<std::size_t>(path.planner)))},
+                     {"seed", count_of(path.seed)},
+                     {"time", number_of(path.time)}}};
+  JsonObject object{{"firstcontact_path", count_of(1)},
+                    {"verdict", text_of(path.is_proven ? "proven" : "approximate")},
+                    {"moves", mover_of(path)},
+                    {"waypoints", rows_of(path.waypoints)},
+                    {"edges", edges_of(path)},
+                    {"margin", number_of(path.margin)},
+                    {"tolerance", number_of(path.tolerance)},
+                    {"extra_clearance", number_of(path.extra_clearance)},
+                    {"clearance", number_or_null(path.clearance)},
+                    {"goals", rows_of(path.goals)},
+                    {"goal", path.goal ? count_of(*path.goal) : JsonValue{.value = JsonNull{}}},
+                    {"distance_to_goal", number_of(path.distance_to_goal)},
+                    {"cost", number_of(path.cost)},
+                    {"planner", planner},
+                    {"statistics", statistics_of(path.statistics)},
+                    {"scene", {.value = JsonText{write_scene(path.scene)}}},
+                    {"version", text_of(path.version)},
+                    {"scene_digest", text_of(path.scene.text_digest)},
+                    {"input_digest", text_of(path.input_digest)}};
+  return detail::write_json({.value = std::move(object)});
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,175 @@
+"""`firstcontact plan` as a user meets it: paths, exit status, errors that name what is wrong.
+
+    plan_test.py TOOL SOURCE_DIR [unittest arguments]
+"""
+
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = ""
+SOURCE = pathlib.Path()
+
+WALL = {"name": "wall", "shape": {"box": {"size": [1e-5, 1, 1]}}}
+CLOSED = {"name": "closed", "shape": {"box": {"size": [1e-5, 100, 100]}}}
+PEG = {"name": "peg", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [-0.5, 0, 0]}}
+GOAL = {"position": [0.5, 0.1, 0.25]}
+
+URDF = """<robot name="gantry">
+  <link name="base"/><link name="slide"/>
+  <link name="tool"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+  <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/>
+    <axis xyz="1 0 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="z" type="prismatic"><parent link="slide"/><child link="tool"/>
+    <axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+</robot>"""
+
+
+def scene(plan, bodies=(WALL, PEG), **more):
+    found = {"firstcontact": 1, "bodies": list(bodies), **more}
+    if plan is not None:
+        found["plan"] = plan
+    return found
+
+
+class Plan(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, content):
+        text = content if isinstance(content, str) else json.dumps(content)
+        (self.folder / name).write_text(text, encoding="utf-8")
+        return name
+
+    def plan(self, *arguments):
+        return subprocess.run([TOOL, "plan", *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120, check=False)
+
+    def assert_refused(self, result, *words):
+        self.assertEqual(result.returncode, 2, result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertFalse((self.folder / "path.json").exists())
+
+    def test_finds_a_path_and_writes_it(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "margin": 0.01}))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("proven edge by edge", result.stdout)
+        self.assertIn("in the way", result.stdout)
+        self.assertIn("wall and peg", result.stdout)
+        path = json.loads((self.folder / "path.json").read_text())
+        self.assertEqual(path["verdict"], "proven")
+        self.assertEqual(path["moves"], {"body": "peg"})
+        self.assertEqual(path["waypoints"][0], [-0.5, 0, 0, 1, 0, 0, 0])
+        self.assertEqual(path["waypoints"][-1], [0.5, 0.1, 0.25, 1, 0, 0, 0])
+        self.assertEqual(len(path["edges"]), len(path["waypoints"]) - 1)
+        self.assertTrue(all(edge["clearance"] >= 0.01 for edge in path["edges"]))
+        self.assertNotIn("plan", path["scene"])
+        try:
+            import jsonschema
+        except ImportError:
+            return
+        schemas = SOURCE / "src/firstcontact/scene_files/schema"
+        for schema, value in [("path", path), ("scene", path["scene"]),
+                              ("scene", json.loads((self.folder / "scene.json").read_text()))]:
+            jsonschema.Draft202012Validator(json.loads((schemas / f"{schema}.json").read_text())).validate(value)
+
+    def test_is_the_same_for_a_seed_and_any_number_of_threads(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        paths = [json.loads(self.plan("scene.json", "--json", "--seed", "5", "--threads", threads).stdout)
+                 for threads in ("1", "2")]
+        for path in paths:
+            del path["statistics"]["seconds"], path["statistics"]["first_path_seconds"]
+        self.assertEqual(paths[0], paths[1])
+
+    def test_plans_lazily(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
+        path = json.loads(self.plan("scene.json", "--json").stdout)
+        self.assertEqual((path["verdict"], path["planner"]["name"]), ("proven", "lazy_prm_star"))
+
+    def test_plans_a_robot_between_states(self):
+        self.write("gantry.urdf", URDF)
+        self.write("room.json", scene(None, [WALL]))
+        result = self.plan("--robot", "gantry.urdf", "--environment", "room.json", "--start", "x=-1", "--goal",
+                           "x=1", "--goal", "z=0.2", "--json")
+        self.assertEqual(result.returncode, 0, result)
+        path = json.loads(result.stdout)
+        self.assertEqual(path["moves"], {"robot": "gantry", "joints": ["x", "z"], "turning": ["long", "long"]})
+        self.assertEqual(path["waypoints"][0], [-1, 0])
+        self.assertEqual(path["waypoints"][-1], [1, 0.2])
+
+    def test_says_that_there_is_none(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "box": [[-1, -1, -1], [1, 1, 1]]}, [CLOSED, PEG]))
+        result = self.plan("scene.json", "-o", "path.json", "--time", "0.2")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("no path was found", result.stdout)
+        self.assertIn("closed and peg", result.stdout)
+        self.assertFalse((self.folder / "path.json").exists())
+        result = self.plan("scene.json", "-o", "path.json", "--time", "0.2", "--approximate")
+        self.assertEqual(result.returncode, 3, result)
+        path = json.loads((self.folder / "path.json").read_text())
+        self.assertEqual((path["verdict"], path["goal"]), ("approximate", None))
+        self.assertGreater(path["distance_to_goal"], 0)
+
+    def test_is_one_place_where_the_start_is_the_goal(self):
+        self.write("scene.json", scene({"body": "peg", "goal": PEG["pose"]}))
+        path = json.loads(self.plan("scene.json", "--json").stdout)
+        self.assertEqual((path["verdict"], len(path["waypoints"]), path["edges"]), ("proven", 1, []))
+
+    def test_names_what_is_wrong(self):
+        self.write("gantry.urdf", URDF)
+        of_robot = {"robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1}}]}
+        cases = [
+            (scene({"body": "peg", "goal": {"position": [0, 0, 0]}}), ["the goal", '"wall"', '"peg"', "deep"]),
+            (scene({"body": "peg", "start": {"position": [0.02, 0, 0]}, "goal": GOAL}),
+             ["the start", '"wall"', '"peg"', "nearest free place"]),
+            (scene({"body": "nut", "goal": GOAL}), ['"nut"']),
+            (scene({"body": "peg", "goal": GOAL, "time": 0}), ["time", "> 0"]),
+            (scene(None), ['"plan"']),
+            (scene({"goal": GOAL}), ["what moves"]),
+            (scene({"goal": {"y": 1}}, [WALL], **of_robot), ['"y"']),
+            (scene({"goal": {"x": 2.5}}, [WALL], **of_robot), ['"x"', "2.5", "limits"]),
+            (scene({"start": {"x": -3}, "goal": {"x": 1}}, [WALL], **of_robot), ["the start", '"x"']),
+            (scene({"body": "peg", "goal": GOAL}, [PEG, {**WALL, "motion": {
+                "type": "constant_velocity", "from": {}, "translation": [0, 0, 1]}}]), ['"wall"', "moves"]),
+        ]
+        for content, words in cases:
+            self.write("scene.json", content)
+            with self.subTest(words=words):
+                self.assert_refused(self.plan("scene.json", "-o", "path.json"), *words)
+        self.write("scene.json", json.dumps(scene({"body": "peg", "goal": GOAL})).replace("0.25", "NaN"))
+        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "scene.json")
+        self.assert_refused(self.plan("scene.json", "--time", "0"), "--time")
+        self.assert_refused(self.plan(), "expected a SCENE, or --robot")
+        self.assert_refused(self.plan("--robot", "gantry.urdf", "--start", "x=1", "--goal", "w=1"), '"w"')
+
+    def test_never_writes_over_its_question(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        before = (self.folder / "scene.json").read_text()
+        self.assertEqual(self.plan("scene.json", "-o", "scene.json").returncode, 2)
+        self.assertEqual((self.folder / "scene.json").read_text(), before)
+
+    def test_ends_when_it_is_interrupted(self):
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "time": 100}, [CLOSED, PEG]))
+        process = subprocess.Popen([TOOL, "plan", "scene.json", "-o", "path.json"], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        process.send_signal(signal.SIGINT)  # Before the tool is ready for it, the signal ends it at once.
+        process.communicate(timeout=60)
+        self.assertIn(process.returncode, (1, -signal.SIGINT))
+        self.assertFalse((self.folder / "path.json").exists())
+
+
+if __name__ == "__main__":
+    TOOL = sys.argv.pop(1)
+    SOURCE = pathlib.Path(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,92 @@
+/// @file
+/// Scenes to plan in, whose clearances are known by construction.
+
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/robot_check/touching_links.h>
+
+namespace firstcontact::test {
+
+inline Motion resting_at(const Eigen::Vector3d& place) {
+  return Motion::fixed({place, Eigen::Quaterniond::Identity()});
+}
+
+/// A cube of side 0.2 m on three slides, "x", "y" and "z", within 2 m of the origin.
+inline RobotModel gantry() {
+  RobotDescription robot{
+      .name = "gantry", .links = {{"base"}, {"lx"}, {"ly"}, {"tool"}}, .joints = {}};
+  robot.links[3].collision.push_back(
+      {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = make_box({0.2, 0.2, 0.2})});
+  const char* names[] = {"x", "y", "z"};
+  const char* parents[] = {"base", "lx", "ly", "tool"};
+  for (int k = 0; k < 3; ++k) {
+    Joint joint{.name = names[k],
+                .type = JointType::prismatic,
+                .parent = parents[k],
+                .child = parents[k + 1],
+                .axis = Eigen::Vector3d::Unit(k)};
+    joint.limits = {.lower = -2.0, .upper = 2.0};
+    robot.joints.push_back(joint);
+  }
+  return RobotModel(robot);
+}
+
+inline std::map<std::string, JointMotion> all_at_rest(const RobotMotion& motion) {
+  std::map<std::string, JointMotion> held;
+  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
+    if (const auto given = motion.given(joint)) {
+      held.emplace(motion.model().joints()[joint].name, *given);
+    }
+  }
+  return held;
+}
+
+/// The gantry in a scene that has its bodies.
+inline PlanScene with_gantry(RobotScene scene) {
+  const RobotMotion rest = at_rest(gantry());
+  const std::vector<std::string> names = {"x", "y", "z"};
+  const std::size_t robot = scene.add_robot("gantry", rest);
+  return {.scene = std::move(scene),
+          .robot = robot,
+          .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
+}
+
+/// A wall in the plane x = 0, 10 um thick, from -2.2 to 2.2 m, with a square window around the
+/// origin.
+///
+/// @param half  [m]  from the middle of the window to its sides; 0 for none
+inline RobotScene thin_wall(double half) {
+  RobotScene scene;
+  const double thick = 1e-5;
+  const double edge = 2.2;
+  if (half == 0.0) {
+    scene.add_body("wall", make_box({thick, 2 * edge, 2 * edge}));
+    return scene;
+  }
+  const double side = edge - half;
+  const double middle = 0.5 * (edge + half);
+  scene.add_body("left", make_box({thick, side, 2 * edge}), resting_at({0.0, -middle, 0.0}));
+  scene.add_body("right", make_box({thick, side, 2 * edge}), resting_at({0.0, middle, 0.0}));
+  scene.add_body("under", make_box({thick, 2 * half, side}), resting_at({0.0, 0.0, -middle}));
+  scene.add_body("over", make_box({thick, 2 * half, side}), resting_at({0.0, 0.0, middle}));
+  return scene;
+}
+
+/// A bar of the given sizes that moves freely among the bodies of a scene, within 1.5 m.
+inline PlanScene with_bar(RobotScene scene, const Eigen::Vector3d& sizes) {
+  ConfigurationSpace space = ConfigurationSpace::of_body(
+      "bar", make_box(sizes), Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
+  const Configuration origin = {0, 0, 0, 1, 0, 0, 0};
+  const std::size_t robot = scene.add_robot("bar", space.motion(origin, origin));
+  return {.scene = std::move(scene), .robot = robot, .space = std::move(space)};
+}
+
+}  // namespace firstcontact::test

@@ -1,0 +1,216 @@
+// Plans that scenes ask for, and path files: what is written is read back, and is still proven.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+#include <firstcontact/text/parse_error.h>
+
+#include "support/data_dir.h"
+
+namespace firstcontact::test {
+namespace {
+
+constexpr const char* kPegOverWall = R"({
+  "firstcontact": 1,
+  "bodies": [
+    {"name": "wall", "shape": {"box": {"size": [0.00001, 1, 1]}}, "pose": {"position": [0, 0, 0]}},
+    {"name": "peg", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [-0.5, 0, 0]}}
+  ],
+  "plan": {"body": "peg", "goal": {"position": [0.5, 0.1, 0.25]}, "margin": 0.01, "seed": 3,
+           "time": 20}
+})";
+
+Scene scene_of(const std::string& text) { return parse_scene(text, "scene.json", 1, {}); }
+
+std::string refusal(const std::string& plan) {
+  std::string text = kPegOverWall;
+  const std::size_t begin = text.find("\"plan\"");
+  text = text.substr(0, begin) + "\"plan\": " + plan + "}";
+  try {
+    const Scene scene = scene_of(text);
+    ShapeCache cache;
+    (void)make_scene_plan(scene, *scene.plan, cache);
+  } catch (const ParseError& error) {
+    return error.what();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ScenePlan, PlansABodyAndWritesItsPath) {
+  const Scene scene = scene_of(kPegOverWall);
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, *scene.plan, cache);
+  EXPECT_EQ(plan.options.seed, 3u);
+  EXPECT_EQ(plan.options.time, 20.0);
+  EXPECT_EQ(plan.loaded.scene.options.margin, 0.01);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+
+  const PlannedPath written = planned_path(plan, plan.options, result);
+  const std::string text = write_planned_path(written);
+  const PlannedPath read = parse_planned_path(text, "path.json");
+  EXPECT_TRUE(read.is_proven);
+  EXPECT_EQ(read.body, "peg");
+  EXPECT_EQ(read.waypoints, result.path);  // To the bit.
+  EXPECT_EQ(read.clearances, result.clearances);
+  EXPECT_EQ(read.goals, plan.goals);
+  EXPECT_EQ(read.margin, 0.01);
+  EXPECT_EQ(read.seed, 3u);
+  EXPECT_EQ(read.input_digest, plan.loaded.input_digest);
+  EXPECT_EQ(write_planned_path(read), text);
+
+  // From the file alone: its scene, its waypoints.
+  ShapeCache other;
+  const LoadedScene loaded = load_scene_of(read, other);
+  EXPECT_EQ(loaded.input_digest, read.input_digest);
+  PlanQuestion again;
+  again.body = 1;
+  const ScenePlan replanned = make_scene_plan(read.scene, again, other);
+  const EdgeChecker checker(replanned.plan,
+                            {.tolerance = read.tolerance, .extra_clearance = read.extra_clearance});
+  for (std::size_t k = 0; k + 1 < read.waypoints.size(); ++k) {
+    EXPECT_EQ(checker.check(read.waypoints[k], read.waypoints[k + 1]).verdict, EdgeVerdict::free);
+    EXPECT_GE(read.clearances[k].value(), 0.01);
+  }
+}
+
+TEST(ScenePlan, RefusesWhatIsNoPlan) {
+  EXPECT_NE(refusal(R"({"body": "pog", "goal": {"position": [0, 0, 1]}})").find("\"peg\""),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"goal": {"position": [0, 0, 1]}})").find("what moves"), std::string::npos);
+  EXPECT_NE(refusal(R"({"body": "peg"})").find("\"goal\""), std::string::npos);
+  EXPECT_NE(refusal(R"({"body": "peg", "goals": []})").find("at least one goal"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"body": "peg", "goal": {"position": [0, 0, 1]}, "time": 0})").find("> 0"),
+            std::string::npos);
+  EXPECT_NE(refusal(R"({"body": "peg", "goal": {"position": [0, 0, 1]}, "joints": ["a"]})")
+                .find("is of a robot"),
+            std::string::npos);
+}
+
+TEST(PlannedPath, NamesWhatIsNoPathFile) {
+  const Scene scene = scene_of(kPegOverWall);
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, *scene.plan, cache);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  const std::string good = write_planned_path(planned_path(plan, plan.options, result));
+  const auto broken = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+  };
+  for (const std::string& text :
+       {broken("\"firstcontact_path\":1", "\"firstcontact_path\":2"),
+        broken("\"moves\":{\"body\":\"peg\"}", "\"moves\":{\"body\":\"pog\"}"),
+        broken("\"waypoints\":[[", "\"waypoints\":[[1,"),
+        broken("\"edges\":[{", "\"edges\":[{\"verdict\":\"proven\",\"clearance\":1},{"),
+        broken("\"verdict\":\"proven\"", "\"verdict\":\"approximate\""),
+        broken("\"goal\":0", "\"goal\":1"), broken("\"tolerance\"", "\"tolerence\""),
+        std::string("{}"), std::string("[")}) {
+    EXPECT_THROW((void)parse_planned_path(text, "path.json"), ParseError) << text.substr(0, 200);
+  }
+  PlannedPath stale = parse_planned_path(good, "path.json");
+  stale.input_digest = std::string(64, '0');
+  ShapeCache other;
+  EXPECT_THROW((void)load_scene_of(stale, other), std::invalid_argument);
+}
+
+/// The gantry of a URDF file that holds a load, among a wall.
+class GantryFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::temp_directory_path() /
+        ("plan_scene_test_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+         "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry">
+      <link name="base"/>
+      <link name="slide"/>
+      <link name="tool"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+      <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/>
+        <axis xyz="1 0 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+      <joint name="z" type="prismatic"><parent link="slide"/><child link="tool"/>
+        <axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+    </robot>)";
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] Scene scene(const std::string& plan) const {
+    return parse_scene(R"({"firstcontact": 1,
+      "bodies": [
+        {"name": "wall", "shape": {"box": {"size": [0.00001, 1, 1]}}},
+        {"name": "load", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [-1, 0, -0.6]}}],
+      "robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1, "z": 0},
+                  "attached": [{"body": "load", "link": "tool"}]}],
+      "plan": )" + plan + "}",
+                       folder_ / "scene.json", 1, {});
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(GantryFile, KeepsWhatIsHeldInItsPlace) {
+  const Scene asked = scene(R"({"goal": {"x": 1}})");
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(asked, *asked.plan, cache);
+  ASSERT_EQ(plan.plan.space.size(), 1u);
+  EXPECT_EQ(plan.start, Configuration{-1.0});
+  // The load hangs 0.6 m under the tool: along x alone the tool is in the way of the wall.
+  PlanOptions options = plan.options;
+  options.time = 0.1;
+  EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, options).verdict, PlanVerdict::none);
+
+  const Scene both = scene(R"({"joints": ["x", "z"], "goal": {"x": 1}})");
+  const ScenePlan over = make_scene_plan(both, *both.plan, cache);
+  const PlanResult result = plan_path(over.plan, over.start, over.goals, over.options);
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+  // Over the wall with the load, or under it with the tool.
+  double most = 0.0;
+  for (const Configuration& q : result.path) {
+    most = std::max(most, std::abs(q[1]));
+  }
+  EXPECT_GT(most, 0.6);
+  const PlannedPath path = planned_path(over, over.options, result);
+  EXPECT_EQ(path.robot, "g");
+  EXPECT_EQ(path.joints, (std::vector<std::string>{"x", "z"}));
+  ASSERT_TRUE(path.scene.robots[0].attached[0].pose.has_value());
+  EXPECT_NEAR(path.scene.robots[0].attached[0].pose->position.z(), -0.6, 1e-12);
+  const PlannedPath read = parse_planned_path(write_planned_path(path), "path.json");
+  EXPECT_EQ(read.waypoints, result.path);
+  EXPECT_EQ(read.turnings, (std::vector<Turning>{Turning::as_given, Turning::as_given}));
+}
+
+TEST_F(GantryFile, RefusesGoalsThatAreNone) {
+  EXPECT_THROW((void)scene(R"({"goal": {"y": 1}})"), ParseError);
+  EXPECT_THROW((void)scene(R"({"goal": "home"})"), ParseError);
+  const Scene other = scene(R"({"joints": ["x"], "goal": {"z": 1}})");
+  ShapeCache cache;
+  EXPECT_THROW((void)make_scene_plan(other, *other.plan, cache), std::invalid_argument);
+  const Scene outside = scene(R"({"goal": {"x": 3}})");
+  const ScenePlan plan = make_scene_plan(outside, *outside.plan, cache);
+  EXPECT_THROW((void)plan_path(plan.plan, plan.start, plan.goals), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact::test

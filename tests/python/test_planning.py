@@ -1,0 +1,103 @@
+"""Paths that are proven edge by edge, and edges for planners of others."""
+
+import json
+import threading
+
+import numpy as np
+import pytest
+
+import firstcontact as fc
+
+SCENE = {
+    "firstcontact": 1,
+    "bodies": [
+        {"name": "wall", "shape": {"box": {"size": [1e-5, 1, 1]}}},
+        {"name": "peg", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [-0.5, 0, 0]}},
+    ],
+    "plan": {"body": "peg", "goal": {"position": [0.5, 0.1, 0.25]}, "seed": 3},
+}
+
+
+def pose(x, y, z):
+    return [x, y, z, 1, 0, 0, 0]
+
+
+def test_plans_a_path():
+    answer = fc.plan(SCENE)
+    assert answer.verdict == "proven"
+    assert answer.goal == 0
+    assert answer.waypoints[0].tolist() == pose(-0.5, 0, 0)
+    assert answer.waypoints[-1].tolist() == pose(0.5, 0.1, 0.25)
+    assert len(answer.clearance) == len(answer.waypoints) - 1
+    assert (answer.clearance > 0).all()
+    assert answer.blocked[0][:2] == ("wall", "peg")
+    path = json.loads(answer.json)
+    assert path["waypoints"] == answer.waypoints.tolist()
+    assert path["planner"]["seed"] == 3
+    assert fc.plan(SCENE, threads=1).waypoints.tolist() == answer.waypoints.tolist()
+    assert fc.plan(SCENE, seed=4).waypoints.tolist() != answer.waypoints.tolist()
+    checker = fc.EdgeChecker(fc.load_scene(SCENE))
+    assert checker.check(answer.waypoints[:-1], answer.waypoints[1:]).free.all()
+
+
+def test_has_no_path_where_there_is_none():
+    closed = {**SCENE, "bodies": [{"name": "wall", "shape": {"box": {"size": [1e-5, 100, 100]}}}, SCENE["bodies"][1]]}
+    answer = fc.plan(closed, time=0.1)
+    assert (answer.verdict, answer.json, len(answer.waypoints)) == ("none", None, 0)
+    assert fc.plan(closed, time=0.1, approximate=True).verdict == "approximate"
+
+
+def test_names_what_is_wrong():
+    inside = {**SCENE, "plan": {"body": "peg", "goal": {"position": [0, 0, 0]}}}
+    with pytest.raises(ValueError, match='the goal is not free: "wall" and "peg"'):
+        fc.plan(inside)
+    with pytest.raises(ValueError, match="planner"):
+        fc.plan(SCENE, planner="rrt")
+    with pytest.raises(ValueError, match="time"):
+        fc.plan(SCENE, time=0)
+    with pytest.raises(ValueError, match='"plan"'):
+        fc.plan({key: value for key, value in SCENE.items() if key != "plan"})
+
+
+def test_checks_edges():
+    checker = fc.EdgeChecker(fc.load_scene(SCENE))
+    assert checker.start.tolist() == pose(-0.5, 0, 0)
+    assert checker.goals.tolist() == [pose(0.5, 0.1, 0.25)]
+    start = np.array([pose(-0.5, 0, 0), pose(-0.5, 0, 0)], float)
+    end = np.array([pose(0.5, 0, 0), pose(-0.5, 1, 0)], float)
+    answers = checker.check(start, end)
+    assert answers.free.tolist() == [False, True]
+    assert answers.undecided.tolist() == [False, False]
+    # The faces meet at x = -0.050005.
+    assert answers.fraction[0] == pytest.approx(0.449995, abs=2e-6)
+    assert answers.fraction[0] <= 0.449995
+    assert answers.fraction[1] == 1
+    gap = checker.clearance(np.array([pose(-0.5, 0, 0), pose(0, 0, 0)], float))
+    assert gap[0] == pytest.approx(0.449995, abs=1e-5)
+    assert gap[0] <= 0.449995
+    assert gap[1] == 0
+    with pytest.raises(ValueError, match="start"):
+        checker.check(start[:, :3], end)
+    with pytest.raises(ValueError, match="end"):
+        checker.check(start, np.full_like(end, np.nan))
+
+
+def test_checks_from_many_threads():
+    checker = fc.EdgeChecker(fc.load_scene(SCENE))
+    random = np.random.default_rng(1)
+    start = np.hstack([random.uniform(-1, 1, (50, 3)), np.tile([1.0, 0, 0, 0], (50, 1))])
+    end = np.hstack([random.uniform(-1, 1, (50, 3)), np.tile([1.0, 0, 0, 0], (50, 1))])
+    expected = checker.check(start, end, threads=1)
+    found = [None] * 4
+
+    def ask(k):
+        found[k] = checker.check(start, end, threads=1)
+
+    threads = [threading.Thread(target=ask, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for answers in found:
+        assert answers.free.tolist() == expected.free.tolist()
+        assert answers.fraction.tolist() == expected.fraction.tolist()
