@@ -25,20 +25,6 @@
 namespace firstcontact::app {
 namespace {
 
-ExitStatus status_of(ProofVerdict verdict) {
-  switch (verdict) {
-    case ProofVerdict::proven:
-      return ExitStatus::free;
-    case ProofVerdict::refuted:
-      return ExitStatus::contact;
-    case ProofVerdict::broken:
-      return ExitStatus::bad_input;
-    case ProofVerdict::not_proven:
-      break;
-  }
-  return ExitStatus::undecided;
-}
-
 std::string at_most(double metres) {
   const std::string text = length_text(metres);
   return metres == 0.0 ? "0" : (text.starts_with("below") ? text : text + " or less");
@@ -223,6 +209,20 @@ class ResultsProof {
 };
 
 }  // namespace
+
+ExitStatus status_of(ProofVerdict verdict) {
+  switch (verdict) {
+    case ProofVerdict::proven:
+      return ExitStatus::free;
+    case ProofVerdict::refuted:
+      return ExitStatus::contact;
+    case ProofVerdict::broken:
+      return ExitStatus::bad_input;
+    case ProofVerdict::not_proven:
+      break;
+  }
+  return ExitStatus::undecided;
+}
 
 ExitStatus prove_results(const ProofArguments& arguments, const std::string& text,
                          Progress& progress, const std::stop_token& stop) {

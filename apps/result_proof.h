@@ -6,6 +6,8 @@
 #include <stop_token>
 #include <string>
 
+#include <firstcontact/verification/proof_verdict.h>
+
 #include "exit_status.h"
 
 namespace firstcontact::app {
@@ -19,6 +21,8 @@ struct ProofArguments {
   bool lenient = false;
   int threads = 0;
 };
+
+[[nodiscard]] ExitStatus status_of(ProofVerdict verdict);
 
 /// Proves each result of a file again, and prints what was found. The status is the worst.
 ///

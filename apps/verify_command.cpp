@@ -18,6 +18,7 @@
 
 #include "interrupt.h"
 #include "pair_text.h"
+#include "path_proof.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "result_proof.h"
@@ -170,6 +171,9 @@ ExitStatus verify(const ProofArguments& arguments) {
     if (kind == ProvableFile::result) {
       return prove_results(arguments, text, progress, interrupt.token());
     }
+    if (kind == ProvableFile::path) {
+      return prove_path(arguments, text, progress, interrupt.token());
+    }
     stream.clear();
     if (!stream.seekg(0)) {
       throw ParseError(arguments.file, "expected a file that can be read twice, not a pipe");
@@ -191,6 +195,9 @@ contact is proven to be within margin and tolerance at t. The proof is about the
 the result. It is refused if that was edited, or if a mesh or robot file has changed. Features,
 points, intervals of contact and closest approaches are not proven again.
 
+A path: every edge is proven to keep the margin and the extra clearance. A path that ends before a
+goal is called approximate. The path is refused if a mesh or robot file has changed.
+
 Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that bodies
 interpenetrate or come closer than the file claims, or that those of a contact are apart. A file that
 contradicts itself is bad input. Ctrl-C ends with status 3; again, at once.)";
@@ -198,16 +205,16 @@ contradicts itself is bad input. Ctrl-C ends with status 3; again, at once.)";
 }  // namespace
 
 void add_verify_command(CLI::App& app, ExitStatus& status) {
-  CLI::App* command = app.add_subcommand(
-      "verify",
-      "Proves a second time, by other code, what a simulation or a check wrote into a file");
+  CLI::App* command = app.add_subcommand("verify",
+                                         "Proves a second time, by other code, what a simulation, "
+                                         "a check or a plan wrote into a file");
   auto arguments = std::make_shared<ProofArguments>();
   command
       ->add_option("FILE", arguments->file,
-                   "The .jsonl file that a simulation wrote, or a result of check")
+                   "The .jsonl file that a simulation wrote, a result of check, or a path of plan")
       ->required();
   command->add_option("--scene", arguments->scene,
-                      "A result has to be one of this scene file as it is now");
+                      "A result or a path has to be one of this scene file as it is now");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, as in a run with this option");

@@ -55,6 +55,7 @@ set(public_headers
   firstcontact/record/write_run.h
   firstcontact/page/write_page.h
   firstcontact/simulation/simulator.h
+  firstcontact/verification/verify_path.h
   firstcontact/verification/verify_result.h
   firstcontact/verification/verify_run.h)
 

@@ -6,8 +6,10 @@
 
 #include <firstcontact/record/run.h>
 #include <firstcontact/scene/links_as_bodies.h>
+#include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene_files/read_claims.h>
 #include <firstcontact/scene_files/write_reports.h>
+#include <firstcontact/verification/verify_path.h>
 #include <firstcontact/verification/verify_result.h>
 #include <firstcontact/verification/verify_run.h>
 
@@ -75,6 +77,23 @@ std::string write_verification(const ResultClaims& claims, const ResultVerificat
       {"has_digests", found.has_digests},
       {"pair_counts", Json::parse(write_pair_counts(found.pair_counts))},
       {"warnings", found.warnings}};
+  return result.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string write_verification(const PlannedPath& path, const PathVerification& found) {
+  const auto optional = [](const auto& value) { return value ? Json(*value) : Json(); };
+  const Json result = {{"id", path.scene.id},
+                       {"verdict", word(found.verdict)},
+                       {"problem", found.problem},
+                       {"problem_at", to_json(found.problem_at, 1.0)},
+                       {"problem_edge", optional(found.problem_edge)},
+                       {"edges", found.edges},
+                       {"waypoints", path.waypoints.size()},
+                       {"reaches_goal", found.reaches_goal},
+                       {"margin", to_json(path.margin)},
+                       {"extra_clearance", to_json(path.extra_clearance)},
+                       {"tested", found.tested},
+                       {"warnings", found.warnings}};
   return result.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Writes what was proven of a run or a result as JSON.
+/// Writes what was proven of a run, a result or a path as JSON.
 
 #pragma once
 
@@ -11,6 +11,8 @@ namespace firstcontact {
 
 enum class ProofVerdict;
 enum class RunVerdict;
+struct PathVerification;
+struct PlannedPath;
 struct ResultClaims;
 struct ResultVerification;
 struct RunHeader;
@@ -23,6 +25,10 @@ struct RunVerification;
 /// One JSON object on one line, without a line feed.
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(
     const ResultClaims& claims, const ResultVerification& verification);
+
+/// One JSON object on one line, without a line feed.
+[[nodiscard]] FIRSTCONTACT_API std::string write_verification(const PlannedPath& path,
+                                                              const PathVerification& verification);
 
 /// The words of that JSON: proven, refuted, broken, not_proven.
 [[nodiscard]] FIRSTCONTACT_API const char* word(ProofVerdict verdict);
