@@ -15,6 +15,7 @@
 #include "freed_memory.h"
 #include "info_command.h"
 #include "plan_command.h"
+#include "retime_command.h"
 #include "simulate_command.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
@@ -52,6 +53,7 @@ ExitStatus run(int argc, char** argv) {
   add_check_command(app, status);
   add_batch_command(app, status);
   add_plan_command(app, status);
+  add_retime_command(app, status);
   add_simulate_command(app, status);
   add_verify_command(app, status);
   add_view_command(app);

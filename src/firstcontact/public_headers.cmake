@@ -51,6 +51,10 @@ set(public_headers
   firstcontact/scene_files/write_planned_path.h
   firstcontact/scene_files/write_result.h
   firstcontact/scene_files/write_scene.h
+  firstcontact/retiming/joint_limits.h
+  firstcontact/retiming/retime.h
+  firstcontact/retiming/retiming_path.h
+  firstcontact/retiming/write_trajectory.h
   firstcontact/record/read_run.h
   firstcontact/record/write_run.h
   firstcontact/page/write_page.h
@@ -99,6 +103,10 @@ set(supporting_headers
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h
   firstcontact/scene/trajectory.h
+  firstcontact/retiming/executed_proof.h
+  firstcontact/retiming/rate_report.h
+  firstcontact/retiming/timed_motion.h
+  firstcontact/retiming/waypoint_path.h
   firstcontact/record/run.h
   firstcontact/record/run_step.h
   firstcontact/verification/proof_verdict.h)

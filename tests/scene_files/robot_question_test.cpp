@@ -101,6 +101,14 @@ class RobotQuestions : public testing::Test {
   std::filesystem::path folder_;
 };
 
+// Results and paths have the resolved scene: read again, it has the digest of what was asked.
+TEST_F(RobotQuestions, KeepTheirDigestInAnEmbeddedScene) {
+  const Scene scene = read_robot_question(question("behind.json"));
+  Scene embedded = parse_embedded_scene(R"({"scene": )" + write_scene(scene) + "}", "result.json");
+  embedded.text_digest = scene.text_digest;
+  EXPECT_EQ(load(embedded).input_digest, load(scene).input_digest);
+}
+
 // From 3 to -3 rad the bar's edge meets the post behind it where the corner (-0.75, 0.05) is.
 TEST_F(RobotQuestions, GoTheShortWayBetweenStatesAsMoveItDoes) {
   const double angle =

@@ -140,7 +140,7 @@ class HeldEdges {
   EdgeChecker checker_;
 };
 
-std::vector<std::string> names_of(const HeldEdges& edges) {
+std::vector<std::string> joint_names_of(const HeldEdges& edges) {
   std::vector<std::string> names;
   for (const SpaceCoordinate& coordinate : edges.plan().plan.space.coordinates()) {
     names.push_back(coordinate.name);
@@ -212,7 +212,7 @@ many threads at a time.)")
            }),
            py::arg("scene"), py::kw_only(), py::arg("extra_clearance") = defaults.extra_clearance,
            py::arg("effort") = defaults.effort)
-      .def_property_readonly("joints", &names_of, "The coordinates of a place; none of a body.")
+      .def_property_readonly("joints", &joint_names_of, "The coordinates of a place; none of a body.")
       .def_property_readonly(
           "start", [](const HeldEdges& edges) { return owning(edges.plan().start); },
           "The start of the scene's plan.")

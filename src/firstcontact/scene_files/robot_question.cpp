@@ -72,8 +72,9 @@ class SceneBuilder {
                      .base = FixedMotion{question_.base}};
     if (!question_.srdf.empty()) {
       robot.srdf = question_.srdf;
-      robot.semantics =
-          parse_srdf(text_of(robot.srdf, "an SRDF file"), robot.srdf.string(), robot.model);
+      const std::string text = text_of(robot.srdf, "an SRDF file");
+      robot.semantics = parse_srdf(text, robot.srdf.string(), robot.model);
+      robot.srdf_digest = detail::sha256(text);  // As a scene has it that names the SRDF.
     }
     return robot;
   }

@@ -38,7 +38,7 @@ class Island {
       impact();
     }
     while (state_.reached < state_.start.h) {
-      if (track_.events > state_.model.events || stalls >= kMostStalls) {
+      if (track_.events > state_.model.events || stalls >= kMostStalls || is_jammed()) {
         break;
       }
       const double reached = state_.reached;
@@ -52,6 +52,7 @@ class Island {
         impact();
       }
       choose_span(planned, *t);
+      squeezed_ += *t < 1.0 && state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
       stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
     }
     track_.reached = state_.reached;
@@ -66,6 +67,10 @@ class Island {
                                     kLeastShareOfFast * state_.start.h);
     return std::min({span_, state_.start.h - state_.reached, of_fast});
   }
+
+  /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
+  /// doubles could not prove it.
+  [[nodiscard]] bool is_jammed() const { return squeezed_ >= kMostSqueezed; }
 
   /// [s]  For which bodies that tumble stay near their way: a t^2 / 8 from its chord at most, with
   /// the angular acceleration a of gyroscopic moments.
@@ -246,7 +251,8 @@ class Island {
       {};  // In the last plan, sorted, with the impulses of a whole step.
   Workspace& workspace_;
   IslandTrack track_;
-  double span_;  // [s]  Longest of a plan, for now.
+  double span_;               // [s]  Longest of a plan, for now.
+  std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
 };
 
 }  // namespace

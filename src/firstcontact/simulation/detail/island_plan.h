@@ -104,6 +104,7 @@ class IslandPlanner {
   void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,
                  Plan& plan) const;
   void push_apart(Plan& plan);
+  void limit_push(ContactSolution& push) const;
   void keep_push_from(const ContactPoint& contact);
   [[nodiscard]] ContactSolution find_push() const;
 

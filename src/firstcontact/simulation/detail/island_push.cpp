@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -12,16 +13,39 @@ namespace firstcontact::detail {
 
 /// Adds displacements that lead pairs back to their distance of rest.
 void IslandPlanner::push_apart(Plan& plan) {
-  if (!state_.is_too_near() || span_ < stall(state_.start.h)) {
+  if (!state_.is_too_near() || span_ < kLeastSpanOfPush * state_.start.h) {
     return;
   }
   if (!push_) {
     push_ = find_push();
+    limit_push(*push_);
   }
   state_.robots.displace(push_->mechanisms, plan.robots);
   for (std::size_t k = 0; k < state_.size(); ++k) {
     plan.moves[k].translation += push_->bodies[k].v;
     plan.moves[k].rotation_vector += push_->bodies[k].w;
+  }
+}
+
+/// A displacement takes no time: no point moves by more than the contact distance. Where parts jam
+/// a long way sideways may gain little, as in a chain that is nearly taut. A share of a
+/// displacement is one that the constraints allow, too.
+void IslandPlanner::limit_push(ContactSolution& push) const {
+  double greatest = 0.0;  // [m]
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    const ContactBody& body = push.bodies[k];
+    greatest = std::max(greatest, body.v.norm() + state_.member(k).reach * body.w.norm());
+  }
+  const double most = state_.model.distances.least;
+  if (greatest <= most) {
+    return;
+  }
+  for (ContactBody& body : push.bodies) {
+    body.v *= most / greatest;
+    body.w *= most / greatest;
+  }
+  for (Eigen::VectorXd& mechanism : push.mechanisms) {
+    mechanism *= most / greatest;
   }
 }
 

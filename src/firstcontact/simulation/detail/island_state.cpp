@@ -93,10 +93,12 @@ bool IslandState::bounces(const BodyPair& pair, double closing) const {
          closing > kStepsWithoutBounce * model.gravity.norm() * start.h;
 }
 
-bool IslandState::is_too_near() const {
-  return std::ranges::any_of(
-      manifolds, [&](const auto& entry) { return entry.second.gap < model.distances.pushed; });
+bool IslandState::is_nearer(double distance) const {
+  return std::ranges::any_of(manifolds,
+                             [&](const auto& entry) { return entry.second.gap < distance; });
 }
+
+bool IslandState::is_too_near() const { return is_nearer(model.distances.pushed); }
 
 void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Workspace& workspace) {
   manifolds.clear();

@@ -66,6 +66,9 @@ struct IslandState {
   /// Whether a pair that closes so fast [m/s] does.
   [[nodiscard]] bool bounces(const BodyPair& pair, double closing) const;
 
+  /// @param distance  [m]
+  [[nodiscard]] bool is_nearer(double distance) const;
+
   /// Whether any pair is nearer than where it is left.
   [[nodiscard]] bool is_too_near() const;
 

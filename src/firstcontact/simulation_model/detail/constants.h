@@ -95,6 +95,10 @@ inline constexpr double kSlightApproach = 0.4;
 /// [impacts]  After so many in a row that let no more time pass than a stall, an island is jammed:
 /// the rest of the step is lost.
 inline constexpr std::size_t kMostStalls = 10;
+/// [-]  A pair nearer than this part of the contact distance is squeezed...
+inline constexpr double kSqueezedOfDistance = 1e-2;
+/// [impacts]  ...and after so many in a step that leave one squeezed the rest of the step is lost.
+inline constexpr std::size_t kMostSqueezed = 20;
 /// [-]  A stall, by the step.
 inline constexpr double kStallOfStep = 1e-9;
 
@@ -145,6 +149,9 @@ inline constexpr double kBackToRest = 0.5;
 
 // Pushing apart what is too near.
 
+/// [-]  Plans shorter than this part of a step push nothing apart. Smaller: a displacement in so
+/// little time is a speed at which doubles cannot prove it free.
+inline constexpr double kLeastSpanOfPush = 1e-6;
 /// [-]  A plan makes up for this part of what is missing to the contact distance...
 inline constexpr double kPush = 0.5;
 /// [-]  ... to this part of that distance; so much of it may be left by sweeps, of at most so many.

@@ -25,9 +25,6 @@ constexpr double kPromiseError = 0x1p-20;
 /// How closely the least distance is found.
 constexpr double kPrecision = 0.05;
 
-/// The share of a distance that the direction of the closest points has to show.
-constexpr double kPrecise = 0.999;
-
 /// So often a step is halved to find the least distance; and to prove what was promised.
 constexpr int kFineDepth = 24;
 constexpr int kDeepest = 50;
@@ -412,8 +409,8 @@ class Cover {
   }
 
   /// Along the line of the closest points, then along the normals of the faces, in whose planes
-  /// triangles may move for long. Where rounding blurs that line, also along the normals of the
-  /// edges two by two, which stay precise at any small distance.
+  /// triangles may move for long. Where rounding blurs that line too much for what is wanted, also
+  /// along the normals of the edges two by two, which stay precise at any small distance.
   [[nodiscard]] double triangle_bound(const PlacedTriangle& A, const PlacedTriangle& B,
                                       const PointPair& closest, const Setting& s,
                                       double wanted) const {
@@ -429,8 +426,8 @@ class Cover {
     for (const Vector3d& n : normals) {
       offer(n.dot(between) < 0.0 ? Vector3d(-n) : n);
     }
-    if (straight.middle + thickness() + s.error >= kPrecise * closest.distance) {
-      return best;
+    if (best >= wanted || straight.middle >= wanted) {
+      return best;  // Shorter windows are all that it takes.
     }
     for (const Vector3d& n : normals) {
       offer(n.dot(between) < 0.0 ? n : Vector3d(-n));

@@ -1,0 +1,244 @@
+#include <firstcontact/retiming/executed_proof.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/robot/robot_motion.h>
+#include <firstcontact/robot/tracking_error.h>
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/write_json.h>
+#include <firstcontact/trajectory_files/read_trajectory.h>
+
+namespace firstcontact {
+namespace {
+
+bool is_constant(std::span<const CoordinateSegment> segments) {
+  const auto rests = [](const CoordinateSegment& segment) {
+    for (std::size_t j = 1; j < segment.count; ++j) {
+      if (segment.a[j].hi != 0.0) {
+        return false;
+      }
+    }
+    return true;
+  };
+  return std::all_of(segments.begin(), segments.end(), rests);
+}
+
+bool is_constant(const CoordinatePath& path) { return is_constant(path.segments()); }
+
+/// A motion of one piece that neither turns nor moves: after whole turns poses would be the same.
+bool is_constant(const Motion& motion) {
+  if (motion.breaks().size() != 2) {
+    return false;
+  }
+  const ConstantRatePath path = motion.path(0, Eigen::Vector3d::Zero());
+  return path.rate() == 0.0 && path.pivot_velocity().value().isZero(0.0);
+}
+
+bool is_constant(const JointMotion& motion) {
+  if (const auto* planar = std::get_if<PlanarPath>(&motion)) {
+    return std::all_of(planar->begin(), planar->end(),
+                       [](const CoordinatePath& path) { return is_constant(path); });
+  }
+  if (const auto* path = std::get_if<CoordinatePath>(&motion)) {
+    return is_constant(*path);
+  }
+  return is_constant(std::get<Motion>(motion));
+}
+
+[[noreturn]] void refuse_moving(const std::string& what) {
+  throw std::invalid_argument(what + " moves; retiming changes the time of the motion, so that " +
+                              "all else has to rest");
+}
+
+void require_held_all_the_time(const RobotScene& scene) {
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    if (scene.robot_link(member)) {
+      continue;
+    }
+    const auto stretches = scene.stretches(member);
+    const bool is_carried =
+        !stretches.empty() && std::holds_alternative<BodyStretch::Carried>(stretches.front().how);
+    if (stretches.size() > 1) {
+      refuse_moving("body " + detail::in_quotes(scene.name(member)) + " is taken or put down: it");
+    }
+    if (!is_carried && !scene.rests(member)) {
+      refuse_moving("body " + detail::in_quotes(scene.name(member)));
+    }
+  }
+}
+
+double start_of(const CoordinatePath& path) {
+  return path.segments().front().state(0.0).value.value();
+}
+
+/// Where the coordinates of a robot are at t = 0, by name.
+JointPositions start_positions(const RobotMotion& motion) {
+  JointPositions positions;
+  for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
+    const std::optional<JointMotion> given = motion.given(joint);
+    if (!given) {
+      continue;
+    }
+    if (const auto* path = std::get_if<CoordinatePath>(&*given)) {
+      positions[coordinate_name(motion.model(), {joint, 0})] = start_of(*path);
+    } else if (const auto* planar = std::get_if<PlanarPath>(&*given)) {
+      for (std::size_t k = 0; k < planar->size(); ++k) {
+        positions[coordinate_name(motion.model(), {joint, k})] = start_of((*planar)[k]);
+      }
+    }
+  }
+  return positions;
+}
+
+RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before) {
+  const RobotModel& model = before.model();
+  TrajectoryMotion joints = joint_motions(model, trajectory_of(motion), start_positions(before),
+                                          std::max(motion.duration(), 1e-9));
+  for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
+    const std::optional<JointMotion> given = before.given(joint);
+    if (given && std::holds_alternative<Motion>(*given)) {
+      joints.joints.insert_or_assign(model.joints()[joint].name, *given);
+    }
+  }
+  return {model, std::move(joints.joints), before.base()};
+}
+
+/// Bounds what the rounding of times, velocities and accelerations to those of the step puts a
+/// joint off.
+///
+/// Derivation: with u = 2^-53 and D the duration, a quotient t / D is off by u at most, which moves
+/// the time by u D and the length of a segment by 2 u D; a velocity or acceleration per step is off
+/// by one or two units. With V the greatest velocity and A the greatest acceleration of a point,
+/// the position is off by less than 16 u D (V + A D).
+double rounding_of(const TimedMotion& motion, const std::vector<RateUse>& rates) {
+  double velocity = 0.0;
+  for (const RateUse& use : rates) {
+    velocity = use.what == JointRate::velocity ? std::max(velocity, use.bound) : velocity;
+  }
+  double acceleration = 0.0;
+  for (const TimedPoint& point : motion.points) {
+    for (const double a : point.accelerations) {
+      acceleration = std::max(acceleration, std::abs(a));
+    }
+  }
+  const double duration = motion.duration();
+  return 16.0 * 0x1p-53 * duration * (velocity + acceleration * duration);
+}
+
+void add_rounding_allowance(RobotScene& scene, std::size_t robot) {
+  const std::vector<TrackingError> errors = scene.tracking_errors(robot);
+  const RobotModel model = scene.robot_motion(robot).model();
+  for (std::size_t joint = 0; joint < errors.size(); ++joint) {
+    const Joint& what = model.joints()[joint];
+    if (coordinate_count(what.type) == 0 || what.mimic) {
+      continue;
+    }
+    TrackingError error = errors[joint];
+    if (what.type != JointType::prismatic) {
+      error.angle += kRoundingAllowance;
+    }
+    if (what.type == JointType::prismatic || what.type == JointType::planar) {
+      error.distance += kRoundingAllowance;
+    }
+    scene.set_tracking_error(robot, what.name, error);
+  }
+}
+
+/// Whether the reader found a point that stands twice: its warning is the only trace of it.
+bool takes_a_point_once(const Trajectory& trajectory) {
+  return std::any_of(trajectory.warnings.begin(), trajectory.warnings.end(),
+                     [](const std::string& warning) {
+                       return warning.find("stands twice") != std::string::npos ||
+                              warning.find("stand twice") != std::string::npos;
+                     });
+}
+
+}  // namespace
+
+void require_resting_surroundings(const RetimingScene& where) {
+  const RobotScene& scene = where.scene;
+  if (where.robot >= scene.robot_count()) {
+    throw std::invalid_argument("expected a robot of the scene, got number " +
+                                std::to_string(where.robot));
+  }
+  require_held_all_the_time(scene);
+  for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
+    const RobotMotion& motion = scene.robot_motion(robot);
+    if (!is_constant(motion.base())) {
+      refuse_moving("the base of robot " + detail::in_quotes(scene.robot_name(robot)));
+    }
+    for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
+      const std::optional<JointMotion> given = motion.given(joint);
+      const bool may_move =
+          robot == where.robot && coordinate_count(motion.model().joints()[joint].type) > 0;
+      if (given && !may_move && !is_constant(*given)) {
+        refuse_moving("robot " + detail::in_quotes(scene.robot_name(robot)));
+      }
+    }
+  }
+}
+
+ExecutedProof prove_motion(const TimedMotion& motion, const std::vector<RateLimits>& limits,
+                           const RetimingScene& where, const ProofOptions& options) {
+  require_resting_surroundings(where);
+  const FloatEnvironmentGuard guard;
+  ExecutedProof proof;
+  proof.rates = rate_report(motion, limits);
+  proof.duration = motion.duration();
+  if (!(rounding_of(motion, proof.rates) <= kRoundingAllowance)) {
+    throw std::invalid_argument("the motion lasts too long, or its rates are too high, to be " +
+                                std::string("proven in double precision"));
+  }
+  RobotScene scene = where.scene;
+  RobotMotion robot_motion = robot_motion_of(motion, scene.robot_motion(where.robot));
+  const RobotModel model = robot_motion.model();
+  for (LimitViolation& violation : limit_report(robot_motion, std::max(proof.duration, 1e-9))) {
+    const bool is_named =
+        std::find(motion.joint_names.begin(), motion.joint_names.end(),
+                  model.joints()[violation.joint].name) != motion.joint_names.end();
+    if (!is_named && is_constant(robot_motion.coordinate(violation.joint))) {
+      continue;  // It rests where the scene has it, which no retiming changes.
+    }
+    if (violation.what != JointLimit::velocity || !is_named) {  // rate_report() has the others.
+      proof.positions.push_back(std::move(violation));
+    }
+  }
+  scene.set_motion(where.robot, std::move(robot_motion));
+  add_rounding_allowance(scene, where.robot);
+  proof.contact = check_robots(scene, {.tolerance = options.tolerance,
+                                       .budget = options.budget,
+                                       .threads = options.threads,
+                                       .closest = options.closest});
+  return proof;
+}
+
+TimedMotion parse_timed_motion(std::string_view text, const std::filesystem::path& source,
+                               const RobotModel& robot) {
+  const Trajectory trajectory = parse_trajectory(text, source, robot);
+  if (takes_a_point_once(trajectory)) {
+    throw ParseError(source.string(),
+                     "expected times that increase strictly, got a point twice; a controller "
+                     "refuses such a trajectory");
+  }
+  try {
+    TimedMotion motion = timed_motion_of(trajectory);
+    if (motion.points.front().time != 0) {
+      throw std::invalid_argument("expected a first point at the time 0, where the robot rests");
+    }
+    return motion;
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(source.string(), error.what());
+  }
+}
+
+}  // namespace firstcontact

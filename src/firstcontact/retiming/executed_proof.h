@@ -1,0 +1,91 @@
+/// @file
+/// The proof of what a controller makes of a trajectory: its limits, and that it touches nothing.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/rate_report.h>
+#include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/retiming/waypoint_path.h>
+#include <firstcontact/robot/limit_report.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact {
+
+/// The robot that moves, and all around it, which rests.
+///
+/// The robot's joints that the motion does not name rest where they are in the scene at t = 0.
+/// Bodies that it holds all the time move with it. Tracking errors of the scene are the
+/// controller's tolerance.
+struct RetimingScene {
+  RobotScene scene;
+  std::size_t robot = 0;
+};
+
+/// Refuses a scene in which something else moves: then the time of the motion would matter.
+///
+/// @throws std::invalid_argument  names what moves
+FIRSTCONTACT_API void require_resting_surroundings(const RetimingScene& where);
+
+/// The proof of a motion as its controller executes it.
+struct ExecutedProof {
+  /// First contact over the motion; t = 1 is its last point. Margins contain the tracking errors,
+  /// and `kRoundingAllowance` for each joint.
+  SceneResult contact = {};
+  /// Positions beyond the limits of the URDF by more than 1e-9, and velocities of joints that mimic
+  /// others. Joints that rest, and that the motion does not name, are left out.
+  std::vector<LimitViolation> positions = {};
+  std::vector<RateUse> rates = {};  ///< As rate_report().
+  double duration = 0.0;            ///< [s]
+
+  /// All of it holds.
+  [[nodiscard]] bool is_proven() const {
+    return contact.verdict == Verdict::free && holds_limits();
+  }
+  [[nodiscard]] bool holds_limits() const {
+    return positions.empty() && !rate_beyond_limit(rates).has_value();
+  }
+  /// [s]  Of the first contact, or of what is undecided.
+  [[nodiscard]] double contact_time() const { return contact.t * duration; }
+};
+
+/// [rad or m]  The addition to the tracking error of every joint.
+///
+/// It covers the arithmetic of a controller, and the rounding where times are scaled to the step.
+inline constexpr double kRoundingAllowance = 1e-9;
+
+struct ProofOptions {
+  double tolerance = 1e-6;  ///< [m]  As RobotCheckOptions.
+  bool closest = false;     ///< Also the closest approach.
+  int threads = 0;          ///< At most; 0 for one on each core.
+  WorkBudget budget = {};
+};
+
+/// Proves a motion: the controller's interpolation between its points.
+///
+/// @param limits  of each joint name of the motion
+/// @throws std::invalid_argument  names the joint that the robot does not have, or what else moves
+[[nodiscard]] FIRSTCONTACT_API ExecutedProof prove_motion(const TimedMotion& motion,
+                                                          const std::vector<RateLimits>& limits,
+                                                          const RetimingScene& where,
+                                                          const ProofOptions& options = {});
+
+/// Reads a trajectory as a controller takes it: from the text alone.
+///
+/// Times that are equal or go backward are refused, also where the two points are the same, and so
+/// are times that are no whole nanoseconds, and a trajectory that begins later than at 0.
+///
+/// @param source  names the text in errors; its extension gives the format
+/// @throws ParseError
+[[nodiscard]] FIRSTCONTACT_API TimedMotion parse_timed_motion(std::string_view text,
+                                                              const std::filesystem::path& source,
+                                                              const RobotModel& robot);
+
+}  // namespace firstcontact

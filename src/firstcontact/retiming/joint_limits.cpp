@@ -1,0 +1,132 @@
+#include <firstcontact/retiming/joint_limits.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/read_file.h>
+#include <firstcontact/text/text_tree.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonObject;
+using detail::JsonReader;
+using detail::JsonValue;
+
+/// One limit of a joint in the file.
+///
+/// @param name  "velocity": its keys are "has_velocity_limits" and "max_velocity"
+std::optional<double> limit_in(const JsonObject& joint, const std::string& name,
+                               const JsonReader& read) {
+  const JsonValue* has = find(joint, "has_" + name + "_limits");
+  const JsonValue* most = find(joint, "max_" + name);
+  if (has != nullptr && !read.boolean(*has)) {
+    return std::nullopt;
+  }
+  if (most == nullptr) {
+    if (has != nullptr) {
+      read.fail(*has, "expected " + detail::in_quotes("max_" + name) + " beside it, got none");
+    }
+    return std::nullopt;
+  }
+  return read.positive(*most);
+}
+
+GivenLimits limits_in(const JsonValue& value, const JsonReader& read) {
+  const JsonObject& joint = read.object(
+      value, {{"has_position_limits", "min_position", "max_position", "has_velocity_limits",
+               "min_velocity", "max_velocity", "has_acceleration_limits", "min_acceleration",
+               "max_acceleration", "has_deceleration_limits", "max_deceleration", "has_jerk_limits",
+               "min_jerk", "max_jerk", "has_effort_limits", "max_effort", "angle_wraparound"}});
+  GivenLimits limits{.velocity = limit_in(joint, "velocity", read),
+                     .acceleration = limit_in(joint, "acceleration", read),
+                     .jerk = limit_in(joint, "jerk", read)};
+  const JsonValue* slows = find(joint, "max_deceleration");
+  const JsonValue* has_one = find(joint, "has_deceleration_limits");
+  if (slows != nullptr && (has_one == nullptr || read.boolean(*has_one))) {
+    const double size = std::abs(read.number(*slows));  // Some files give it with a minus.
+    if (!(size > 0.0)) {
+      read.fail_expected("a number that is not 0", *slows);
+    }
+    limits.acceleration = std::min(limits.acceleration.value_or(size), size);
+  }
+  return limits;
+}
+
+[[noreturn]] void refuse_missing(const std::string& joint, const char* rate) {
+  throw std::invalid_argument("joint " + detail::in_quotes(joint) + ": expected a limit of the " +
+                              rate + ", got none");
+}
+
+}  // namespace
+
+std::map<std::string, GivenLimits> parse_joint_limits(std::string_view text,
+                                                      const std::filesystem::path& source,
+                                                      const RobotModel& robot) {
+  const std::string name = source.string();
+  if (!detail::is_tree_extension(detail::lower_extension(source))) {
+    throw ParseError(name, "expected limits of joints, a .yaml or .json file");
+  }
+  const JsonValue root = detail::parse_tree(text, source);
+  const JsonReader read(root, name);
+  (void)read.object(root, {{"joint_limits", "default_velocity_scaling_factor",
+                            "default_acceleration_scaling_factor"}});
+  const JsonValue& joints = read.member(root, "joint_limits");
+  const auto* members = std::get_if<JsonObject>(&joints.value);
+  if (members == nullptr) {
+    read.fail_expected("an object with the joints", joints);
+  }
+  std::map<std::string, GivenLimits> result;
+  for (const detail::JsonMember& member : *members) {
+    if (names_fixed_joint(robot, member.key)) {
+      continue;
+    }
+    try {
+      (void)find_coordinate(robot, member.key);
+    } catch (const std::invalid_argument& error) {
+      read.fail(member.value, error.what());
+    }
+    result[member.key] = limits_in(member.value, read);
+  }
+  return result;
+}
+
+std::map<std::string, GivenLimits> read_joint_limits(const std::filesystem::path& file,
+                                                     const RobotModel& robot) {
+  return parse_joint_limits(detail::read_file(file, "limits of joints"), file, robot);
+}
+
+std::vector<RateLimits> limits_of(const RobotModel& robot,
+                                  const std::vector<std::string>& joint_names,
+                                  const std::map<std::string, GivenLimits>& given,
+                                  const GivenLimits& others) {
+  std::vector<RateLimits> limits;
+  for (const std::string& name : joint_names) {
+    const auto found = given.find(name);
+    const GivenLimits first = found == given.end() ? GivenLimits{} : found->second;
+    const JointLimits& own = robot.joints()[find_coordinate(robot, name).joint].limits;
+    const bool has_own = own.velocity.value_or(0.0) != 0.0;
+    const std::optional<double> velocity = first.velocity ? first.velocity
+                                           : has_own      ? own.velocity
+                                                          : others.velocity;
+    const std::optional<double> acceleration =
+        first.acceleration ? first.acceleration : others.acceleration;
+    if (!velocity) {
+      refuse_missing(name, "velocity");
+    }
+    if (!acceleration) {
+      refuse_missing(name, "acceleration");
+    }
+    limits.push_back({*velocity, *acceleration, first.jerk ? first.jerk : others.jerk});
+  }
+  require_limits(joint_names, limits);
+  return limits;
+}
+
+}  // namespace firstcontact

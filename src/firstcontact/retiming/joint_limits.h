@@ -1,0 +1,53 @@
+/// @file
+/// Limits of joints from the robot, from a file as MoveIt has it, and for all that have none.
+
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/robot/robot_model.h>
+
+namespace firstcontact {
+
+/// The limits that one source has for a joint coordinate.
+struct GivenLimits {
+  std::optional<double> velocity = {};      ///< [rad/s or m/s]
+  std::optional<double> acceleration = {};  ///< [rad/s^2 or m/s^2]
+  std::optional<double> jerk = {};          ///< [rad/s^3 or m/s^3]
+};
+
+/// Reads MoveIt's joint_limits.yaml, or the same as JSON.
+///
+/// Under `joint_limits` each joint has `has_velocity_limits` and `max_velocity`, and so
+/// `acceleration`, `deceleration` and `jerk`. A limit whose `has_...` is false is none. Of an
+/// acceleration and a deceleration the smaller one limits both. Positions are the URDF's. Scaling
+/// factors are for requests, and are left out.
+///
+/// @param source  names the text in errors; its extension gives the format
+/// @throws ParseError  names the joint: it is not of the robot, or a limit is not > 0
+[[nodiscard]] FIRSTCONTACT_API std::map<std::string, GivenLimits> parse_joint_limits(
+    std::string_view text, const std::filesystem::path& source, const RobotModel& robot);
+
+/// Reads a file of limits, as parse_joint_limits() reads its text.
+[[nodiscard]] FIRSTCONTACT_API std::map<std::string, GivenLimits> read_joint_limits(
+    const std::filesystem::path& file, const RobotModel& robot);
+
+/// The limits of the joints of a path.
+///
+/// For each number the first of these that has it: `given`, the robot (velocities alone), `others`.
+/// A velocity limit of 0 in the robot counts as none, as many files have it for an unknown one.
+///
+/// @throws std::invalid_argument  names the joint that has no limit of velocity or acceleration,
+///         or one that is not > 0
+[[nodiscard]] FIRSTCONTACT_API std::vector<RateLimits> limits_of(
+    const RobotModel& robot, const std::vector<std::string>& joint_names,
+    const std::map<std::string, GivenLimits>& given, const GivenLimits& others);
+
+}  // namespace firstcontact

@@ -1,0 +1,56 @@
+/// @file
+/// Retiming: from a path of a robot to a trajectory that is proven as its controller executes it.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/rate_report.h>
+#include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/retiming/waypoint_path.h>
+
+namespace firstcontact {
+
+enum class RetimingMode {
+  stop,          ///< Rest at every waypoint; the geometry is that of the path.
+  blend,         ///< Passes waypoints on blends, shrunk until they are proven free.
+  time_optimal,  ///< As `blend`, nearly time-optimal along its geometry.
+};
+
+/// Its words on the command line, in this order.
+inline constexpr std::array<const char*, 3> kRetimingModeWords{"stop", "blend", "time_optimal"};
+
+struct RetimingOptions {
+  RetimingMode mode = RetimingMode::stop;
+  ProofOptions proof = {};
+};
+
+/// A timed motion and its proof.
+struct RetimedMotion {
+  RetimingMode mode = RetimingMode::stop;  ///< That of the motion: `stop` where that is as fast.
+  TimedMotion motion = {};
+  ExecutedProof proof = {};    ///< Of `motion`; where it is not proven, what is in the way.
+  double stop_duration = 0.0;  ///< [s]  With rest at every waypoint.
+  std::size_t blends = 0;      ///< Waypoints that are passed.
+  std::size_t shortened = 0;   ///< Times that a blend was made shorter, as it was not free.
+};
+
+/// Times a path as fast as its mode does, and proves what a controller makes of it.
+///
+/// Where the rounding of numbers takes a limit, a little less of all limits is used. Where a blend
+/// is in contact or undecided, it is made shorter. The result is never slower than with rest at
+/// every waypoint. It is proven, or `proof` has the pair and the time that are in the way.
+///
+/// @param limits  of each joint name of the path
+/// @throws std::invalid_argument  names the joint, the waypoint, or what else in the scene moves
+[[nodiscard]] FIRSTCONTACT_API RetimedMotion retime(const WaypointPath& path,
+                                                    const std::vector<RateLimits>& limits,
+                                                    const RetimingScene& where,
+                                                    const RetimingOptions& options = {});
+
+}  // namespace firstcontact

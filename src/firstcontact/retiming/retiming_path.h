@@ -1,0 +1,64 @@
+/// @file
+/// The path that is to be timed: from a path file (docs/path_format.md), or from a scene.
+
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/waypoint_path.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// A path of a robot in a scene.
+struct RetimingPath {
+  Scene scene = {};
+  std::size_t robot = 0;          ///< Of the scene.
+  WaypointPath path = {};         ///< Its numbers go the way that the joints turn.
+  std::string input_digest = {};  ///< Of all that the path was planned with; may be empty.
+  bool is_approximate = false;    ///< It ends before its goal.
+};
+
+/// Reads what retiming needs of the text of a path file.
+///
+/// @param name  the file that the text is from, for errors
+/// @throws ParseError  where it is no path, or one of a body
+[[nodiscard]] FIRSTCONTACT_API RetimingPath parse_retiming_path(std::string_view text,
+                                                                const std::string& name,
+                                                                const ReadingOptions& options = {});
+
+/// Takes the path of a robot from a scene: the positions of its trajectory, without their times.
+///
+/// @param robot  its name; may be empty where the scene has one alone
+/// @throws std::invalid_argument if there is none, or the robot has no trajectory
+[[nodiscard]] FIRSTCONTACT_API RetimingPath retiming_path_of(Scene scene,
+                                                             const std::string& robot = {});
+
+/// Reads a path file, or the path of a robot from a scene file.
+///
+/// @param robot  as retiming_path_of(); of a path file without meaning
+/// @throws ParseError
+[[nodiscard]] FIRSTCONTACT_API RetimingPath read_retiming_path(const std::filesystem::path& file,
+                                                               const std::string& robot = {},
+                                                               const ReadingOptions& options = {});
+
+/// A scene with all that loading it found, ready for proofs.
+struct LoadedRetimingScene {
+  LoadedScene loaded;
+  RetimingScene where;
+};
+
+/// Loads the scene of a path.
+///
+/// @throws std::invalid_argument if a file of the scene has changed since the path was planned, or
+///         something else than the robot moves
+[[nodiscard]] FIRSTCONTACT_API LoadedRetimingScene load_retiming_scene(const RetimingPath& input,
+                                                                       ShapeCache& cache);
+
+}  // namespace firstcontact

@@ -1,0 +1,29 @@
+/// @file
+/// The motion along the geometry of a blended motion that is as fast as its limits allow.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/blend_motion.h>
+
+namespace firstcontact {
+
+/// Times the geometry of a blended motion anew, nearly time-optimally.
+///
+/// Between two rests the phase plane of velocity and acceleration gives the fastest motion on a
+/// grid. It is averaged over a short window of time, so that its jerk is bounded. The points on it
+/// are joined by quintics, which leave the geometry a little between the points. Then all times are
+/// stretched until the limits hold, by the bounds of rate_report(). Of several windows the fastest
+/// motion is taken, and the blended motion's own where that is faster.
+///
+/// Limits hold but for the rounding of the numbers to doubles: rate_report() proves them.
+///
+/// @param blended  of blend_motion(), for the same path and limits
+/// @param share    of the limits that may be used, in (0, 1]
+[[nodiscard]] FIRSTCONTACT_API BlendedMotion
+time_optimal_motion(const BlendedMotion& blended, const WaypointPath& path,
+                    const std::vector<RateLimits>& limits, double share = 1.0);
+
+}  // namespace firstcontact

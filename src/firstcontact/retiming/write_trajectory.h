@@ -1,0 +1,37 @@
+/// @file
+/// Writes a timed motion as a file that trajectory controllers take.
+
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/timed_motion.h>
+
+namespace firstcontact {
+
+/// The file that holds a trajectory.
+enum class TrajectoryFormat {
+  yaml,  ///< trajectory_msgs/JointTrajectory, as `ros2 topic pub` takes it.
+  json,  ///< The same message as JSON.
+  csv,   ///< A header with `time` and joint names, then a line for each point.
+};
+
+/// The ending of each format's files, in the order of the formats.
+inline constexpr std::array<const char*, 3> kTrajectoryEndings{".yaml", ".json", ".csv"};
+
+/// The format of a file by its ending; `.yml` is YAML, too.
+///
+/// @throws std::invalid_argument  names the endings
+[[nodiscard]] FIRSTCONTACT_API TrajectoryFormat trajectory_format_of(std::string_view path);
+
+/// Writes a motion. Numbers read back to the same doubles, times are written to the nanosecond.
+///
+/// In YAML every number has a point, and every exponent a sign: readers of YAML 1.1, such as that
+/// of ROS, take others for words.
+[[nodiscard]] FIRSTCONTACT_API std::string write_trajectory(const TimedMotion& motion,
+                                                            TrajectoryFormat format);
+
+}  // namespace firstcontact

@@ -1,0 +1,152 @@
+"""`firstcontact retime` as a user meets it: what it writes, what it refuses, and its exit status.
+
+    retime_test.py TOOL [unittest arguments]
+"""
+
+import hashlib
+import json
+import pathlib
+import sys
+import unittest
+
+import tool_test
+
+URDF = """<robot name="arm"><link name="base"/>
+  <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+  <link name="lower"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.1 0.1"/></geometry></collision></link>
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+    <limit lower="-3" upper="3" velocity="2" effort="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><axis xyz="0 0 1"/>
+    <origin xyz="1 0 0"/><limit lower="-3" upper="3" velocity="2" effort="1"/></joint></robot>"""
+# On the upper arm's way to 1.5 rad.
+BALL = """world: {collision_objects: [{id: ball, primitives: [{type: sphere, dimensions: [0.1]}],
+  primitive_poses: [{position: [0.07, 0.9, 0]}]}]}"""
+LIMITS = """joint_limits:
+  shoulder: {has_velocity_limits: true, max_velocity: 1.5, has_acceleration_limits: true, max_acceleration: 5.0,
+             has_jerk_limits: true, max_jerk: 100.0}
+  elbow: {has_velocity_limits: false, has_acceleration_limits: true, max_acceleration: 8.0,
+          has_jerk_limits: true, max_jerk: 200.0}
+"""
+
+
+class Retime(tool_test.ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.robot = self.file("arm.urdf", URDF)
+        self.ball = self.file("ball.yaml", BALL)
+        self.limits = self.file("limits.yaml", LIMITS)
+        self.way = self.file("way.csv", "time,shoulder,elbow\n0,0,0\n1,1,0\n2,1,1\n3,0,0.5\n")
+
+    def retime(self, *more: str, out: str = "out.yaml"):
+        return self.run_tool("retime", "--robot", self.robot, "--limits", self.limits, "-o", out, *more)
+
+    def lines(self, stdout: str) -> dict:
+        return {line[2:15].strip(): line[15:] for line in stdout.splitlines()[1:]}
+
+    def test_writes_what_check_finds_free(self):
+        durations = []
+        for mode in ["stop", "blend", "time_optimal"]:
+            for ending in ["yaml", "json", "csv"]:
+                out = f"{mode}.{ending}"
+                result = self.retime("--trajectory", self.way, "--environment", self.ball, "--mode", mode, out=out)
+                self.assertEqual(result.returncode, 0, result)
+                self.assertIn(f"{self.way}: proven", result.stdout)
+                self.assertEqual(self.lines(result.stdout)["written"], out)
+                self.assertTrue(self.lines(result.stdout)["mode"].startswith(mode), result.stdout)
+                check = self.run_tool("check", "--robot", self.robot, "--trajectory", out, "--environment", self.ball,
+                                      "--strict")
+                self.assertEqual(check.returncode, 0, check)
+            message = json.loads((self.folder / f"{mode}.json").read_text())
+            self.assertEqual(message["joint_names"], ["shoulder", "elbow"])
+            self.assertEqual(message["points"][0]["positions"], [0, 0])
+            self.assertEqual(message["points"][-1]["positions"], [0, 0.5])
+            self.assertEqual(message["points"][-1]["velocities"], [0, 0])
+            times = [p["time_from_start"]["sec"] * 10**9 + p["time_from_start"]["nanosec"] for p in message["points"]]
+            self.assertEqual(times, sorted(set(times)))
+            durations.append(times[-1])
+        self.assertLess(durations[1], durations[0])
+        self.assertLessEqual(durations[2], durations[1])
+
+    def test_names_pair_and_time_where_there_is_none(self):
+        way = self.file("blocked.csv", "time,shoulder,elbow\n0,0,0\n1,1.5,0\n")
+        result = self.retime("--trajectory", way, "--environment", self.ball, "--mode", "blend")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertRegex(result.stdout, r"contact +at [\d.]+ \w+ of [\d.]+ s: ball and arm/upper")
+        self.assertFalse((self.folder / "out.yaml").exists())
+
+    def test_tracking_error_counts(self):
+        arguments = ["--trajectory", self.way, "--environment", self.ball]
+        self.assertEqual(self.retime(*arguments, "--tracking-error", "0.01").returncode, 0)
+        self.assertEqual(self.retime(*arguments, "--tracking-error", "0.5").returncode, 1)
+
+    def test_without_jerk_limits_it_writes_cubics(self):
+        result = self.run_tool("retime", "--robot", self.robot, "--trajectory", self.way, "--max-acceleration", "4",
+                               "-o", "out.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("with cubics between them", result.stdout)
+        self.assertNotIn("accelerations", json.loads((self.folder / "out.json").read_text())["points"][0])
+
+    def path_file(self) -> str:
+        """A path as a planner writes it, in a scene of the arm and the ball."""
+        self.file("scene.json", json.dumps({
+            "firstcontact": 1,
+            "bodies": [{"name": "ball", "shape": {"sphere": {"radius": 0.1}},
+                        "motion": {"type": "fixed", "pose": {"position": [0.07, 0.9, 0]}}}],
+            "robots": [{"name": "arm", "urdf": self.robot, "state": {"shoulder": 0, "elbow": 0}}]}))
+        check = self.run_tool("check", "scene.json", "--json")
+        self.assertEqual(check.returncode, 0, check)
+        found = json.loads(check.stdout)
+        return self.file("path.json", json.dumps({
+            "firstcontact_path": 1, "verdict": "proven",
+            "moves": {"robot": "arm", "joints": ["elbow", "shoulder"], "turning": ["long", "long"]},
+            "waypoints": [[0, 0], [0, 1], [1, 1]], "edges": [{}, {}], "scene": found["scene"],
+            "scene_digest": hashlib.sha256((self.folder / "scene.json").read_bytes()).hexdigest(),
+            "input_digest": found["input_digest"]}))
+
+    def test_takes_a_path(self):
+        path = self.path_file()
+        result = self.run_tool("retime", path, "--limits", self.limits, "--mode", "blend", "-o", "out.csv")
+        self.assertEqual(result.returncode, 0, result)
+        header = (self.folder / "out.csv").read_text().splitlines()[0]
+        self.assertTrue(header.startswith("time,elbow,shoulder,elbow.velocity"), header)
+        self.file("arm.urdf", URDF.replace("1 0.1 0.1", "1 0.2 0.1"))
+        self.assert_refused(
+            self.run_tool("retime", path, "--limits", self.limits, "-o", "out.csv"),
+            f"{path}: a file of the scene has changed since the path was planned; plan it again")
+
+    def test_says_what_is_wrong(self):
+        def way(text: str) -> str:
+            return self.file("w.csv", "time,shoulder,elbow\n" + text)
+
+        def limits(old: str, new: str) -> str:
+            return self.file("l.yaml", LIMITS.replace(old, new))
+
+        one, repeated = way("0,0,0\n"), "time,shoulder,elbow\n0,0,0\n1,1,1\n2,1,1\n"
+        self.assert_refused(self.retime("--trajectory", one),
+                            "w.csv: expected a path of two waypoints or more, got 1")
+        self.assert_refused(self.retime("--trajectory", self.file("r.csv", repeated)),
+                            "r.csv: waypoint 3: it repeats the waypoint before it; leave one of them out")
+        plain = ["retime", "--robot", self.robot, "--trajectory", self.way, "-o", "out.yaml"]
+        self.assert_refused(self.run_tool(*plain),
+                            f'{self.way}: joint "shoulder": expected a limit of the acceleration, got none')
+        for old, new, place in [("max_velocity: 1.5", "max_velocity: 0", "joint_limits.shoulder.max_velocity"),
+                                ("max_jerk: 200.0", "max_jerk: -1", "joint_limits.elbow.max_jerk"),
+                                ("max_acceleration: 5.0", "max_acceleration: .nan",
+                                 "joint_limits.shoulder.max_acceleration"),
+                                ("shoulder:", "shoulde:", "joint_limits.shoulde")]:
+            result = self.run_tool(*plain, "--limits", limits(old, new))
+            self.assertEqual(result.returncode, 2, result)
+            self.assertIn(place, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1)
+        for option in ["--max-velocity", "--max-acceleration", "--max-jerk"]:
+            for bad in ["0", "-1", "nan"]:
+                self.assertEqual(self.run_tool(*plain, option, bad).returncode, 2)
+        self.assertEqual(self.retime("--trajectory", self.way, out="out.txt").returncode, 2)
+        self.assertEqual(self.retime("--trajectory", self.way, "--mode", "fast").returncode, 2)
+        self.assertEqual(self.run_tool("retime", "-o", "out.yaml").returncode, 2)
+        self.assertFalse((self.folder / "out.yaml").exists())
+
+
+if __name__ == "__main__":
+    tool_test.TOOL = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
