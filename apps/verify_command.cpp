@@ -1,7 +1,9 @@
 #include "verify_command.h"
 
 #include <fstream>
+#include <istream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -10,25 +12,21 @@
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/provable_file.h>
 #include <firstcontact/verification/verify_run.h>
 #include <firstcontact/verification/write_verification.h>
 
 #include "interrupt.h"
 #include "pair_text.h"
+#include "path_proof.h"
 #include "progress.h"
 #include "quantity_text.h"
+#include "result_proof.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
 
 namespace firstcontact::app {
 namespace {
-
-struct Arguments {
-  std::string run;
-  bool json = false;
-  bool lenient = false;
-  int threads = 0;
-};
 
 ExitStatus status_of(RunVerdict verdict) {
   switch (verdict) {
@@ -121,53 +119,102 @@ class Description {
   std::string text_;
 };
 
-ExitStatus verify(const Arguments& arguments) {
-  const Interrupt interrupt;  // First: other threads inherit what it blocks.
-  Progress progress;
-  std::ifstream stream(arguments.run, std::ios::binary);
-  if (!stream) {
-    throw ParseError(arguments.run, "expected a run, cannot open this one");
+/// The first line where that is a whole object, else all of the text.
+std::string told_kind(std::istream& stream, ProvableFile& kind) {
+  std::string text;
+  std::getline(stream, text);
+  kind = provable_file(text);
+  if (kind == ProvableFile::run) {
+    return {};
   }
-  RunReader run(stream, arguments.run, {.lenient = arguments.lenient});
-  VerifyRunOptions options{.threads = arguments.threads, .stop = interrupt.token()};
+  std::ostringstream rest;
+  rest << stream.rdbuf();
+  text += '\n' + rest.str();
+  kind = kind == ProvableFile::unknown ? provable_file(text) : kind;
+  return text;
+}
+
+ExitStatus prove_run(const ProofArguments& arguments, std::istream& stream, Progress& progress,
+                     const std::stop_token& stop) {
+  RunReader run(stream, arguments.file, {.lenient = arguments.lenient});
+  VerifyRunOptions options{.threads = arguments.threads, .stop = stop};
   options.progress = [&](double time) { progress.doing(fmt::format("verified {:.4g} s", time)); };
-  progress.doing("verifying");
   const RunVerification found = [&] {
     try {
       return verify_run(
           run.header(), [&] { return run.next(); }, options);
     } catch (const std::invalid_argument& error) {
-      throw ParseError(arguments.run, error.what());
+      throw ParseError(arguments.file, error.what());
     }
   }();
   if (arguments.json) {
     fmt::print("{}\n", write_verification(run.header(), found));
   } else if (found.verdict == RunVerdict::broken) {
-    throw ParseError(arguments.run, found.problem);
+    throw ParseError(arguments.file, found.problem);
   } else {
-    say(Description(arguments.run, run, found).write());
+    say(Description(arguments.file, run, found).write());
   }
-  flush_stdout();
   return status_of(found.verdict);
 }
 
-constexpr const char* kFooter = R"(
-Looked at are the pairs that a simulation holds apart: one of the two is free, and no rule ignores
-them. Scripted and resting bodies may pass through each other; the answer names such pairs.
+ExitStatus verify(const ProofArguments& arguments) {
+  const Interrupt interrupt;  // First: other threads inherit what it blocks.
+  Progress progress;
+  std::ifstream stream(arguments.file, std::ios::binary);
+  if (!stream) {
+    throw ParseError(arguments.file, "expected a run, cannot open this one");
+  }
+  progress.doing("verifying");
+  ProvableFile kind = ProvableFile::unknown;
+  const std::string text = told_kind(stream, kind);
+  const ExitStatus status = [&] {
+    if (kind == ProvableFile::result) {
+      return prove_results(arguments, text, progress, interrupt.token());
+    }
+    if (kind == ProvableFile::path) {
+      return prove_path(arguments, text, progress, interrupt.token());
+    }
+    stream.clear();
+    if (!stream.seekg(0)) {
+      throw ParseError(arguments.file, "expected a file that can be read twice, not a pipe");
+    }
+    return prove_run(arguments, stream, progress, interrupt.token());
+  }();
+  flush_stdout();
+  return status;
+}
 
-Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that two bodies
-interpenetrate or come closer than the run promises. A record that contradicts itself is bad input.
-Ctrl-C ends with status 3; again, at once.)";
+constexpr const char* kFooter = R"(
+The kind of the file is found by its contents.
+
+A run: looked at are the pairs that a simulation holds apart: one of the two is free, and no rule
+ignores them. Scripted and resting bodies may pass through each other; the answer names such pairs.
+
+A result: each tested pair is proven to stay farther apart than its margin until t. The pair of a
+contact is proven to be within margin and tolerance at t. The proof is about the resolved scene in
+the result. It is refused if that was edited, or if a mesh or robot file has changed. Features,
+points, intervals of contact and closest approaches are not proven again.
+
+A path: every edge is proven to keep the margin and the extra clearance. A path that ends before a
+goal is called approximate. The path is refused if a mesh or robot file has changed.
+
+Exit status: 0 proven, 1 refuted, 2 bad input, 3 not proven. Refuted means that bodies
+interpenetrate or come closer than the file claims, or that those of a contact are apart. A file that
+contradicts itself is bad input. Ctrl-C ends with status 3; again, at once.)";
 
 }  // namespace
 
 void add_verify_command(CLI::App& app, ExitStatus& status) {
-  CLI::App* command = app.add_subcommand(
-      "verify",
-      "Proves that bodies that move freely never interpenetrate with any other in a recorded "
-      "run");
-  auto arguments = std::make_shared<Arguments>();
-  command->add_option("RUN", arguments->run, "The .jsonl file that a simulation wrote")->required();
+  CLI::App* command = app.add_subcommand("verify",
+                                         "Proves a second time, by other code, what a simulation, "
+                                         "a check or a plan wrote into a file");
+  auto arguments = std::make_shared<ProofArguments>();
+  command
+      ->add_option("FILE", arguments->file,
+                   "The .jsonl file that a simulation wrote, a result of check, or a path of plan")
+      ->required();
+  command->add_option("--scene", arguments->scene,
+                      "A result or a path has to be one of this scene file as it is now");
   command->add_flag("--json", arguments->json, "Prints JSON in place of text for people");
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, as in a run with this option");

@@ -1,5 +1,5 @@
 /// @file
-/// `firstcontact verify RUN.jsonl`: proves that nothing interpenetrated in a recorded run.
+/// `firstcontact verify FILE`: proves a run, or the result of a check, a second time.
 
 #pragma once
 

@@ -45,6 +45,7 @@ set(public_headers
   firstcontact/trajectory_files/read_trajectory.h
   firstcontact/foreign_scenes/planning_scene.h
   firstcontact/foreign_scenes/read_rigid_ipc.h
+  firstcontact/scene_files/read_claims.h
   firstcontact/scene_files/read_planned_path.h
   firstcontact/scene_files/read_scene.h
   firstcontact/scene_files/robot_question.h
@@ -59,6 +60,8 @@ set(public_headers
   firstcontact/record/write_run.h
   firstcontact/page/write_page.h
   firstcontact/simulation/simulator.h
+  firstcontact/verification/verify_path.h
+  firstcontact/verification/verify_result.h
   firstcontact/verification/verify_run.h)
 
 # Headers that come with those, for their types. They may be parted and joined anew.
@@ -107,4 +110,5 @@ set(supporting_headers
   firstcontact/retiming/timed_motion.h
   firstcontact/retiming/waypoint_path.h
   firstcontact/record/run.h
-  firstcontact/record/run_step.h)
+  firstcontact/record/run_step.h
+  firstcontact/verification/proof_verdict.h)

@@ -413,6 +413,96 @@ $""")
         self.assertIn("run.jsonl: not proven\n  problem    The run has no step.\n", result.stdout)
 
 
+class VerifiedResult(ToolTest):
+    """Results of check that are proven again."""
+
+    TILTED = scenes.scene(scenes.body("floor"), scenes.body("stone", motion={
+        "type": "constant_velocity", "from": {"position": [0.1, 0.1, 1], "rpy": [0.2, 0.3, 0]}, "translation": [0, 0, -4]}))
+
+    def check(self, scene: str) -> dict:
+        self.run_tool("check", self.file("scene.json", scene), "-o", "result.json")
+        return json.loads((self.folder / "result.json").read_text())
+
+    def verify(self, result: dict, *arguments: str) -> subprocess.CompletedProcess:
+        return self.run_tool("verify", self.file("result.json", json.dumps(result, separators=(",", ":"))), *arguments)
+
+    def test_proves_a_contact_and_the_time_before(self):
+        self.check(self.TILTED)
+        result = self.run_tool("verify", "result.json", "--scene", "scene.json")
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result)
+        self.assertRegex(result.stdout, r"""^result\.json: proven: contact at t = 0\.\d* \(.* ms\), free before
+  contact    floor and stone at t: .* [pn]m(?: or less)?, 1 µm allowed beyond the margin
+(?:  left open  the last .*
+)?  tested     1 pair
+$""")
+        found = json.loads(self.run_tool("verify", "result.json", "--json").stdout)
+        self.assertEqual((found["verdict"], found["claim"]["verdict"], found["problem"]), ("proven", "contact", ""))
+        self.assertLessEqual(found["contact_distance"], 1e-6)
+
+    def test_proves_what_is_free(self):
+        result = self.verify(self.check(scenes.FREE))
+        self.assertEqual(result.returncode, 0, result)
+        self.assertRegex(result.stdout, r"^result\.json: proven: free\n  tested     1 pair\n$")
+
+    def test_refutes_what_was_edited(self):
+        claims = self.check(self.TILTED)
+        free = {**claims, "verdict": "free", "t": 1, "time": 1, "pair": None}
+        result = self.verify(free)
+        self.assertEqual(result.returncode, 1, result)
+        self.assertRegex(result.stdout, r'^result\.json: refuted\n  claim      free\n  problem    "floor" and "stone" are '
+                         r"closer than the result claims\.\n  when       t = 0\.\d+\n  distance ")
+        later = {**claims, "t": claims["t"] + 1e-6, "time": claims["t"] + 1e-6}
+        self.assertIn(self.verify(later).returncode, (1, 3))
+        self.assertEqual(self.verify({**claims, "t": claims["t"] - 1e-6, "time": claims["t"] - 1e-6}).returncode, 1)
+
+    def test_refuses_what_contradicts_itself(self):
+        claims = self.check(scenes.CONTACT)
+        self.assert_refused(self.verify({**claims, "time": 0.5}),
+                            "result.json:1: The time is not t times the duration of the scene.")
+        result = self.verify({**claims, "time": 0.5}, "--json")
+        self.assertEqual((result.returncode, json.loads(result.stdout)["verdict"]), (2, "broken"))
+        self.assert_refused(self.verify({**claims, "t": "soon"}), "result.json:1: t: expected a number, got \"soon\"")
+
+    def test_refuses_a_scene_that_has_changed(self):
+        claims = self.check(scenes.CONTACT)
+        claims["scene"]["bodies"][1]["motion"]["translation"][2] = 0
+        self.assert_refused(self.verify(claims), "result.json:1: scene: this is not the scene that was checked, it was "
+                            "edited in the result; check it again")
+        self.check(scenes.CONTACT)
+        self.file("scene.json", scenes.FREE)
+        self.assert_refused(self.run_tool("verify", "result.json", "--scene", "scene.json"),
+                            "result.json:1: the result is not one of scene.json as it is now; check it again")
+
+    def test_refuses_a_mesh_that_has_changed(self):
+        plate = "v -9 -9 0\nv 9 -9 0\nv 0 9 0\nf 1 2 3\n"
+        self.file("plate.obj", plate)
+        claims = self.check(scenes.scene({"name": "plate", "shape": {"mesh": "plate.obj"}}, scenes.falling(1)))
+        self.assertEqual(self.verify(claims).returncode, 0)
+        self.file("plate.obj", plate.replace("9", "8"))
+        self.assert_refused(self.verify(claims), "result.json:1: input_digest: a mesh or robot file of the scene is not "
+                            "what it was when the result was made; restore the file, or check again")
+
+    def test_warns_where_there_is_no_digest(self):
+        claims = self.check(scenes.FREE)
+        del claims["scene_digest"], claims["resolved_digest"]
+        result = self.verify(claims)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("the result states no digest of its scene", result.stdout)
+
+    def test_proves_many_results(self):
+        self.file("scenes.jsonl", scenes.FREE + "\n" + scenes.CONTACT + "\n")
+        self.file("results.jsonl", self.run_tool("check", "scenes.jsonl").stdout)
+        result = self.run_tool("verify", "results.jsonl")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("results.jsonl:1: proven: free\n", result.stdout)
+        self.assertIn("results.jsonl:2: proven: contact at t = ", result.stdout)
+
+    def test_reads_results_that_were_written_anew(self):
+        claims = self.check(scenes.CONTACT)
+        result = self.run_tool("verify", self.file("pretty.json", json.dumps(claims, indent=2)))
+        self.assertEqual(result.returncode, 0, result)
+
+
 class Robot(ToolTest):
     """A bar of 1 m that turns about z by `elbow`, its fixed tip a ball of 0.1 m at 1.05 m."""
 

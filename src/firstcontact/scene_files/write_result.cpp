@@ -20,6 +20,7 @@
 #include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -211,8 +212,12 @@ std::string write_result(const LoadedScene& loaded, const SceneResult& result,
   }
   object.push_back({"pair_counts", detail::pair_counts_json(loaded.pair_counts)});
   object.push_back({"files", detail::reports_json(loaded.files)});
-  object.push_back({"scene", detail::parse_json(write_scene(loaded.scene), "scene", 1)});
+  JsonValue scene = detail::parse_json(write_scene(loaded.scene), "scene", 1);
+  const std::string resolved_digest = detail::sha256(detail::write_json(scene));
+  object.push_back({"scene", std::move(scene)});
   object.push_back({"version", to_json(version())});
+  object.push_back({"scene_digest", to_json(loaded.scene.text_digest)});
+  object.push_back({"resolved_digest", to_json(resolved_digest)});
   object.push_back({"input_digest", to_json(loaded.input_digest)});
   object.push_back({"work", to_json(result.work)});
   return detail::write_json({.value = std::move(object)});

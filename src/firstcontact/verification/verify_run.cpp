@@ -299,14 +299,24 @@ class Verification {
 
   [[nodiscard]] CoverResult cover(const FollowedStep& step, const BodyPair& pair,
                                   double known_before) const {
-    const auto body = [&](std::size_t b) {
+    using Pieces = std::vector<const detail::CoveredMotion*>;
+    const auto pieces_of = [&](std::size_t b) {
+      Pieces pieces;
+      for (const detail::PieceMotion& piece : step.bodies[b].pieces) {
+        pieces.push_back(&piece);
+      }
+      return pieces;
+    };
+    const auto body = [&](std::size_t b, const Pieces& pieces) {
       return detail::CoverBody{.tree = members_[b].tree,
-                               .pieces = step.bodies[b].pieces,
+                               .pieces = pieces,
                                .thickness = members_[b].shape.radius(),
                                .jump = step.bodies[b].jump};
     };
+    const Pieces pieces_A = pieces_of(pair[0]);
+    const Pieces pieces_B = pieces_of(pair[1]);
     return detail::cover_pair(
-        body(pair[0]), body(pair[1]),
+        body(pair[0], pieces_A), body(pair[1], pieces_B),
         {.promised = step.clearance, .known = known_before, .work = options_.work});
   }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Writes what was proven of a run as JSON.
+/// Writes what was proven of a run, a result or a path as JSON.
 
 #pragma once
 
@@ -9,7 +9,12 @@
 
 namespace firstcontact {
 
+enum class ProofVerdict;
 enum class RunVerdict;
+struct PathVerification;
+struct PlannedPath;
+struct ResultClaims;
+struct ResultVerification;
 struct RunHeader;
 struct RunVerification;
 
@@ -17,7 +22,18 @@ struct RunVerification;
 [[nodiscard]] FIRSTCONTACT_API std::string write_verification(const RunHeader& header,
                                                               const RunVerification& verification);
 
-/// The words of that JSON: proven, closer, broken, not_proven.
+/// One JSON object on one line, without a line feed.
+[[nodiscard]] FIRSTCONTACT_API std::string write_verification(
+    const ResultClaims& claims, const ResultVerification& verification);
+
+/// One JSON object on one line, without a line feed.
+[[nodiscard]] FIRSTCONTACT_API std::string write_verification(const PlannedPath& path,
+                                                              const PathVerification& verification);
+
+/// The words of that JSON: proven, refuted, broken, not_proven.
+[[nodiscard]] FIRSTCONTACT_API const char* word(ProofVerdict verdict);
+
+/// The words of that of a run: proven, closer, broken, not_proven.
 [[nodiscard]] FIRSTCONTACT_API const char* word(RunVerdict verdict);
 
 }  // namespace firstcontact

@@ -85,7 +85,32 @@ void offer_face(const TrianglePoints& A, const TrianglePoints& B, const Offer& o
   }
 }
 
+/// The foot of p in the plane, by two weights that are put back into the triangle.
+Vector3d foot_in(const TrianglePoints& t, const Vector3d& p) {
+  const Vector3d u = t[1] - t[0];
+  const Vector3d v = t[2] - t[0];
+  const Vector3d w = p - t[0];
+  const double determinant = u.squaredNorm() * v.squaredNorm() - u.dot(v) * u.dot(v);
+  const double a = clamped(u.dot(w) * v.squaredNorm() - v.dot(w) * u.dot(v), determinant);
+  const double b = clamped(v.dot(w) * u.squaredNorm() - u.dot(w) * u.dot(v), determinant);
+  const double sum = std::max(1.0, a + b);
+  return t[0] + (a / sum) * u + (b / sum) * v;
+}
+
 }  // namespace
+
+Vector3d point_on_triangle(const TrianglePoints& triangle, const Vector3d& p) {
+  Vector3d best = foot_in(triangle, p);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d& from = triangle[k];
+    const Vector3d edge = triangle[(k + 1) % 3] - from;
+    const Vector3d foot = from + clamped(edge.dot(p - from), edge.squaredNorm()) * edge;
+    if (!((best - p).squaredNorm() <= (foot - p).squaredNorm())) {
+      best = foot;
+    }
+  }
+  return best;
+}
 
 PointPair closest_estimate(const TrianglePoints& A, const TrianglePoints& B) {
   Closest found;

@@ -22,4 +22,9 @@ struct PointPair {
 /// a proof that triangles are apart. Degenerate triangles are edges and points.
 [[nodiscard]] PointPair closest_estimate(const TrianglePoints& A, const TrianglePoints& B);
 
+/// A point of the triangle close to p: a convex combination of its corners, up to the rounding of
+/// a few sums, however thin the triangle is.
+[[nodiscard]] Eigen::Vector3d point_on_triangle(const TrianglePoints& triangle,
+                                                const Eigen::Vector3d& p);
+
 }  // namespace firstcontact::detail

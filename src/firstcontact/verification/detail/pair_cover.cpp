@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/verification/detail/closest_on_triangles.h>
+#include <firstcontact/verification/detail/triangles_meet.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -26,6 +28,9 @@ constexpr double kPrecision = 0.05;
 /// So often a step is halved to find the least distance; and to prove what was promised.
 constexpr int kFineDepth = 24;
 constexpr int kDeepest = 50;
+
+/// So many tests of boxes or triangles come between two looks at the stop token.
+constexpr std::size_t kStopInterval = 4096;
 
 /// Covers the roundings of a velocity and of what follows from it.
 constexpr double kUp = 1.0 + 0x1p-40;
@@ -62,11 +67,21 @@ struct Moving {
   [[nodiscard]] double error() const {
     return now.pivot_error + now.turn_error * reach + kRounding * (now.pivot.norm() + reach);
   }
-  /// [m/s^2]  No point within `from_pivot` accelerates along n faster. Derivation: the acceleration
-  /// is -w^2 y', y' across the axis, and |n . y'| <= |n x w| / w |y|.
+  /// [m/s^2]  No point within `from_pivot` accelerates along n faster. Derivation, with constant
+  /// rates: the acceleration is -w^2 y', y' from the axis and across it, and
+  /// |n . y'| <= |n x w| / w |y'|.
   [[nodiscard]] double bend(const Vector3d& n, double from_pivot) const {
-    return now.spin.norm() * now.spin.cross(n).norm() * from_pivot;
+    return now.constant_rates
+               ? now.spin.norm() * now.spin.cross(n).norm() * (from_pivot + now.lever)
+               : now.acceleration + now.turn_acceleration * from_pivot;
   }
+  /// [m]  What unknown errors of the velocities of points add up to.
+  [[nodiscard]] double drift(double half) const {
+    return half * (speed * (kVelocityError + now.turn_error) + now.velocity_error +
+                   now.spin_error * reach);
+  }
+  /// [m]  Any point may be so far off its nominal place.
+  [[nodiscard]] double tracking() const { return now.tracking + now.turn_tracking * reach; }
 };
 
 /// A box in the middle of a window, as the world sees it.
@@ -102,16 +117,30 @@ class Cover {
 
   CoverResult run() {
     result_.outcome = CoverOutcome::proven;
+    const bool is_instant = options_.from == options_.to;
     std::size_t a = 0;
     std::size_t b = 0;
-    double from = A_.pieces.front().from();
     while (result_.outcome == CoverOutcome::proven && a < A_.pieces.size() &&
            b < B_.pieces.size()) {
-      const double to = std::min(A_.pieces[a].to(), B_.pieces[b].to());
-      cover(A_.pieces[a], B_.pieces[b], from, to);
-      a += A_.pieces[a].to() <= to ? 1 : 0;
-      b += B_.pieces[b].to() <= to ? 1 : 0;
-      from = to;
+      const CoveredMotion& A = *A_.pieces[a];
+      const CoveredMotion& B = *B_.pieces[b];
+      const double end = std::min(A.to(), B.to());
+      const double from = std::max({options_.from, A.from(), B.from()});
+      const double to = std::min(options_.to, end);
+      // Pieces that only touch the times that are asked are of no interest.
+      const bool touches = !is_instant && from == to && (end == options_.from || to < end);
+      if (from <= to && !touches) {
+        cover(A, B, from, to);
+        covered_ = true;
+      }
+      if (end > options_.to || (is_instant && covered_)) {
+        break;
+      }
+      a += A.to() <= end ? 1 : 0;
+      b += B.to() <= end ? 1 : 0;
+    }
+    if (!covered_) {
+      fail(CoverOutcome::not_proven, std::max(options_.from, 0.0));
     }
     return result_;
   }
@@ -131,16 +160,17 @@ class Cover {
   struct Setting {
     Moving A;
     Moving B;
-    double time = 0.0;    // [s]  Its middle.
-    double half = 0.0;    // [s]
-    double error = 0.0;   // [m]  Of every gap along a direction, thickness and jumps included.
-    double drift = 0.0;   // [m]  What rounded velocities may add up to.
-    double enough = 0.0;  // [m]  What was promised, but for errors.
+    double time = 0.0;      // [s]  Its middle.
+    double half = 0.0;      // [s]
+    double error = 0.0;     // [m]  Of every gap along a direction, thickness and jumps included.
+    double drift = 0.0;     // [m]  What rounded velocities may add up to.
+    double promised = 0.0;  // [m]
+    double enough = 0.0;    // [m]  What was promised, but for errors.
     bool can_split = false;
     bool refines = false;  // For the least distance.
   };
 
-  void cover(const PieceMotion& A, const PieceMotion& B, double from, double to) {
+  void cover(const CoveredMotion& A, const CoveredMotion& B, double from, double to) {
     std::vector<Window> windows{{from, to, 0, {{0, 0}}}};
     while (!windows.empty() && result_.outcome == CoverOutcome::proven) {
       const Window window = std::move(windows.back());
@@ -157,7 +187,7 @@ class Cover {
         continue;
       }
       if (!setting.can_split) {
-        fail(CoverOutcome::not_proven, setting.time);
+        fail(CoverOutcome::not_proven, setting.time, setting.half);
         return;
       }
       // The earlier half is proven first.
@@ -166,37 +196,49 @@ class Cover {
     }
   }
 
-  [[nodiscard]] Setting set(const PieceMotion& A, const PieceMotion& B,
+  [[nodiscard]] Setting set(const CoveredMotion& A, const CoveredMotion& B,
                             const Window& window) const {
     const double time = std::clamp(0.5 * (window.from + window.to), window.from, window.to);
+    const double half = kUp * std::max(time - window.from, window.to - time);
     const Vector3d& origin = A.position();
-    Setting s{Moving(A.instant(time, origin), A_.tree.nodes[0].reach),
-              Moving(B.instant(time, origin), B_.tree.nodes[0].reach)};
+    Setting s{Moving(A.around(time, half, origin), A_.tree.nodes[0].reach),
+              Moving(B.around(time, half, origin), B_.tree.nodes[0].reach)};
     s.time = time;
-    s.half = kUp * std::max(time - window.from, window.to - time);
+    s.half = half;
     const double size = s.A.now.pivot.norm() + s.A.reach + s.B.now.pivot.norm() + s.B.reach;
     const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
+    const double tracking = s.A.tracking() + s.B.tracking();
     // The directions are unit vectors but for as much.
     const double rounding = s.A.error() + s.B.error() + (kRounding + 2.0 * turn_errors) * size;
-    s.error = rounding + A_.jump + B_.jump;
-    s.drift = s.half * (s.A.speed * (kVelocityError + s.A.now.turn_error) +
-                        s.B.speed * (kVelocityError + s.B.now.turn_error));
-    s.enough = std::max(std::numeric_limits<double>::denorm_min(),
-                        options_.promised * (1.0 - kPromiseError) - 2.0 * s.error);
+    s.error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
+    s.drift = s.A.drift(half) + s.B.drift(half);
+    s.promised = options_.promised + (options_.nominal ? tracking : 0.0);
+    s.enough = enough(s);
     s.can_split = window.depth < kDeepest && window.from < time && time < window.to;
-    s.refines = s.can_split && window.depth < kFineDepth;
+    s.refines = options_.finds_least && s.can_split && window.depth < kFineDepth;
     return s;
+  }
+
+  /// [m]  A bound that shows the promise.
+  [[nodiscard]] double enough(const Setting& s) const {
+    return options_.promise == Promise::exceeded
+               ? std::nextafter(s.promised, std::numeric_limits<double>::infinity())
+               : std::max(std::numeric_limits<double>::denorm_min(),
+                          s.promised * (1.0 - kPromiseError) - 2.0 * s.error);
   }
 
   /// [m]  The bodies are apart by their triangles' gap less this.
   [[nodiscard]] double thickness() const { return A_.thickness + B_.thickness; }
 
   /// From here on a bound is of no interest, once it is enough.
-  [[nodiscard]] double fine() const { return (1.0 - kPrecision) * result_.seen; }
+  [[nodiscard]] double fine() const {
+    return options_.finds_least ? (1.0 - kPrecision) * result_.seen : 0.0;
+  }
 
-  void fail(CoverOutcome outcome, double time) {
+  void fail(CoverOutcome outcome, double time, double half = 0.0) {
     result_.outcome = outcome;
     result_.time = time;
+    result_.half = half;
     if (outcome == CoverOutcome::not_proven) {
       result_.least = 0.0;
     }
@@ -210,8 +252,9 @@ class Cover {
     while (!stack_.empty() && result_.outcome == CoverOutcome::proven) {
       const NodePair next = stack_.back();
       stack_.pop_back();
-      if (work_left_ == 0) {
-        fail(CoverOutcome::not_proven, s.time);
+      if (work_left_ == 0 || (work_left_ % kStopInterval == 0 && options_.stop.stop_requested())) {
+        fail(CoverOutcome::not_proven, s.time, s.half);
+        result_.ended = true;
         return;
       }
       --work_left_;
@@ -319,7 +362,9 @@ class Cover {
       result_.seen = seen;
       result_.seen_time = s.time;
     }
-    if (seen < s.enough) {
+    if (is_closer(A, B, closest, seen, s) ||
+        (options_.promise == Promise::exceeded && closest.distance <= 4.0 * s.error &&
+         surely_meet(a, b, s))) {
       fail(CoverOutcome::closer, s.time);
       return true;
     }
@@ -330,6 +375,37 @@ class Cover {
     }
     accept(bound);
     return true;
+  }
+
+  [[nodiscard]] bool is_closer(const PlacedTriangle& A, const PlacedTriangle& B,
+                               const PointPair& closest, double seen, const Setting& s) const {
+    if (options_.promise == Promise::kept) {
+      return seen < s.enough;
+    }
+    // Of two points that surely belong to the triangles. The sum of the errors is rounded, too.
+    const auto surely = [&] {
+      const Vector3d between =
+          point_on_triangle(A.corners, closest.on_A) - point_on_triangle(B.corners, closest.on_B);
+      return kUp * std::max(0.0, between.norm() + s.error - thickness()) <= s.promised;
+    };
+    return seen <= s.promised && surely();
+  }
+
+  /// Whether the two triangles are proven to have a point in common in the middle of the window.
+  [[nodiscard]] bool surely_meet(const BoxNode& a, const BoxNode& b, const Setting& s) const {
+    return triangles_meet(enclosed(s.A, A_.tree.triangles[a.first], a.reach),
+                          enclosed(s.B, B_.tree.triangles[b.first], b.reach));
+  }
+
+  static IntervalTriangle enclosed(const Moving& body, const TrianglePoints& triangle,
+                                   double from_pivot) {
+    const double error = kUp * (body.now.pivot_error + body.now.turn_error * from_pivot +
+                                kRounding * (body.now.pivot.norm() + from_pivot));
+    IntervalTriangle corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = inflated(enclose(body.position(triangle[k])), error);
+    }
+    return corners;
   }
 
   /// Along the line of the closest points, then along the normals of the faces, in whose planes
@@ -393,6 +469,7 @@ class Cover {
   const CoverBody& B_;
   const CoverOptions& options_;
   std::size_t work_left_;
+  bool covered_ = false;  // Any time at all.
   CoverResult result_;
   std::vector<NodePair> stack_;
 };

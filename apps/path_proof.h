@@ -1,0 +1,21 @@
+/// @file
+/// The second proof of a planned path, and its answer as people read it.
+
+#pragma once
+
+#include <stop_token>
+#include <string>
+
+#include "exit_status.h"
+#include "result_proof.h"
+
+namespace firstcontact::app {
+
+/// Proves a planned path again, and prints what was found.
+///
+/// @param text  of the file
+/// @throws ParseError where it holds something else, or a file has changed
+[[nodiscard]] ExitStatus prove_path(const ProofArguments& arguments, const std::string& text,
+                                    Progress& progress, const std::stop_token& stop);
+
+}  // namespace firstcontact::app

@@ -1,0 +1,34 @@
+/// @file
+/// The second proof of the results in a file, and its answer as people read it.
+
+#pragma once
+
+#include <stop_token>
+#include <string>
+
+#include <firstcontact/verification/proof_verdict.h>
+
+#include "exit_status.h"
+
+namespace firstcontact::app {
+
+class Progress;
+
+struct ProofArguments {
+  std::string file;   ///< To be proven.
+  std::string scene;  ///< That results are to be of; may be empty.
+  bool json = false;
+  bool lenient = false;
+  int threads = 0;
+};
+
+[[nodiscard]] ExitStatus status_of(ProofVerdict verdict);
+
+/// Proves each result of a file again, and prints what was found. The status is the worst.
+///
+/// @param text  of the file: one result, or one on each line
+/// @throws ParseError where it holds something else, or a file has changed
+[[nodiscard]] ExitStatus prove_results(const ProofArguments& arguments, const std::string& text,
+                                       Progress& progress, const std::stop_token& stop);
+
+}  // namespace firstcontact::app

@@ -1,0 +1,116 @@
+#include <firstcontact/scene_files/read_claims.h>
+
+#include <variant>
+
+#include <firstcontact/query/verdict_words.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/sha256.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonObject;
+using detail::JsonReader;
+using detail::JsonValue;
+
+class ClaimsReader {
+ public:
+  ClaimsReader(const JsonValue& root, const std::string& source)
+      : root_(root), reader_(root, source), source_(source) {}
+
+  ResultClaims read(const ReadingOptions& options) const {
+    const auto* object = std::get_if<JsonObject>(&root_.value);
+    const JsonValue* scene = object == nullptr ? nullptr : find(*object, "scene");
+    if (scene == nullptr || find(*object, "verdict") == nullptr) {
+      throw ParseError(source_, root_.line,
+                       "expected one result, as `firstcontact check SCENE -o FILE` writes it");
+    }
+    const std::string scene_text = detail::write_json(*scene);
+    ResultClaims claims;
+    claims.scene = parse_scene(scene_text, "scene of the result", 1, options);
+    claims.scene.text_digest = text_or_empty(*object, "scene_digest");
+    claims.version = text_or_empty(*object, "version");
+    claims.input_digest = text_or_empty(*object, "input_digest");
+    if (const JsonValue* digest = find(*object, "resolved_digest")) {
+      claims.has_own_scene = reader_.string(*digest, "a digest") == detail::sha256(scene_text);
+    }
+    claims.verdict = verdict(root_);
+    claims.t = reader_.number(reader_.member(root_, "t"));
+    claims.time = reader_.number(reader_.member(root_, "time"));
+    const JsonValue& pair = reader_.member(root_, "pair");
+    if (!is_null(pair)) {
+      claims.pair = names(pair);
+    }
+    const JsonValue& clearance = reader_.member(root_, "clearance");
+    claims.clearance =
+        is_null(clearance) ? std::numeric_limits<double>::infinity() : reader_.number(clearance);
+    claims.tolerance_used = tolerance(*object, claims.scene);
+    const JsonValue& counts = reader_.member(root_, "pair_counts");
+    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+    claims.tested = reader_.index(reader_.member(counts, "tested"), kMost, "a number of pairs");
+    if (const JsonValue* pairs = find(*object, "pairs")) {
+      claims.pairs.emplace();
+      for (const JsonValue& answer : reader_.array(*pairs, "answers of pairs")) {
+        claims.pairs->push_back(of_pair(answer, claims.scene));
+      }
+    }
+    return claims;
+  }
+
+ private:
+  static const JsonValue* find(const JsonObject& object, std::string_view key) {
+    return detail::find(object, key);
+  }
+
+  static bool is_null(const JsonValue& value) {
+    return std::holds_alternative<detail::JsonNull>(value.value);
+  }
+
+  [[nodiscard]] std::string text_or_empty(const JsonObject& object, std::string_view key) const {
+    const JsonValue* value = find(object, key);
+    return value == nullptr ? "" : reader_.string(*value, "a string");
+  }
+
+  [[nodiscard]] Verdict verdict(const JsonValue& object) const {
+    return reader_.enumerator<Verdict>(reader_.member(object, "verdict"), kVerdictWords);
+  }
+
+  [[nodiscard]] std::array<std::string, 2> names(const JsonValue& value) const {
+    const detail::JsonArray& both = reader_.array(value, "two names");
+    if (both.size() != 2) {
+      reader_.fail_expected("two names", value);
+    }
+    return {reader_.string(both[0], "a name"), reader_.string(both[1], "a name")};
+  }
+
+  [[nodiscard]] double tolerance(const JsonObject& object, const Scene& scene) const {
+    const JsonValue* used = find(object, "tolerance_used");
+    return used == nullptr ? scene.options.tolerance : reader_.positive(*used);
+  }
+
+  [[nodiscard]] PairClaim of_pair(const JsonValue& answer, const Scene& scene) const {
+    return {.pair = names(reader_.member(answer, "pair")),
+            .verdict = verdict(answer),
+            .t = reader_.number(reader_.member(answer, "t")),
+            .tolerance_used = tolerance(std::get<JsonObject>(answer.value), scene)};
+  }
+
+  const JsonValue& root_;
+  JsonReader reader_;
+  const std::string& source_;
+};
+
+}  // namespace
+
+ResultClaims read_claims(std::string_view result, const std::filesystem::path& source,
+                         std::size_t line, const ReadingOptions& options) {
+  const std::string name = source.string();
+  const JsonValue root = detail::parse_json(result, name, line);
+  return ClaimsReader(root, name).read(options);
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,60 @@
+/// @file
+/// Reads back what a result claims, for a second proof.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/query/outcome.h>
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+
+/// The answer of one pair of members, by their names.
+struct PairClaim {
+  std::array<std::string, 2> pair;
+  Verdict verdict = Verdict::undecided;
+  double t = 0.0;               ///< [-]  The pair is claimed to be free before it.
+  double tolerance_used = 0.0;  ///< [m]
+};
+
+/// The claims of the result of a scene.
+struct ResultClaims {
+  /// Its paths are as they were opened. Its text_digest is that of the text that was checked, and
+  /// empty in results that do not state it.
+  Scene scene;
+  std::string version;
+  std::string input_digest;  ///< SHA-256 of everything that was read.
+  /// Whether the scene in the result is the one that was checked, by its digest; none in results
+  /// that do not state one.
+  std::optional<bool> has_own_scene = {};
+  Verdict verdict = Verdict::undecided;
+  double t = 0.0;                                       ///< [-]
+  double time = 0.0;                                    ///< [s]
+  std::optional<std::array<std::string, 2>> pair = {};  ///< That decides t.
+  double clearance = 0.0;                               ///< [m]  Infinite where no pair is tested.
+  double tolerance_used = 0.0;  ///< [m]  As the result states it, else that of the scene.
+  std::size_t tested = 0;       ///< Pairs.
+  std::optional<std::vector<PairClaim>> pairs = {};  ///< Of every pair, where it was asked for.
+};
+
+/// Reads what a result claims.
+///
+/// @param result  one JSON object, as write_result writes it
+/// @param source  the file that it is from, named in errors
+/// @param line    of that file
+/// @throws ParseError if it is none, or its scene is none
+[[nodiscard]] FIRSTCONTACT_API ResultClaims read_claims(std::string_view result,
+                                                        const std::filesystem::path& source,
+                                                        std::size_t line = 1,
+                                                        const ReadingOptions& options = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,165 @@
+#include <firstcontact/verification/detail/chain_motion.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Covers the roundings of a sum of a few products that are not negative.
+constexpr double kRoundedUp = 1.0 + 0x1p-48;
+
+/// A frame of a chain, and how it moves.
+class ChainFrame {
+ public:
+  ChainFrame(const RigidMotion* base, double time, double half, const Eigen::Vector3d& origin)
+      : time_(time), half_(half) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      X_.rotation.columns[k].c[k] = Interval(1.0);
+    }
+    X_.position = Interval(-1.0) * enclose(origin);
+    if (base != nullptr) {
+      const RigidMotion::Rates rates = base->rates(time);
+      X_ = base->enclosure(time, origin);
+      velocity_ = rates.velocity;
+      spin_ = rates.spin;
+      turn_rate_ = norm(spin_).upper();
+      acceleration_ = kRoundedUp * turn_rate_ * turn_rate_ * rates.lever;
+    }
+  }
+
+  void go(const IntervalTransform& step) {
+    const IntervalVector3 way = X_.rotation * step.position;
+    velocity_ = velocity_ + cross(spin_, way);
+    acceleration_ = kRoundedUp * (acceleration_ + turning() * norm(step.position).upper());
+    X_ = {X_.rotation * step.rotation, X_.position + way};
+  }
+
+  void move(const ChainJoint& joint) {
+    Passed& passed = passed_.emplace_back();
+    passed.error = joint.error;
+    for (const ChainJoint::Slide& slide : joint.slides) {
+      const CoordinateWindow q = slide.coordinate->around(time_, half_);
+      const IntervalVector3 direction = X_.rotation * slide.direction;
+      const IntervalVector3 way = q.value * direction;
+      velocity_ = velocity_ + cross(spin_, way) + q.rate * direction;
+      acceleration_ =
+          kRoundedUp * (acceleration_ + turning() * kRoundedUp * q.size +
+                        kRoundedUp * (2.0 * turn_rate_ * q.rate_size + q.acceleration_size));
+      X_.position = X_.position + way;
+      passed.slide_rate += kRoundedUp * q.rate_size;
+    }
+    passed.place = X_.position;
+    if (joint.angle != nullptr) {
+      const CoordinateWindow q = joint.angle->around(time_, half_);
+      spin_ = spin_ + q.rate * (X_.rotation * joint.axis);
+      X_.rotation = X_.rotation * turn(joint.axis, q.value);
+      turn_acceleration_ = kRoundedUp * (turn_acceleration_ + kRoundedUp * q.acceleration_size +
+                                         kRoundedUp * turn_rate_ * q.rate_size);
+      turn_rate_ = kRoundedUp * (turn_rate_ + q.rate_size);
+      passed.turn_rate = q.rate_size;
+    }
+  }
+
+  [[nodiscard]] const IntervalTransform& transform() const { return X_; }
+
+  [[nodiscard]] BodyInstant instant() const {
+    BodyInstant now = instant_of(X_);
+    now.velocity = middle(velocity_, now.velocity_error);
+    now.spin = middle(spin_, now.spin_error);
+    now.constant_rates = false;
+    now.acceleration = acceleration_;
+    now.turn_acceleration = turning();
+    return now;
+  }
+
+  /// Derivation: let the last joint err first, then the one before it, and so on. None of them
+  /// moves the axes of those that are still to err. An error e of a turn moves a point at a
+  /// distance d from the axis by e d at most, and d has grown by what the point is off already.
+  void add_tracking(BodyInstant& now) const {
+    double speed = 0.0;  // Of the pivot, as the child of the joint sees it.
+    for (std::size_t k = passed_.size(); k-- > 0;) {
+      const Passed& joint = passed_[k];
+      const double lever = kRoundedUp * (norm(X_.position - joint.place).upper() + half_ * speed);
+      now.tracking = kRoundedUp * (now.tracking + joint.error.angle * (lever + now.tracking) +
+                                   joint.error.distance);
+      now.turn_tracking =
+          kRoundedUp * (now.turn_tracking + joint.error.angle * (1.0 + now.turn_tracking));
+      speed = kRoundedUp * (speed + joint.turn_rate * lever + joint.slide_rate);
+    }
+  }
+
+ private:
+  /// A joint on the way, and what it does.
+  struct Passed {
+    IntervalVector3 place;  // Of its axis.
+    double turn_rate = 0.0;
+    double slide_rate = 0.0;
+    TrackingError error;
+  };
+
+  static IntervalMatrix3 turn(const IntervalVector3& axis, const Interval& angle) {
+    IntervalMatrix3 unit;
+    for (std::size_t k = 0; k < 3; ++k) {
+      unit.columns[k].c[k] = Interval(1.0);
+    }
+    return detail::rotated(axis, angle, unit);
+  }
+
+  /// [1/s^2]  Of the present frame: times a distance.
+  [[nodiscard]] double turning() const {
+    return kRoundedUp * (turn_acceleration_ + turn_rate_ * turn_rate_);
+  }
+
+  double time_;
+  double half_;
+  IntervalTransform X_;
+  IntervalVector3 velocity_;
+  IntervalVector3 spin_;
+  double turn_rate_ = 0.0;          // At most, in the window; so are the others.
+  double turn_acceleration_ = 0.0;  // Of the turn alone.
+  double acceleration_ = 0.0;
+  std::vector<Passed> passed_;
+};
+
+}  // namespace
+
+ChainMotion::ChainMotion(double from, double to, std::shared_ptr<const RigidMotion> base,
+                         std::vector<ChainJoint> joints, const IntervalTransform& tail)
+    : CoveredMotion(from, to), base_(std::move(base)), joints_(std::move(joints)), tail_(tail) {
+  has_errors_ = std::any_of(joints_.begin(), joints_.end(), [](const ChainJoint& joint) {
+    return joint.error.angle > 0.0 || joint.error.distance > 0.0;
+  });
+}
+
+const Eigen::Vector3d& ChainMotion::position() const {
+  static const Eigen::Vector3d kOrigin = Eigen::Vector3d::Zero();
+  return base_ ? base_->position() : kOrigin;
+}
+
+IntervalTransform ChainMotion::enclosure(double time, const Eigen::Vector3d& origin) const {
+  ChainFrame frame(base_.get(), time, 0.0, origin);
+  for (const ChainJoint& joint : joints_) {
+    frame.go(joint.before);
+    frame.move(joint);
+  }
+  frame.go(tail_);
+  return frame.transform();
+}
+
+BodyInstant ChainMotion::around(double time, double half, const Eigen::Vector3d& origin) const {
+  ChainFrame frame(base_.get(), time, half, origin);
+  for (const ChainJoint& joint : joints_) {
+    frame.go(joint.before);
+    frame.move(joint);
+  }
+  frame.go(tail_);
+  BodyInstant now = frame.instant();
+  if (has_errors_) {
+    frame.add_tracking(now);
+  }
+  return now;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,376 @@
+#include <firstcontact/verification/detail/scene_proof.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/verification/detail/inside_solid.h>
+#include <firstcontact/verification/detail/near_pairs.h>
+#include <firstcontact/verification/detail/scene_courses.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Windows into which a scene is cut at least; and those of a scene of many shapes.
+constexpr std::size_t kWindows = 8;
+constexpr std::size_t kManyWindows = 32;
+constexpr std::size_t kManyShapes = 50;
+
+/// Pairs are proven side by side in batches of at least as many: all threads have work, and the
+/// first finding does not depend on them.
+constexpr std::size_t kBatch = 512;
+
+/// The way that is left open where bodies come together, of their size; and the longest moment in
+/// which they go it. [-]
+constexpr double kLastWay = 0x1p-38;
+constexpr double kLongestMoment = 0x1p-30;
+
+/// Behind a time at which a body is taken up or put down. [-]
+constexpr double kBehind = 0x1p-40;
+
+std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
+  std::vector<const CoveredMotion*> result;
+  result.reserve(motions.size());
+  for (const auto& motion : motions) {
+    result.push_back(motion.get());
+  }
+  return result;
+}
+
+/// What is worse is kept; of what is as bad the earlier one.
+void take(const ProofFinding& found, ProofFinding& kept) {
+  const bool decides = found.verdict == ProofVerdict::refuted;
+  if (found.verdict != ProofVerdict::proven && kept.verdict != ProofVerdict::refuted &&
+      (decides || kept.verdict == ProofVerdict::proven)) {
+    const double left_open = kept.left_open;
+    kept = found;
+    kept.left_open = left_open;
+  }
+  kept.left_open = std::max(kept.left_open, found.left_open);
+}
+
+}  // namespace
+
+SceneProof::SceneProof(const SceneCourses& courses, SceneProofOptions options)
+    : courses_(courses), options_(std::move(options)) {}
+
+std::vector<TimeSpan> SceneProof::windows() const {
+  const std::vector<double>& breaks = courses_.breaks();
+  const std::size_t least = courses_.geometries().size() > kManyShapes ? kManyWindows : kWindows;
+  const std::size_t spans = breaks.size() - 1;
+  const std::size_t parts = (least + spans - 1) / spans;
+  std::vector<TimeSpan> windows;
+  for (std::size_t k = 0; k < spans; ++k) {
+    double from = breaks[k];
+    for (std::size_t part = 1; part <= parts; ++part) {
+      const double share = static_cast<double>(part) / static_cast<double>(parts);
+      const double to =
+          part == parts ? breaks[k + 1] : breaks[k] + share * (breaks[k + 1] - breaks[k]);
+      if (from < to) {
+        windows.push_back({from, to});
+        from = to;
+      }
+    }
+  }
+  return windows;
+}
+
+/// Pairs of geometries of two members.
+std::vector<BodyPair> SceneProof::near(const TimeSpan& window, double reach) const {
+  const auto geometries = courses_.geometries();
+  std::vector<Eigen::AlignedBox3d> boxes(geometries.size());
+  parallel_for(options_.threads, boxes.size(),
+               [&](std::size_t k) { boxes[k] = courses_.swept_box(geometries[k], window); });
+  std::vector<BodyPair> pairs = near_pairs(boxes, reach);
+  std::erase_if(pairs, [&](const BodyPair& pair) {
+    return geometries[pair[0]].member == geometries[pair[1]].member;
+  });
+  return pairs;
+}
+
+double SceneProof::promised(const FreeClaim& claim, double margin) const {
+  return claim.clearance.value_or(margin + claim.extra);
+}
+
+void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
+                          std::vector<Job>& jobs) const {
+  const auto geometries = courses_.geometries();
+  for (const BodyPair& pair : near(window, promised(claim, courses_.pairs().greatest_margin()))) {
+    const BodyPair members{geometries[pair[0]].member, geometries[pair[1]].member};
+    const std::optional<double> margin = courses_.pairs().margin(members);
+    // A clearance that the margin shows already.
+    if (!margin || (claim.clearance && *claim.clearance <= *margin)) {
+      continue;
+    }
+    const double until = claim.until(members);
+    for (const TimeSpan& span : courses_.pairs().spans(members)) {
+      const TimeSpan tested{std::max(window.from, span.from),
+                            std::min({window.to, span.to, until})};
+      if (tested.from < tested.to) {
+        jobs.push_back(
+            {pair[0], pair[1], tested, promised(claim, *margin), tested.to == until, {}});
+      }
+    }
+  }
+}
+
+ProofFinding SceneProof::prove_free(const FreeClaim& claim) const {
+  ProofFinding finding;
+  if (!claim.clearance && claim.from == 0.0) {
+    finding = prove_outside(claim);
+  }
+  std::vector<TimeSpan> all = windows();
+  for (TimeSpan& window : all) {
+    window = {std::max(window.from, claim.from), std::min(window.to, claim.last)};
+  }
+  std::erase_if(all, [](const TimeSpan& window) { return !(window.from < window.to); });
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (finding.verdict == ProofVerdict::refuted) {
+      return finding;
+    }
+    if (options_.stop.stop_requested()) {
+      take({.verdict = ProofVerdict::not_proven, .reason = ProofReason::stopped, .when = all[k]},
+           finding);
+      return finding;
+    }
+    add_jobs(claim, all[k], jobs);
+    if (jobs.size() >= kBatch || k + 1 == all.size()) {
+      take(prove(claim, jobs), finding);
+      jobs.clear();
+      if (options_.progress) {
+        options_.progress(all[k].to);
+      }
+    }
+  }
+  return finding;
+}
+
+ProofFinding SceneProof::prove(const FreeClaim& claim, std::vector<Job>& jobs) const {
+  parallel_for(options_.threads, jobs.size(),
+               [&](std::size_t k) { jobs[k].finding = prove(claim, jobs[k]); });
+  ProofFinding finding;
+  for (const Job& job : jobs) {
+    take(job.finding, finding);
+  }
+  return finding;
+}
+
+ProofFinding SceneProof::prove(const FreeClaim& claim, const Job& job) const {
+  const auto geometries = courses_.geometries();
+  const CourseGeometry& A = geometries[job.a];
+  const CourseGeometry& B = geometries[job.b];
+  CoverOptions asked{.promise = claim.clearance ? Promise::kept : Promise::exceeded,
+                     .promised = job.margin,
+                     .finds_least = false,
+                     .from = job.window.from,
+                     .to = job.window.to,
+                     .work = options_.work,
+                     .stop = options_.stop};
+  CoverResult found = cover(A, B, job.window, asked);
+  ProofFinding finding{.members = {A.member, B.member}};
+  if (claim.ends_in_contact && job.is_last && found.outcome == CoverOutcome::not_proven) {
+    const double moment = last_moment(job);
+    asked.to = job.window.to - moment;
+    if (asked.from < asked.to && found.time + found.half >= asked.to) {
+      found = cover(A, B, job.window, asked);
+      finding.left_open = moment;
+    }
+  }
+  if (found.outcome == CoverOutcome::closer) {
+    finding.verdict = ProofVerdict::refuted;
+    finding.reason = ProofReason::closer;
+    finding.when = {found.time, found.time};
+    finding.distance = found.seen;
+  } else if (found.outcome == CoverOutcome::not_proven) {
+    finding.verdict = ProofVerdict::not_proven;
+    finding.reason =
+        !found.ended ? ProofReason::too_close
+                     : (options_.stop.stop_requested() ? ProofReason::stopped : ProofReason::work);
+    finding.when = {found.time - found.half, found.time + found.half};
+  }
+  return finding;
+}
+
+/// [-]  Before the end of a window: in it the two shapes come together by less than kLastWay of
+/// their size.
+double SceneProof::last_moment(const Job& job) const {
+  const auto geometries = courses_.geometries();
+  const CourseGeometry& A = geometries[job.a];
+  const CourseGeometry& B = geometries[job.b];
+  const double end = job.window.to;
+  const SceneCourses::PairMotions motions = courses_.motions(A, B, {end, end});
+  const auto speed = [&](const CoveredMotion& motion, double reach) {
+    const double half = std::min(kLongestMoment, 0.5 * (motion.to() - motion.from()));
+    const double middle = std::clamp(end, motion.from() + half, motion.to() - half);
+    const BodyInstant now = motion.around(middle, half, motion.position());
+    const double spin = now.spin.norm() + now.spin_error;
+    const double bend = now.constant_rates ? spin * spin * (now.lever + reach)
+                                           : now.acceleration + now.turn_acceleration * reach;
+    return now.velocity.norm() + now.velocity_error + spin * reach + 2.0 * half * bend;
+  };
+  const double reach_A = A.tree->nodes[0].reach + A.shape.radius();
+  const double reach_B = B.tree->nodes[0].reach + B.shape.radius();
+  const double way = kLastWay * (reach_A + reach_B);
+  const double fastest = speed(*motions.A.front(), reach_A) + speed(*motions.B.front(), reach_B);
+  return fastest > 0.0 ? std::min(way / fastest, kLongestMoment) : kLongestMoment;
+}
+
+CoverResult SceneProof::cover(const CourseGeometry& A, const CourseGeometry& B,
+                              const TimeSpan& window, CoverOptions options) const {
+  const SceneCourses::PairMotions motions = courses_.motions(A, B, window);
+  const std::vector<const CoveredMotion*> of_A = pointers(motions.A);
+  const std::vector<const CoveredMotion*> of_B = pointers(motions.B);
+  return cover_pair({.tree = *A.tree, .pieces = of_A, .thickness = A.shape.radius()},
+                    {.tree = *B.tree, .pieces = of_B, .thickness = B.shape.radius()}, options);
+}
+
+/// What is inside of a solid when it begins to be tested would never have to cross its surface.
+ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
+  const auto geometries = courses_.geometries();
+  ProofFinding finding;
+  const auto test = [&](const CourseGeometry& A, const CourseGeometry& B, double t) {
+    const BodyPair members{A.member, B.member};
+    if (!(t < claim.until(members)) || !courses_.pairs().margin(members)) {
+      return;
+    }
+    const std::optional<bool> nested = are_nested(A, B, t);
+    if (nested != false) {
+      take({.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven,
+            .reason = nested ? ProofReason::inside : ProofReason::perhaps_inside,
+            .members = members,
+            .when = {t, t}},
+           finding);
+    }
+  };
+  for (const BodyPair& pair : near({0.0, 0.0}, 0.0)) {
+    const CourseGeometry& A = geometries[pair[0]];
+    const CourseGeometry& B = geometries[pair[1]];
+    const std::vector<TimeSpan> spans = courses_.pairs().spans({A.member, B.member});
+    if (!spans.empty() && spans.front().from == 0.0) {
+      test(A, B, 0.0);
+    }
+  }
+  for (const BodyPair& members : courses_.pairs().held_pairs()) {
+    for (const TimeSpan& span : courses_.pairs().spans(members)) {
+      for (const CourseGeometry& A : courses_.of_member(members[0])) {
+        for (const CourseGeometry& B : courses_.of_member(members[1])) {
+          if (span.from > 0.0) {
+            test(A, B, span.from);
+          }
+        }
+      }
+    }
+  }
+  return finding;
+}
+
+std::optional<bool> SceneProof::are_nested(const CourseGeometry& A, const CourseGeometry& B,
+                                           double t) const {
+  const std::optional<bool> inside_A = has_inside(A, B, t);
+  const std::optional<bool> inside_B = has_inside(B, A, t);
+  if (inside_A == true || inside_B == true) {
+    return true;
+  }
+  return inside_A && inside_B ? std::optional(false) : std::nullopt;
+}
+
+std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const CourseGeometry& other,
+                                           double t) const {
+  if (!solid.shape.is_solid()) {
+    return false;
+  }
+  const SceneCourses::PairMotions motions = courses_.motions(solid, other, {t, t});
+  const auto place = [&](const CoveredMotions& of) {
+    return of.front()->enclosure(t, motions.A.front()->position());
+  };
+  const IntervalTransform X = inverse(place(motions.A)) * place(motions.B);
+  const Mesh& mesh = solid.shape.mesh();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& corner : mesh.vertices) {
+    box.extend(corner);
+  }
+  std::optional<bool> any = false;
+  for (const std::uint32_t v : other.shape.component_vertices()) {
+    const std::uint32_t vertex = other.shape.hierarchy().vertex_index[v];
+    const IntervalVector3 p =
+        X * (enclose(other.shape.mesh().vertices[vertex]) - enclose(other.p_GP)) +
+        enclose(solid.p_GP);
+    bool is_beside = false;
+    for (int k = 0; k < 3; ++k) {
+      is_beside = is_beside || p.c[k].lower() > box.max()[k] || p.c[k].upper() < box.min()[k];
+    }
+    const std::optional<bool> inside = is_beside ? false : is_inside(mesh, p);
+    if (inside == true) {
+      return true;
+    }
+    any = inside ? any : inside;
+  }
+  return any;
+}
+
+ProofFinding SceneProof::prove_contact(const BodyPair& members, double t, double tolerance) const {
+  ProofFinding finding{.members = members, .when = {t, t}};
+  const std::optional<double> margin = courses_.pairs().margin(members);
+  bool is_tested = false;
+  for (const TimeSpan& span : courses_.pairs().spans(members)) {
+    is_tested = is_tested || (span.from <= t && t <= span.to);
+  }
+  if (!margin || !is_tested) {
+    finding.verdict = ProofVerdict::broken;
+    return finding;
+  }
+  finding.verdict = ProofVerdict::refuted;
+  finding.reason = ProofReason::apart;
+  for (const CourseGeometry& A : courses_.of_member(members[0])) {
+    for (const CourseGeometry& B : courses_.of_member(members[1])) {
+      const ProofFinding found = prove_contact(A, B, t, *margin + tolerance);
+      if (found.verdict == ProofVerdict::proven) {
+        return found;
+      }
+      if (found.verdict == ProofVerdict::not_proven) {
+        finding = found;
+      }
+    }
+  }
+  return finding;
+}
+
+ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeometry& B, double t,
+                                       double reach) const {
+  ProofFinding finding{.members = {A.member, B.member}, .when = {t, t}};
+  const std::optional<bool> nested = are_nested(A, B, t);
+  if (nested == true) {
+    return finding;
+  }
+  finding.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven;
+  finding.reason = nested ? ProofReason::apart : ProofReason::perhaps_inside;
+  // Also as the two are from then on, should one be taken up or put down.
+  for (const TimeSpan& window : {TimeSpan{t, t}, TimeSpan{t, std::min(1.0, t + kBehind)}}) {
+    const CoverResult found = cover(A, B, window,
+                                    {.promise = Promise::exceeded,
+                                     .promised = reach,
+                                     .finds_least = false,
+                                     .from = t,
+                                     .to = t,
+                                     .nominal = true,
+                                     .work = options_.work,
+                                     .stop = options_.stop});
+    if (found.outcome == CoverOutcome::closer) {
+      return {.members = {A.member, B.member}, .when = {t, t}, .distance = found.seen};
+    }
+    if (found.outcome == CoverOutcome::not_proven) {
+      finding.verdict = ProofVerdict::not_proven;
+      finding.reason = found.ended ? ProofReason::work : ProofReason::too_close;
+    }
+  }
+  return finding;
+}
+
+}  // namespace firstcontact::detail

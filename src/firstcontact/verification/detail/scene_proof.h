@@ -1,0 +1,91 @@
+/// @file
+/// The verifier's proof that all pairs of a scene stay apart, and that a pair is in contact.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/verification/detail/pair_cover.h>
+#include <firstcontact/verification/detail/proof_finding.h>
+#include <firstcontact/verification/detail/time_span.h>
+
+namespace firstcontact::detail {
+
+class SceneCourses;
+struct CourseGeometry;
+
+struct SceneProofOptions {
+  std::size_t work = 0;  ///< Tests of two boxes or triangles for one pair of shapes and one window.
+  int threads = 0;
+  std::stop_token stop = {};
+  std::function<void(double)> progress =
+      {};  ///< Called with the share that is done, by any thread.
+};
+
+/// The claim of a clearance or of the margins.
+struct FreeClaim {
+  /// [-]  Until when, the end included, a pair of members is to be free; below 0 for a pair that
+  /// the claim is not about.
+  std::function<double(const BodyPair&)> until;
+  double from = 0.0;  ///< [-]  Nothing is claimed before it, or after `last`.
+  double last = 1.0;
+  double extra = 0.0;  ///< [m]  Beyond the margin.
+  /// [m]  In place of the margins: a distance that pairs keep, but for 2^-20 of it and twice the
+  /// rounding.
+  std::optional<double> clearance = {};
+  /// Whether the claim of a pair ends where the pair may touch: then the last moment may be left
+  /// open (ProofFinding::left_open).
+  bool ends_in_contact = false;
+};
+
+class SceneProof {
+ public:
+  /// @param courses  outlives this
+  SceneProof(const SceneCourses& courses, SceneProofOptions options);
+
+  /// Proves that each tested pair is farther apart than its margin. The first finding that
+  /// contradicts it, else the first that leaves it open.
+  [[nodiscard]] ProofFinding prove_free(const FreeClaim& claim) const;
+
+  /// Proves that two members are no farther apart than margin + tolerance at a time, for their
+  /// nominal motions.
+  [[nodiscard]] ProofFinding prove_contact(const BodyPair& members, double t,
+                                           double tolerance) const;
+
+ private:
+  struct Job {
+    std::size_t a = 0;  // Geometries.
+    std::size_t b = 0;
+    TimeSpan window = {};
+    double margin = 0.0;
+    bool is_last = false;  // Its window ends where the claim of the pair does.
+    ProofFinding finding = {};
+  };
+
+  [[nodiscard]] std::vector<TimeSpan> windows() const;
+  [[nodiscard]] std::vector<BodyPair> near(const TimeSpan& window, double reach) const;
+  [[nodiscard]] double promised(const FreeClaim& claim, double margin) const;
+  void add_jobs(const FreeClaim& claim, const TimeSpan& window, std::vector<Job>& jobs) const;
+  [[nodiscard]] ProofFinding prove(const FreeClaim& claim, std::vector<Job>& jobs) const;
+  [[nodiscard]] ProofFinding prove(const FreeClaim& claim, const Job& job) const;
+  [[nodiscard]] double last_moment(const Job& job) const;
+  [[nodiscard]] CoverResult cover(const CourseGeometry& A, const CourseGeometry& B,
+                                  const TimeSpan& window, CoverOptions options) const;
+  [[nodiscard]] ProofFinding prove_outside(const FreeClaim& claim) const;
+  [[nodiscard]] std::optional<bool> are_nested(const CourseGeometry& A, const CourseGeometry& B,
+                                               double t) const;
+  [[nodiscard]] std::optional<bool> has_inside(const CourseGeometry& solid,
+                                               const CourseGeometry& other, double t) const;
+  [[nodiscard]] ProofFinding prove_contact(const CourseGeometry& A, const CourseGeometry& B,
+                                           double t, double reach) const;
+
+  const SceneCourses& courses_;
+  SceneProofOptions options_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,13 @@
+/// @file
+/// A span of the time of a scene.
+
+#pragma once
+
+namespace firstcontact::detail {
+
+struct TimeSpan {
+  double from = 0.0;  ///< [-]  Of the duration.
+  double to = 1.0;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,271 @@
+#include <firstcontact/verification/verify_path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/text/write_json.h>
+#include <firstcontact/verification/detail/describe_finding.h>
+#include <firstcontact/verification/detail/rigid_motion.h>
+#include <firstcontact/verification/detail/scene_courses.h>
+#include <firstcontact/verification/detail/scene_proof.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::FreeClaim;
+using detail::ProofFinding;
+
+/// A path that contradicts itself or its scene. One sentence.
+class BrokenPath : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
+void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
+  if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
+    throw BrokenPath("The coordinate " + detail::in_quotes(name) + " cannot turn the short way.");
+  }
+}
+
+/// The scene in which the mover runs through all waypoints, one edge a second.
+class MovingScene {
+ public:
+  explicit MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
+    const std::size_t edges = path.waypoints.size() - 1;
+    loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
+    if (path.body.empty()) {
+      move_robot();
+    } else {
+      move_body();
+    }
+  }
+
+  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  [[nodiscard]] const std::map<std::size_t, detail::Turnings>& turnings() const {
+    return turnings_;
+  }
+
+  /// Whether a member moves along edges.
+  [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
+
+ private:
+  static LoadedScene load(const PlannedPath& path) {
+    ShapeCache cache;
+    return load_scene_of(path, cache);
+  }
+
+  void move_robot() {
+    Scene& scene = loaded_.scene;
+    const auto is_it = [&](const SceneRobot& robot) { return robot.name == path_.robot; };
+    const auto found = std::find_if(scene.robots.begin(), scene.robots.end(), is_it);
+    if (found == scene.robots.end()) {
+      throw BrokenPath("The scene has no robot " + detail::in_quotes(path_.robot) + ".");
+    }
+    SceneRobot& robot = *found;
+    const auto number = static_cast<std::size_t>(found - scene.robots.begin());
+    robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
+    for (std::size_t k = 0; k < path_.joints.size(); ++k) {
+      const JointCoordinate which = find_coordinate(robot.model, path_.joints[k]);
+      if (robot.model.joints()[which.joint].mimic) {
+        throw BrokenPath("The joint " + detail::in_quotes(path_.joints[k]) + " mimics another.");
+      }
+      require_turning(robot.model, path_.joints[k], path_.turnings.at(k));
+      turnings_[number][path_.joints[k]] = path_.turnings.at(k);
+    }
+    for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
+      robot.trajectory.points.push_back(
+          {.time = static_cast<double>(k), .positions = path_.waypoints[k]});
+    }
+    find_moving(robot, number);
+  }
+
+  void find_moving(const SceneRobot& robot, std::size_t number) {
+    const Scene& scene = loaded_.scene;
+    const std::size_t first = first_member(scene, number);
+    moves_.assign(
+        first_member(scene, scene.robots.size() - 1) + scene.robots.back().model.links().size(),
+        false);
+    for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+      for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
+           joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
+        moves_[first + link] = is_planned(robot.model, *joint);
+      }
+    }
+    for (const SceneAttachment& held : robot.attached) {
+      moves_[held.body] = moves_[first + held.link];
+    }
+  }
+
+  [[nodiscard]] bool is_planned(const RobotModel& model, std::size_t joint) const {
+    while (model.joints()[joint].mimic) {
+      joint = model.find_joint(model.joints()[joint].mimic->joint).value();
+    }
+    return std::any_of(path_.joints.begin(), path_.joints.end(), [&](const std::string& name) {
+      return find_coordinate(model, name).joint == joint;
+    });
+  }
+
+  void move_body() {
+    Scene& scene = loaded_.scene;
+    const auto is_it = [&](const Body& body) { return body.name == path_.body; };
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_it);
+    if (body == scene.bodies.end()) {
+      throw BrokenPath("The scene has no body " + detail::in_quotes(path_.body) + ".");
+    }
+    WaypointMotion motion;
+    for (const std::vector<double>& q : path_.waypoints) {
+      motion.times.push_back(static_cast<double>(motion.times.size()));
+      motion.poses.push_back(
+          {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
+    }
+    body->motion = motion;
+    std::size_t members = scene.bodies.size();
+    for (const SceneRobot& robot : scene.robots) {
+      members += robot.model.links().size();
+    }
+    moves_.assign(members, false);
+    moves_[static_cast<std::size_t>(body - scene.bodies.begin())] = true;
+  }
+
+  const PlannedPath& path_;
+  LoadedScene loaded_;
+  std::map<std::size_t, detail::Turnings> turnings_;
+  std::vector<bool> moves_;  // Of each member.
+};
+
+class PathProof {
+ public:
+  PathProof(const PlannedPath& path, const VerifyResultOptions& options)
+      : path_(path),
+        moving_(path),
+        courses_(moving_.loaded(), moving_.turnings()),
+        proof_(courses_, {options.work, options.threads, options.stop, options.progress}) {}
+
+  PathVerification run() {
+    result_.warnings = moving_.loaded().warnings;
+    count_pairs();
+    require_goal();
+    result_.verdict = ProofVerdict::proven;
+    const std::size_t edges = std::max<std::size_t>(path_.waypoints.size() - 1, 1);
+    for (std::size_t edge = 0; edge < edges; ++edge) {
+      prove(edge, edges);
+      if (result_.verdict == ProofVerdict::proven) {
+        result_.edges = std::min(edge + 1, path_.waypoints.size() - 1);
+      } else if (result_.verdict == ProofVerdict::refuted) {
+        break;
+      }
+    }
+    return result_;
+  }
+
+ private:
+  void count_pairs() {
+    for (std::size_t a = 0; a < courses_.member_count(); ++a) {
+      for (std::size_t b = a + 1; b < courses_.member_count(); ++b) {
+        const bool is_tested = (moving_.moves(a) || moving_.moves(b)) &&
+                               courses_.pairs().margin({a, b}) &&
+                               !courses_.pairs().spans({a, b}).empty() &&
+                               !courses_.of_member(a).empty() && !courses_.of_member(b).empty();
+        result_.tested += is_tested ? 1 : 0;
+      }
+    }
+  }
+
+  void require_goal() {
+    result_.reaches_goal = path_.goal && *path_.goal < path_.goals.size() &&
+                           path_.goals[*path_.goal] == path_.waypoints.back();
+    if (path_.is_proven && !result_.reaches_goal) {
+      throw BrokenPath("The path calls itself proven, but does not end at the goal that it names.");
+    }
+    const std::size_t edges = path_.waypoints.size() - 1;
+    if (path_.clearances.size() != edges) {
+      throw BrokenPath("The path has " + std::to_string(path_.clearances.size()) +
+                       " edges between " + std::to_string(edges + 1) + " waypoints.");
+    }
+  }
+
+  void prove(std::size_t edge, std::size_t edges) {
+    FreeClaim claim{.until =
+                        [this](const BodyPair& pair) {
+                          return moving_.moves(pair[0]) || moving_.moves(pair[1]) ? 1.0 : -1.0;
+                        },
+                    .extra = path_.extra_clearance};
+    // As the pieces of the motion begin and end, bit for bit.
+    const auto share = [&](std::size_t k) {
+      return static_cast<double>(k) / static_cast<double>(edges);
+    };
+    claim.from = share(edge);
+    claim.last = share(edge + 1);
+    take(proof_.prove_free(claim), edge, claim, "");
+    const std::optional<double>& clearance =
+        path_.clearances.empty() ? path_.clearance : path_.clearances[edge];
+    if (!clearance) {
+      if (result_.tested > 0) {
+        throw BrokenPath("Edge " + std::to_string(edge) + " has no clearance.");
+      }
+      return;
+    }
+    if (!(*clearance >= 0.0)) {
+      throw BrokenPath("The clearance of edge " + std::to_string(edge) + " is not a distance.");
+    }
+    if (result_.verdict == ProofVerdict::proven && !courses_.has_tracking_errors()) {
+      claim.clearance = clearance;
+      take(proof_.prove_free(claim), edge, claim, "The clearance of the edge does not hold. ");
+    }
+  }
+
+  void take(const ProofFinding& found, std::size_t edge, const FreeClaim& claim,
+            const std::string& before) {
+    const bool decides =
+        found.verdict != ProofVerdict::proven &&
+        (result_.verdict == ProofVerdict::proven || found.verdict == ProofVerdict::refuted);
+    if (!decides) {
+      return;
+    }
+    const Scene& scene = moving_.loaded().scene;
+    result_.verdict = found.verdict;
+    result_.problem = before + detail::describe(found, scene);
+    result_.problem_edge = edge;
+    result_.problem_at = detail::moment_of(found, scene);
+    if (result_.problem_at) {
+      for (double* t : {&result_.problem_at->from, &result_.problem_at->to}) {
+        *t = std::clamp((*t - claim.from) / (claim.last - claim.from), 0.0, 1.0);
+      }
+    }
+  }
+
+  const PlannedPath& path_;
+  MovingScene moving_;
+  detail::SceneCourses courses_;
+  detail::SceneProof proof_;
+  PathVerification result_;
+};
+
+}  // namespace
+
+PathVerification verify_path(const PlannedPath& path, const VerifyResultOptions& options) {
+  const FloatEnvironmentGuard guard;
+  PathVerification result;
+  try {
+    return PathProof(path, options).run();
+  } catch (const BrokenPath& error) {
+    result.verdict = ProofVerdict::broken;
+    result.problem = error.what();
+  } catch (const detail::UncertainMotion& error) {
+    result.problem = std::string("A motion of the path is not certain: ") + error.what() + ".";
+  }
+  return result;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,79 @@
+/// @file
+/// Proves the result of a check a second time, by other code.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/scene/pair_counts.h>
+#include <firstcontact/verification/proof_verdict.h>
+
+namespace firstcontact {
+
+struct ResultClaims;
+
+struct VerifyResultOptions {
+  /// Tests of two boxes or triangles for one pair of shapes and one window of time.
+  std::size_t work = 2'000'000'000;
+  int threads = 0;            ///< At most; 0 for one on each core. The answer is the same.
+  std::stop_token stop = {};  ///< Ends with what is not proven.
+  std::function<void(double)> progress = {};  ///< Called with the normalised time that is done.
+};
+
+/// Two members over a stretch of time.
+struct ProofMoment {
+  std::array<std::string, 2> pair;
+  double from = 0.0;  ///< [-]  Of the duration of the scene.
+  double to = 0.0;
+  std::optional<double> distance = {};  ///< [m]  At most so far apart, where that is known.
+};
+
+struct ResultVerification {
+  ProofVerdict verdict = ProofVerdict::not_proven;
+  std::string problem;  ///< One sentence; empty where all is proven.
+  std::optional<ProofMoment> problem_at = {};
+  double t = 0.0;     ///< [-]  The claim: free before it.
+  double time = 0.0;  ///< [s]
+  /// [-]  All but the last so much before t is proven to be free: see verify_result().
+  double left_open = 0.0;
+  /// [m]  Where a contact is proven: at t the pair is at most so far apart.
+  std::optional<double> contact_distance = {};
+  double tolerance = 0.0;    ///< [m]  Of the contacts, as the result states it.
+  std::size_t contacts = 0;  ///< Pairs that are proven to be in contact.
+  bool has_digests = true;   ///< Else it is not known whether a file or the scene has changed.
+  PairCounts pair_counts = {};
+  std::vector<std::string> warnings = {};  ///< Of reading the scene's files.
+};
+
+/// Proves a result again, with other code than that which checks.
+///
+/// Proven is, for the exact motions that the numbers of the resolved scene define:
+/// - each tested pair is farther apart than its margin, strictly, on all of [0, t], the end
+///   included; of results that answer each pair, until the t of the pair. With tracking errors it
+///   holds for all motions within them. Of a result that is not free, where a pair is about to
+///   touch at t, the last moment before t may be left open: it is shorter than the pair takes for
+///   2^-38 of its size, and than 2^-30. `left_open` has the longest;
+/// - the pair of a contact is no farther apart at t than margin + tolerance, for the nominal
+///   motion; also each pair that the result states as in contact;
+/// - no tested pair comes closer before t than the `clearance`, but for 2^-20 of it and rounding;
+/// - the tested pairs are those of the scene, all of them, by an account of its own.
+///
+/// Not proven again are the features, points and normals of contacts, intervals of contact, closest
+/// approaches, `t_upper` of what is undecided and sampling.
+///
+/// Method: as of verify_run(); the courses of joints and links have arithmetic of their own.
+///
+/// @throws std::invalid_argument if the scene was edited in the result, or one of its files is not
+///         what it was, or the scene is not covered: bodies whose vertices move, and start_contacts
+///         keep_half; ParseError if a file cannot be loaded
+[[nodiscard]] FIRSTCONTACT_API ResultVerification
+verify_result(const ResultClaims& claims, const VerifyResultOptions& options = {});
+
+}  // namespace firstcontact

@@ -1,0 +1,86 @@
+// What the planner writes is proven again from its file; a shortcut through what is in the way
+// never.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+#include <firstcontact/verification/provable_file.h>
+#include <firstcontact/verification/verify_path.h>
+
+#include "scene/robot_text.h"
+
+namespace firstcontact {
+namespace {
+
+/// A path as its file has it.
+PlannedPath planned_file(const std::string& text, std::uint64_t seed,
+                         const std::filesystem::path& source = "scene.json") {
+  const Scene scene = parse_scene(text, source);
+  ShapeCache cache;
+  ScenePlan plan = make_scene_plan(scene, scene.plan.value(), cache);
+  plan.options.seed = seed;
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  EXPECT_EQ(result.verdict, PlanVerdict::proven);
+  const std::string file = write_planned_path(planned_path(plan, plan.options, result));
+  EXPECT_EQ(provable_file(file), ProvableFile::path);
+  return parse_planned_path(file, "path.json");
+}
+
+/// The path straight from its start to its end.
+PlannedPath shortcut(PlannedPath path) {
+  path.waypoints = {path.waypoints.front(), path.waypoints.back()};
+  path.clearances = {0.0};
+  return path;
+}
+
+void expect_proven(const PlannedPath& path) {
+  const PathVerification proven = verify_path(path);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.edges, path.waypoints.size() - 1);
+  EXPECT_TRUE(proven.reaches_goal);
+  EXPECT_GE(path.waypoints.size(), 3u);
+  EXPECT_EQ(verify_path(shortcut(path)).verdict, ProofVerdict::refuted);
+}
+
+TEST(PlannedPathProof, ProvesABodyPastAThinWall) {
+  const std::string scene = R"({"firstcontact": 1, "bodies": [
+    {"name": "wall", "shape": {"box": {"size": [0.00001, 1, 1]}}},
+    {"name": "peg", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "pose": {"position": [-0.5, 0, 0]}}],
+    "plan": {"body": "peg", "goal": {"position": [0.5, 0.1, 0.25]}, "margin": 0.01, "time": 20}})";
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    expect_proven(planned_file(scene, seed));
+  }
+}
+
+TEST(PlannedPathProof, ProvesARobotThatCarriesABall) {
+  const test::ArmFolder folder;
+  folder.write("two.urdf", R"(<robot name="two"><link name="base"/>
+    <link name="upper"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.05 0.05"/></geometry></collision></link>
+    <link name="lower"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.05 0.05"/></geometry></collision></link>
+    <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+    <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+      <limit lower="-2.6" upper="2.6" velocity="1" effort="1"/></joint></robot>)");
+  const std::string scene = R"({"firstcontact": 1, "bodies": [
+    {"name": "post", "shape": {"box": {"size": [0.1, 0.1, 1]}}, "pose": {"position": [0.75, 0, 0]}},
+    {"name": "ball", "shape": {"sphere": {"radius": 0.06}}}],
+    "robots": [{"name": "arm", "urdf": "two.urdf", "state": {"shoulder": -0.8, "elbow": 0},
+      "attached": [{"body": "ball", "link": "lower", "pose": {"position": [0.55, 0, 0]}}]}],
+    "plan": {"robot": "arm", "goal": {"shoulder": 0.8, "elbow": 0}, "time": 20}})";
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    expect_proven(planned_file(scene, seed, folder.path() / "scene.json"));
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact

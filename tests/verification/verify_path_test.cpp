@@ -1,0 +1,148 @@
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/verification/verify_path.h>
+
+#include "scene/load_text.h"
+#include "scene/robot_text.h"
+
+namespace firstcontact {
+namespace {
+
+/// A path among a post and a table that stand on each other, with a clearance of 0 for each edge.
+PlannedPath path_in(const std::string& scene, const std::filesystem::path& source = "s") {
+  PlannedPath path;
+  path.scene = parse_scene(scene, source);
+  ShapeCache cache;
+  path.input_digest = load_scene(path.scene, cache).input_digest;
+  path.is_proven = true;
+  path.goal = 0;
+  path.extra_clearance = 1e-9;
+  return path;
+}
+
+void set_waypoints(PlannedPath& path, std::vector<std::vector<double>> waypoints) {
+  path.goals = {waypoints.back()};
+  path.clearances.assign(waypoints.size() - 1, 0.0);
+  path.clearance = 0.0;
+  path.waypoints = std::move(waypoints);
+}
+
+/// A ball that goes around a post, which stands on a table.
+PlannedPath ball_path() {
+  PlannedPath path = path_in(R"({"firstcontact": 1, "bodies": [
+    {"name": "ball", "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [-1, 0, 0]}},
+    {"name": "post", "shape": {"box": {"size": [0.2, 0.2, 2]}}},
+    {"name": "table", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -1.5]}}]})");
+  path.body = "ball";
+  set_waypoints(path, {{-1, 0, 0, 1, 0, 0, 0}, {0, 0.25, 0, 0, 1, 0, 0}, {1, 0, 0, 1, 0, 0, 0}});
+  return path;
+}
+
+TEST(VerifyPath, ProvesABody) {
+  const PathVerification proven = verify_path(ball_path());
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.edges, 2u);
+  EXPECT_EQ(proven.tested, 2u);  // The post on its table is none of them.
+  EXPECT_TRUE(proven.reaches_goal);
+}
+
+TEST(VerifyPath, RefutesAnEdgeThatTouches) {
+  PlannedPath path = ball_path();
+  path.waypoints[1][1] = 0.15;
+  const PathVerification refuted = verify_path(path);
+  EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
+  EXPECT_EQ(refuted.problem_edge, 0u);
+  ASSERT_TRUE(refuted.problem_at);
+  EXPECT_GT(refuted.problem_at->from, 0.5);
+  EXPECT_LE(refuted.problem_at->from, 1.0);
+}
+
+TEST(VerifyPath, RefutesAClearanceThatIsTooLarge) {
+  PlannedPath path = ball_path();
+  path.clearances = {0.0, 0.021};
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::proven);
+  path.clearances = {0.0, 0.022};
+  const PathVerification refuted = verify_path(path);
+  EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
+  EXPECT_EQ(refuted.problem_edge, 1u);
+}
+
+TEST(VerifyPath, TellsAnApproximatePath) {
+  PlannedPath path = ball_path();
+  path.is_proven = false;
+  path.goal.reset();
+  const PathVerification proven = verify_path(path);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven);
+  EXPECT_FALSE(proven.reaches_goal);
+}
+
+TEST(VerifyPath, NamesWhatContradictsItself) {
+  PlannedPath path = ball_path();
+  path.goals[0][0] = 1.5;
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+  path = ball_path();
+  path.clearances.pop_back();
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+  path = ball_path();
+  path.clearances[1].reset();
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+  path = ball_path();
+  path.body = "bull";
+  EXPECT_EQ(verify_path(path).problem, "The scene has no body \"bull\".");
+}
+
+TEST(VerifyPath, ProvesAPlace) {
+  PlannedPath path = ball_path();
+  set_waypoints(path, {{-1, 0, 0, 1, 0, 0, 0}});
+  path.clearance = 0.7;
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::proven);
+  path.clearance = 0.81;
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
+  set_waypoints(path, {{-0.15, 0, 0, 1, 0, 0, 0}});
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
+}
+
+TEST(VerifyPath, ProvesARobotAndWhatItCarries) {
+  const test::ArmFolder folder;
+  PlannedPath path = path_in(R"({"firstcontact": 1, "bodies": [
+    {"name": "post", "shape": {"box": {"size": [0.1, 0.1, 2]}}, "pose": {"position": [0, 1.4, 0]}},
+    {"name": "ball", "shape": {"sphere": {"radius": 0.2}}}],
+    "robots": [{"name": "arm", "urdf": "arm.urdf", "srdf": "arm.srdf",
+      "attached": [{"body": "ball", "link": "tip", "touch_links": ["bar"],
+                    "pose": {"position": [0.15, 0, 0]}}]}]})",
+                             folder.path() / "scene.json");
+  path.robot = "arm";
+  path.joints = {"elbow"};
+  path.turnings = {Turning::as_given};
+  set_waypoints(path, {{0.0}, {0.9}, {1.5}});
+  const PathVerification hit = verify_path(path);
+  EXPECT_EQ(hit.verdict, ProofVerdict::refuted);
+  EXPECT_EQ(hit.problem_edge, 1u);
+  EXPECT_EQ(hit.problem_at.value().pair[1], "ball");
+  set_waypoints(path, {{0.0}, {0.9}, {1.2}});
+  const PathVerification proven = verify_path(path);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.edges, 2u);
+  path.turnings = {Turning::shortest};
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+}
+
+TEST(VerifyPath, RefusesAFileThatHasChanged) {
+  PlannedPath path = ball_path();
+  path.input_digest.back() = path.input_digest.back() == '0' ? '1' : '0';
+  EXPECT_NE(test::message_of<std::invalid_argument>([&] {
+              (void)verify_path(path);
+            }).find("is not what it was"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace firstcontact
