@@ -43,6 +43,14 @@ std::vector<const CoveredMotion*> pointers(const CoveredMotions& motions) {
   return result;
 }
 
+/// [m]  How much nearer the triangles around two curved bodies may be than the bodies.
+double enclosure(const CourseGeometry& A, const CourseGeometry& B) {
+  const auto of = [](const Shape& shape) {
+    return shape.is_curved() ? shape.enclosure_error() : 0.0;
+  };
+  return of(A.shape) + of(B.shape);
+}
+
 /// What is worse is kept; of what is as bad the earlier one.
 void take(const ProofFinding& found, ProofFinding& kept) {
   const bool decides = found.verdict == ProofVerdict::refuted;
@@ -184,8 +192,9 @@ ProofFinding SceneProof::prove(const FreeClaim& claim, const Job& job) const {
     }
   }
   if (found.outcome == CoverOutcome::closer) {
-    finding.verdict = ProofVerdict::refuted;
-    finding.reason = ProofReason::closer;
+    const bool decides = enclosure(A, B) == 0.0 || found.seen + enclosure(A, B) < job.margin;
+    finding.verdict = decides ? ProofVerdict::refuted : ProofVerdict::not_proven;
+    finding.reason = decides ? ProofReason::closer : ProofReason::enclosed;
     finding.when = {found.time, found.time};
     finding.distance = found.seen;
   } else if (found.outcome == CoverOutcome::not_proven) {
@@ -242,8 +251,9 @@ ProofFinding SceneProof::prove_outside(const FreeClaim& claim) const {
     }
     const std::optional<bool> nested = are_nested(A, B, t);
     if (nested != false) {
-      take({.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven,
-            .reason = nested ? ProofReason::inside : ProofReason::perhaps_inside,
+      const bool decides = nested && enclosure(A, B) == 0.0;
+      take({.verdict = decides ? ProofVerdict::refuted : ProofVerdict::not_proven,
+            .reason = decides ? ProofReason::inside : ProofReason::perhaps_inside,
             .members = members,
             .when = {t, t}},
            finding);
@@ -345,9 +355,12 @@ ProofFinding SceneProof::prove_contact(const BodyPair& members, double t, double
 ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeometry& B, double t,
                                        double reach) const {
   ProofFinding finding{.members = {A.member, B.member}, .when = {t, t}};
-  const std::optional<bool> nested = are_nested(A, B, t);
-  if (nested == true) {
+  std::optional<bool> nested = are_nested(A, B, t);
+  if (nested == true && enclosure(A, B) == 0.0) {
     return finding;
+  }
+  if (nested == true) {
+    nested.reset();  // The triangles are, the bodies perhaps not.
   }
   finding.verdict = nested ? ProofVerdict::refuted : ProofVerdict::not_proven;
   finding.reason = nested ? ProofReason::apart : ProofReason::perhaps_inside;
@@ -363,7 +376,12 @@ ProofFinding SceneProof::prove_contact(const CourseGeometry& A, const CourseGeom
                                      .work = options_.work,
                                      .stop = options_.stop});
     if (found.outcome == CoverOutcome::closer) {
-      return {.members = {A.member, B.member}, .when = {t, t}, .distance = found.seen};
+      const double distance = found.seen + enclosure(A, B);
+      if (enclosure(A, B) == 0.0 || distance * (1.0 + 0x1p-50) <= reach) {
+        return {.members = {A.member, B.member}, .when = {t, t}, .distance = distance};
+      }
+      finding.verdict = ProofVerdict::not_proven;
+      finding.reason = ProofReason::enclosed;
     }
     if (found.outcome == CoverOutcome::not_proven) {
       finding.verdict = ProofVerdict::not_proven;
