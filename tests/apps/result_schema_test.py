@@ -33,12 +33,13 @@ def spoiled(result: dict) -> list:
     wrong = [{**result, "extra": 1}]
     for key in result:
         if key not in ("closest", "pairs", "sampling", "tolerance_used", "enclosure_error", "line", "limits",
-                       "turns", "warnings", "contact_count_is_least"):
+                       "turns", "warnings", "contact_count_is_least", "scene_digest", "resolved_digest"):
             less = copy.deepcopy(result)
             del less[key]
             wrong.append(less)
     if "t" in result:
-        wrong += [{**result, "t": 1.5}, {**result, "verdict": "maybe"}, {**result, "input_digest": "x"}]
+        wrong += [{**result, "t": 1.5}, {**result, "verdict": "maybe"}, {**result, "input_digest": "x"},
+                  {**result, "scene_digest": "x"}, {**result, "resolved_digest": ""}]
     return wrong
 
 

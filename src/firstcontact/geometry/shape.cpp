@@ -352,6 +352,8 @@ ConvexCore Shape::convex_core() const {
     core.points = hierarchy.vertices;
     core.reach = hierarchy.radius;
   }
+  // The triangles enclose the set. Bounds of motions are made for their radius, and a hair more.
+  core.reach = std::min(core.reach, hierarchy.radius * (1.0 + 0x1p-46));
   return core;
 }
 
