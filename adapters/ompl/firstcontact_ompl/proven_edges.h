@@ -83,7 +83,7 @@ class ProvenEdges : public ompl::base::MotionValidator {
   bool count(const EdgeAnswer& answer) const {
     const bool is_free = answer.verdict == EdgeVerdict::free;
     undecided_ += answer.verdict == EdgeVerdict::undecided ? 1 : 0;
-    counted_[is_free ? 0 : 1] += 1;
+    std::atomic_ref(is_free ? valid_ : invalid_).fetch_add(1, std::memory_order_relaxed);
     return is_free;
   }
 
@@ -111,7 +111,6 @@ class ProvenEdges : public ompl::base::MotionValidator {
   OmplStates states_;
   std::shared_ptr<const EdgeChecker> edges_;
   mutable std::atomic<std::size_t> undecided_ = 0;
-  mutable std::atomic<std::size_t> counted_[2] = {};
 };
 
 }  // namespace firstcontact

@@ -296,6 +296,7 @@ void ConfigurationSpace::set_limits(const std::string& name, double lower, doubl
   found->lower = lower;
   found->upper = upper;
   found->has_limits = true;
+  found->turns_short = false;  // The short way might lead past the limits.
 }
 
 std::optional<std::string> ConfigurationSpace::unbounded() const {

@@ -52,6 +52,11 @@ void require_at_rest(const PlanScene& plan) {
                                   " is held for a part of the time only; a path is planned for "
                                   "what is held all the time");
     }
+    if (!attachment.X_LB) {
+      throw std::invalid_argument("body " + detail::in_quotes(scene.name(attachment.body)) +
+                                  " is held without its pose in the link (X_LB), which each edge "
+                                  "would find anew");
+    }
   }
   for (std::size_t member = 0; member < scene.size(); ++member) {
     const bool is_held =

@@ -81,7 +81,14 @@ class PlanSearch {
         work_(checker_, options_, begin_, end_) {}
 
   PlanResult run(const Configuration& start, const std::vector<Configuration>& goals) {
-    require_free(start, goals);
+    try {
+      require_free(start, goals);
+    } catch (const Stopped&) {
+      PlanResult none;
+      none.statistics = work_.statistics();
+      none.statistics.seconds = work_.seconds();
+      return none;
+    }
     PlanRandom random(options_.seed);
     FoundPath found = search(start, random);
     PlanResult result;
@@ -101,10 +108,21 @@ class PlanSearch {
   }
 
  private:
+  /// The search was stopped before it began.
+  struct Stopped {};
+
+  /// What was stopped is undecided: that is no fault of the question.
+  void require_going_on() const {
+    if (options_.stop.stop_requested()) {
+      throw Stopped();
+    }
+  }
+
   /// Leaves out goals that are not free, as long as one is.
   void require_free(const Configuration& start, const std::vector<Configuration>& goals) {
     const auto refuse_if_blocked = [&](const Configuration& q, const std::string& what) {
       if (!work_.is_free(q)) {
+        require_going_on();
         throw std::invalid_argument(detail::describe_blocked(checker_, q, what));
       }
     };
@@ -116,6 +134,7 @@ class PlanSearch {
       } else if (work_.is_free(goals[k])) {
         goals_.push_back(goals[k]);
       } else {
+        require_going_on();
         warnings_.push_back(
             detail::describe_blocked(checker_, goals[k], "goal " + std::to_string(k)));
       }

@@ -118,8 +118,9 @@ RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before
 ///
 /// Derivation: with u = 2^-53 and D the duration, a quotient t / D is off by u at most, which moves
 /// the time by u D and the length of a segment by 2 u D; a velocity or acceleration per step is off
-/// by one or two units. With V the greatest velocity and A the greatest acceleration of a point,
-/// the position is off by less than 16 u D (V + A D).
+/// by one or two units. With V the greatest velocity, A the greatest acceleration of a point and h
+/// the longest segment, the position is off by less than 16 u D (V + 2 A h): by the times u D (V +
+/// A h), by the velocity u V h and by the acceleration u A h^2, a few times each, and h <= D.
 double rounding_of(const TimedMotion& motion, const std::vector<RateUse>& rates) {
   double velocity = 0.0;
   for (const RateUse& use : rates) {
@@ -131,8 +132,12 @@ double rounding_of(const TimedMotion& motion, const std::vector<RateUse>& rates)
       acceleration = std::max(acceleration, std::abs(a));
     }
   }
-  const double duration = motion.duration();
-  return 16.0 * 0x1p-53 * duration * (velocity + acceleration * duration);
+  double longest = 0.0;  // [s]
+  for (std::size_t k = 1; k < motion.points.size(); ++k) {
+    longest = std::max(
+        longest, 1e-9 * static_cast<double>(motion.points[k].time - motion.points[k - 1].time));
+  }
+  return 16.0 * 0x1p-53 * motion.duration() * (velocity + 2.0 * acceleration * longest);
 }
 
 void add_rounding_allowance(RobotScene& scene, std::size_t robot) {

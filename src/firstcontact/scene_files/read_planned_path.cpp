@@ -17,6 +17,7 @@
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/read_file.h>
+#include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -36,10 +37,27 @@ class PathReader {
   explicit PathReader(const JsonReader& read) : read_(read) {}
 
   void take(const JsonValue& root, PlannedPath& path) const {
-    (void)read_.object(root, {{"firstcontact_path", "verdict", "moves", "waypoints", "edges",
-                               "margin", "tolerance", "extra_clearance", "clearance", "goals",
-                               "goal", "distance_to_goal", "cost", "planner", "statistics", "scene",
-                               "version", "scene_digest", "input_digest"}});
+    (void)read_.object(root, {{"firstcontact_path",
+                               "verdict",
+                               "moves",
+                               "waypoints",
+                               "edges",
+                               "margin",
+                               "tolerance",
+                               "extra_clearance",
+                               "clearance",
+                               "goals",
+                               "goal",
+                               "distance_to_goal",
+                               "cost",
+                               "planner",
+                               "statistics",
+                               "scene",
+                               "version",
+                               "scene_digest",
+                               "resolved_digest",
+                               "input_digest"}});
+    require_own_scene(root);
     path.is_proven = read_.word(read_.member(root, "verdict"), {{"proven", "approximate"}}) == 0;
     take_mover(read_.member(root, "moves"), path);
     path.waypoints = rows(read_.member(root, "waypoints"), path);
@@ -63,6 +81,14 @@ class PathReader {
   }
 
  private:
+  void require_own_scene(const JsonValue& root) const {
+    const JsonValue& digest = read_.member(root, "resolved_digest");
+    if (string_of(digest) != detail::sha256(detail::write_json(read_.member(root, "scene")))) {
+      read_.fail(digest,
+                 "the scene in the path is not the one that it was planned in; plan it again");
+    }
+  }
+
   std::string string_of(const JsonValue& value) const {
     const auto* text = std::get_if<std::string>(&value.value);
     return text != nullptr ? *text : read_.string(value, "a string");

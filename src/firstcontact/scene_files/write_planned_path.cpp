@@ -12,6 +12,8 @@
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene_files/write_scene.h>
 #include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/sha256.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -20,7 +22,6 @@ namespace {
 using detail::JsonArray;
 using detail::JsonNull;
 using detail::JsonObject;
-using detail::JsonText;
 using detail::JsonValue;
 
 JsonValue number_of(double number) {
@@ -103,6 +104,8 @@ std::string write_planned_path(const PlannedPath& path) {
           JsonObject{{"name", text_of(kPlannerWords.at(static_cast<std::size_t>(path.planner)))},
                      {"seed", count_of(path.seed)},
                      {"time", number_of(path.time)}}};
+  JsonValue scene = detail::parse_json(write_scene(path.scene), "scene", 1);
+  const std::string resolved_digest = detail::sha256(detail::write_json(scene));
   JsonObject object{{"firstcontact_path", count_of(1)},
                     {"verdict", text_of(path.is_proven ? "proven" : "approximate")},
                     {"moves", mover_of(path)},
@@ -118,9 +121,10 @@ std::string write_planned_path(const PlannedPath& path) {
                     {"cost", number_of(path.cost)},
                     {"planner", planner},
                     {"statistics", statistics_of(path.statistics)},
-                    {"scene", {.value = JsonText{write_scene(path.scene)}}},
+                    {"scene", std::move(scene)},
                     {"version", text_of(path.version)},
                     {"scene_digest", text_of(path.scene.text_digest)},
+                    {"resolved_digest", text_of(resolved_digest)},
                     {"input_digest", text_of(path.input_digest)}};
   return detail::write_json({.value = std::move(object)});
 }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include <Eigen/Geometry>
 
@@ -31,6 +33,9 @@ class BrokenPath : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// How far the length of a quaternion may be from 1, as in scenes.
+constexpr double kUnit = 1e-6;
+
 /// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
 void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
   if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
@@ -42,6 +47,7 @@ void require_turning(const RobotModel& model, const std::string& name, Turning t
 class MovingScene {
  public:
   explicit MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
+    require_at_rest(loaded_.scene);
     const std::size_t edges = path.waypoints.size() - 1;
     loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
     if (path.body.empty()) {
@@ -63,6 +69,29 @@ class MovingScene {
   static LoadedScene load(const PlannedPath& path) {
     ShapeCache cache;
     return load_scene_of(path, cache);
+  }
+
+  /// The file is about edges of the mover alone.
+  static void require_at_rest(const Scene& scene) {
+    const auto rests = [](const BodyMotion& motion) {
+      return std::holds_alternative<FixedMotion>(motion);
+    };
+    for (const Body& body : scene.bodies) {
+      if (!rests(body.motion)) {
+        throw BrokenPath("The body " + detail::in_quotes(body.name) + " moves by itself.");
+      }
+    }
+    for (const SceneRobot& robot : scene.robots) {
+      if (!rests(robot.base) || !robot.trajectory.points.empty()) {
+        throw BrokenPath("The robot " + detail::in_quotes(robot.name) + " moves by itself.");
+      }
+      for (const SceneAttachment& held : robot.attached) {
+        if (held.from_time != 0.0 || held.to_time) {
+          throw BrokenPath("The robot " + detail::in_quotes(robot.name) +
+                           " holds a body for a part of the time.");
+        }
+      }
+    }
   }
 
   void move_robot() {
@@ -123,8 +152,20 @@ class MovingScene {
     if (body == scene.bodies.end()) {
       throw BrokenPath("The scene has no body " + detail::in_quotes(path_.body) + ".");
     }
+    const auto number = static_cast<std::size_t>(body - scene.bodies.begin());
+    for (const SceneRobot& robot : scene.robots) {
+      for (const SceneAttachment& held : robot.attached) {
+        if (held.body == number) {
+          throw BrokenPath("A robot holds the body " + detail::in_quotes(path_.body) + ".");
+        }
+      }
+    }
     WaypointMotion motion;
     for (const std::vector<double>& q : path_.waypoints) {
+      if (!(std::abs(std::hypot(std::hypot(q.at(3), q.at(4)), std::hypot(q.at(5), q.at(6))) -
+                     1.0) <= kUnit)) {
+        throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
+      }
       motion.times.push_back(static_cast<double>(motion.times.size()));
       motion.poses.push_back(
           {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
@@ -135,7 +176,7 @@ class MovingScene {
       members += robot.model.links().size();
     }
     moves_.assign(members, false);
-    moves_[static_cast<std::size_t>(body - scene.bodies.begin())] = true;
+    moves_[number] = true;
   }
 
   const PlannedPath& path_;
@@ -156,6 +197,7 @@ class PathProof {
     result_.warnings = moving_.loaded().warnings;
     count_pairs();
     require_goal();
+    require_totals();
     result_.verdict = ProofVerdict::proven;
     const std::size_t edges = std::max<std::size_t>(path_.waypoints.size() - 1, 1);
     for (std::size_t edge = 0; edge < edges; ++edge) {
@@ -192,6 +234,23 @@ class PathProof {
     if (path_.clearances.size() != edges) {
       throw BrokenPath("The path has " + std::to_string(path_.clearances.size()) +
                        " edges between " + std::to_string(edges + 1) + " waypoints.");
+    }
+  }
+
+  /// The numbers about the whole path are those of its scene and its edges.
+  void require_totals() {
+    if (!(path_.margin == moving_.loaded().scene.options.margin)) {
+      throw BrokenPath("The margin of the path is not that of its scene.");
+    }
+    if (courses_.has_tracking_errors()) {
+      result_.warnings.emplace_back("with tracking errors clearances are not proven again");
+    }
+    std::optional<double> least;
+    for (const std::optional<double>& clearance : path_.clearances) {
+      least = least && clearance ? std::min(*least, *clearance) : (least ? least : clearance);
+    }
+    if (!path_.clearances.empty() && path_.clearance != least) {
+      throw BrokenPath("The clearance of the path is not the least of its edges.");
     }
   }
 

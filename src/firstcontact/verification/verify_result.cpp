@@ -40,7 +40,8 @@ LoadedScene load(const ResultClaims& claims) {
   }
   ShapeCache cache;
   LoadedScene loaded = load_scene(claims.scene, cache);
-  if (claims.has_own_scene && loaded.input_digest != claims.input_digest) {
+  const bool has_digests = claims.has_own_scene || !claims.scene.text_digest.empty();
+  if (has_digests && loaded.input_digest != claims.input_digest) {
     throw std::invalid_argument(
         "input_digest: a mesh or robot file of the scene is not what it was when the result was "
         "made; restore the file, or check again");
