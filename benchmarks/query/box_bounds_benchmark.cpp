@@ -9,7 +9,7 @@
 
 #include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
 #include "benchmarks/support/normalised_mesh.h"

@@ -21,7 +21,7 @@ CHANGES = {
     "another restitution law": "simulation",
     "a new key of a scene": "scene_files",
     "a new panel of the page": "viewer",
-    "a tighter bound of two boxes": "query",
+    "a tighter bound of two boxes": "narrowphase",
     "another option of `check`": "apps",
 }
 

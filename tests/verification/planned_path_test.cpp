@@ -41,6 +41,7 @@ PlannedPath planned_file(const std::string& text, std::uint64_t seed,
 PlannedPath shortcut(PlannedPath path) {
   path.waypoints = {path.waypoints.front(), path.waypoints.back()};
   path.clearances = {0.0};
+  path.clearance = 0.0;
   return path;
 }
 

@@ -41,6 +41,8 @@ struct ConvexCore {
 
   /// [m]  An upper bound of h(n) = max n . x over the set, for the doubles n as they are.
   ///
+  /// For n = 0 and for components between 1e-100 and 1e100 in size, or 0, and sizes so too.
+  ///
   /// Never more than 2^-46 |n| reach above h(n), but for underflow.
   ///
   /// Derivation, u = 2^-53, |n|_1 the sum of the components' sizes: each formula below is a sum of

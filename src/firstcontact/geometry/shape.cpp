@@ -341,7 +341,13 @@ double Shape::enclosure_error() const { return data_->enclosure_error; }
 
 const ConvexSet* Shape::convex_set() const { return data_->exact ? &data_->exact->set : nullptr; }
 
-bool Shape::is_curved() const { return data_->exact && data_->enclosure_error > 0.0; }
+bool Shape::is_curved() const {
+  if (!data_->exact || !(data_->enclosure_error > 0.0)) {
+    return false;
+  }
+  const ConvexKind kind = data_->exact->set.core().kind;
+  return kind == ConvexKind::cylinder || kind == ConvexKind::cone || kind == ConvexKind::ellipsoid;
+}
 
 ConvexCore Shape::convex_core() const {
   assert(data_->exact);

@@ -217,7 +217,7 @@ class Advance {
       if (result_.verdict == ConvexVerdict::contact) {
         return result_;
       }
-      if (tau > 0.0 && result_.t + tau * (1.0 - 0x1p-50) >= options_.t_end) {
+      if (tau > 0.0 && after(result_.t, tau * (1.0 - 0x1p-50)) >= options_.t_end) {
         result_.verdict = ConvexVerdict::free;
         result_.t = options_.t_end;
         return result_;
@@ -245,7 +245,7 @@ class Advance {
       if (length > 0.0) {
         guess_.n = between / length;
         const double tau = advance(state, A, B, error, guess_.n);
-        if (state.t + tau * (1.0 - 0x1p-50) >= options_.t_end) {
+        if (tau > 0.0 && after(state.t, tau * (1.0 - 0x1p-50)) >= options_.t_end) {
           return tau;
         }
       }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -92,7 +93,7 @@ struct ConvexContact {
   ConvexVerdict verdict = ConvexVerdict::unfinished;
   double t = 0.0;  ///< [-]  Proven: no contact in [t_begin, t); t_end when free.
   /// [m]  Of two points of the cores at t, its error included; where free, of the last step.
-  double distance_bound = 0.0;
+  double distance_bound = std::numeric_limits<double>::infinity();
   std::uint64_t steps = 0;
 };
 

@@ -13,6 +13,23 @@
 
 namespace firstcontact {
 
+namespace {
+
+/// [m]  A lower bound of the distance of what lies within the triangles, without radii.
+///
+/// The search for the nearest points of convex sets finds points, and proves nothing of others. The
+/// triangles around a curved set enclose it.
+double distance_of_triangles(const Shape& A, const Shape& B, const PairMotion& motion,
+                             const RelativeState& state, Workspace& workspace, WorkCount& work) {
+  const Shape around_A = A.as_triangles();
+  const Shape around_B = B.as_triangles();
+  const detail::MovingPair pair(around_A, around_B, motion);
+  return detail::nearest_triangles(pair, state, workspace.data(), work).distance -
+         pair.gap_error(state);
+}
+
+}  // namespace
+
 DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace) {
   if (!(t >= 0.0 && t <= 1.0)) {
     throw std::invalid_argument("distance: t must lie in [0, 1], got " + std::to_string(t));
@@ -34,11 +51,16 @@ DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace)
       detail::nearest_triangles(pair, state, workspace.data(), result.work);
   const double radii = A.radius() + B.radius();
   result.distance = std::max(0.0, nearest.distance - radii);
-  result.lower_bound = found.inside == detail::Inside::unsure
-                           ? 0.0
-                           : std::max(0.0, nearest.distance - radii - pair.gap_error(state));
+  const double proven = pair.is_convex()
+                            ? distance_of_triangles(A, B, motion, state, workspace, result.work)
+                            : nearest.distance - pair.gap_error(state);
+  result.lower_bound = found.inside == detail::Inside::unsure ? 0.0 : std::max(0.0, proven - radii);
   result.closest =
       detail::make_contact(frame, state, nearest.triangle_A, nearest.triangle_B, nearest.closest);
+  if (pair.is_convex() && nearest.distance - radii <= pair.gap_error(state)) {
+    result.distance = 0.0;  // Within rounding: the direction of the points is noise.
+    result.closest->n_AB_W.reset();
+  }
   return result;
 }
 

@@ -15,7 +15,10 @@ struct DistanceResult {
   WorkCount work;
 };
 
-/// Finds the distance of A(t) and B(t). `distance - lower_bound` is at most the rounding error.
+/// Finds the distance of A(t) and B(t).
+///
+/// `distance - lower_bound` is at most the rounding error. Beside a curved body the lower bound is
+/// that of the triangles around it: it is less by their enclosure errors, too.
 ///
 /// @param t  [-]  in [0, 1]
 /// @throws std::invalid_argument if t is outside its range.

@@ -71,7 +71,7 @@ class MovingScene {
     return load_scene_of(path, cache);
   }
 
-  /// The file is about edges of the mover alone.
+  /// The file is about edges of the mover alone. A state of joints is a trajectory of one point.
   static void require_at_rest(const Scene& scene) {
     const auto rests = [](const BodyMotion& motion) {
       return std::holds_alternative<FixedMotion>(motion);
@@ -82,7 +82,7 @@ class MovingScene {
       }
     }
     for (const SceneRobot& robot : scene.robots) {
-      if (!rests(robot.base) || !robot.trajectory.points.empty()) {
+      if (!rests(robot.base) || robot.trajectory.points.size() > 1) {
         throw BrokenPath("The robot " + detail::in_quotes(robot.name) + " moves by itself.");
       }
       for (const SceneAttachment& held : robot.attached) {

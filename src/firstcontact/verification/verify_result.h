@@ -65,7 +65,8 @@ struct ResultVerification {
 /// - no tested pair comes closer before t than the `clearance`, but for 2^-20 of it and rounding;
 /// - the tested pairs are those of the scene, all of them, by an account of its own.
 ///
-/// A cylinder, cone or ellipsoid is proven by the triangles around it. Where they are too near for
+/// A cylinder, cone or ellipsoid is proven by the triangles around it; a clearance is proven less
+/// what these are larger. Where they are too near for
 /// a claim and the curved body perhaps is not, the claim is not proven; it is never refuted by them
 /// alone, and no contact is proven by them alone.
 ///

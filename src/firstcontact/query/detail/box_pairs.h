@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include <firstcontact/geometry/hierarchy.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {

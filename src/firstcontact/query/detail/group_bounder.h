@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <firstcontact/geometry/hierarchy.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 #include <firstcontact/query/detail/group_queue.h>
 #include <firstcontact/query/detail/search_state.h>
 #include <firstcontact/query/detail/triangle_follower.h>

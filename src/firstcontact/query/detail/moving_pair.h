@@ -15,7 +15,7 @@
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/motion/pair_motion.h>
 #include <firstcontact/narrowphase/advance.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 
 namespace firstcontact::detail {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include <firstcontact/motion/relative_state.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/search_tuning.h>
 

@@ -42,7 +42,9 @@ struct SearchState {
 
   /// A time that a certificate reaches: dropped where it covers the rest, the end included.
   [[nodiscard]] bool covered(double t, double tau) const {
-    return tau > 0.0 && (best.contact ? t + tau > best.t : t + tau * (1.0 - 0x1p-50) >= t_end);
+    // Rounded down: half a unit of a late time is a way, too.
+    return tau > 0.0 &&
+           (best.contact ? after(t, tau) > best.t : after(t, tau * (1.0 - 0x1p-50)) >= t_end);
   }
 
   /// All that is left is proven free before the least priority.

@@ -112,17 +112,22 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
   for (const BodyPair& pair : near(window, promised(claim, courses_.pairs().greatest_margin()))) {
     const BodyPair members{geometries[pair[0]].member, geometries[pair[1]].member};
     const std::optional<double> margin = courses_.pairs().margin(members);
-    // A clearance that the margin shows already.
-    if (!margin || (claim.clearance && *claim.clearance <= *margin)) {
+    if (!margin) {
       continue;
+    }
+    // Curved bodies keep a clearance if the triangles around them keep that much less.
+    const double around =
+        claim.clearance ? enclosure(geometries[pair[0]], geometries[pair[1]]) : 0.0;
+    const double distance = promised(claim, *margin) - around;
+    if (claim.clearance && distance <= *margin) {
+      continue;  // The margin shows it already.
     }
     const double until = claim.until(members);
     for (const TimeSpan& span : courses_.pairs().spans(members)) {
       const TimeSpan tested{std::max(window.from, span.from),
                             std::min({window.to, span.to, until})};
       if (tested.from < tested.to) {
-        jobs.push_back(
-            {pair[0], pair[1], tested, promised(claim, *margin), tested.to == until, {}});
+        jobs.push_back({pair[0], pair[1], tested, distance, tested.to == until, {}});
       }
     }
   }

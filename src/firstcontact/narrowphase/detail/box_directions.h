@@ -14,9 +14,9 @@
 
 #include <hwy/highway.h>
 
-#include <firstcontact/query/detail/box_bounds.h>
-#include <firstcontact/query/detail/box_lanes.h>
-#include <firstcontact/query/detail/placed_boxes.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_lanes.h>
+#include <firstcontact/narrowphase/detail/placed_boxes.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {

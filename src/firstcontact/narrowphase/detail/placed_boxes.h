@@ -16,8 +16,8 @@
 #include <hwy/highway.h>
 
 #include <firstcontact/geometry/hierarchy.h>
-#include <firstcontact/query/detail/box_bounds.h>
-#include <firstcontact/query/detail/box_lanes.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_lanes.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {

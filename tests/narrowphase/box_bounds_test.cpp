@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/motion/constant_rate_pair.h>
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 #include <firstcontact/query/detail/moving_pair.h>
 
 #include "query/moving_boxes.h"

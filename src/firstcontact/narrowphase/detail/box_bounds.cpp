@@ -1,15 +1,15 @@
-#include <firstcontact/query/detail/box_bounds.h>
+#include <firstcontact/narrowphase/detail/box_bounds.h>
 
 #include <cstddef>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "firstcontact/query/detail/box_bounds.cpp"
+#define HWY_TARGET_INCLUDE "firstcontact/narrowphase/detail/box_bounds.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <firstcontact/query/detail/box_directions.h>
-#include <firstcontact/query/detail/box_lanes.h>
-#include <firstcontact/query/detail/placed_boxes.h>
+#include <firstcontact/narrowphase/detail/box_directions.h>
+#include <firstcontact/narrowphase/detail/box_lanes.h>
+#include <firstcontact/narrowphase/detail/placed_boxes.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace firstcontact::detail::HWY_NAMESPACE {
