@@ -15,7 +15,7 @@ enum class ProofReason {
   inside,  ///< One begins inside of the other.
   perhaps_inside,
   apart,      ///< At a contact: farther than the margin and the tolerance.
-  enclosed,  ///< The triangles around a curved body come closer, the body perhaps not.
+  enclosed,   ///< The triangles around a curved body come closer, the body perhaps not.
   too_close,  ///< To be told apart, or from a contact, by the arithmetic.
   work,
   stopped,
