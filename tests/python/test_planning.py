@@ -41,7 +41,8 @@ def test_plans_a_path():
 
 
 def test_has_no_path_where_there_is_none():
-    closed = {**SCENE, "bodies": [{"name": "wall", "shape": {"box": {"size": [1e-5, 100, 100]}}}, SCENE["bodies"][1]]}
+    closed = {**SCENE, "bodies": [{"name": "wall", "shape": {"box": {"size": [1e-5, 100, 100]}}}, SCENE["bodies"][1]],
+              "plan": {**SCENE["plan"], "box": [[-1, -1, -1], [1, 1, 1]]}}
     answer = fc.plan(closed, time=0.1)
     assert (answer.verdict, answer.json, len(answer.waypoints)) == ("none", None, 0)
     assert fc.plan(closed, time=0.1, approximate=True).verdict == "approximate"
