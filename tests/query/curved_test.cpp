@@ -158,6 +158,23 @@ TEST(CurvedShapes, IsNoLaterThanTheDistanceAndNoEarlierThanItsPrism) {
   EXPECT_GT(contacts, 20);
 }
 
+// Half a unit in the last place of a late time is a way, too: 1 um of it here.
+TEST(LateContact, AtTheLastInstantIsFound) {
+  Workspace workspace;
+  const double rest_until = 1.0 - 0x1p-20;
+  const std::vector<double> times{0.0, rest_until, 1.0};
+  const std::vector<Pose> poses{curved_pose({3.0, 0.0, 0.0}), curved_pose({3.0, 0.0, 0.0}),
+                                curved_pose({1.5, 0.0, 0.0})};
+  const Motion late = Motion::waypoints(times, poses);
+  const Shape ball = make_sphere(0.5);
+  for (const Shape& shape : {make_ellipsoid({1.0, 0.5, 0.5}), make_box({2.0, 1.0, 1.0})}) {
+    const FirstContactResult found =
+        first_contact({shape, Motion::fixed()}, {ball, late}, workspace, {});
+    EXPECT_EQ(found.verdict, Verdict::contact);
+    EXPECT_GT(found.t, rest_until);
+  }
+}
+
 TEST(CurvedShapes, HaveTheirDistance) {
   Workspace workspace;
   const Motion rest = Motion::fixed();

@@ -84,6 +84,28 @@ TEST(VerifyPath, TellsAnApproximatePath) {
   EXPECT_FALSE(proven.reaches_goal);
 }
 
+// Each of these stood under "proven" although nothing had proven it.
+TEST(VerifyPath, NamesWhatNoEdgeShows) {
+  const auto problem_of = [](const auto& change) {
+    PlannedPath path = ball_path();
+    change(path);
+    const PathVerification found = verify_path(path);
+    EXPECT_EQ(found.verdict, ProofVerdict::broken);
+    return found.problem;
+  };
+  EXPECT_EQ(problem_of([](PlannedPath& path) { path.margin = 0.05; }),
+            "The margin of the path is not that of its scene.");
+  EXPECT_EQ(problem_of([](PlannedPath& path) { path.clearance = 1.0; }),
+            "The clearance of the path is not the least of its edges.");
+  EXPECT_EQ(
+      problem_of([](PlannedPath& path) { path.scene.bodies[1].motion = ConstantVelocityMotion{}; }),
+      "The body \"post\" moves by itself.");
+  EXPECT_EQ(problem_of([](PlannedPath& path) {
+              path.waypoints[1] = {0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0};
+            }),
+            "A waypoint has a quaternion that is not of length 1.");
+}
+
 TEST(VerifyPath, NamesWhatContradictsItself) {
   PlannedPath path = ball_path();
   path.goals[0][0] = 1.5;
