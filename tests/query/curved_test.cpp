@@ -8,10 +8,13 @@
 #include <vector>
 
 #include <firstcontact/geometry/convex_hull.h>
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/query/closest_approach.h>
 #include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/shape_pair.h>
 
 #include "support/random.h"
 
@@ -284,6 +287,48 @@ TEST(CurvedShapes, NameTheFaceOfTheTrianglesAroundThem) {
       ASSERT_NEAR(normal.dot(found.closest->p_WA - a), 0.0, 2.5 * shape.enclosure_error())
           << round << " face " << face.index;
     }
+  }
+}
+
+/// Crossed rods: the exact distance is that of two lines less both radii.
+TEST(CurvedShapes, HaveALowerBoundThatNeverExceedsTheirDistance) {
+  test::Random random(9);
+  Workspace workspace;
+  const Shape rod = make_cylinder(0.01, 2.0);
+  const Motion rest = Motion::fixed();
+  int overlaps = 0;
+  for (int round = 0; round < 60; ++round) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(
+        random.uniform(0.3, 2.8), random.direction().cross(Vector3d::UnitZ()).normalized()));
+    const Vector3d place = random.vector(0.0, 0.03);
+    const Vector3d across = Vector3d::UnitZ().cross(turn * Vector3d::UnitZ()).normalized();
+    const double exact = std::abs(across.dot(place)) - 0.02;
+    const DistanceResult found =
+        distance({rod, rest}, {rod, Motion::fixed(curved_pose(place, turn))}, 0.0, workspace);
+    EXPECT_LE(found.lower_bound, std::max(0.0, exact) + 1e-16) << round;
+    EXPECT_GE(found.lower_bound, exact - 2.0 * rod.enclosure_error() - 1e-12) << round;
+    EXPECT_NEAR(found.distance, std::max(0.0, exact), 1e-10) << round;
+    if (exact < -1e-9) {
+      ++overlaps;
+      EXPECT_EQ(found.distance, 0.0) << round;
+      EXPECT_FALSE(found.closest->n_AB_W) << round;
+    }
+  }
+  EXPECT_GT(overlaps, 10);
+}
+
+/// The line of centres of two rods side by side separates nothing.
+TEST(CurvedShapes, AreApartInAWindowOfNoLength) {
+  const Shape rod = make_cylinder(0.1, 4.0);
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const Motion rest = Motion::fixed();
+    const Motion beside = Motion::fixed(curved_pose({0.3, 0.0, 3.0}));
+    const Vector3d centre = rod.hierarchy().centre;
+    ConstantRatePair motion(rest, beside, centre, centre, 1e-6);
+    Workspace workspace;
+    FirstContactResult found;
+    first_contact(ShapePair{rod, rod, motion}, TimeWindow{t, t}, workspace, {}, found);
+    EXPECT_FALSE(is_contact(found.verdict)) << t;
   }
 }
 

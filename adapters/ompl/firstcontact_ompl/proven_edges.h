@@ -47,8 +47,9 @@ class ProvenStates : public ompl::base::StateValidityChecker {
 
 /// A motion is valid if the whole edge is proven free; what is undecided is not, and is counted.
 ///
-/// Set it with setMotionValidator() before setup(), beside ProvenStates of the same checker. Of a
-/// motion that is not valid, the last valid state is rounded, and the way to it is proven.
+/// Set it with setMotionValidator() before setup(), beside ProvenStates of the same checker. A
+/// motion that is not valid has a last valid state. It is a rounded state of OMPL, and the edge to
+/// it is proven by itself.
 class ProvenEdges : public ompl::base::MotionValidator {
  public:
   ProvenEdges(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const EdgeChecker> edges)

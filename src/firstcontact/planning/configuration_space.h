@@ -25,7 +25,7 @@ class PlanRandom;
 
 /// A point of a space: one number for each coordinate of joints [rad or m].
 ///
-/// Of a body it is the position [m], then the quaternion w, x, y, z.
+/// A body has its position [m] and then its quaternion w, x, y, z, both in the world.
 using Configuration = std::vector<double>;
 
 /// One number of a configuration of joints.

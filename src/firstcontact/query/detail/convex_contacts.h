@@ -13,8 +13,8 @@ namespace firstcontact::detail {
 
 /// The feature of a shape that is asked as a convex set at a point of its surface.
 ///
-/// Of a curved shape it is the face of its triangles that is over the point, by formulas; of others
-/// the feature nearest to the point.
+/// A curved shape has the face of its triangles that is over the point, found by formulas. Others
+/// have the feature nearest to the point.
 ///
 /// @param p_S  [m]  in the body frame
 [[nodiscard]] Feature feature_at(const Shape& shape, const Eigen::Vector3d& p_S);

@@ -46,7 +46,7 @@ class GeometrySearch {
   [[nodiscard]] double distance(double t) { return nearest(t).distance; }
 
   /// [m]  At a time of the piece, of the triangles that a contact of the two names: no less than
-  /// that of the geometries. Of a curved shape it is distance().
+  /// that of the geometries. Beside a curved shape it equals distance().
   [[nodiscard]] double distance_of_triangles(const Contact& contact, double t);
 
   /// Whether the two are proven farther apart at t, which costs less to know than the distance.
