@@ -51,15 +51,16 @@ DistanceResult distance(const ShapePair& shapes, double t, Workspace& workspace)
       detail::nearest_triangles(pair, state, workspace.data(), result.work);
   const double radii = A.radius() + B.radius();
   result.distance = std::max(0.0, nearest.distance - radii);
-  const double proven = pair.is_convex()
-                            ? distance_of_triangles(A, B, motion, state, workspace, result.work)
-                            : nearest.distance - pair.gap_error(state);
-  result.lower_bound = found.inside == detail::Inside::unsure ? 0.0 : std::max(0.0, proven - radii);
   result.closest =
       detail::make_contact(frame, state, nearest.triangle_A, nearest.triangle_B, nearest.closest);
   if (pair.is_convex() && nearest.distance - radii <= pair.gap_error(state)) {
     result.distance = 0.0;  // Within rounding: the direction of the points is noise.
     result.closest->n_AB_W.reset();
+  } else if (found.inside != detail::Inside::unsure) {
+    const double proven = pair.is_convex()
+                              ? distance_of_triangles(A, B, motion, state, workspace, result.work)
+                              : nearest.distance - pair.gap_error(state);
+    result.lower_bound = std::max(0.0, proven - radii);
   }
   return result;
 }
