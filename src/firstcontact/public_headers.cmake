@@ -4,6 +4,8 @@
 set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
+  firstcontact/haptic_devices/device.h
+  firstcontact/haptic_devices/mail_slot.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
