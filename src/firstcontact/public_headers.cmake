@@ -22,6 +22,8 @@ set(public_headers
   firstcontact/query/closest_approach.h
   firstcontact/query/distance.h
   firstcontact/query/first_contact.h
+  firstcontact/haptics/haptic_session.h
+  firstcontact/haptics/wall_session.h
   firstcontact/many_bodies/many_bodies.h
   firstcontact/mesh_files/read_mesh.h
   firstcontact/mesh_files/read_points.h
@@ -60,6 +62,9 @@ set(public_headers
   firstcontact/retiming/write_trajectory.h
   firstcontact/record/read_run.h
   firstcontact/record/write_run.h
+  firstcontact/haptics_files/haptic_log.h
+  firstcontact/haptics_files/haptic_run.h
+  firstcontact/haptics_files/haptic_setup.h
   firstcontact/page/write_page.h
   firstcontact/simulation/simulator.h
   firstcontact/verification/verify_path.h
@@ -84,6 +89,11 @@ set(supporting_headers
   firstcontact/query/contact.h
   firstcontact/query/outcome.h
   firstcontact/query/workspace.h
+  firstcontact/haptics/contact_loop.h
+  firstcontact/haptics/contact_set.h
+  firstcontact/haptics/force_loop.h
+  firstcontact/haptics/haptic_scene.h
+  firstcontact/haptics/timing_histogram.h
   firstcontact/many_bodies/body_set.h
   firstcontact/many_bodies/pair_rules.h
   firstcontact/many_bodies/scene_result.h
@@ -101,6 +111,7 @@ set(supporting_headers
   firstcontact/scene/body_shape.h
   firstcontact/scene/gap_bound.h
   firstcontact/scene/pair_counts.h
+  firstcontact/scene/haptic_question.h
   firstcontact/scene/plan_question.h
   firstcontact/scene/planned_path.h
   firstcontact/scene/scene_robot.h
