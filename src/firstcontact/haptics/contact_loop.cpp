@@ -13,6 +13,7 @@
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/haptics/detail/contact_finder.h>
+#include <firstcontact/haptics/detail/contact_listing.h>
 #include <firstcontact/haptics/detail/contact_reduction.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/haptic_scene_check.h>
@@ -469,30 +470,10 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
 }
 
 void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
-  std::vector<HapticContact> contacts;
-  for (const HapticTouch& touch : touches_) {
-    contacts.push_back(touch.contact);
-  }
-  detail::ReducedContacts reduced;
-  if (contacts.size() > options_.most_contacts) {
-    reduced =
-        detail::reduce_contacts(contacts, frames_, tools(), options_.angle, options_.most_contacts);
-  } else {
-    for (std::size_t k = 0; k < contacts.size(); ++k) {
-      reduced.kept.push_back(k);
-    }
-  }
   set_.sequence += 1;
   set_.stamp_ns = stamp_ns;
   set_.tools = static_cast<std::uint32_t>(tools());
-  set_.count = static_cast<std::uint32_t>(reduced.kept.size());
-  set_.full_count = static_cast<std::uint32_t>(contacts.size());
-  set_.angle = reduced.angle;
-  cycle_.touches.clear();
-  for (std::size_t k = 0; k < reduced.kept.size(); ++k) {
-    set_.contacts[k] = contacts[reduced.kept[k]];
-    cycle_.touches.push_back(touches_[reduced.kept[k]]);
-  }
+  detail::list_contacts(touches_, frames_, tools(), options_, set_, cycle_.touches);
   for (std::size_t k = 0; k < tools(); ++k) {
     set_.X_WB[k] = poses_[k];
     set_.p_WC[k] = frames_.p_WC[k];
