@@ -63,8 +63,8 @@ RunVerification verify_text(const std::string& text) {
 }
 
 const char* const kPlate = R"({"firstcontact": 1, "bodies": [
-  {"name": "tool", "shape": {"type": "box", "size": [0.02, 0.03, 0.01]}, "pose": {"position": [0, 0, 0.1]}},
-  {"name": "plate", "shape": {"type": "box", "size": [0.3, 0.3, 0.0001]}}],
+  {"name": "tool", "shape": {"box": {"size": [0.02, 0.03, 0.01]}}, "pose": {"position": [0, 0, 0.1]}},
+  {"name": "plate", "shape": {"box": {"size": [0.3, 0.3, 0.0001]}}}],
   "haptics": {"tools": [{"body": "tool"}], "friction": 0.3}})";
 
 // 5 m/s, turning, through a plate of 0.1 mm and back, again and again.
@@ -83,10 +83,10 @@ TEST(HapticRun, IsProvenForADeviceThatRushesThroughAPlate) {
 }
 
 const char* const kPusher = R"({"firstcontact": 1, "bodies": [
-  {"name": "tool", "shape": {"type": "sphere", "radius": 0.01}},
-  {"name": "pusher", "shape": {"type": "box", "size": [0.02, 0.1, 0.1]},
-   "motion": {"type": "two_poses", "from": {"position": [-0.05, 0, 0]}, "to": {"position": [0.05, 0, 0]}}},
-  {"name": "wall", "shape": {"type": "box", "size": [0.02, 0.1, 0.1]}, "pose": {"position": [0.06, 0, 0]}}],
+  {"name": "tool", "shape": {"sphere": {"radius": 0.01}}},
+  {"name": "pusher", "shape": {"box": {"size": [0.02, 0.1, 0.1]}},
+   "motion": {"type": "constant_velocity", "from": {"position": [-0.05, 0, 0]}, "to": {"position": [0.05, 0, 0]}}},
+  {"name": "wall", "shape": {"box": {"size": [0.02, 0.1, 0.1]}}, "pose": {"position": [0.06, 0, 0]}}],
   "options": {"duration": 0.2}, "haptics": {"tools": [{"body": "tool"}]}})";
 
 TEST(HapticRun, IsProvenWhereSurroundingsMoveAndHaveToWait) {

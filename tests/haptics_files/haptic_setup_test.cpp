@@ -17,9 +17,9 @@ namespace {
 
 std::string scene_text(const std::string& haptics, const std::string& of_tool = "") {
   return R"({"firstcontact": 1, "bodies": [
-    {"name": "peg", "shape": {"type": "box", "size": [1, 1, 1]})" +
+    {"name": "peg", "shape": {"box": {"size": [1, 1, 1]}})" +
          of_tool + R"(},
-    {"name": "plate", "shape": {"type": "box", "size": [9, 9, 1]}, "pose": {"position": [0, 0, -5]},
+    {"name": "plate", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -5]},
      "surface": {"friction": 0.25}}],
     "haptics": )" +
          haptics + "}";
@@ -70,7 +70,7 @@ TEST(HapticSetup, NamesWhatIsWrong) {
 
 TEST(HapticSetup, RefusesScenesWithoutHaptics) {
   Scene scene = parse_scene(
-      R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": {"type": "sphere", "radius": 1}}]})",
+      R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": {"sphere": {"radius": 1}}}]})",
       "scene.json");
   EXPECT_THROW(prepare_haptics(scene, 1.0), std::invalid_argument);
 }

@@ -21,9 +21,10 @@
 
 namespace firstcontact {
 
-/// A piece of a cycle in which the pivot of a body moves on a line while the body turns about it,
-/// both at constant rates (Motion::constant_rates). The pivot of a tool is its centre, that of
-/// another body its origin.
+/// A piece of a cycle at constant rates: the pivot of a body moves on a line, the body turns about
+/// it (Motion::constant_rates).
+///
+/// The pivot of a tool is its centre, that of another body its origin.
 struct HapticPiece {
   double to = 0.0;                                        ///< [s]  Its end, since the cycle began.
   Pose X_WB;                                              ///< Where it begins.
@@ -45,7 +46,7 @@ struct HapticTouch {
   Feature feature_of_tool;
 };
 
-/// What a cycle of the contact loop did.
+/// The account of a cycle of the contact loop.
 struct HapticCycle {
   std::uint64_t index = 0;  ///< From 1.
   double asked = 0.0;       ///< [s]

@@ -34,7 +34,7 @@ struct HapticContact {
   Eigen::Vector3d surface_velocity = Eigen::Vector3d::Zero();
 };
 
-/// What the contact loop publishes: where the god-objects are, and what holds them.
+/// The set that the contact loop publishes: where the god-objects are, and what holds them.
 ///
 /// Of a fixed size, so that it is copied without an allocation.
 struct HapticContactSet {

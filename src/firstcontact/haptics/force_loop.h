@@ -35,7 +35,7 @@ struct DeviceMapping {
   int dead_man_button = -1;  ///< Unless it is pressed the same holds; -1: none.
 };
 
-/// What a hand may feel, whatever the scene.
+/// The limits of what a hand may feel, whatever the scene.
 struct HapticLimits {
   double force = 10.0;                  ///< [N]  >= 0  Length of the force.
   double torque = 0.5;                  ///< [N m]  >= 0

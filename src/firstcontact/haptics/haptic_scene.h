@@ -1,5 +1,5 @@
 /// @file
-/// What is felt: the tools in a user's hands and the bodies around them.
+/// A scene that is felt: the tools in a user's hands and the bodies around them.
 
 #pragma once
 

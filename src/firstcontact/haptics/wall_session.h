@@ -17,14 +17,14 @@ namespace firstcontact {
 
 struct WallSessionOptions {
   double duration = 10.0;  ///< [s]  > 0
-  /// Asks for SCHED_FIFO, a processor for each loop and locked memory; goes on without what is
+  /// Requests SCHED_FIFO, a processor for each loop and locked memory; goes on without what is
   /// refused.
   bool real_time = true;
   /// [ns]  >= 0  Slows the contact loop down by so much each cycle, to see what that does.
   std::int64_t contact_delay_ns = 0;
 };
 
-/// What the system granted.
+/// The requests that the system granted.
 struct RealTimeGrant {
   bool force_fifo = false;
   bool contact_fifo = false;
@@ -33,7 +33,7 @@ struct RealTimeGrant {
   bool locked_memory = false;
 };
 
-/// What a session on the wall did, with every tick counted.
+/// The account of a session on the wall, with every tick counted.
 struct WallSessionReport {
   RealTimeGrant granted = {};
   std::uint64_t ticks = 0;

@@ -22,8 +22,9 @@ struct HapticSetup {
   std::vector<std::size_t> bodies;  ///< Of the tools, then of the others.
 };
 
-/// Makes a scene with "haptics" one that a session of this length can be recorded in: its tools
-/// move freely, its simulation has the steps of the contact loop.
+/// Prepares a scene with "haptics" for the record of a session of this length.
+///
+/// Its tools become free bodies; its simulation has the steps of the contact loop.
 ///
 /// @param duration  [s]  > 0; motions of other bodies go on as in set_simulation_duration()
 /// @throws std::invalid_argument if the scene has no "haptics", robots, bodies that other things

@@ -29,7 +29,7 @@ struct HapticToolQuestion {
   std::optional<int> dead_man_button = {};  ///< 0 to 31
 };
 
-/// What a user feels of a scene.
+/// The tools of a scene, and how a user feels them.
 struct HapticQuestion {
   std::vector<HapticToolQuestion> tools;        ///< 1 or 2, of different bodies.
   std::optional<double> contact_distance = {};  ///< [m]  > 0
