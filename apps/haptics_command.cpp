@@ -156,9 +156,8 @@ class HapticsRun {
         plot_(setup_.scene.tools.size(), named_.duration) {
     if (arguments.devices.size() != setup_.scene.tools.size()) {
       throw std::invalid_argument(
-          fmt::format("{}: expected a --device for each of its {} tool{}, got {}", arguments.scene,
-                      setup_.scene.tools.size(), setup_.scene.tools.size() == 1 ? "" : "s",
-                      arguments.devices.size()));
+          fmt::format("{}: expected a --device for each tool, {} of them; got {}", arguments.scene,
+                      setup_.scene.tools.size(), arguments.devices.size()));
     }
     open_devices();
     if (!arguments.page.empty()) {

@@ -91,7 +91,7 @@ class Haptics(unittest.TestCase):
         self.write("scene.json", scene(bodies=[PLATE, {**PEG, "pose": {"position": [0, 0, 0.01]}}]))
         self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"peg" and "plate" meet')
         self.write("scene.json", scene())
-        self.assert_refused(self.tool("haptics", "scene.json", *device, *device, "-o", "run.jsonl"), "--device", "1 tool")
+        self.assert_refused(self.tool("haptics", "scene.json", *device, *device, "-o", "run.jsonl"), "--device", "1 of them; got 2")
         self.assert_refused(self.tool("haptics", "scene.json", "--device", "none.csv", "-o", "run.jsonl"), "none.csv")
         self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "scene.json"), "scene.json")
         self.write("broken.csv", "no recording\n")
