@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,7 +80,7 @@ struct Fidelity {
     }
     errors.push_back((felt - exact).norm() / exact.norm());
     const double cosine = felt.dot(exact) / std::max(1e-12, felt.norm() * exact.norm());
-    angles.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / EIGEN_PI);
+    angles.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
   }
 
   static double quantile(std::vector<double> values, double share) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -171,7 +172,7 @@ TEST(ForceLoop, DeadManButtonIsNeededForAnyForce) {
 
 TEST(ForceLoop, ScalesSoThatWorkIsTheSame) {
   // The tool goes five times as far, turned by a quarter turn about z.
-  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(0.5 * EIGEN_PI, Vector3d::UnitY()));
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()));
   OnTheFloor felt({.R_WD = quarter, .scale = 5.0});
   // D's z is the world's x, D's x is the world's -z.
   const ToolTick tick = felt.ticks(handle_at({0.0022, 0.0, 0.0}), kRamp);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -54,7 +55,7 @@ TEST(HapticSession, IsTheSameOnEveryRun) {
 
 /// Slides a small cube over a large one, across all edges of its top and down its sides.
 Vector3d around_a_cube(double s) {
-  const double angle = 2.0 * EIGEN_PI * s;
+  const double angle = 2.0 * std::numbers::pi * s;
   // The wish is inside of the cube all the way round: 45 mm around 50 mm.
   return {0.045 * std::cos(angle), 0.0, 0.045 * std::sin(angle) - 0.065};
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -70,7 +71,7 @@ const char* const kPlate = R"({"firstcontact": 1, "bodies": [
 // 5 m/s, turning, through a plate of 0.1 mm and back, again and again.
 TEST(HapticRun, IsProvenForADeviceThatRushesThroughAPlate) {
   const Recorded recorded = record_cycles(kPlate, 200, [](int k, std::size_t) {
-    const double phase = 2.0 * EIGEN_PI * k / 125.0;  // 0.1 m at 8 Hz: 5 m/s.
+    const double phase = 2.0 * std::numbers::pi * k / 125.0;  // 0.1 m at 8 Hz: 5 m/s.
     return Pose{
         {0.02 * std::sin(3.0 * phase), 0.0, 0.1 * std::cos(phase)},
         Eigen::Quaterniond(Eigen::AngleAxisd(0.08 * k, Vector3d(1.0, 2.0, 0.5).normalized()))};

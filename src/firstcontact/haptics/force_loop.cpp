@@ -86,11 +86,15 @@ bool slew_to(double most, const Vector3d& before, Vector3d& vector) noexcept {
   return true;
 }
 
+}  // namespace
+
+namespace detail {
+
 /// What is kept of a tool from tick to tick.
 struct FeltTool {
-  explicit FeltTool(detail::TargetFollower its) : follower(its) {}
+  explicit FeltTool(TargetFollower its) : follower(its) {}
 
-  detail::TargetFollower follower;
+  TargetFollower follower;
   Vector3d p_BC = Vector3d::Zero();  // [m]
   double stiffness = 0.0;            // [N/m]
   double look_ahead = 0.0;           // [s]  Damping by stiffness.
@@ -102,7 +106,7 @@ struct FeltTool {
   Vector3d turning = Vector3d::Zero();   // [rad/s]
 };
 
-}  // namespace
+}  // namespace detail
 
 class ForceLoop::Implementation {
  public:
@@ -115,7 +119,7 @@ class ForceLoop::Implementation {
       mapping.R_WD.normalize();
       mapping.X_DH.rotation.normalize();
       const Pose start{tool.X_WB.position, tool.X_WB.rotation.normalized()};
-      FeltTool felt{detail::TargetFollower(mapping, start)};
+      detail::FeltTool felt{detail::TargetFollower(mapping, start)};
       felt.p_BC = tool.p_BC;
       felt.stiffness = tool.coupling.stiffness;
       felt.look_ahead = tool.coupling.damping / tool.coupling.stiffness;
@@ -174,7 +178,7 @@ class ForceLoop::Implementation {
     }
   }
 
-  static void measure_velocity(FeltTool& tool, double seconds) noexcept {
+  static void measure_velocity(detail::FeltTool& tool, double seconds) noexcept {
     const Pose& target = tool.follower.target();
     if (!tool.follower.is_engaged() || !tool.has_last || !(seconds > 0.0)) {
       tool.velocity.setZero();
@@ -207,7 +211,7 @@ class ForceLoop::Implementation {
     }
     Coordinates wanted{};
     for (std::size_t k = 0; k < tools_.size(); ++k) {
-      const FeltTool& tool = tools_[k];
+      const detail::FeltTool& tool = tools_[k];
       if (!tool.follower.is_engaged()) {
         continue;
       }
@@ -226,7 +230,8 @@ class ForceLoop::Implementation {
   }
 
   /// [-]  The part of the spring's force that acts.
-  [[nodiscard]] double share_of(const FeltTool& tool, std::uint32_t& faults) const noexcept {
+  [[nodiscard]] double share_of(const detail::FeltTool& tool,
+                                std::uint32_t& faults) const noexcept {
     const HapticLimits& limits = options_.limits;
     double share = 1.0;
     const std::int64_t since = tick_.time_ns - tool.follower.engaged_since_ns();
@@ -246,7 +251,7 @@ class ForceLoop::Implementation {
 
   void give_force(std::size_t k, const Coordinates& force, double seconds) noexcept {
     ToolTick& tick = tick_.tools[k];
-    const FeltTool& tool = tools_[k];
+    const detail::FeltTool& tool = tools_[k];
     constexpr std::uint32_t kAtOnce = static_cast<std::uint32_t>(ForceFault::device) |
                                       static_cast<std::uint32_t>(ForceFault::not_finite);
     if ((tick.faults & kAtOnce) != 0) {
@@ -285,7 +290,7 @@ class ForceLoop::Implementation {
     set_force(tick, tool, force_W, torque_W);
   }
 
-  static void set_force(ToolTick& tick, const FeltTool& tool, const Vector3d& force_W,
+  static void set_force(ToolTick& tick, const detail::FeltTool& tool, const Vector3d& force_W,
                         const Vector3d& torque_W) noexcept {
     tick.force_W = force_W;
     tick.torque_W = torque_W;
@@ -296,7 +301,7 @@ class ForceLoop::Implementation {
   ForceLoopOptions options_;
   detail::ConeProjection cone_;
   detail::ToolFrames frames_;
-  std::vector<FeltTool> tools_;
+  std::vector<detail::FeltTool> tools_;
   std::uint64_t taken_ = 0;
   bool has_ticked_ = false;
   ForceTick tick_;

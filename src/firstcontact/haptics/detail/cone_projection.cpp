@@ -11,6 +11,9 @@ namespace {
 /// them.
 constexpr double kDependent = 1e-18;
 
+/// [-]  A projection whose s is off by more than this, by the tolerance, is not solved.
+constexpr double kSettled = 1000.0;
+
 /// [rounds]  Of s, at most.
 constexpr int kRoundsOfSlack = 10;
 
@@ -285,7 +288,12 @@ ConeProjectionResult ConeProjection::project(const Coordinates& x_free, double t
   for (int round = 0; round < (has_friction ? kRoundsOfSlack : 1); ++round) {
     restart(x_free);
     result.is_solved = satisfy_all(tolerance, most_pivots);
-    if (!result.is_solved || !has_friction || renew_slacks() <= tolerance) {
+    if (!result.is_solved || !has_friction) {
+      break;
+    }
+    const double off = renew_slacks();
+    result.is_solved = off <= kSettled * tolerance;
+    if (off <= tolerance) {
       break;
     }
   }

@@ -20,7 +20,7 @@ struct HapticMember {
   Shape shape;
   double reach = 0.0;     ///< [m]  From the centre of its bounds.
   double friction = 0.0;  ///< [-]
-  std::shared_ptr<const SurfaceNeighbours> neighbours;
+  std::shared_ptr<const SurfaceNeighbours> neighbours = {};
 };
 
 /// Finds contacts in memory of its own.
