@@ -6,8 +6,10 @@ set(public_headers
   firstcontact/text/parse_error.h
   firstcontact/haptic_devices/device.h
   firstcontact/haptic_devices/mail_slot.h
+  firstcontact/haptic_devices/operator_path.h
   firstcontact/haptic_devices/recorded_device.h
   firstcontact/haptic_devices/recording.h
+  firstcontact/haptic_devices/simulated_operator.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
