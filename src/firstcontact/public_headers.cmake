@@ -10,6 +10,7 @@ set(public_headers
   firstcontact/haptic_devices/recorded_device.h
   firstcontact/haptic_devices/recording.h
   firstcontact/haptic_devices/simulated_operator.h
+  firstcontact/haptic_devices/space_mouse.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
