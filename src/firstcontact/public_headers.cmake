@@ -5,6 +5,7 @@ set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
   firstcontact/haptic_devices/device.h
+  firstcontact/haptic_devices/haply.h
   firstcontact/haptic_devices/mail_slot.h
   firstcontact/haptic_devices/operator_path.h
   firstcontact/haptic_devices/recorded_device.h
