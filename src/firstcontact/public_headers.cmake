@@ -5,7 +5,15 @@ set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
   firstcontact/haptic_devices/device.h
+  firstcontact/haptic_devices/device_plugin.h
+  firstcontact/haptic_devices/haply.h
+  firstcontact/haptic_devices/load_device_plugin.h
   firstcontact/haptic_devices/mail_slot.h
+  firstcontact/haptic_devices/operator_path.h
+  firstcontact/haptic_devices/recorded_device.h
+  firstcontact/haptic_devices/recording.h
+  firstcontact/haptic_devices/simulated_operator.h
+  firstcontact/haptic_devices/space_mouse.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
