@@ -31,12 +31,12 @@ namespace firstcontact {
 namespace {
 
 struct DeviceClass {
-  double damping = 0.1;        // [N s/m]
-  double friction = 0.0;       // [N]
-  double resolution = 0.0;     // [m]
-  std::int64_t delay_ns = 0;   // Of the sensor.
+  double damping = 0.1;       // [N s/m]
+  double friction = 0.0;      // [N]
+  double resolution = 0.0;    // [m]
+  std::int64_t delay_ns = 0;  // Of the sensor.
   std::int64_t jitter_ns = 0;
-  double rate = 4000.0;        // [Hz]
+  double rate = 4000.0;  // [Hz]
 };
 
 struct Swing {
@@ -106,7 +106,8 @@ Swing swing_of(const DeviceClass& device, double stiffness, double seconds, doub
 double bound_of(const DeviceClass& device) {
   const double period = 1.0 / device.rate;
   const double linear =
-      device.damping / (0.5 * period + 1e-9 * static_cast<double>(device.delay_ns + device.jitter_ns));
+      device.damping /
+      (0.5 * period + 1e-9 * static_cast<double>(device.delay_ns + device.jitter_ns));
   const double by_friction = device.resolution > 0.0 && device.friction > 0.0
                                  ? 2.0 * device.friction / device.resolution
                                  : linear;
@@ -133,7 +134,8 @@ double largest_passive(const DeviceClass& device, double seconds, double hand) {
 }  // namespace
 
 int sweep(double seconds, double hand) {
-  std::printf("b [N s/m], f_c [N], step [um], delay [us], jitter [us], rate [Hz]: largest K, bound\n");
+  std::printf(
+      "b [N s/m], f_c [N], step [um], delay [us], jitter [us], rate [Hz]: largest K, bound\n");
   const std::vector<DeviceClass> classes{
       {.damping = 0.1},
       {.damping = 0.5},
@@ -149,12 +151,12 @@ int sweep(double seconds, double hand) {
   for (const DeviceClass& device : classes) {
     const double bound = bound_of(device);
     const double found = largest_passive(device, seconds, hand);
-    std::printf("%5.2f %5.2f %5.1f %6.0f %6.0f %7.0f: %8.0f N/m, %8.0f N/m (%.0f %%); 3 x bound is %s\n",
-                device.damping, device.friction, 1e6 * device.resolution,
-                1e-3 * static_cast<double>(device.delay_ns),
-                1e-3 * static_cast<double>(device.jitter_ns), device.rate, found, bound,
-                100.0 * found / bound,
-                is_active(device, 3.0 * bound, seconds, hand) ? "active" : "passive");
+    std::printf(
+        "%5.2f %5.2f %5.1f %6.0f %6.0f %7.0f: %8.0f N/m, %8.0f N/m (%.0f %%); 3 x bound is %s\n",
+        device.damping, device.friction, 1e6 * device.resolution,
+        1e-3 * static_cast<double>(device.delay_ns), 1e-3 * static_cast<double>(device.jitter_ns),
+        device.rate, found, bound, 100.0 * found / bound,
+        is_active(device, 3.0 * bound, seconds, hand) ? "active" : "passive");
     std::fflush(stdout);
   }
   return 0;

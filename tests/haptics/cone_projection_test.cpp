@@ -152,7 +152,7 @@ TEST(ConeProjection, KeepsCoulombsLawAsTheContactSolverMeasuresIt) {
     const Coordinates free = random_displacement(rng);
     ConeProjectionResult found;
     for (int tick = 0; tick < 4; ++tick) {  // It goes on where the last one ended.
-      found = cone.project(free, 1e-9, 200);
+      found = cone.project(free, 1e-12, 200);
     }
     solved += found.is_solved && residual_of(contacts, free, cone, found.x) < 1e-6 ? 1 : 0;
   }

@@ -88,6 +88,7 @@ class ContactLoop::Implementation {
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
   void set_courses(double slot);
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
+  [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
   double execute(const detail::GodObjectPlan& plan, double slot, double dt,
                  const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);
@@ -296,6 +297,36 @@ detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDispla
   return plan;
 }
 
+/// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
+/// do not hold.
+detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
+    detail::ToolDisplacements wanted) {
+  detail::GodObjectPlan found = plan(wanted);
+  double part = 1.0;
+  for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
+    // A point at the reach sinks by half of reach times the square of the angle.
+    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
+    part = std::min(part, most / found.displacements[k].rotation_vector.norm());
+  }
+  if (!(part < 1.0)) {
+    return found;
+  }
+  if (are_courses_moving_) {
+    for (Displacement& way : wanted) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+    found = plan(wanted);
+  } else {
+    for (Displacement& way : found.displacements) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+  }
+  found.is_shortened = true;
+  return found;
+}
+
 void ContactLoop::Implementation::append_piece(std::size_t member, const Displacement& way,
                                                double part, double to) {
   for (HapticMemberMotion& motion : cycle_.members) {
@@ -443,7 +474,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     double slot = touches_.empty() || is_last ? left : 0.5 * left;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
-    detail::GodObjectPlan plan = this->plan(ways);
+    detail::GodObjectPlan plan = plan_within_turn(ways);
     ++cycle_.rounds;
     const bool gains = gain_of(plan.displacements) > least_gain;
     if (!gains && !are_courses_moving_) {
@@ -453,10 +484,10 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     if (!gains && slot < left) {  // Only the courses are left: all of them.
       slot = left;
       set_courses(slot);
-      plan = this->plan(ways);
+      plan = plan_within_turn(ways);
     }
     const double made = execute(plan, slot, dt, deadline);
-    const bool is_there = made == 1.0 && !plan.is_pressed;
+    const bool is_there = made == 1.0 && !plan.is_pressed && !plan.is_shortened;
     cycle_.is_converged = is_there;
     goes_on = made * gain_of(plan.displacements) > 1e-3 * least_gain ||
               (are_courses_moving_ && made > 0.0);

@@ -24,9 +24,15 @@ inline constexpr double kContactBand = 2.0;
 /// [-]  A pair that is nearer than this is held to a share of its gap...
 inline constexpr double kFreeGap = 1.3;
 inline constexpr double kShareOfGap = 0.75;
-/// [-]  ...and to this share where it is nearer than that.
-inline constexpr double kJammedGap = 1e-3;
-inline constexpr double kShareOfJammedGap = 0.99;
+/// [-]  ...but not below this, unless it is there already: then to the larger share, so that what
+/// is wedged does not halve its way to nothing.
+inline constexpr double kLeastHeldGap = 0.5;
+inline constexpr double kShareOfJammedGap = 0.9;
+/// [-]  A tool that contacts press turns by no more in a round than brings its points this much
+/// nearer, in second order. Larger: more rounds end at a contact.
+inline constexpr double kSinkOfTurn = 0.3;
+/// [node groups and steps]  A proof of one pair in one round; what is spent is proven until there.
+inline constexpr std::size_t kProofSteps = 20'000;
 /// [-]  A motion that gains less than this is not made: what sticks does not creep.
 inline constexpr double kLeastGain = 0.01;
 /// [-]  Of the solver's residual.

@@ -31,14 +31,16 @@ struct PlannedTouch {
 
 struct GodObjectPlan {
   ToolDisplacements displacements = {};
-  double residual = 0.0;    ///< [m]
-  bool is_pressed = false;  ///< Contacts change it.
+  double residual = 0.0;      ///< [m]
+  bool is_pressed = false;    ///< Contacts change it.
+  bool is_shortened = false;  ///< It leads only a part of the way.
 };
 
 /// Projects the displacements towards the targets on the contacts, with friction.
 ///
 /// Touches that are too near are pushed to where they rest; where that contradicts others, they
-/// are only kept from coming nearer.
+/// are only kept from coming nearer. The small projection of the force loop solves it
+/// (ConeProjection), else project_on_contacts().
 ///
 /// @param residual  [m]  to be reached; > 0
 [[nodiscard]] GodObjectPlan plan_god_objects(const ToolDisplacements& wanted,

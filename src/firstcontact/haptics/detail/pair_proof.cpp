@@ -18,8 +18,9 @@ HeldApart held_apart(double gap, double contact_distance) {
   if (gap > kFreeGap * contact_distance) {
     return {contact_distance, kFoundWithin * contact_distance};
   }
-  const double share = gap > kJammedGap * contact_distance ? kShareOfGap : kShareOfJammedGap;
-  return {share * gap, 0.5 * (1.0 - share) * gap};
+  const double margin = std::max(
+      kShareOfGap * gap, std::min(kLeastHeldGap * contact_distance, kShareOfJammedGap * gap));
+  return {margin, 0.5 * (gap - margin)};
 }
 
 }  // namespace
@@ -35,11 +36,12 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
     FirstContactOptions options{
         .margin = held.margin, .tolerance = held.tolerance, .contacts = ContactState::none};
     options.budget.deadline = deadline;
+    options.budget.steps = kProofSteps;
     first_contact({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
                   workspace, options, scratch);
     if (scratch.verdict != Verdict::free) {
       proven.t = std::min(proven.t, scratch.t);
-      proven.is_late = proven.is_late || scratch.verdict == Verdict::undecided;
+      proven.is_late = proven.is_late || scratch.reason == UndecidedReason::deadline;
     }
     proven.clearance = std::min(proven.clearance, held.margin);
   }
