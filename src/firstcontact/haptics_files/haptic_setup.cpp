@@ -91,7 +91,7 @@ void prepare_haptics(Scene& scene, double duration) {
       "expected no margins of pairs");
   scene.simulation.emplace();
   for (const HapticToolQuestion& tool : question.tools) {
-    scene.bodies[tool.body].free = FreeBody{.mass = 1.0};
+    scene.bodies[tool.body].free.emplace().mass = 1.0;
   }
   const detail::SessionPeriods periods = detail::session_periods(session_options(question));
   scene.simulation->step = 1e-9 * static_cast<double>(periods.cycle_ns);

@@ -17,9 +17,9 @@ struct Scene;
 
 /// A session, and which body of the scene each of its members is.
 struct HapticSetup {
-  HapticScene scene;
-  HapticSessionOptions options;
-  std::vector<std::size_t> bodies;  ///< Of the tools, then of the others.
+  HapticScene scene = {};
+  HapticSessionOptions options = {};
+  std::vector<std::size_t> bodies = {};  ///< Of the tools, then of the others.
 };
 
 /// Prepares a scene with "haptics" for the record of a session of this length.
