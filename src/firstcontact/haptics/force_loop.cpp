@@ -189,7 +189,7 @@ class ForceLoop::Implementation {
       const Vector3d before = tool.last_target.position + tool.last_target.rotation * tool.p_BC;
       tool.velocity += part * ((centre - before) / seconds - tool.velocity);
       tool.turning +=
-          part * (detail::shortest_turn(tool.last_target.rotation, target.rotation) / seconds -
+          part * (detail::turn_between(tool.last_target.rotation, target.rotation) / seconds -
                   tool.turning);
     }
     tool.last_target = target;
@@ -218,7 +218,7 @@ class ForceLoop::Implementation {
       const Pose& target = tool.follower.target();
       const Vector3d way = target.position + target.rotation * tool.p_BC - set.p_WC[k] +
                            tool.look_ahead * tool.velocity;
-      const Vector3d turn = detail::shortest_turn(set.X_WB[k].rotation, target.rotation) +
+      const Vector3d turn = detail::turn_between(set.X_WB[k].rotation, target.rotation) +
                             tool.look_ahead * tool.turning;
       for (int i = 0; i < 3; ++i) {
         const auto at = 6 * k + static_cast<std::size_t>(i);

@@ -117,7 +117,7 @@ GodObjectPlan plan_by_solver(const ToolDisplacements& wanted, const ToolFrames& 
 
 }  // namespace
 
-Vector3d shortest_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) noexcept {
+Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) noexcept {
   const Eigen::Quaterniond turn = to.normalized() * from.normalized().conjugate();
   const Vector3d half = turn.w() < 0.0 ? Vector3d(-turn.vec()) : Vector3d(turn.vec());
   const double sine = half.norm();

@@ -49,7 +49,7 @@ struct GodObjectPlan {
                                              double residual);
 
 /// The rotation vector [rad] of the shortest turn from one orientation to another.
-[[nodiscard]] Eigen::Vector3d shortest_turn(const Eigen::Quaterniond& from,
+[[nodiscard]] Eigen::Vector3d turn_between(const Eigen::Quaterniond& from,
                                             const Eigen::Quaterniond& to) noexcept;
 
 }  // namespace firstcontact::detail

@@ -71,7 +71,7 @@ void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
   const Vector3d lead = shortened(target_.position + way - god_object.position, kMostLead);
   const Eigen::Quaterniond turned =
       turn_by(seconds * (R_WD * device.angular_rate)) * target_.rotation;
-  const Vector3d turn = shortened(shortest_turn(god_object.rotation, turned), kMostLeadOfTurn);
+  const Vector3d turn = shortened(turn_between(god_object.rotation, turned), kMostLeadOfTurn);
   target_ = {god_object.position + lead,
              (turn_by(turn) * god_object.rotation.normalized()).normalized()};
 }
