@@ -31,6 +31,10 @@ inline constexpr double kShareOfJammedGap = 0.9;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 0.3;
+/// [-]  Where bodies with courses bring a tool so much nearer than it may come, there is no room.
+inline constexpr double kSlackOfRoom = 0.1;
+/// [-]  Then they go on for this part of the time, and are tried again.
+inline constexpr double kShareWithoutRoom = 0.25;
 /// [node groups and steps]  A proof of one pair in one round; what is spent is proven until there.
 inline constexpr std::size_t kProofSteps = 20'000;
 /// [-]  A motion that gains less than this is not made: what sticks does not creep.

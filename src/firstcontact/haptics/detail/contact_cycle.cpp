@@ -265,6 +265,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
   begin_cycle(dt);
   const double least_gain = detail::kLeastGain * distance_;
   bool goes_on = true;
+  double share = 1.0;  // Of the time that courses go on in a round.
   for (std::size_t round = 0; round < options_.rounds && now_ < dt && goes_on; ++round) {
     if (deadline && round > 0 && std::chrono::steady_clock::now() >= *deadline) {
       cycle_.is_late = true;
@@ -273,7 +274,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     const double left = dt - now_;
     find_contacts();
     const bool is_last = round + 1 == options_.rounds;
-    double slot = touches_.empty() || is_last ? left : 0.5 * left;
+    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * left;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
     detail::GodObjectPlan plan = plan_within_turn(ways);
@@ -283,10 +284,15 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
       cycle_.is_converged = true;
       break;
     }
-    if (!gains && slot < left) {  // Only the courses are left: all of them.
+    if (!gains && slot < left && share == 1.0) {  // Only the courses are left: all of them.
       slot = left;
       set_courses(slot);
       plan = plan_within_turn(ways);
+    }
+    if (are_courses_moving_ &&
+        !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
+      share *= detail::kShareWithoutRoom;
+      continue;
     }
     const double made = execute(plan, slot, dt, deadline);
     const bool is_there = made == 1.0 && !plan.is_pressed && !plan.is_shortened;

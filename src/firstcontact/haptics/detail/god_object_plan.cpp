@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
@@ -125,6 +126,26 @@ Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& 
     return Vector3d::Zero();
   }
   return 2.0 * std::atan2(sine, std::abs(turn.w())) / sine * half;
+}
+
+bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
+                 const std::vector<PlannedTouch>& touches, double slack) {
+  const auto moved = [&](std::int32_t tool, const Vector3d& point) -> Vector3d {
+    const auto k = static_cast<std::size_t>(tool);
+    const Displacement& way = plan.displacements[k];
+    return way.translation + way.rotation_vector.cross(point - frames.p_WC[k]);
+  };
+  return std::ranges::all_of(touches, [&](const PlannedTouch& touch) {
+    const HapticContact& contact = *touch.contact;
+    Vector3d u = moved(contact.tool, contact.point) - touch.surface;
+    if (contact.other >= 0) {
+      u -= moved(contact.other, contact.point);
+    }
+    constexpr double kNear = 5.0;            // Slacks.
+    constexpr double kRoundingOfGap = 1e-6;  // Of the gap.
+    const double room = contact.gap > kNear * slack ? slack : kRoundingOfGap * contact.gap;
+    return u.dot(contact.normal) >= -std::max(touch.way, 0.0) - room;
+  });
 }
 
 GodObjectPlan plan_god_objects(const ToolDisplacements& wanted, const ToolFrames& frames,

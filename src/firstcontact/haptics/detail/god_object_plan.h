@@ -48,8 +48,15 @@ struct GodObjectPlan {
                                              const std::vector<PlannedTouch>& touches,
                                              double residual);
 
+/// Whether a plan keeps its touches apart, to first order: none comes nearer than its way, or than
+/// it is where it has none left. Not where surroundings that move leave a tool no room.
+///
+/// @param slack  [m]  none of touches that are nearer than five times as much: it would add up
+[[nodiscard]] bool keeps_apart(const GodObjectPlan& plan, const ToolFrames& frames,
+                               const std::vector<PlannedTouch>& touches, double slack);
+
 /// The rotation vector [rad] of the shortest turn from one orientation to another.
 [[nodiscard]] Eigen::Vector3d turn_between(const Eigen::Quaterniond& from,
-                                            const Eigen::Quaterniond& to) noexcept;
+                                           const Eigen::Quaterniond& to) noexcept;
 
 }  // namespace firstcontact::detail
