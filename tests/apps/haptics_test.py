@@ -87,7 +87,7 @@ class Haptics(unittest.TestCase):
         device = ("--device", "simulated")
         self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), "scene.json", '"haptics"')
         self.write("scene.json", scene(tools=[{"body": "pin"}]))
-        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), "plate, peg")
+        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"plate", "peg"')
         self.write("scene.json", scene(bodies=[PLATE, {**PEG, "pose": {"position": [0, 0, 0.01]}}]))
         self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"peg" and "plate" meet')
         self.write("scene.json", scene())

@@ -58,7 +58,7 @@ void expect_refused(const std::string& text, const std::string& part) {
 TEST(HapticSetup, NamesWhatIsWrong) {
   expect_refused(scene_text("{}"), "\"tools\"");
   expect_refused(scene_text(R"({"tools": []})"), "1 or 2 tools");
-  expect_refused(scene_text(R"({"tools": [{"body": "nail"}]})"), "peg, plate");
+  expect_refused(scene_text(R"({"tools": [{"body": "nail"}]})"), "\"peg\", \"plate\"");
   expect_refused(scene_text(R"({"tools": [{"body": "peg"}, {"body": "peg"}]})"), "another body");
   expect_refused(scene_text(R"({"tools": [{"body": "peg", "stiffness": 0}]})"), "stiffness");
   expect_refused(scene_text(R"({"tools": [{"body": "peg", "clutch_button": 32}]})"), "button");
