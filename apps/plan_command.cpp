@@ -94,10 +94,10 @@ class Plan {
       scene.options.tolerance = *arguments_.tolerance;
     }
     PlanQuestion question;
-    if (arguments_.scene.empty()) {
-      question = question_of_trajectory(scene);
-    } else if (scene.plan) {
+    if (scene.plan) {
       question = *scene.plan;
+    } else if (arguments_.scene.empty()) {
+      question = question_of_trajectory(scene);
     } else {
       throw ParseError(source_, "expected \"plan\": what moves, and its goal; the scene has none");
     }
@@ -110,7 +110,7 @@ class Plan {
 
   Scene read(const ReadingOptions& reading) const {
     if (arguments_.scene.empty()) {
-      return read_robot_scene(arguments_.robot, reading);
+      return read_robot_scene(arguments_.robot, reading, true);
     }
     std::optional<Scene> scene;
     for_each_scene(arguments_.scene, reading, [&](const SceneSource& source) {
@@ -169,6 +169,15 @@ class Plan {
            member_name(scene.loaded.scene, pair[1]);
   }
 
+  /// [s]  From then on the mover is at the goal.
+  [[nodiscard]] static double arrival(const PlannedPath& path) {
+    std::size_t last = path.waypoints.size() - 1;
+    while (last > 0 && path.waypoints[last - 1] == path.waypoints.back()) {
+      --last;
+    }
+    return path.times[last];
+  }
+
   [[nodiscard]] static std::string blocking_text(const ScenePlan& scene,
                                                  const PlanStatistics& statistics) {
     std::string text;
@@ -207,6 +216,10 @@ class Plan {
                                    ? fmt::format(" ({:.6g} before it was shortened)",
                                                  *result.statistics.first_cost)
                                    : ""));
+      if (!path->times.empty()) {
+        line("arrives", fmt::format("after {}, and rests until {}", time_text(arrival(*path)),
+                                    time_text(path->times.back())));
+      }
       line("clearance", path->clearance
                             ? lower_bound_text(*path->clearance) + " or more everywhere (proven)"
                             : "no pair is tested");
