@@ -23,6 +23,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
+#include "motion_page.h"
 #include "output_files.h"
 #include "progress.h"
 #include "quantity_text.h"
@@ -30,6 +31,7 @@
 #include "scene_source.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -40,6 +42,7 @@ constexpr std::size_t kListedPairs = 3;
 struct Arguments {
   std::string scene;
   std::string output;
+  std::string page;
   bool json = false;
   bool lenient = false;
   bool approximate = false;
@@ -67,11 +70,15 @@ class Plan {
  public:
   explicit Plan(const Arguments& arguments)
       : arguments_(arguments),
-        source_(arguments.scene.empty() ? named_in_errors(arguments.robot) : arguments.scene) {
-    const std::vector<OutputFile> outputs{{"-o", arguments.output}};
+        source_(arguments.scene.empty() ? named_in_errors(arguments.robot) : arguments.scene),
+        outputs_{{"-o", arguments.output}, {"--html", arguments.page}} {
+    require_different(outputs_);
     const std::vector<std::string> inputs = files_of(arguments.robot);
-    require_no_input(outputs, {inputs.begin(), inputs.end()});
-    require_no_input(outputs, {arguments.scene});
+    require_no_input(outputs_, {inputs.begin(), inputs.end()});
+    require_no_input(outputs_, {arguments.scene});
+    if (!arguments.page.empty()) {
+      viewer_ = viewer_page();  // Missing is better known before the work than after it.
+    }
   }
 
   ExitStatus run() {
@@ -89,7 +96,7 @@ class Plan {
   ScenePlan make() const {
     const ReadingOptions reading{.lenient = arguments_.lenient};
     Scene scene = read(reading);
-    require_no_input({{"-o", arguments_.output}}, files_of(scene));
+    require_no_input(outputs_, files_of(scene));
     if (arguments_.tolerance) {
       scene.options.tolerance = *arguments_.tolerance;
     }
@@ -140,14 +147,17 @@ class Plan {
     };
   }
 
-  ExitStatus answer(const ScenePlan& scene, const PlanOptions& options,
-                    const PlanResult& result) const {
+  ExitStatus answer(const ScenePlan& scene, const PlanOptions& options, const PlanResult& result) {
     std::optional<PlannedPath> path;
     if (result.verdict != PlanVerdict::none) {
       path = planned_path(scene, options, result);
       const std::string text = write_planned_path(*path) + '\n';
       if (!arguments_.output.empty()) {
         write_file(arguments_.output, text);
+      }
+      if (!arguments_.page.empty()) {
+        write_motion_page(arguments_.page, viewer_, scene_in_motion(*path), interrupt_.token(),
+                          [this](const std::string& what) { progress_.doing("page: " + what); });
       }
       if (arguments_.json) {
         std::fwrite(text.data(), 1, text.size(), stdout);
@@ -248,6 +258,8 @@ class Plan {
   Progress progress_;
   const Arguments& arguments_;
   std::string source_;
+  std::vector<OutputFile> outputs_;
+  std::string viewer_;  // Where a page is wanted.
 };
 
 void require_one_plan(const Arguments& arguments) {
@@ -286,6 +298,7 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
                       ".json with \"plan\": what moves, from where, to where");
   add_file(*command, "-o,--output", arguments->output,
            "Writes the path, with all that it takes to prove it again, to a file");
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the path");
   command->add_flag("--json", arguments->json, "Prints the path as JSON in place of text");
   command
       ->add_option("--planner", arguments->planner,
