@@ -35,17 +35,19 @@ bool moves_by_itself(const SceneRobot& robot) {
          (robot.trajectory.points.size() > 1 && !robot.trajectory.joint_names.empty());
 }
 
-/// Whether anything but the mover moves.
-bool has_motion(const Scene& scene, const PlanQuestion& question) {
-  bool any = false;
+/// The name of something other than the mover that moves; none where all else rests.
+std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& question) {
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
-    any = any || (question.robot != k && moves_by_itself(scene.robots[k]));
+    if (question.robot != k && moves_by_itself(scene.robots[k])) {
+      return "robot " + in_quotes(scene.robots[k].name);
+    }
   }
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    any =
-        any || (question.body != k && !std::holds_alternative<FixedMotion>(scene.bodies[k].motion));
+    if (question.body != k && !std::holds_alternative<FixedMotion>(scene.bodies[k].motion)) {
+      return "body " + in_quotes(scene.bodies[k].name);
+    }
   }
-  return any;
+  return std::nullopt;
 }
 
 /// Takes the first point of a trajectory among the positions at which the robot rests.
@@ -70,7 +72,7 @@ void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
 /// The scene with the mover at rest at its start, all else at rest or moving by itself, and the
 /// margin of the question.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
-  const bool keeps_times = has_motion(scene, question);
+  const bool keeps_times = what_moves(scene, question).has_value();
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
     SceneRobot& robot = scene.robots[k];
     require_all_the_time(scene, robot);
@@ -212,36 +214,32 @@ Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
 }
 
 /// [rad/s or m/s]  How fast each coordinate may move, or a body.
-std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationSpace& space) {
+///
+/// @param moving  what makes speeds matter, for errors
+std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationSpace& space,
+                              const std::string& moving) {
+  const auto speed = [&](const std::string& name, const std::optional<double>& own) {
+    const auto found = question.speeds.find(name);
+    if (found == question.speeds.end() && !(own.value_or(0.0) > 0.0)) {
+      refuse_plan(moving + " moves: expected \"speeds\" of what is planned with " +
+                  in_quotes(name) + ", got none");
+    }
+    return found == question.speeds.end() ? *own : found->second;
+  };
   if (space.is_body()) {
-    const auto speed = [&](const std::string& name) {
-      const auto found = question.speeds.find(name);
-      if (found == question.speeds.end()) {
-        refuse_plan(
-            "expected \"speeds\" of the body, \"linear\" and \"angular\", as something "
-            "else moves; got no " +
-            in_quotes(name));
-      }
-      return found->second;
-    };
-    return {speed("linear"), speed("angular")};
+    return {speed("linear", std::nullopt), speed("angular", std::nullopt)};
   }
   std::vector<double> speeds;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    const auto found = question.speeds.find(coordinate.name);
-    const std::optional<double> own = space.model().joints()[coordinate.joint].limits.velocity;
-    if (found == question.speeds.end() && !(own.value_or(0.0) > 0.0)) {
-      refuse_plan("expected \"speeds\" with that of joint " + in_quotes(coordinate.name) +
-                  ", as something else moves and the URDF has none");
-    }
-    speeds.push_back(found == question.speeds.end() ? *own : found->second);
+    speeds.push_back(
+        speed(coordinate.name, space.model().joints()[coordinate.joint].limits.velocity));
   }
   return speeds;
 }
 
 void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
-  if (has_motion(scene, question)) {
-    plan.times = PlanTimes{scene.duration, speeds_of(question, plan.space)};
+  if (const std::optional<std::string> moving = what_moves(scene, question)) {
+    plan.times = PlanTimes{scene.duration, speeds_of(question, plan.space, *moving)};
   }
 }
 
