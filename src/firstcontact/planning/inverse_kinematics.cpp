@@ -20,8 +20,10 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 constexpr int kIterations = 100;
-constexpr double kLongestStep = 0.5;  // [rad or m]  Of a coordinate in one iteration.
-constexpr double kSame = 1e-3;        // Of the space's length: two places are one.
+constexpr int kPatience = 8;           // Iterations in which the error has to fall to
+constexpr double kWorthwhile = 0.999;  // this share; else the search is at its nearest place.
+constexpr double kLongestStep = 0.5;   // [rad or m]  Of a coordinate in one iteration.
+constexpr double kSame = 1e-3;         // Of the space's length: two places are one.
 
 void require_goal(bool condition, const char* what) {
   if (!condition) {
@@ -55,17 +57,22 @@ class PoseSearch {
     }
     double damping = 1e-3;
     Vector6 error = error_at(q);
-    for (int k = 0; k < kIterations && !is_exact(error); ++k) {
+    double size_before = error.norm();
+    for (int k = 0; k < kIterations && !is_exact(error) && damping < 1e6; ++k) {
+      if (k % kPatience == kPatience - 1) {
+        if (error.norm() > kWorthwhile * size_before) {
+          break;
+        }
+        size_before = error.norm();
+      }
       const Configuration next = stepped(q, error, damping);
       const Vector6 error_there = error_at(next);
-      if (weighed(error_there).squaredNorm() < weighed(error).squaredNorm()) {
+      if (error_there.norm() < error.norm()) {
         q = next;
         error = error_there;
         damping = std::max(0.2 * damping, 1e-12);
-      } else if (damping < 1e6) {
-        damping *= 8.0;
       } else {
-        break;
+        damping *= 8.0;
       }
     }
     return bounded(std::move(q));
