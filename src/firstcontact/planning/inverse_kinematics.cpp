@@ -51,7 +51,9 @@ class PoseSearch {
         R_WT_(goal.X_WT.rotation.normalized().toRotationMatrix()) {}
 
   /// Goes from a place towards the goal as far as that helps.
-  ReachedPose run(Configuration q) {
+  ///
+  /// @param is_patient  also where it helps little
+  ReachedPose run(Configuration q, bool is_patient = false) {
     for (std::size_t k = 0; k < q.size(); ++k) {
       q[k] = within_limits(k, q[k]);
     }
@@ -59,7 +61,7 @@ class PoseSearch {
     Vector6 error = error_at(q);
     double size_before = error.norm();
     for (int k = 0; k < kIterations && !is_exact(error) && damping < 1e6; ++k) {
-      if (k % kPatience == kPatience - 1) {
+      if (!is_patient && k % kPatience == kPatience - 1) {
         if (error.norm() > kWorthwhile * size_before) {
           break;
         }
@@ -222,7 +224,7 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
     return space.distance(start, a.q) < space.distance(start, b.q);
   });
   if (found.empty() && nearest) {
-    found.push_back(std::move(*nearest));
+    found.push_back(search.run(nearest->q, true));
   }
   return found;
 }
