@@ -48,4 +48,9 @@ function(firstcontact_relax_sanitizers file)
     set_property(SOURCE ${file} APPEND PROPERTY
       COMPILE_OPTIONS -fno-sanitize=pointer-overflow,null,alignment,object-size,bounds)
   endif()
+  if(FIRSTCONTACT_SANITIZERS MATCHES address AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    # Checks of addresses as calls, not inlined: a fifth of the time to compile.
+    set_property(SOURCE ${file} APPEND PROPERTY
+      COMPILE_OPTIONS -mllvm -asan-instrumentation-with-call-threshold=0)
+  endif()
 endfunction()
