@@ -52,6 +52,7 @@ set(public_headers
   firstcontact/scene/version.h
   firstcontact/planning/configuration_space.h
   firstcontact/planning/edge_checker.h
+  firstcontact/planning/inverse_kinematics.h
   firstcontact/planning/plan_path.h
   firstcontact/planning/plan_scene.h
   firstcontact/trajectory_files/read_trajectory.h

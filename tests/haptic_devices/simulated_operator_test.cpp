@@ -8,12 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include "support/rounds.h"
+
 namespace firstcontact {
 namespace {
 
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using test::rounds;
 
 constexpr std::int64_t kTick = 250'000;  // [ns]  4 kHz.
 
@@ -81,7 +84,7 @@ TEST(SimulatedOperator, AnswersAForceAsADampedSpring) {
     const double decay = (3.0 + 1.0) / (2.0 * m);
     const double rate = std::sqrt(stiffness / m - decay * decay);
     const double amplitude = 5.0 / stiffness;
-    for (std::int64_t tick = 0; tick <= 1200; tick += 40) {
+    for (std::int64_t tick = 0; tick <= rounds(1200, 120); tick += 40) {
       run(hand, std::max<std::int64_t>(0, tick - 40), tick,
           [](std::int64_t) { return along_x(5.0); });
       const double t = seconds(tick);
@@ -173,9 +176,9 @@ TEST(SimulatedOperator, BalancesItsEnergiesWhateverHappens) {
   options.channel.command_delay_ns = 2 * kTick;
   options.channel.jitter_ns = 100'000;
   options.path = random_via_points({.seed = 3, .count = 8, .radius = 0.05});
-  options.releases = {{0.05, 0.08}, {0.2, 0.21}};
+  options.releases = {{0.01, 0.02}, {0.03, 0.035}};
   SimulatedOperator hand(options);
-  for (std::int64_t tick = 0; tick < 1600; ++tick) {
+  for (std::int64_t tick = 0; tick < rounds(1600, 200); ++tick) {
     const DeviceState state = hand.read(tick * kTick);
     // A stiff wall below z = 0, as a loop would render it.
     const double force = state.X_DH.position.z() < 0.0 ? -2000.0 * state.X_DH.position.z() : 0.0;
@@ -192,7 +195,8 @@ TEST(SimulatedOperator, DoesNotDependOnTheSubstep) {
     options.mechanism.friction = 0.2;
     options.path = random_via_points({.seed = 8, .count = 4, .radius = 0.1});
     SimulatedOperator hand(options);
-    run(hand, 0, 800, [](std::int64_t tick) { return along_x(tick % 100 < 50 ? 2.0 : -2.0); });
+    run(hand, 0, rounds(800, 80),
+        [](std::int64_t tick) { return along_x(tick % 100 < 50 ? 2.0 : -2.0); });
     return hand.truth().X_DH;
   };
   const Pose coarse = end_of(2.5e-6);
@@ -205,10 +209,10 @@ TEST(SimulatedOperator, FollowsItsPathWhereNothingIsInTheWay) {
   SimulatedOperatorOptions options = plain();
   options.hand.stiffness = 1500.0;
   options.hand.damping = 40.0;
-  options.path = random_via_points({.seed = 2, .count = 10, .radius = 0.1});
+  options.path = random_via_points({.seed = 2, .count = 10, .radius = 0.1, .longest_rest = 0.0});
   SimulatedOperator hand(options);
   double worst = 0.0;
-  for (std::int64_t tick = 0; tick < 4000; ++tick) {
+  for (std::int64_t tick = 0; tick < rounds(4000, 300); ++tick) {
     (void)hand.read(tick * kTick);
     const OperatorTruth truth = hand.truth();
     worst = std::max(worst, (truth.X_DH.position - truth.target.X_DH.position).norm());
@@ -223,7 +227,7 @@ TEST(SimulatedOperator, RoundsAsEncodersDo) {
   SimulatedOperator hand(options);
   const double step = options.channel.resolution;
   bool between = false;
-  for (std::int64_t tick = 0; tick < 1000; ++tick) {
+  for (std::int64_t tick = 0; tick < rounds(1000, 200); ++tick) {
     const DeviceState state = hand.read(tick * kTick);
     const Vector3d exact = hand.truth().X_DH.position;
     for (int axis = 0; axis < 3; ++axis) {
@@ -276,7 +280,7 @@ TEST(SimulatedOperator, JittersWithoutGoingBack) {
   std::uint64_t last = 0;
   std::int64_t oldest = 0;
   bool stayed = false;
-  for (std::int64_t tick = 0; tick < 2000; ++tick) {
+  for (std::int64_t tick = 0; tick < rounds(2000, 200); ++tick) {
     const DeviceState state = hand.read(tick * kTick);
     ASSERT_GE(state.sequence, last);
     stayed = stayed || (tick > 10 && state.sequence == last);
@@ -314,6 +318,7 @@ TEST(SimulatedOperator, LetsGoAndGrasps) {
 TEST(SimulatedOperator, ForgetsACommandAfterItsLifetime) {
   SimulatedOperatorOptions options = loose();
   options.mechanism.mass = 1.0;
+  options.substep = 1e-4;
   SimulatedOperator hand(options);
   (void)hand.read(0);
   hand.command(along_x(1.0), 0);
@@ -337,9 +342,9 @@ TEST(SimulatedOperator, TremblesByTheGivenAmount) {
   double turns = 0.0;
   int crossings = 0;
   double last = 0.0;
-  constexpr int kSteps = 4000;  // Of 5 ms: 20 s.
+  constexpr int kSteps = 1000;  // Of 20 ms: 20 s.
   for (int step = 0; step < kSteps; ++step) {
-    (void)hand.read(step * std::int64_t{5'000'000});
+    (void)hand.read(step * std::int64_t{20'000'000});
     const HandTarget target = hand.truth().target;
     squares += target.X_DH.position.cwiseAbs2();
     turns += std::pow(target.X_DH.rotation.angularDistance(Quaterniond::Identity()), 2);
@@ -361,7 +366,7 @@ TEST(SimulatedOperator, IsTheSameForOneSeed) {
     options.seed = seed;
     options.channel.jitter_ns = 300'000;
     SimulatedOperator hand(options);
-    run(hand, 0, 500, [](std::int64_t) { return along_x(1.0); });
+    run(hand, 0, rounds(500, 50), [](std::int64_t) { return along_x(1.0); });
     return hand.truth().X_DH.position;
   };
   EXPECT_EQ(end_of(1), end_of(1));

@@ -51,6 +51,8 @@ SpaceMouseOptions mouse_options(const FakeDaemon& daemon) {
   SpaceMouseOptions options;
   options.socket = daemon.path;
   options.retry_ns = 2'000'000;
+  options.hold_ns = 20'000'000'000;  // Machines of tests stall.
+  options.drift_after_ns = 20'000'000'000;
   return options;
 }
 

@@ -18,6 +18,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* NOLINTBEGIN(readability-identifier-naming): the names are those of C. */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -123,5 +125,7 @@ firstcontact_device_plugin(void);
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

@@ -350,17 +350,18 @@ struct Haply::Data {
     }
   }
 
+  // In an order without gaps.
+  MailSlot<DeviceState> states;
+  MailSlot<TimedForce> commands;
+  DeviceState state;  // Of the thread.
   HaplyOptions options;
   detail::HaplyChoice choice;
   DeviceCapabilities capabilities;
-  bool since_3_5 = false;
-  std::uint32_t mask = 0;
-  DeviceState state;  // Of the thread.
   detail::DriverReport report;
   detail::StopSignal stop;
-  MailSlot<DeviceState> states;
-  MailSlot<TimedForce> commands;
   std::thread thread;
+  std::uint32_t mask = 0;
+  bool since_3_5 = false;
 };
 
 Haply::Haply(const HaplyOptions& options) : data_(std::make_unique<Data>(options)) {

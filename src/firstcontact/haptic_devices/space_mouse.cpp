@@ -154,12 +154,12 @@ struct SpaceMouse::Data {
     }
   }
 
+  MailSlot<detail::SpaceMouseSample> slot;
   SpaceMouseOptions options;
   DeviceCapabilities capabilities;
   detail::SpaceMouseRates rates;
   detail::DriverReport report;
   detail::StopSignal stop;
-  MailSlot<detail::SpaceMouseSample> slot;
   std::thread thread;
 };
 

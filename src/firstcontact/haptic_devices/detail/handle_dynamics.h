@@ -54,8 +54,8 @@ struct HandleEnergy {
       ((law.inertia - 0.5 * h * c) * rate + h * force) / (law.inertia + 0.5 * h * c);
   const double speed = smooth.norm();
   const double taken = h * law.friction / law.inertia;
-  const Eigen::Vector3d result = speed > taken ? Eigen::Vector3d((1.0 - taken / speed) * smooth)
-                                               : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  Eigen::Vector3d result = speed > taken ? Eigen::Vector3d((1.0 - taken / speed) * smooth)
+                                         : Eigen::Vector3d(Eigen::Vector3d::Zero());
   const Eigen::Vector3d damped = 0.5 * (rate + smooth);
   const Eigen::Vector3d displacement = 0.5 * h * (rate + result);
   energy.command_work += command.dot(displacement);

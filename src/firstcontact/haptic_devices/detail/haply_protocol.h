@@ -15,14 +15,14 @@ namespace firstcontact::detail {
 
 /// What one message of the service says.
 struct HaplyMessage {
-  bool has_session = false;  ///< As messages of 3.5 have.
-  std::string device_id;     ///< Of the Inverse3; empty if there is none.
-  std::string model;         ///< `config.type` of the Inverse3, where the message has it.
-  bool ready = true;         ///< As its `status` reports.
+  std::optional<Eigen::Quaterniond> orientation;       ///< Of the grip; of length 1.
   std::optional<Eigen::Vector3d> position;             ///< [m]
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
-  std::optional<Eigen::Quaterniond> orientation;       ///< Of the grip; of length 1.
+  std::string device_id;                               ///< Of the Inverse3; empty if there is none.
+  std::string model;          ///< `config.type` of the Inverse3, where the message has it.
   std::uint32_t buttons = 0;  ///< Of the grip, in the order of their names.
+  bool ready = true;          ///< As its `status` reports.
+  bool has_session = false;   ///< As messages of 3.5 have.
 };
 
 /// Which devices of a message are looked at. Empty for the first one.
