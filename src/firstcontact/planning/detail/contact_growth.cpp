@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace firstcontact::detail {
 namespace {
 
+constexpr double kSamePassage = 0.02;     // [-]  Of the range: two places so near are one.
+constexpr std::size_t kFirstDraws = 64;   // Of gaps; later ones are drawn more seldom.
 constexpr double kShortOfContact = 0.98;  // [-]  Of what is proven of a blocked edge.
 
 /// Edges in contact that are allowed for each other one, until so many others were checked.
@@ -23,6 +26,21 @@ ContactGrowth::ContactGrowth(PlanWork& work, ContactUse use, double range)
   if (use != ContactUse::none) {
     steering_.emplace(work, work.scene(), range);
   }
+  if (use == ContactUse::sample || use == ContactUse::both) {
+    gaps_.emplace(work.scene());
+  }
+}
+
+void ContactGrowth::next(PlanRandom& random) {
+  if (use_ == ContactUse::none || use_ == ContactUse::slide) {
+    return;
+  }
+  const std::size_t drawn = random.below(4);
+  const bool has_gaps = gaps_->may_draw();
+  turn_ = drawn == 0                               ? Turn::edges
+          : drawn == 1 && use_ == ContactUse::both ? Turn::pushes
+          : has_gaps                               ? Turn::passages
+                                                   : Turn::edges;
 }
 
 bool ContactGrowth::is_due() const {
@@ -69,6 +87,16 @@ std::optional<std::size_t> ContactGrowth::take(PlanTree& tree, std::size_t from,
 
 std::optional<ContactGrowth::Followed> ContactGrowth::follow(PlanTree& tree, std::size_t from,
                                                              const Configuration& target) {
+  return turn_ == Turn::edges ? go(tree, from, target) : std::nullopt;
+}
+
+std::optional<ContactGrowth::Followed> ContactGrowth::follow_to_passage(
+    PlanTree& tree, std::size_t from, const Configuration& target) {
+  return use_ == ContactUse::both ? go(tree, from, target) : std::nullopt;
+}
+
+std::optional<ContactGrowth::Followed> ContactGrowth::go(PlanTree& tree, std::size_t from,
+                                                         const Configuration& target) {
   if (!is_due()) {
     return std::nullopt;
   }
@@ -93,7 +121,7 @@ std::optional<ContactGrowth::Followed> ContactGrowth::follow(PlanTree& tree, std
 }
 
 std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, PlanRandom& random) {
-  if (use_ != ContactUse::both || tree.marked().empty() || !is_due()) {
+  if (turn_ != Turn::pushes || tree.marked().empty() || !is_due()) {
     return std::nullopt;
   }
   return counted([&] {
@@ -104,6 +132,44 @@ std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, PlanRandom& rando
     const Configuration begin = tree[from];
     return take(tree, from, steering_->push(begin, steering_->direction(random)));
   });
+}
+
+void ContactGrowth::find_passage(PlanRandom& random) {
+  ++draws_;
+  const std::optional<GapSampler::Place> place = gaps_->draw(random);
+  const ConfigurationSpace& space = work_.space();
+  if (!place || !space.holds(place->q) ||
+      passages_.distance(space, place->q) < kSamePassage * range_ || !work_.is_free(place->q)) {
+    return;
+  }
+  PlanTree tree(space);
+  const std::size_t root = tree.add(place->q, PlanTree::kNoParent);
+  tree.mark(root);
+  if (use_ == ContactUse::both) {
+    Eigen::VectorXd open = Eigen::VectorXd::Zero(6);
+    open.head<3>() = range_ * place->open;
+    for (const double sign : {1.0, -1.0}) {
+      ++work_.counts().contacts.pushes;
+      take(tree, root, steering_->push(place->q, sign * open));
+    }
+  }
+  passages_.add(std::move(tree));
+}
+
+std::optional<PassageTrees::Node> ContactGrowth::passage(std::size_t tree,
+                                                         const Configuration& near,
+                                                         PlanRandom& random) {
+  if (turn_ != Turn::passages || !is_due()) {
+    return std::nullopt;
+  }
+  // More and more seldom, but without an end.
+  if (draws_ < kFirstDraws || random.below(draws_) < kFirstDraws) {
+    counted([&] {
+      find_passage(random);
+      return true;
+    });
+  }
+  return passages_.draw(work_.space(), tree, near, random);
 }
 
 }  // namespace firstcontact::detail

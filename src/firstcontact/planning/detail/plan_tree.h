@@ -17,7 +17,7 @@ class PlanTree {
  public:
   static constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
 
-  explicit PlanTree(const ConfigurationSpace& space) : space_(space) {}
+  explicit PlanTree(const ConfigurationSpace& space) : space_(&space) {}
 
   /// Adds a place and returns its number.
   ///
@@ -38,6 +38,8 @@ class PlanTree {
   void mark(std::size_t node) { marked_.push_back(node); }
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
+  /// kNoParent of a root; else less than the node.
+  [[nodiscard]] std::size_t parent(std::size_t node) const { return parents_[node]; }
   [[nodiscard]] const Configuration& operator[](std::size_t node) const { return places_[node]; }
   /// In the order in which they were marked.
   [[nodiscard]] const std::vector<std::size_t>& marked() const { return marked_; }
@@ -46,7 +48,7 @@ class PlanTree {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t k : found_) {
-      const double distance = space_.distance(places_[k], q);
+      const double distance = space_->distance(places_[k], q);
       if (distance < least) {
         least = distance;
         best = k;
@@ -65,7 +67,7 @@ class PlanTree {
   }
 
  private:
-  const ConfigurationSpace& space_;
+  const ConfigurationSpace* space_;
   std::vector<Configuration> places_;
   std::vector<std::size_t> parents_;
   std::vector<std::size_t> found_;

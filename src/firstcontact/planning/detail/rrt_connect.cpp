@@ -40,10 +40,14 @@ class Connect {
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
+      contact_.next(random);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
       }
       if (const auto met = push(grows, random)) {
+        return joined(*met);
+      }
+      if (const auto met = reach_passage(grows, random)) {
         return joined(*met);
       }
       // The lesser tree grows next: M. Kuffner's balance.
@@ -81,6 +85,34 @@ class Connect {
   std::optional<Meeting> push(std::size_t grows, PlanRandom& random) {
     const std::optional<std::size_t> end = contact_.push(trees_[grows], random);
     return end ? meet(grows, *end) : std::nullopt;
+  }
+
+  /// Extends a tree to a passage, and takes it over; meets the other tree if that has it already.
+  std::optional<Meeting> reach_passage(std::size_t grows, PlanRandom& random) {
+    PlanTree& tree = trees_[grows];
+    const auto passage = contact_.passage(grows, tree[tree.size() - 1], random);
+    if (!passage) {
+      return std::nullopt;
+    }
+    const Configuration target = contact_.passages()[*passage];
+    const std::size_t from = tree.nearest(target);
+    std::optional<std::size_t> reached;
+    if (work_.is_free(tree[from], target)) {
+      reached = tree.add(target, from);
+    } else if (const auto followed = contact_.follow_to_passage(tree, from, target);
+               followed && followed->reaches_target) {
+      reached = followed->node;
+    }
+    if (!reached) {
+      return std::nullopt;
+    }
+    const std::optional<std::size_t> owner = contact_.passages().owner(passage->passage);
+    if (!owner) {
+      contact_.passages().give(*passage, tree, *reached, grows);
+      return meet(grows, tree.size() - 1);
+    }
+    const std::size_t other = contact_.passages().in_owner(*passage);
+    return grows == 0 ? Meeting{*reached, other} : Meeting{other, *reached};
   }
 
   /// Extends the other tree towards a node of one.
