@@ -26,6 +26,7 @@ using detail::PlanWork;
 
 constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
 constexpr int kSamplesOfRange = 64;
+constexpr std::uint64_t kLessEffort = 20;
 constexpr int kWiderMargins = 12;  // Each twice as wide as the one before.
 
 void require_plan(bool condition, const std::string& what) {
@@ -68,6 +69,13 @@ double default_range(const ConfigurationSpace& space) {
   return kShareOfRange * sum / kSamplesOfRange;
 }
 
+/// In contact an edge is soon tried again, and its proven part is kept: there less effort is more.
+std::uint64_t effort_of_search(const PlanOptions& options) {
+  return options.contacts == ContactUse::none
+             ? options.effort
+             : std::max<std::uint64_t>(options.effort / kLessEffort, 1);
+}
+
 /// One question, from the start to the proof.
 class PlanSearch {
  public:
@@ -79,7 +87,7 @@ class PlanSearch {
                           std::chrono::duration<double>(std::min(options.time, 1e9)))),
         checker_(scene, {.tolerance = options.tolerance,
                          .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
-                         .effort = options.effort,
+                         .effort = effort_of_search(options),
                          .stop = options.stop}),
         work_(checker_, options_, begin_, end_) {}
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/geometry/mesh.h>
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/robot_check/robot_scene.h>
 
@@ -14,13 +17,32 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr std::size_t kMostContacts = 48;
-constexpr double kAlike = 0.05;       // [-]  Contacts whose rows differ by less are one.
+constexpr std::size_t kTriangles = 600;  // Of the mover that are looked at, where it has many more.
+constexpr double kAlike = 0.05;          // [-]  Contacts whose rows differ by less are one.
 constexpr double kBeside = 0.02;      // [-]  Of the reach of the mover: contacts so near are one.
 constexpr double kDifference = 1e-6;  // [rad or m]  Of a coordinate, for its Jacobian.
 
 Pose pose_of_geometry(const Pose& X_WM, const Pose& X_MG) {
   const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
   return {X_WM.position + R_WM * X_MG.position, R_WM * X_MG.rotation.normalized()};
+}
+
+/// A shape of some triangles of another one, spread over it, where that has very many.
+Shape thinned(const Shape& shape) {
+  const Mesh& mesh = shape.mesh();
+  if (mesh.triangles.size() <= 2 * kTriangles) {
+    return shape;
+  }
+  Mesh few;
+  for (std::size_t k = 0; k < kTriangles; ++k) {
+    const auto& triangle = mesh.triangles[k * mesh.triangles.size() / kTriangles];
+    const auto first = static_cast<std::uint32_t>(few.vertices.size());
+    for (const std::uint32_t vertex : triangle) {
+      few.vertices.push_back(mesh.vertices[vertex]);
+    }
+    few.triangles.push_back({first, first + 1, first + 2});
+  }
+  return Shape(std::move(few), shape.radius());
 }
 
 /// [m]  Of the balls around two shapes.
@@ -85,9 +107,12 @@ ContactFinder::ContactFinder(const PlanScene& scene, const TangentSpace& tangent
     }
   }
   resting_.resize(all.size());
+  moved_.resize(all.size());
   for (std::size_t member = 0; member < all.size(); ++member) {
     for (const MemberGeometry& geometry : all.geometries(member)) {
-      if (!moves_[member]) {
+      if (moves_[member]) {
+        moved_[member].push_back(thinned(geometry.shape));
+      } else {
         resting_[member].emplace_back(geometry.shape,
                                       pose_of_geometry(all.pose(member, 0.0), geometry.X_MG));
       }
@@ -137,7 +162,7 @@ const PlacedShape& ContactFinder::placed(std::size_t member, std::size_t geometr
     return resting_[member][geometry];
   }
   const MemberGeometry& of = plan_.scene.geometries(member)[geometry];
-  return moved.emplace(of.shape, pose_of_geometry(at.X_WM, of.X_MG));
+  return moved.emplace(moved_[member][geometry], pose_of_geometry(at.X_WM, of.X_MG));
 }
 
 void ContactFinder::take(const Pair& pair, const ContactsAt& at, double band,

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/tangent_space.h>
@@ -34,6 +35,8 @@ struct ContactsAt {
 };
 
 /// Finds what is near a mover. For one thread; refers to the scene.
+///
+/// Where the mover has very many triangles, some of them stand for all: contacts only steer.
 class ContactFinder {
  public:
   /// @param kept  [m]  what edges keep beyond the margins
@@ -58,6 +61,7 @@ class ContactFinder {
   const TangentSpace& tangents_;
   std::vector<Pair> pairs_;
   std::vector<bool> moves_;
+  std::vector<std::vector<Shape>> moved_;          // Of members that move; thinned out.
   std::vector<std::vector<PlacedShape>> resting_;  // Of members that do not move.
   std::optional<RobotScene> posed_;                // Of a robot with joints.
   Workspace workspace_;

@@ -16,7 +16,7 @@ struct Ration {
   std::size_t until;
   double share;
 };
-constexpr std::array<Ration, 2> kRations = {{{200, 0.02}, {1000, 0.5}}};
+constexpr std::array<Ration, 2> kRations = {{{100, 0.02}, {600, 0.5}}};
 constexpr double kLastShare = 4.0;
 
 }  // namespace
@@ -31,12 +31,17 @@ ContactGrowth::ContactGrowth(PlanWork& work, ContactUse use, double range)
   }
 }
 
-void ContactGrowth::next(PlanRandom& random) {
+void ContactGrowth::next(bool is_stuck, PlanRandom& random) {
+  is_stuck_ = is_stuck;
   if (use_ == ContactUse::none || use_ == ContactUse::slide) {
     return;
   }
   const std::size_t drawn = random.below(4);
   const bool has_gaps = gaps_->may_draw();
+  if (is_stuck) {
+    turn_ = drawn < 2 && use_ == ContactUse::both ? Turn::pushes : Turn::edges;
+    return;
+  }
   turn_ = drawn == 0                               ? Turn::edges
           : drawn == 1 && use_ == ContactUse::both ? Turn::pushes
           : has_gaps                               ? Turn::passages
@@ -44,8 +49,8 @@ void ContactGrowth::next(PlanRandom& random) {
 }
 
 bool ContactGrowth::is_due() const {
-  if (!steering_) {
-    return false;
+  if (!steering_ || is_stuck_) {
+    return steering_.has_value();
   }
   const std::size_t others = work_.counts().edges_checked - spent_;
   double allowed = 0.0;

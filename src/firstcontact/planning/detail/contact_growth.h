@@ -32,7 +32,9 @@ class ContactGrowth {
   };
 
   /// Draws whose turn it is: blocked edges, pushes, or passages.
-  void next(PlanRandom& random);
+  ///
+  /// @param is_stuck  no edge has led away from where the tree begins: contacts are not rationed
+  void next(bool is_stuck, PlanRandom& random);
 
   /// Follows a blocked edge from a node as far as contacts let it; none where that leads nowhere,
   /// or is not this edge's turn.
@@ -77,6 +79,7 @@ class ContactGrowth {
   std::optional<GapSampler> gaps_;
   PassageTrees passages_;
   std::size_t draws_ = 0;  // Of gaps.
+  bool is_stuck_ = false;
   std::size_t spent_ = 0;  // Edges that were checked in contact.
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kHover = 0.01;      // [-]  Of the reach of the mover: the gap that is kept.
 constexpr double kFirstStep = 0.1;   // [-]  Of the reach.
-constexpr double kBand = 0.1;        // [-]  Of the reach: contacts that are farther do not steer.
+constexpr double kBand = 0.04;       // [-]  Of the reach: contacts that are farther do not steer.
 constexpr double kLeastStep = 1e-5;  // [-]  Of the reach.
 constexpr double kTaken = 0.9;       // [-]  Of what is proven of a blocked step.
 constexpr double kStuck = 0.02;      // [-]  A projected step that is shorter, of the wanted one.
@@ -40,6 +40,9 @@ class ContactSteering::Way {
   }
 
   ContactWay run() {
+    if (aim_.target == nullptr && centre()) {
+      trail_ = {q_};
+    }
     for (std::size_t k = 0; k < kMostSteps && !s_.work_.is_over(); ++k) {
       const Eigen::VectorXd wanted = wanted_motion();
       const double length = t_.length(wanted);
@@ -80,14 +83,24 @@ class ContactSteering::Way {
   void take(Configuration to) {
     travelled_ += t_.length(t_.difference(q_, to));
     q_ = std::move(to);
+    looked_within_ = -1.0;
     way_.places.push_back(q_);
     trail_.push_back(q_);
   }
 
+  /// The contacts at the place; not looked for again as long as it is the same.
+  const ContactsAt& contacts_within(double band) {
+    if (!(band <= looked_within_)) {
+      at_ = s_.finder_.near(q_, band);
+      looked_within_ = band;
+    }
+    return at_;
+  }
+
   /// One step that contacts constrain. Whether it led anywhere.
   bool contact_step(const Eigen::VectorXd& wanted, double length) {
-    const ContactsAt at =
-        s_.finder_.near(q_, std::min(2.0 * length, kBand * t_.reach()) + 2.0 * s_.hover_);
+    const ContactsAt& at =
+        contacts_within(std::min(2.0 * length, kBand * t_.reach()) + 2.0 * s_.hover_);
     const ContactMotion motion = contact_motion(t_, at, wanted, s_.hover_);
     way_.active = motion.active;
     way_.is_near = !at.contacts.empty() && at.contacts.front().gap <= s_.hover_;
@@ -106,6 +119,12 @@ class ContactSteering::Way {
     if (!s_.work_.space().holds(to)) {
       return false;
     }
+    if (std::optional<Configuration> near = t_.screwed(q_, dq);
+        near && s_.work_.is_free(q_, *near)) {
+      take(*std::move(near));
+      step_ = std::min(2.0 * step_, s_.range_);
+      return true;
+    }
     const EdgeAnswer answer = s_.work_.check(q_, to);
     if (answer.verdict == EdgeVerdict::free) {
       take(std::move(to));
@@ -120,12 +139,50 @@ class ContactSteering::Way {
     return step_ >= least_step();
   }
 
+  /// Goes to the middle between contacts along one axis of the mover, so that what is repeated
+  /// from there is not led astray by the play of a fit.
+  bool centre() {
+    if (!s_.work_.space().is_body()) {
+      return false;
+    }
+    const ContactMotion motion = contact_motion(t_, contacts_within(2.0 * s_.hover_),
+                                                Eigen::VectorXd::Zero(t_.size()), s_.hover_);
+    Eigen::VectorXd in_body = t_.in_body(q_, motion.dq);
+    Eigen::Index axis = 0;
+    in_body.head<3>().cwiseAbs().maxCoeff(&axis);
+    const double along = in_body[axis];
+    in_body.setZero();
+    in_body[axis] = along;
+    if (!(std::abs(along) > 0.1 * least_step())) {
+      return false;
+    }
+    Configuration to = t_.moved(q_, t_.in_world(q_, in_body));
+    if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
+      return false;
+    }
+    take(std::move(to));
+    return true;
+  }
+
   /// Takes all that the trail has led to once more, if that is proven, and again.
   void repeat_trail() {
     if (trail_.size() < 2 || waits_ > 0) {
       waits_ -= waits_ > 0 ? 1 : 0;
       return;
     }
+    bool any = repeat_while_free();
+    if (!any && turns_ && centre()) {
+      any = repeat_while_free();
+    }
+    turns_ = any;
+    wait_ = any ? 0 : std::min(2 * wait_ + 1, kLongestWait);
+    waits_ = wait_;
+    if (!any && trail_.size() > 8) {
+      trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(trail_.size() / 2));
+    }
+  }
+
+  bool repeat_while_free() {
     bool any = false;
     while (!s_.work_.is_over() && travelled_ < aim_.most) {
       shorten_trail();
@@ -149,11 +206,7 @@ class ContactSteering::Way {
       take(std::move(to));
       any = true;
     }
-    wait_ = any ? 0 : std::min(2 * wait_ + 1, kLongestWait);
-    waits_ = wait_;
-    if (!any && trail_.size() > 8) {
-      trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(trail_.size() / 2));
-    }
+    return any;
   }
 
   /// Drops what is too far back: an edge turns by less than half a turn.
@@ -205,9 +258,12 @@ class ContactSteering::Way {
   ContactWay way_;
   double travelled_ = 0.0;
   bool held_back_ = false;
-  double free_way_ = 0.0;  // [m]  Since the last contact.
-  std::size_t wait_ = 0;   // Steps between two tries to repeat the trail.
-  std::size_t waits_ = 0;  // Steps that are left until the next try.
+  ContactsAt at_;
+  double looked_within_ = -1.0;  // [m]  Of the contacts; below 0 where there are none yet.
+  double free_way_ = 0.0;        // [m]  Since the last contact.
+  bool turns_ = false;           // The trail was repeated the last time.
+  std::size_t wait_ = 0;         // Steps between two tries to repeat the trail.
+  std::size_t waits_ = 0;        // Steps that are left until the next try.
   std::size_t looked_at_ = 0;
   double travelled_before_ = 0.0;
   double before_ = 0.0;

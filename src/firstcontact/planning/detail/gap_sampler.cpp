@@ -15,7 +15,9 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr int kRays = 64;           // Tries to find a gap.
+constexpr std::size_t kRays = 64;  // Tries to find a gap.
+constexpr std::size_t kWork =
+    300'000;  // Triangles that these look at; fewer tries where they are many.
 constexpr std::size_t kParts = 32;  // Thin parts that are kept.
 constexpr int kDrawsOfParts = 200;  // Rays for them.
 constexpr double kThinnest = 0.25;  // [-]  Of a gap: thinner parts do not say where to be in it.
@@ -178,7 +180,8 @@ std::optional<GapSampler::Place> GapSampler::draw(PlanRandom& random) {
       parts_.push_back(*part);
     }
   }
-  for (int k = 0; k < kRays && !parts_.empty(); ++k) {
+  const std::size_t rays = std::clamp<std::size_t>(kWork / fixed_.size(), 4, kRays);
+  for (std::size_t k = 0; k < rays && !parts_.empty(); ++k) {
     const std::optional<GapFrame> gap = fixed_.gap(1.0, most_, random);
     const GapFrame& part = parts_[random.below(parts_.size())];
     if (!gap || !fits(part, *gap)) {

@@ -44,7 +44,7 @@ class RayTarget {
   /// @param most  [m]  wider ones are of no interest
   [[nodiscard]] std::optional<GapFrame> gap(double side, double most, PlanRandom& random) const;
 
-  [[nodiscard]] bool is_empty() const { return triangles_.empty(); }
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
  private:
   struct Triangle {
@@ -73,7 +73,7 @@ class GapSampler {
   explicit GapSampler(const PlanScene& scene);
 
   /// Whether there is something to draw: a body, and surfaces at rest.
-  [[nodiscard]] bool may_draw() const { return !fixed_.is_empty() && !moved_.is_empty(); }
+  [[nodiscard]] bool may_draw() const { return fixed_.size() > 0 && moved_.size() > 0; }
 
   /// A place and the direction along which the gap is open, in axes of the body [-].
   struct Place {

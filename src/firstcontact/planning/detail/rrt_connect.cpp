@@ -13,6 +13,7 @@
 namespace firstcontact::detail {
 namespace {
 
+constexpr std::size_t kTriesToLeave = 8;   // Iterations before a tree without edges is stuck.
 constexpr std::size_t kReportEvery = 256;  // Iterations.
 
 class Connect {
@@ -40,7 +41,7 @@ class Connect {
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
-      contact_.next(random);
+      contact_.next(iteration >= kTriesToLeave && trees_[grows].size() == 1, random);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
       }

@@ -13,6 +13,8 @@
 namespace firstcontact::detail {
 namespace {
 
+constexpr double kNearScrew = 0.05;  // [-]  What a motion may depart from a screw about an axis.
+
 Eigen::Vector3d place_of(const Configuration& q) { return {q[0], q[1], q[2]}; }
 
 Eigen::Quaterniond turn_of(const Configuration& q) {
@@ -126,6 +128,31 @@ Eigen::VectorXd TangentSpace::in_world(const Configuration& q, const Eigen::Vect
   Eigen::VectorXd turned(6);
   turned << there * Eigen::Vector3d(dq.head<3>()), there * Eigen::Vector3d(dq.tail<3>());
   return turned;
+}
+
+std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
+                                                   const Eigen::VectorXd& dq) const {
+  if (!space_.is_body()) {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd in_body_axes = in_body(q, dq);
+  const Eigen::Vector3d w = in_body_axes.tail<3>();
+  const Eigen::Vector3d v = in_body_axes.head<3>() - w.cross(p_BC_);  // Of the origin.
+  const bool turns = reach_ * w.norm() > kNearScrew * v.norm();
+  const Eigen::Vector3d& way = turns ? w : v;
+  Eigen::Index axis = 0;
+  const double along = way.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
+  const Eigen::Vector3d beside = v - v[axis] * unit;
+  if (!(along > 0.0) || (way - way[axis] * unit).norm() > kNearScrew * along ||
+      (turns && beside.norm() > kNearScrew * reach_ * along)) {
+    return std::nullopt;
+  }
+  const Eigen::Quaterniond begin = turn_of(q);
+  const Eigen::Vector3d place = place_of(q) + begin * Eigen::Vector3d(v[axis] * unit);
+  const Eigen::Quaterniond end =
+      turns ? (begin * rotation_from_vector(Eigen::Vector3d(w[axis] * unit))).normalized() : begin;
+  return Configuration{place.x(), place.y(), place.z(), end.w(), end.x(), end.y(), end.z()};
 }
 
 MovedMember TangentSpace::moved_body(const Configuration& q) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -53,6 +54,14 @@ class TangentSpace {
   /// A motion in axes that go with the mover, and back: a screw is a constant one there.
   [[nodiscard]] Eigen::VectorXd in_body(const Configuration& q, const Eigen::VectorXd& dq) const;
   [[nodiscard]] Eigen::VectorXd in_world(const Configuration& q, const Eigen::VectorXd& dq) const;
+
+  /// The place to which the screw leads that is near a motion, about or along an axis of the
+  /// body's frame; none where the motion is near none, or of a robot.
+  ///
+  /// An edge turns a body about its origin. Only such screws are edges, and they are proven in few
+  /// steps where surfaces slide on them.
+  [[nodiscard]] std::optional<Configuration> screwed(const Configuration& q,
+                                                     const Eigen::VectorXd& dq) const;
 
   /// The member of a body that is planned, at a place.
   [[nodiscard]] MovedMember moved_body(const Configuration& q) const;
