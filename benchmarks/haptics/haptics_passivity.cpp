@@ -4,10 +4,10 @@
 //     haptics_passivity [SECONDS [HAND]]
 //
 // A handle with mass, damping b, friction f_c, an encoder of step D and a delay is pressed on a
-// floor by a hand of stiffness HAND [N/m], which lets go at the end. The command is held between
-// ticks, the dynamics in between is continuous. A stiffness counts as active where the handle goes
-// on to swing: the loop has given more energy than it took (less than what one tick of the spring
-// at rest holds), or the handle is not at rest at the end.
+// floor by a hand of stiffness HAND [N/m], which holds it from then on. The command is held between
+// ticks, the dynamics in between is continuous. The hand has no damping, so what it and the spring
+// lose is lost by the mechanism. A stiffness counts as active where the handle swings farther at
+// the end than in the middle.
 //
 // Theory: J. J. Abbott, A. M. Okamura, "Effects of position quantization and sampling rate on
 // virtual-wall passivity", IEEE Transactions on Robotics 21 (2005): K <= min(2 b / T, 2 f_c / D)
@@ -39,9 +39,24 @@ struct DeviceClass {
   double rate = 4000.0;  // [Hz]
 };
 
+/// How far the handle swings, peak to peak.
 struct Swing {
-  double given = 0.0;      // [J]  By the loop, over the time after the hand let go.
-  double amplitude = 0.0;  // [m]  Peak to peak, in the last tenth.
+  double early = 0.0;  // [m]  From 0.3 to 0.5 of the time.
+  double late = 0.0;   // [m]  From 0.8 on.
+};
+
+/// Peak to peak.
+class Extent {
+ public:
+  void add(double x) {
+    least_ = std::min(least_, x);
+    greatest_ = std::max(greatest_, x);
+  }
+  [[nodiscard]] double size() const { return std::max(0.0, greatest_ - least_); }
+
+ private:
+  double least_ = 1e9;
+  double greatest_ = -1e9;
 };
 
 Swing swing_of(const DeviceClass& device, double stiffness, double seconds, double hand) {
@@ -81,26 +96,20 @@ Swing swing_of(const DeviceClass& device, double stiffness, double seconds, doub
   operator_options.hand.damping = 0.0;  // A hand that takes no energy away is the worst.
   SimulatedOperator handle(operator_options);
   const auto count = static_cast<std::int64_t>(seconds * device.rate);
-  double given_before = 0.0;
-  double least = 1e9;
-  double greatest = -1e9;
-  Swing swing;
+  Extent early;
+  Extent late;
   for (std::int64_t k = 0; k < count; ++k) {
     const std::int64_t now = session.time_ns();
     const std::array states{handle.read(now)};
-    if (k == count / 2) {
-      given_before = handle.energy().command_work;
-    }
-    if (k > count - count / 10) {
-      const double z = handle.truth().X_DH.position.z();
-      least = std::min(least, z);
-      greatest = std::max(greatest, z);
+    const double part = static_cast<double>(k) / static_cast<double>(count);
+    if (part >= 0.8) {
+      late.add(handle.truth().X_DH.position.z());
+    } else if (part >= 0.3 && part < 0.5) {
+      early.add(handle.truth().X_DH.position.z());
     }
     handle.command(session.step(states).tools[0].command, now);
   }
-  swing.given = handle.energy().command_work - given_before;
-  swing.amplitude = greatest - least;
-  return swing;
+  return {early.size(), late.size()};
 }
 
 double bound_of(const DeviceClass& device) {
@@ -117,7 +126,7 @@ double bound_of(const DeviceClass& device) {
 bool is_active(const DeviceClass& device, double stiffness, double seconds, double hand) {
   const Swing swing = swing_of(device, stiffness, seconds, hand);
   const double still = std::max(2e-6, 2.0 * device.resolution);
-  return swing.amplitude > still;
+  return swing.late > std::max(still, 1.02 * swing.early);
 }
 
 /// [N/m]  The largest stiffness found that is not active, by bisection between 1 and 1e6.
