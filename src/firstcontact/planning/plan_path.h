@@ -30,6 +30,7 @@ struct PlanProgress {
 
 struct PlanOptions {
   Planner planner = Planner::rrt_connect;
+  ContactUse contacts = ContactUse::none;  ///< Of RRT-Connect; others take `none` only.
   std::uint64_t seed = 1;
   double time = 10.0;              ///< [s]  Wall clock; > 0.
   double tolerance = 1e-6;         ///< [m]  See EdgeCheckOptions.
@@ -51,6 +52,16 @@ struct BlockingPair {
   std::size_t count = 0;
 };
 
+/// The work of a planner in contact; all 0 where it was not to.
+struct ContactStatistics {
+  std::size_t slides = 0;      ///< Ways along contacts towards a target.
+  std::size_t pushes = 0;      ///< Ways along contacts in a random direction.
+  std::size_t nodes = 0;       ///< Places of trees that they ended at.
+  std::size_t in_contact = 0;  ///< Of these: no farther from contact than the gap that is kept.
+  std::size_t active = 0;      ///< Contacts that held the last steps back, of all of these.
+  std::size_t most_active = 0;
+};
+
 struct PlanStatistics {
   double seconds = 0.0;
   std::optional<double> first_path_seconds = {};
@@ -61,6 +72,7 @@ struct PlanStatistics {
   std::size_t undecided = 0;               ///< Edges that cost too much: taken as blocked.
   std::optional<double> first_cost = {};   ///< Before the shortcuts.
   std::vector<BlockingPair> blocked = {};  ///< The most frequent first.
+  ContactStatistics contacts = {};
 };
 
 enum class PlanVerdict {
@@ -77,6 +89,9 @@ struct PlanResult {
   /// The places between which edges lead; start and goal are those of the question to the bit. Only
   /// one where the start is a goal.
   std::vector<Configuration> path = {};
+  /// [s]  Of each place, from 0 to the duration, where the surroundings move; else empty. Between
+  /// two times an edge runs at a constant rate.
+  std::vector<double> times = {};
   /// [m]  Of each edge, or of the only place.
   ///
   /// It is a proven lower bound of the distance of every tested pair; none where no pair is tested.
@@ -96,6 +111,11 @@ struct PlanResult {
 ///
 /// The search keeps twice the tolerance more than the margin, so that another check of the answer
 /// with the same tolerance finds it free, too, wherever it looks.
+///
+/// Where the surroundings move (`times` of the scene), the answer is a motion from the time 0 to
+/// the duration: the mover gets to a goal within its speeds, and rests there until the end. It is
+/// proven as a whole once more. There is no approximate answer; the planner is ST-RRT's, whatever
+/// the options say, and of shortcuts there is one round.
 ///
 /// @throws std::invalid_argument  names what is wrong: an option, a limit, a place that is none; or
 ///         the start, or all goals, are not free, with the pair, how deep it is, and the nearest

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/query/first_contact.h>
 #include <firstcontact/robot_check/detail/geometry_search.h>
 
 namespace firstcontact::detail {
@@ -15,11 +16,39 @@ EdgeSearch::EdgeSearch(RobotScene scene, const RobotCheckOptions& options)
 }
 
 void EdgeSearch::set_motion(std::size_t robot, RobotMotion motion) {
+  robot_ = robot;
+  moved_body_ = motion.model().joints().empty() ? std::optional(motion.base()) : std::nullopt;
   scene_.set_motion(robot, std::move(motion));
   timeline_.follow_motions();
 }
 
+const Motion* EdgeSearch::body_motion(std::size_t geometry) const {
+  const std::size_t member = timeline_.geometries()[geometry].member;
+  if (const std::optional<RobotLink> link = scene_.robot_link(member)) {
+    return link->robot == robot_ && moved_body_ ? &*moved_body_ : nullptr;
+  }
+  return scene_.rests(member) ? &scene_.body_motion(member) : nullptr;
+}
+
 FirstContactResult EdgeSearch::ask(const GeometryCandidate& candidate, const TimeWindow& window) {
+  const Motion* A = body_motion(candidate.geometries[0]);
+  const Motion* B = body_motion(candidate.geometries[1]);
+  if (A != nullptr && B != nullptr && !candidate.hold && window.begin < window.end) {
+    const auto shape = [&](std::size_t k) -> const Shape& {
+      return *timeline_.geometries()[candidate.geometries[k]].shape;
+    };
+    FirstContactResult result =
+        firstcontact::first_contact({shape(0), *A}, {shape(1), *B}, workspace_.queries,
+                                    {.margin = candidate.threshold,
+                                     .tolerance = options_.tolerance,
+                                     .contacts = ContactState::none,
+                                     .budget = options_.budget});
+    if (result.t > window.end) {
+      result.verdict = Verdict::free;
+      result.t = window.end;
+    }
+    return result;
+  }
   GeometrySearch search(timeline_, candidate, options_, workspace_);
   return search.first_contact(window);
 }
@@ -59,13 +88,24 @@ EdgeFound EdgeSearch::first_contact() {
   return first;
 }
 
-EdgeFound EdgeSearch::any_contact() {
+EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
   EdgeFound unknown;
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
-    const std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
+    const TimeWindow whole = timeline_.piece(piece);
+    if (whole.end < within.begin || whole.begin > within.end) {
+      continue;
+    }
+    std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
+    for (GeometryCandidate& candidate : candidates) {
+      candidate.window = {std::max(candidate.window.begin, within.begin),
+                          std::min(candidate.window.end, within.end)};
+    }
+    std::erase_if(candidates, [](const GeometryCandidate& candidate) {
+      return candidate.window.begin > candidate.window.end;
+    });
     for (const GeometryCandidate& candidate : candidates) {
       if (candidate.gap < 0.0) {
         const double middle = 0.5 * (candidate.window.begin + candidate.window.end);

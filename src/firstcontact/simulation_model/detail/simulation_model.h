@@ -10,12 +10,12 @@
 #include <Eigen/Core>
 
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/round_side.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/sim_tie.h>
-#include <firstcontact/simulation_model/detail/surface_neighbours.h>
 
 namespace firstcontact {
 struct LinksAsBodies;
