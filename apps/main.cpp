@@ -13,6 +13,7 @@
 #include "check_command.h"
 #include "exit_status.h"
 #include "freed_memory.h"
+#include "haptics_command.h"
 #include "info_command.h"
 #include "plan_command.h"
 #include "retime_command.h"
@@ -55,6 +56,7 @@ ExitStatus run(int argc, char** argv) {
   add_plan_command(app, status);
   add_retime_command(app, status);
   add_simulate_command(app, status);
+  add_haptics_command(app, status);
   add_verify_command(app, status);
   add_view_command(app);
   add_info_command(app);

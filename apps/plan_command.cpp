@@ -23,6 +23,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
+#include "motion_page.h"
 #include "output_files.h"
 #include "progress.h"
 #include "quantity_text.h"
@@ -30,6 +31,7 @@
 #include "scene_source.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -40,6 +42,7 @@ constexpr std::size_t kListedPairs = 3;
 struct Arguments {
   std::string scene;
   std::string output;
+  std::string page;
   bool json = false;
   bool lenient = false;
   bool approximate = false;
@@ -68,11 +71,15 @@ class Plan {
  public:
   explicit Plan(const Arguments& arguments)
       : arguments_(arguments),
-        source_(arguments.scene.empty() ? named_in_errors(arguments.robot) : arguments.scene) {
-    const std::vector<OutputFile> outputs{{"-o", arguments.output}};
+        source_(arguments.scene.empty() ? named_in_errors(arguments.robot) : arguments.scene),
+        outputs_{{"-o", arguments.output}, {"--html", arguments.page}} {
+    require_different(outputs_);
     const std::vector<std::string> inputs = files_of(arguments.robot);
-    require_no_input(outputs, {inputs.begin(), inputs.end()});
-    require_no_input(outputs, {arguments.scene});
+    require_no_input(outputs_, {inputs.begin(), inputs.end()});
+    require_no_input(outputs_, {arguments.scene});
+    if (!arguments.page.empty()) {
+      viewer_ = viewer_page();  // Missing is better known before the work than after it.
+    }
   }
 
   ExitStatus run() {
@@ -90,15 +97,15 @@ class Plan {
   ScenePlan make() const {
     const ReadingOptions reading{.lenient = arguments_.lenient};
     Scene scene = read(reading);
-    require_no_input({{"-o", arguments_.output}}, files_of(scene));
+    require_no_input(outputs_, files_of(scene));
     if (arguments_.tolerance) {
       scene.options.tolerance = *arguments_.tolerance;
     }
     PlanQuestion question;
-    if (arguments_.scene.empty()) {
-      question = question_of_trajectory(scene);
-    } else if (scene.plan) {
+    if (scene.plan) {
       question = *scene.plan;
+    } else if (arguments_.scene.empty()) {
+      question = question_of_trajectory(scene);
     } else {
       throw ParseError(source_, "expected \"plan\": what moves, and its goal; the scene has none");
     }
@@ -111,7 +118,7 @@ class Plan {
 
   Scene read(const ReadingOptions& reading) const {
     if (arguments_.scene.empty()) {
-      return read_robot_scene(arguments_.robot, reading);
+      return read_robot_scene(arguments_.robot, reading, true);
     }
     std::optional<Scene> scene;
     for_each_scene(arguments_.scene, reading, [&](const SceneSource& source) {
@@ -146,14 +153,17 @@ class Plan {
     };
   }
 
-  ExitStatus answer(const ScenePlan& scene, const PlanOptions& options,
-                    const PlanResult& result) const {
+  ExitStatus answer(const ScenePlan& scene, const PlanOptions& options, const PlanResult& result) {
     std::optional<PlannedPath> path;
     if (result.verdict != PlanVerdict::none) {
       path = planned_path(scene, options, result);
       const std::string text = write_planned_path(*path) + '\n';
       if (!arguments_.output.empty()) {
         write_file(arguments_.output, text);
+      }
+      if (!arguments_.page.empty()) {
+        write_motion_page(arguments_.page, viewer_, scene_in_motion(*path), interrupt_.token(),
+                          [this](const std::string& what) { progress_.doing("page: " + what); });
       }
       if (arguments_.json) {
         std::fwrite(text.data(), 1, text.size(), stdout);
@@ -173,6 +183,15 @@ class Plan {
   [[nodiscard]] static std::string pair_name(const ScenePlan& scene, const BodyPair& pair) {
     return member_name(scene.loaded.scene, pair[0]) + " and " +
            member_name(scene.loaded.scene, pair[1]);
+  }
+
+  /// [s]  From then on the mover is at the goal.
+  [[nodiscard]] static double arrival(const PlannedPath& path) {
+    std::size_t last = path.waypoints.size() - 1;
+    while (last > 0 && path.waypoints[last - 1] == path.waypoints.back()) {
+      --last;
+    }
+    return path.times[last];
   }
 
   [[nodiscard]] static std::string blocking_text(const ScenePlan& scene,
@@ -213,6 +232,10 @@ class Plan {
                                    ? fmt::format(" ({:.6g} before it was shortened)",
                                                  *result.statistics.first_cost)
                                    : ""));
+      if (!path->times.empty()) {
+        line("arrives", fmt::format("after {}, and rests until {}", time_text(arrival(*path)),
+                                    time_text(path->times.back())));
+      }
       line("clearance", path->clearance
                             ? lower_bound_text(*path->clearance) + " or more everywhere (proven)"
                             : "no pair is tested");
@@ -248,6 +271,8 @@ class Plan {
   Progress progress_;
   const Arguments& arguments_;
   std::string source_;
+  std::vector<OutputFile> outputs_;
+  std::string viewer_;  // Where a page is wanted.
 };
 
 void require_one_plan(const Arguments& arguments) {
@@ -286,6 +311,7 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
                       ".json with \"plan\": what moves, from where, to where");
   add_file(*command, "-o,--output", arguments->output,
            "Writes the path, with all that it takes to prove it again, to a file");
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the path");
   command->add_flag("--json", arguments->json, "Prints the path as JSON in place of text");
   command
       ->add_option("--planner", arguments->planner,

@@ -28,12 +28,14 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "interrupt.h"
+#include "motion_page.h"
 #include "output_files.h"
 #include "progress.h"
 #include "quantity_text.h"
 #include "robot_options.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
+#include "viewer_page.h"
 
 namespace firstcontact::app {
 namespace {
@@ -41,6 +43,7 @@ namespace {
 struct Arguments {
   std::string path;
   std::string output;
+  std::string page;
   std::string mode = kRetimingModeWords[0];
   std::string limits;
   GivenLimits others;
@@ -207,7 +210,10 @@ ExitStatus retime_path(const Arguments& arguments) {
   const Interrupt interrupt;  // First: other threads inherit what it blocks.
   Progress progress;
   const TrajectoryFormat format = trajectory_format_of(arguments.output);
-  const std::vector<OutputFile> outputs{{"-o", arguments.output}};
+  const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
+  require_different(outputs);
+  // Missing is better known before the work than after it.
+  const std::string viewer = arguments.page.empty() ? "" : viewer_page();
   std::vector<std::filesystem::path> named{arguments.path, arguments.limits};
   for (const std::string& file : files_of(arguments.robot)) {
     named.emplace_back(file);
@@ -250,6 +256,11 @@ ExitStatus retime_path(const Arguments& arguments) {
       return status_of_refusal(proof);
     }
     write_file(arguments.output, text);
+    if (!arguments.page.empty()) {
+      write_motion_page(
+          arguments.page, viewer, scene_in_motion(input.scene, input.robot, retimed.motion),
+          interrupt.token(), [&](const std::string& what) { progress.doing("page: " + what); });
+    }
     say(report.proven(proof));
     flush_stdout();
     return kSuccess;
@@ -292,6 +303,7 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "-o,--output", arguments->output,
            "The trajectory: .yaml or .json (trajectory_msgs/JointTrajectory), or .csv")
       ->required();
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the trajectory");
   command
       ->add_option("--mode", arguments->mode,
                    "stop: rest at every waypoint, exactly on the path. blend: passes waypoints on "

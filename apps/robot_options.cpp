@@ -134,8 +134,9 @@ const std::string& named_in_errors(const RobotArguments& arguments) {
   return arguments.request.empty() ? arguments.robot : arguments.request;
 }
 
-Scene read_robot_scene(const RobotArguments& arguments, const ReadingOptions& reading) {
+Scene read_robot_scene(const RobotArguments& arguments, const ReadingOptions& reading, bool plans) {
   RobotQuestion question;
+  question.plans = plans;
   question.reading = reading;
   question.environment_scale = arguments.environment_scale.value_or(1.0);
   question.robot.urdf = arguments.robot;

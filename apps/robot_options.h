@@ -46,8 +46,9 @@ void require_no_option_of_a_robot(const RobotArguments& arguments);
 /// The file that errors without a file of their own are about: the motion's, or the robot's.
 [[nodiscard]] const std::string& named_in_errors(const RobotArguments& arguments);
 
+/// @param plans  as RobotQuestion::plans
 /// @throws ParseError, std::invalid_argument
-[[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments,
-                                     const ReadingOptions& reading);
+[[nodiscard]] Scene read_robot_scene(const RobotArguments& arguments, const ReadingOptions& reading,
+                                     bool plans = false);
 
 }  // namespace firstcontact::app

@@ -11,6 +11,7 @@
 
 #include <fmt/core.h>
 
+#include <firstcontact/page/write_run_animation.h>
 #include <firstcontact/page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
@@ -39,6 +40,7 @@ struct Arguments {
   std::string scene;
   std::string output;
   std::string page;
+  std::string animation;
   std::optional<double> duration;  // [s]
   std::optional<double> step;      // [s]
   bool resume = false;
@@ -47,7 +49,8 @@ struct Arguments {
 };
 
 Simulator load(const Arguments& arguments) {
-  const std::vector<OutputFile> outputs{{"-o", arguments.output}, {"--html", arguments.page}};
+  const std::vector<OutputFile> outputs{
+      {"-o", arguments.output}, {"--html", arguments.page}, {"--glb", arguments.animation}};
   require_different(outputs);
   require_no_input(outputs, {arguments.scene});
   const ReadingOptions reading{.lenient = arguments.lenient};
@@ -120,6 +123,9 @@ class Run {
       template_ = viewer_page();  // Missing is better known before the work than after it.
       page_.emplace(simulator_.header());
     }
+    if (!arguments.animation.empty()) {
+      animation_.emplace(simulator_.header());
+    }
     if (arguments.output.empty()) {
       return;
     }
@@ -153,6 +159,7 @@ class Run {
     }
     const bool is_whole = simulator_.step_count() >= count;
     write_page();
+    write_animation();
     print(is_whole, count);
     return is_whole && tally_.time_lost == 0.0 ? ExitStatus::free : ExitStatus::undecided;
   }
@@ -165,6 +172,9 @@ class Run {
     if (page_) {
       page_->add(step);
     }
+    if (animation_) {
+      animation_->add(step);
+    }
   }
 
   /// Where it was asked for, and there is something to play.
@@ -173,6 +183,12 @@ class Run {
       ShapeCache cache;
       const LoadedScene loaded = load_scene(simulator_.header().scene, cache);
       write_file(arguments_.page, page_->write(template_, loaded));
+    }
+  }
+
+  void write_animation() const {
+    if (animation_ && animation_->time() > 0.0) {
+      write_file(arguments_.animation, animation_->write(simulator_.loaded()));
     }
   }
 
@@ -231,6 +247,10 @@ class Run {
     if (page_) {
       line("page", page_->time() > 0.0 ? arguments_.page : "none: there is nothing to play");
     }
+    if (animation_) {
+      line("animation",
+           animation_->time() > 0.0 ? arguments_.animation : "none: there is nothing to play");
+    }
     flush_stdout();
   }
 
@@ -249,6 +269,7 @@ class Run {
   Simulator simulator_;
   std::string template_;  // Of the page.
   std::optional<RunPage> page_;
+  std::optional<RunAnimation> animation_;
   std::optional<RunFile> file_;
   Work work_;
   Tally tally_;
@@ -278,6 +299,8 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
   CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
                                  "Records the run: JSON Lines, a line a step");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
+  add_file(*command, "--glb", arguments->animation,
+           "Makes an animation for other programs: binary glTF, .glb");
   add_number(*command, "--duration", arguments->duration, Range::positive,
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,

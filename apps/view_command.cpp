@@ -18,6 +18,7 @@
 #include <fmt/core.h>
 
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/page/write_run_animation.h>
 #include <firstcontact/page/write_run_page.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
@@ -43,6 +44,7 @@ namespace {
 struct Arguments {
   std::string result;
   std::string output;
+  std::string animation;
   bool no_open = false;
   bool lenient = false;
 
@@ -83,13 +85,16 @@ bool is_run(const std::string& path) {
   return begin == kBegin;
 }
 
-/// Holds one line of the run at a time: it may be as large as a disk allows.
-std::string page_of_run(const std::string& page, const std::string& path, const OutputFile& output,
-                        const ReadingOptions& reading) {
+/// Reads a run into what collects it (RunPage or RunAnimation), and its scene.
+///
+/// One line of the run is held at a time: it may be as large as a disk allows.
+template <typename Collected>
+std::pair<Collected, LoadedScene> collect_run(const std::string& path, const OutputFile& output,
+                                              const ReadingOptions& reading) {
   std::ifstream stream(path, std::ios::binary);
   RunReader run(stream, path, reading);
   require_no_input({output}, files_of(run.header().scene));
-  RunPage collected(run.header());
+  Collected collected(run.header());
   while (const std::optional<RunStep> step = run.next()) {
     collected.add(*step);
   }
@@ -97,13 +102,16 @@ std::string page_of_run(const std::string& page, const std::string& path, const 
     throw ParseError(path, "expected steps after the header; there is nothing to play");
   }
   ShapeCache cache;
-  const LoadedScene loaded = [&] {
-    try {
-      return load_scene_of(run.header(), cache);
-    } catch (const std::invalid_argument& error) {
-      throw ParseError(path, error.what());
-    }
-  }();
+  try {
+    return {std::move(collected), load_scene_of(run.header(), cache)};
+  } catch (const std::invalid_argument& error) {
+    throw ParseError(path, error.what());
+  }
+}
+
+std::string page_of_run(const std::string& page, const std::string& path, const OutputFile& output,
+                        const ReadingOptions& reading) {
+  const auto [collected, loaded] = collect_run<RunPage>(path, output, reading);
   return collected.write(page, loaded);
 }
 
@@ -123,7 +131,26 @@ std::string page_of_result(const std::string& page, const std::string& path,
   return write_page(page, loaded, text, {gap, bound});
 }
 
+void write_animation(const Arguments& arguments) {
+  const OutputFile file{.option = "--glb", .path = arguments.animation};
+  require_no_input({file}, {arguments.result});
+  if (!is_run(arguments.result)) {
+    throw ParseError(arguments.result,
+                     "expected a run for --glb; the page of a result has its animation behind a "
+                     "button");
+  }
+  const auto [collected, loaded] =
+      collect_run<RunAnimation>(arguments.result, file, arguments.reading());
+  write_file(arguments.animation, collected.write(loaded));
+  say(visible(arguments.animation) + "\n");
+  flush_stdout();
+}
+
 void view(const Arguments& arguments) {
+  if (!arguments.animation.empty()) {
+    write_animation(arguments);
+    return;
+  }
   const std::string page = viewer_page();
   const std::string& path = arguments.result;
   const std::string output = arguments.output.empty()
@@ -153,8 +180,11 @@ void add_view_command(CLI::App& app) {
           "File that `firstcontact check SCENE -o RESULT` or `firstcontact simulate` wrote. Run "
           "this in the same folder: its mesh files are read again")
       ->required();
-  add_file(*command, "-o,--output", arguments->output,
-           "Where the page goes; beside the result where this is not given");
+  CLI::Option* output = add_file(*command, "-o,--output", arguments->output,
+                                 "Where the page goes; beside the result where this is not given");
+  add_file(*command, "--glb", arguments->animation,
+           "In place of the page of a run: an animation for other programs, binary glTF")
+      ->excludes(output);
   command->add_flag("--no-open", arguments->no_open, "Does not open the page");
   command->add_flag(
       "--lenient", arguments->lenient,

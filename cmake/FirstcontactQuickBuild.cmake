@@ -1,7 +1,7 @@
 # Precompiled headers, and tests that are compiled together: they halve the time of a build from nothing.
 #
 # Off by default: a file that forgets an include must not compile because of them. The builds of `release`,
-# `lint` and of users see each file as it stands, and every public header is compiled alone in `ci`.
+# `lint` and of users see each file as it stands, and every installed header is compiled alone in `ci`.
 
 option(FIRSTCONTACT_QUICK_BUILD "Precompile headers, and compile tests several at a time" OFF)
 option(FIRSTCONTACT_UNITY_BUILD "Compile the library several files at a time: quick from nothing, slow after a change" OFF)

@@ -3,7 +3,7 @@
 #   firstcontact_add_room(<name> SOURCES <files> [HEADERS <files>] [ROOMS <rooms>] [LIBRARIES <targets>]
 #                         [APART <files>] [KERNELS])
 #
-# HEADERS are compiled alone in `ci`. ROOMS are those that it includes directly; tools/check_includes holds what
+# HEADERS are compiled alone by `./dev lint`, those that are installed in `ci` too. ROOMS are those that it includes directly; tools/check_includes holds what
 # each room may include. LIBRARIES are packages that only its sources need. With FIRSTCONTACT_UNITY_BUILD several
 # files are compiled as one, but each of APART alone: it has names that another file has, too. Rooms of
 # KERNELS are compiled file by file in all builds, so that their machine code is the same.

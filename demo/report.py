@@ -1,10 +1,10 @@
 """Shows the results of the demo: a table on the terminal, and a page beside the results.
 
-    report.py FOLDER NAME... [--simulations NAME...]
+    report.py FOLDER NAME... [--simulations NAME...] [--plans NAME...]
 
 FOLDER has NAME.json (the result), NAME.svg (the gap over time), NAME.html (the page that plays it)
 and NAME.txt (what the tool said). Of a simulation there are NAME.jsonl (the run), NAME.txt and, where pages
-were asked for, NAME.html.
+were asked for, NAME.html. Of a plan there are NAME.json (the path), NAME.txt and NAME.html.
 """
 
 import html
@@ -92,6 +92,18 @@ def of_simulation(folder: pathlib.Path, name: str, text: str) -> dict:
             "plot": ""}
 
 
+def of_plan(name: str, path: dict, text: str) -> dict:
+    moves = path["moves"].get("robot") or path["moves"]["body"]
+    proven = "json: proven: " in text
+    tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
+    clearance = f", apart by > {length(path['clearance'])}" if path["clearance"] else ""
+    return {"name": name, "title": f"A path of {moves}", "kind": "free" if proven else "undecided",
+            "word": "Planned, verified" if proven else "Planned",
+            "fact": plural(len(path["edges"]), "edge") + clearance,
+            "tested": int(tested) if tested else None, "warnings": text.count("warning "), "data": f"{name}.json",
+            "plot": ""}
+
+
 def card(folder: pathlib.Path, facts: dict, text: str) -> str:
     name = facts["name"]
     title = html.escape(facts["title"])
@@ -116,7 +128,7 @@ def card(folder: pathlib.Path, facts: dict, text: str) -> str:
 </article>"""
 
 
-def main(folder: pathlib.Path, names: list, simulations: list) -> int:
+def main(folder: pathlib.Path, names: list, simulations: list, plans: list) -> int:
     names = [name for name in names if (folder / f"{name}.json").exists()]
     results = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in names]
     print(terminal_table([row(result) for result in results]) + "\n")
@@ -130,14 +142,23 @@ def main(folder: pathlib.Path, names: list, simulations: list) -> int:
     scenes = [card(folder, of_result(folder, name, result), said(name)) for name, result in zip(names, results)]
     runs = [card(folder, of_simulation(folder, name, said(name)), said(name)) for name in simulations
             if (folder / f"{name}.jsonl").exists()]
+    plans = [name for name in plans if (folder / f"{name}.json").exists()]
+    paths = [card(folder, of_plan(name, json.loads((folder / f"{name}.json").read_text(encoding="utf-8")), said(name)),
+                  said(name)) for name in plans]
     page = (pathlib.Path(__file__).parent / "index_template.html").read_text(encoding="utf-8")
     (folder / "index.html").write_text(page.replace("<!-- scenes -->", "\n".join(scenes))
+                                           .replace("<!-- plans -->", "\n".join(paths))
                                            .replace("<!-- simulations -->", "\n".join(runs)), encoding="utf-8")
     print(f"\nPlots and results: {folder / 'index.html'}")
     return 0
 
 
 if __name__ == "__main__":
-    asked = sys.argv[2:]
-    split = asked.index("--simulations") if "--simulations" in asked else len(asked)
-    sys.exit(main(pathlib.Path(sys.argv[1]), asked[:split], asked[split + 1:]))
+    asked = {"names": [], "--simulations": [], "--plans": []}
+    section = "names"
+    for word in sys.argv[2:]:
+        if word in asked:
+            section = word
+        else:
+            asked[section].append(word)
+    sys.exit(main(pathlib.Path(sys.argv[1]), *asked.values()))

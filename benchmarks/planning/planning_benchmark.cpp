@@ -27,15 +27,14 @@
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/robot_question.h>
 
+#include "benchmarks/support/panda_problems.h"
+
 namespace firstcontact::benchmarks {
 namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr const char* kFamilies[] = {"bookshelf_small_panda", "box_panda", "cage_panda",
-                                     "table_pick_panda"};
-constexpr int kProblems = 100;
 constexpr double kEdgeLengths[] = {0.5, 2.0};  // [rad]
 constexpr int kEdgesOfProblem = 50;
 
@@ -71,19 +70,6 @@ json summary_of(const std::vector<double>& values) {
           {"p95", quantile(values, 0.95)},
           {"p99", quantile(values, 0.99)},
           {"max", quantile(values, 1.0)}};
-}
-
-RobotQuestion problem_of(const fs::path& data, const std::string& family, int problem) {
-  const fs::path panda = data / "robots/moveit_resources_panda_description";
-  char number[5];
-  std::snprintf(number, sizeof number, "%04d", problem);
-  const fs::path folder = data / "planning_mbm/panda" / family;
-  RobotQuestion question;
-  question.robot = {panda / "urdf/panda.urdf", {data / "robots"}};
-  question.srdf = panda / "srdf/panda.srdf";
-  question.request = folder / ("request" + std::string(number) + ".yaml");
-  question.environment = {folder / ("scene" + std::string(number) + ".yaml")};
-  return question;
 }
 
 /// Times of plans, in milliseconds; a run without a path counts with the time that it was allowed.
@@ -140,8 +126,8 @@ void for_each_problem(const Settings& settings, const std::string& family, const
     std::exit(2);
   }
   ShapeCache cache;
-  for (int problem = 1; problem <= kProblems; problem += settings.every) {
-    const Scene scene = read_robot_question(problem_of(data, family, problem));
+  for (int problem = 1; problem <= kPandaProblems; problem += settings.every) {
+    const Scene scene = read_robot_question(panda_problem(data, family, problem));
     use(make_scene_plan(scene, question_of_trajectory(scene), cache), problem);
   }
 }
@@ -149,7 +135,7 @@ void for_each_problem(const Settings& settings, const std::string& family, const
 json plans(const Settings& settings) {
   json out;
   PlanTimes all;
-  for (const std::string family : kFamilies) {
+  for (const std::string family : kPandaFamilies) {
     PlanTimes times;
     for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
       for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
@@ -196,7 +182,7 @@ json edges(const Settings& settings) {
     std::vector<double> state_times;
     std::vector<double> clearance_times;
     std::size_t undecided = 0;
-    for (const std::string family : kFamilies) {
+    for (const std::string family : kPandaFamilies) {
       for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
         const EdgeChecker checker(scene.plan);
         detail::PlanRandom random(static_cast<std::uint64_t>(problem));

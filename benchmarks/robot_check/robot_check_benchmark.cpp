@@ -35,6 +35,7 @@
 
 #include "benchmarks/robot_check/straight_motion.h"
 #include "benchmarks/support/fcl_robot.h"
+#include "benchmarks/support/panda_problems.h"
 #include "benchmarks/support/timing.h"
 #include "benchmarks/support/torus_knot.h"
 
@@ -53,10 +54,6 @@ fs::path data_dir() {
   return dir == nullptr ? fs::path() : fs::path(dir);
 }
 
-Eigen::Isometry3d isometry(const Pose& pose) {
-  return Eigen::Translation3d(pose.position) * pose.rotation.normalized();
-}
-
 /// A robot among bodies at rest, for both sides.
 class Cell {
  public:
@@ -66,7 +63,7 @@ class Cell {
         kinematics_(model_),
         checker_(scene),
         far_(with_padding(scene)) {
-    add_to_peer(scene, sources);
+    fill(peer_, scene, sources);
   }
 
   [[nodiscard]] const RobotModel& model() const { return model_; }
@@ -103,34 +100,6 @@ class Cell {
       }
     }
     return scene;
-  }
-
-  void add_to_peer(const RobotScene& scene, const std::vector<BodyShape>& sources) {
-    std::vector<std::array<std::size_t, 2>> tested;
-    const std::size_t first = scene.first_member(0);
-    std::size_t body = 0;
-    for (std::size_t member = 0; member < scene.size(); ++member) {
-      const std::optional<RobotLink> link = scene.robot_link(member);
-      if (link) {
-        for (const MemberGeometry& geometry : scene.geometries(member)) {
-          peer_.add_link_geometry(link->link, geometry.shape, isometry(geometry.X_MG));
-        }
-      } else {
-        const Shape& shape = scene.geometries(member)[0].shape;
-        peer_.add_obstacle(body < sources.size() ? sources[body] : BodyShape{}, shape,
-                           isometry(scene.pose(member, 0.0)));
-        ++body;
-      }
-    }
-    for (std::size_t a = 0; a < model_.links().size(); ++a) {
-      for (std::size_t b = a + 1; b < model_.links().size(); ++b) {
-        if (scene.margin({first + a, first + b})) {
-          tested.push_back({a, b});
-        }
-      }
-    }
-    peer_.set_tested_links(tested);
-    peer_.set_up();
   }
 
   RobotModel model_;
@@ -231,14 +200,6 @@ class Tally {
   Peer peers_[std::size(kPlannersSteps)];
 };
 
-std::vector<BodyShape> sources_of(const Scene& scene) {
-  std::vector<BodyShape> sources;
-  for (const Body& body : scene.bodies) {
-    sources.push_back(body.shape);
-  }
-  return sources;
-}
-
 Configuration configuration_of(const RobotModel& model, const JointPositions& positions) {
   Configuration q;
   for (const Joint& joint : model.joints()) {
@@ -246,20 +207,6 @@ Configuration configuration_of(const RobotModel& model, const JointPositions& po
     q.push_back(found == positions.end() ? default_position(joint) : found->second);
   }
   return q;
-}
-
-/// One of MotionBenchMaker's problems of the Panda.
-RobotQuestion problem_of_panda(const char* family, int problem) {
-  const fs::path panda = data_dir() / "robots/moveit_resources_panda_description";
-  char number[5];
-  std::snprintf(number, sizeof number, "%04d", problem);
-  const fs::path folder = data_dir() / "planning_mbm/panda" / family;
-  RobotQuestion question;
-  question.robot = {panda / "urdf/panda.urdf", {data_dir() / "robots"}};
-  question.srdf = panda / "srdf/panda.srdf";
-  question.request = folder / ("request" + std::string(number) + ".yaml");
-  question.environment = {folder / ("scene" + std::string(number) + ".yaml")};
-  return question;
 }
 
 /// Where the robot is at its start.
@@ -272,10 +219,9 @@ json panda_in_scenes(bool quick) {
   ShapeCache cache;
   std::map<double, Tally> tallies;
   test::Random random(20261122);
-  for (const char* family :
-       {"bookshelf_small_panda", "box_panda", "cage_panda", "table_pick_panda"}) {
-    for (int problem = 1; problem <= 100; problem += quick ? 20 : 1) {
-      const RobotQuestion question = problem_of_panda(family, problem);
+  for (const char* family : kPandaFamilies) {
+    for (int problem = 1; problem <= kPandaProblems; problem += quick ? 20 : 1) {
+      const RobotQuestion question = panda_problem(data_dir(), family, problem);
       const LoadedScene loaded = load_scene(read_robot_question(question), cache);
       Cell cell(*loaded.robots, sources_of(loaded.scene));
       const Configuration start = start_of(question, cell.model());
@@ -589,10 +535,9 @@ json closest(bool quick) {
   std::vector<double> leasts;
   std::vector<double> ratios;
   std::vector<double> free_ratios;
-  for (const char* family :
-       {"bookshelf_small_panda", "box_panda", "cage_panda", "table_pick_panda"}) {
-    for (int problem = 1; problem <= 100; problem += quick ? 50 : 5) {
-      const RobotQuestion question = problem_of_panda(family, problem);
+  for (const char* family : kPandaFamilies) {
+    for (int problem = 1; problem <= kPandaProblems; problem += quick ? 50 : 5) {
+      const RobotQuestion question = panda_problem(data_dir(), family, problem);
       const LoadedScene loaded = load_scene(read_robot_question(question), cache);
       const RobotModel& model = loaded.robots->robot_motion(0).model();
       const Configuration start = start_of(question, model);

@@ -1,5 +1,6 @@
 #include "benchmarks/support/fcl_robot.h"
 
+#include <optional>
 #include <set>
 #include <variant>
 
@@ -22,6 +23,10 @@ struct Piece {
   Eigen::Isometry3d X_LG;
   std::unique_ptr<fcl::CollisionObjectd> object;
 };
+
+Eigen::Isometry3d isometry(const Pose& pose) {
+  return Eigen::Translation3d(pose.position) * pose.rotation.normalized();
+}
 
 Geometry geometry_of(const BodyShape& source, const Shape& shape) {
   if (const auto* box = std::get_if<BoxShape>(&source.source)) {
@@ -114,6 +119,43 @@ bool FclRobot::collides(const std::vector<Eigen::Isometry3d>& X_WL) {
     data_->robot.collide(&data_->surroundings, data_.get(), &Data::test_obstacle);
   }
   return data_->found;
+}
+
+void fill(FclRobot& peer, const RobotScene& scene, const std::vector<BodyShape>& sources) {
+  std::vector<std::array<std::size_t, 2>> tested;
+  const RobotModel& model = scene.robot_motion(0).model();
+  const std::size_t first = scene.first_member(0);
+  std::size_t body = 0;
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    const std::optional<RobotLink> link = scene.robot_link(member);
+    if (link) {
+      for (const MemberGeometry& geometry : scene.geometries(member)) {
+        peer.add_link_geometry(link->link, geometry.shape, isometry(geometry.X_MG));
+      }
+    } else {
+      const Shape& shape = scene.geometries(member)[0].shape;
+      peer.add_obstacle(body < sources.size() ? sources[body] : BodyShape{}, shape,
+                        isometry(scene.pose(member, 0.0)));
+      ++body;
+    }
+  }
+  for (std::size_t a = 0; a < model.links().size(); ++a) {
+    for (std::size_t b = a + 1; b < model.links().size(); ++b) {
+      if (scene.margin({first + a, first + b})) {
+        tested.push_back({a, b});
+      }
+    }
+  }
+  peer.set_tested_links(tested);
+  peer.set_up();
+}
+
+std::vector<BodyShape> sources_of(const Scene& scene) {
+  std::vector<BodyShape> sources;
+  for (const Body& body : scene.bodies) {
+    sources.push_back(body.shape);
+  }
+  return sources;
 }
 
 }  // namespace firstcontact::benchmarks

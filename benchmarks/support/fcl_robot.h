@@ -12,7 +12,9 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/scene.h>
 
 namespace firstcontact::benchmarks {
 
@@ -41,5 +43,13 @@ class FclRobot {
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// Fills the peer with the first robot of a scene and all bodies, and sets it up.
+///
+/// @param sources  what the bodies of the scene were made of; meshes where there are none
+void fill(FclRobot& peer, const RobotScene& scene, const std::vector<BodyShape>& sources);
+
+/// What the bodies of a scene are made of.
+[[nodiscard]] std::vector<BodyShape> sources_of(const Scene& scene);
 
 }  // namespace firstcontact::benchmarks

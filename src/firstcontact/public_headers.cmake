@@ -4,6 +4,16 @@
 set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
+  firstcontact/haptic_devices/device.h
+  firstcontact/haptic_devices/device_plugin.h
+  firstcontact/haptic_devices/haply.h
+  firstcontact/haptic_devices/load_device_plugin.h
+  firstcontact/haptic_devices/mail_slot.h
+  firstcontact/haptic_devices/operator_path.h
+  firstcontact/haptic_devices/recorded_device.h
+  firstcontact/haptic_devices/recording.h
+  firstcontact/haptic_devices/simulated_operator.h
+  firstcontact/haptic_devices/space_mouse.h
   firstcontact/geometry/convex_hull.h
   firstcontact/geometry/convex_set.h
   firstcontact/geometry/deforming_body.h
@@ -20,6 +30,8 @@ set(public_headers
   firstcontact/query/closest_approach.h
   firstcontact/query/distance.h
   firstcontact/query/first_contact.h
+  firstcontact/haptics/haptic_session.h
+  firstcontact/haptics/wall_session.h
   firstcontact/many_bodies/many_bodies.h
   firstcontact/mesh_files/read_mesh.h
   firstcontact/mesh_files/read_points.h
@@ -40,6 +52,7 @@ set(public_headers
   firstcontact/scene/version.h
   firstcontact/planning/configuration_space.h
   firstcontact/planning/edge_checker.h
+  firstcontact/planning/inverse_kinematics.h
   firstcontact/planning/plan_path.h
   firstcontact/planning/plan_scene.h
   firstcontact/trajectory_files/read_trajectory.h
@@ -58,6 +71,9 @@ set(public_headers
   firstcontact/retiming/write_trajectory.h
   firstcontact/record/read_run.h
   firstcontact/record/write_run.h
+  firstcontact/haptics_files/haptic_log.h
+  firstcontact/haptics_files/haptic_run.h
+  firstcontact/haptics_files/haptic_setup.h
   firstcontact/page/write_page.h
   firstcontact/simulation/simulator.h
   firstcontact/verification/verify_path.h
@@ -82,6 +98,11 @@ set(supporting_headers
   firstcontact/query/contact.h
   firstcontact/query/outcome.h
   firstcontact/query/workspace.h
+  firstcontact/haptics/contact_loop.h
+  firstcontact/haptics/contact_set.h
+  firstcontact/haptics/force_loop.h
+  firstcontact/haptics/haptic_scene.h
+  firstcontact/haptics/timing_histogram.h
   firstcontact/many_bodies/body_set.h
   firstcontact/many_bodies/pair_rules.h
   firstcontact/many_bodies/scene_result.h
@@ -99,6 +120,7 @@ set(supporting_headers
   firstcontact/scene/body_shape.h
   firstcontact/scene/gap_bound.h
   firstcontact/scene/pair_counts.h
+  firstcontact/scene/haptic_question.h
   firstcontact/scene/plan_question.h
   firstcontact/scene/planned_path.h
   firstcontact/scene/scene_robot.h

@@ -83,6 +83,42 @@ class Plan(unittest.TestCase):
                               ("scene", json.loads((self.folder / "scene.json").read_text()))]:
             jsonschema.Draft202012Validator(json.loads((schemas / f"{schema}.json").read_text())).validate(value)
 
+    def test_plans_in_time_among_what_moves(self):
+        door = {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
+                "motion": {"type": "waypoints", "times": [0, 3, 6, 8],
+                           "poses": [{"position": [0, y, 0]} for y in (0, 4, 0, 0)]}}
+        question = {"body": "peg", "goal": {"position": [0.5, 0, 0]}, "speeds": {"linear": 1, "angular": 1},
+                    "box": [[-1, -0.1, -0.1], [1, 0.1, 0.1]]}
+        self.write("scene.json", scene(question, (door, PEG)))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("and rests until 8 s", result.stdout)
+        path = json.loads((self.folder / "path.json").read_text())
+        self.assertEqual((path["times"][0], path["times"][-1]), (0, 8))
+        verified = subprocess.run([TOOL, "verify", "path.json"], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=60, check=False)
+        self.assertEqual(verified.returncode, 0, verified)
+        # The same places, but before the door is open.
+        path["times"] = [0, *(0.1 * k for k in range(1, len(path["times"]) - 1)), 8]
+        self.write("early.json", path)
+        verified = subprocess.run([TOOL, "verify", "early.json"], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=60, check=False)
+        self.assertEqual(verified.returncode, 1, verified)
+        (self.folder / "path.json").unlink()
+        del question["speeds"]
+        self.write("scene.json", scene(question, (door, PEG)))
+        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "speeds")
+
+    def test_makes_a_page_that_plays_the_path(self):
+        if not (pathlib.Path(TOOL).resolve().parent.parent / "share/firstcontact/viewer.html").exists():
+            self.skipTest("built without the viewer")
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        result = self.plan("scene.json", "--html", "page.html")
+        self.assertEqual(result.returncode, 0, result)
+        page = (self.folder / "page.html").read_text(encoding="utf-8")
+        self.assertIn('"verdict": "free"', page.replace('"verdict":"free"', '"verdict": "free"'))
+        self.assert_refused(self.plan("scene.json", "--html", "scene.json"), "scene.json")
+
     def test_is_the_same_for_a_seed_and_any_number_of_threads(self):
         self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
         paths = [json.loads(self.plan("scene.json", "--json", "--seed", "5", "--threads", threads).stdout)

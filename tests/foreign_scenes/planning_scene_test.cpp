@@ -259,7 +259,36 @@ TEST(PlanningScene, HasTheStateOfTheRobot) {
                  "names, got 1");
 }
 
-TEST(PlanningRequest, NeedsAGoalOfJoints) {
+TEST(PlanningRequest, HasAGoalOfALink) {
+  const PlanningRequest request = parse_planning_request(R"(
+goal_constraints:
+- position_constraints:
+  - header: {frame_id: world}
+    link_name: hook
+    target_point_offset: {x: 0, y: 0, z: -0.5}
+    constraint_region:
+      primitives: [{type: 1, dimensions: [0.02, 0.01, 0.04]}]
+      primitive_poses: [{position: {x: 1, y: 2, z: 3}, orientation: {x: 0, y: 0, z: 0, w: 1}}]
+    weight: 1
+  orientation_constraints:
+  - link_name: hook
+    orientation: {x: 0, y: 0, z: 1, w: 0}
+    absolute_x_axis_tolerance: 0.1
+    absolute_y_axis_tolerance: 0.3
+    absolute_z_axis_tolerance: 3.14
+)",
+                                                         "r.yaml", crane());
+  EXPECT_TRUE(request.goal.empty());
+  const LinkGoal& goal = request.link_goal.value();
+  EXPECT_EQ(goal.link, "hook");
+  EXPECT_EQ(goal.X_LT.position, Eigen::Vector3d(0, 0, -0.5));
+  EXPECT_EQ(goal.X_WT.position, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(goal.X_WT.rotation.z(), 1.0);
+  EXPECT_EQ(goal.position_tolerance, 0.005);  // The ball in the box.
+  EXPECT_EQ(goal.rotation_tolerance, 0.05);
+}
+
+TEST(PlanningRequest, NeedsAGoalOfJointsOrOfALink) {
   const auto message = [](const std::string& text) -> std::string {
     try {
       (void)parse_planning_request(text, "r.yaml", crane());
@@ -269,9 +298,26 @@ TEST(PlanningRequest, NeedsAGoalOfJoints) {
     return "accepted";
   };
   EXPECT_EQ(message("start_state: {}"), "r.yaml:1: expected a key \"goal_constraints\", got none");
-  EXPECT_EQ(message("goal_constraints: [{position_constraints: [{}]}]"),
-            "r.yaml:1: goal_constraints[0]: expected a goal of joint positions, "
-            "\"joint_constraints\" alone");
+  EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}], "
+                    "position_constraints: [{}]}]"),
+            "r.yaml:1: goal_constraints[0]: expected \"joint_constraints\" alone, or "
+            "\"position_constraints\" and \"orientation_constraints\" of one link");
+  EXPECT_EQ(message("goal_constraints: [{orientation_constraints: [{}]}]"),
+            "r.yaml:1: goal_constraints[0]: expected a position beside the orientation, got "
+            "\"orientation_constraints\" alone");
+  EXPECT_EQ(message("goal_constraints: [{position_constraints: [{link_name: hok}]}]"),
+            "r.yaml:1: goal_constraints[0].position_constraints[0].link_name: expected a link of "
+            "the robot, got \"hok\"");
+  EXPECT_EQ(message("goal_constraints: [{position_constraints: [{link_name: hook, "
+                    "header: {frame_id: moon}, constraint_region: {primitives: [{type: 2, "
+                    "dimensions: [1]}], primitive_poses: [{}]}}]}]"),
+            "r.yaml:1: goal_constraints[0].position_constraints[0].header.frame_id: expected the "
+            "frame \"world\" or that of the root link \"ground\", got \"moon\"");
+  EXPECT_EQ(message("goal_constraints: [{position_constraints: [{link_name: hook, "
+                    "constraint_region: {primitives: [{type: 2, dimensions: [-1]}], "
+                    "primitive_poses: [{}]}}]}]"),
+            "r.yaml:1: goal_constraints[0].position_constraints[0].constraint_region.primitives[0]"
+            ".dimensions[0]: expected a number >= 0, got -1");
   EXPECT_EQ(message("goal_constraints: [{joint_constraints: [{joint_name: trun, position: 1}]}]"),
             "r.yaml:1: goal_constraints[0].joint_constraints[0].joint_name: expected a joint of "
             "robot \"crane\", got \"trun\"; did you mean \"turn\"?");

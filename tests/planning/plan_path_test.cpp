@@ -187,6 +187,11 @@ TEST(PlanPath, RefusesWhatCannotBePlanned) {
             std::string::npos);
   EXPECT_NE(message_of(scene, kBefore, {kBehind}, {.time = nan}).find("the time"),
             std::string::npos);
+  const PlanScene bar = with_bar(thin_wall(0.4), {0.1, 0.1, 0.1});
+  EXPECT_EQ(message_of(bar, {-1.6, 0, 0, 1, 0, 0, 0}, {{1, 0, 0, 1, 0, 0, 0}}),
+            "the start is outside of the box; widen the box");
+  EXPECT_EQ(message_of(bar, {-1, 0, 0, 1, 0, 0, 0}, {{1, 0, 1.6, 1, 0, 0, 0}}),
+            "a goal is outside of the box; widen the box");
   PlanScene none = scene;
   none.robot = 3;
   EXPECT_NE(message_of(none, kBefore, {kBehind}).find("something to move"), std::string::npos);

@@ -201,6 +201,36 @@ TEST_F(GantryFile, KeepsWhatIsHeldInItsPlace) {
   EXPECT_EQ(read.turnings, (std::vector<Turning>{Turning::as_given, Turning::as_given}));
 }
 
+TEST_F(GantryFile, PlansToThePoseOfALink) {
+  ShapeCache cache;
+  const Scene asked = scene(R"({"goal": {"link": "tool", "pose": {"position": [1.2, 0, 0.4]},
+                                         "frame": {"position": [0.2, 0, 0.1]}}})");
+  const ScenePlan plan = make_scene_plan(asked, *asked.plan, cache);
+  ASSERT_EQ(plan.goals.size(), 1u);
+  EXPECT_NEAR(plan.goals[0][0], 1.0, 1e-6);
+  EXPECT_NEAR(plan.goals[0][1], 0.3, 1e-6);
+  EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict,
+            PlanVerdict::proven);
+
+  const auto refusal_of = [&](const std::string& goal) {
+    try {
+      const Scene wrong = scene("{\"goal\": " + goal + "}");
+      (void)make_scene_plan(wrong, *wrong.plan, cache);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal_of(R"({"link": "tol", "pose": {}})").find("did you mean \"tool\"?"),
+            std::string::npos);
+  // The gantry does not leave its plane y = 0.
+  EXPECT_NE(refusal_of(R"({"link": "tool", "pose": {"position": [1, 0.5, 0]}})")
+                .find("the nearest is 0.5"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(R"({"link": "tool", "pose": {"position": [0.05, 0, 0]}})").find("wall"),
+            std::string::npos);
+}
+
 TEST_F(GantryFile, RefusesGoalsThatAreNone) {
   EXPECT_THROW((void)scene(R"({"goal": {"y": 1}})"), ParseError);
   EXPECT_THROW((void)scene(R"({"goal": "home"})"), ParseError);

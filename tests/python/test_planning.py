@@ -40,6 +40,26 @@ def test_plans_a_path():
     assert checker.check(answer.waypoints[:-1], answer.waypoints[1:]).free.all()
 
 
+def test_plans_in_time_among_what_moves():
+    poses = [{"position": [0, y, 0]} for y in (0, 4, 0, 0)]
+    door = {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
+            "motion": {"type": "waypoints", "times": [0, 3, 6, 8], "poses": poses}}
+    scene = {"firstcontact": 1, "bodies": [door, SCENE["bodies"][1]],
+             "plan": {"body": "peg", "goal": {"position": [0.5, 0, 0]}, "speeds": {"linear": 1, "angular": 1},
+                      "box": [[-1, -0.1, -0.1], [1, 0.1, 0.1]]}}
+    answer = fc.plan(scene)
+    assert answer.verdict == "proven"
+    assert len(answer.times) == len(answer.waypoints)
+    assert (answer.times[0], answer.times[-1]) == (0, 8)
+    # It passes x = 0 while the door is open.
+    crossing = np.interp(0, answer.waypoints[:, 0], answer.times)
+    assert 1.1 < crossing < 4.9
+    assert json.loads(answer.json)["times"] == answer.times.tolist()
+    assert fc.plan(SCENE).times.size == 0
+    with pytest.raises(ValueError, match="moves"):
+        fc.EdgeChecker(fc.load_scene(scene))
+
+
 def test_moves_in_contact():
     answer = fc.plan(SCENE, contacts="both")
     assert answer.verdict == "proven"

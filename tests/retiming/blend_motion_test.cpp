@@ -42,6 +42,17 @@ TEST(BlendMotion, HoldsItsLimitsAndIsNoSlowerThanRests) {
   EXPECT_LT(blended_time, 0.85 * stop_time);
 }
 
+// Each blend is as fast as its neighbours let it be: no edge is too short for its change of rate.
+TEST(BlendMotion, HoldsItsLimitsOnLongPaths) {
+  std::mt19937 rng(23);
+  const WaypointPath path = random_path(rng, 3, 2000, 0.3);
+  const std::vector<RateLimits> limits = random_limits(rng, 3, true);
+  const BlendedMotion blended =
+      blend_motion(path, limits, std::vector<double>(1998, kLongestBlend), 1.0 - 1e-4);
+  EXPECT_FALSE(rate_beyond_limit(rate_report(blended.motion, limits)).has_value());
+  EXPECT_LT(blended.motion.duration(), 0.85 * stop_motion(path, limits).duration());
+}
+
 // With blends of length 0 it is the motion with rests.
 TEST(BlendMotion, WithoutLengthItRests) {
   std::mt19937 rng(22);

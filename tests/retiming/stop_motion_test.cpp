@@ -94,6 +94,30 @@ TEST(StopMotion, TinyAndLongEdgesHoldTheirLimits) {
   }
 }
 
+// Limits and ways at the ends of the range of doubles: within limits, or a named refusal.
+TEST(StopMotion, NamesLimitsThatAreTooSmall) {
+  int refused = 0;
+  for (const double way : {1e-300, 1e-8, 1.0, 1e8}) {
+    for (const double velocity : {5e-324, 1e-300, 1e-12, 1.0, 1e300}) {
+      for (const double other : {1e-300, 1.0, 1e300}) {
+        const WaypointPath path{{"j0"}, {{0.0}, {way}}};
+        const std::vector<RateLimits> limits{{velocity, other, other}};
+        try {
+          const TimedMotion motion = stop_motion(path, limits, 1.0 - 1e-6);
+          EXPECT_FALSE(rate_beyond_limit(rate_report(motion, limits)).has_value())
+              << way << " " << velocity << " " << other;
+          EXPECT_GT(motion.points.back().time, 0);
+        } catch (const std::invalid_argument& error) {
+          EXPECT_NE(std::string(error.what()).find("within 13 days"), std::string::npos);
+          ++refused;
+        }
+      }
+    }
+  }
+  EXPECT_GE(refused, 20);
+  EXPECT_LE(refused, 45);
+}
+
 std::string error_of_path(const WaypointPath& path) {
   try {
     (void)stop_motion(path, std::vector<RateLimits>(path.joint_names.size(), {1.0, 1.0, 1.0}));

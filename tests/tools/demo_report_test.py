@@ -18,6 +18,9 @@ CONTACT = {"id": "hit", "verdict": "contact", "time": 0.123456, "pair": ["a & b"
            "clearance": 0.0, "pair_counts": {"tested": 1}}
 
 
+PATH = {"moves": {"body": "a cart"}, "edges": [{}, {}], "clearance": 0.25}
+
+
 class Cards(html.parser.HTMLParser):
     """The text of each card, by its name, and what it links to."""
 
@@ -60,13 +63,16 @@ class Report(unittest.TestCase):
             (folder / "run.jsonl").write_text("\n".join(map(json.dumps, lines)) + "\n", encoding="utf-8")
             proof = "run.jsonl: proven: none touches\n" if verified else "error: no proof\n"
             (folder / "run.txt").write_text("  tested     28 pairs\n" + proof, encoding="utf-8")
+            (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
+            proof = "path.json: proven: 2 edges\n" if verified else "error: no proof\n"
+            (folder / "path.txt").write_text(proof + "  tested     4 pairs\n", encoding="utf-8")
             with contextlib.redirect_stdout(io.StringIO()) as said:
-                report.main(folder, ["free", "contact", "missing"], ["run", "missing_run"])
+                report.main(folder, ["free", "contact", "missing"], ["run", "missing_run"], ["path", "missing_path"])
             return Cards((folder / "index.html").read_text(encoding="utf-8")), said.getvalue()
 
     def test_has_what_there_is_and_nothing_else(self):
         cards, said = self.cards()
-        self.assertEqual(list(cards.texts), ["free", "contact", "run"])
+        self.assertEqual(list(cards.texts), ["free", "contact", "path", "run"])
         self.assertIn("apart <b>", said)
 
     def test_says_the_verdict_the_pairs_and_the_warnings(self):
@@ -83,6 +89,13 @@ class Report(unittest.TestCase):
         self.assertEqual(set(cards.links["free"]), {"free.html", "free.svg", "free.json"})
         self.assertEqual(cards.links["contact"], ["contact.json"])
         self.assertEqual(set(cards.links["run"]), {"run.html", "run.jsonl"})
+
+    def test_calls_a_path_verified_only_where_it_is(self):
+        cards, _ = self.cards()
+        for text in ("A path of a cart", "Planned, verified", "2 edges, apart by > 250 mm", "4 pairs tested"):
+            self.assertIn(text, cards.texts["path"])
+        cards, _ = self.cards(verified=False)
+        self.assertNotIn("verified", cards.texts["path"])
 
     def test_calls_a_simulation_verified_only_where_it_is(self):
         cards, _ = self.cards()

@@ -72,6 +72,11 @@ class KeysOfFiles(unittest.TestCase):
         plan = self.schema("scene")["properties"]["plan"]
         self.assertEqual(self.missing(plan, "planning.md"), set())
 
+    def test_of_haptics_are_explained(self):
+        haptics = self.schema("scene")["properties"]["haptics"]
+        self.assertEqual(self.missing(haptics, "haptics.md"), set())
+        self.assertEqual(self.missing(haptics["properties"]["tools"]["items"], "haptics.md"), set())
+
 
 if __name__ == "__main__":
     unittest.main()

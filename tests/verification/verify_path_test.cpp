@@ -104,6 +104,8 @@ TEST(VerifyPath, NamesWhatNoEdgeShows) {
               path.waypoints[1] = {0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0};
             }),
             "A waypoint has a quaternion that is not of length 1.");
+  EXPECT_EQ(problem_of([](PlannedPath& path) { path.waypoints[0][2] = 1e-12; }),
+            "The path does not begin where its scene has body \"ball\".");
 }
 
 TEST(VerifyPath, NamesWhatContradictsItself) {
@@ -129,6 +131,7 @@ TEST(VerifyPath, ProvesAPlace) {
   path.clearance = 0.81;
   EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
   set_waypoints(path, {{-0.15, 0, 0, 1, 0, 0, 0}});
+  path.scene.bodies[0].motion = FixedMotion{{{-0.15, 0, 0}, Eigen::Quaterniond::Identity()}};
   EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
 }
 
@@ -155,6 +158,50 @@ TEST(VerifyPath, ProvesARobotAndWhatItCarries) {
   EXPECT_EQ(proven.edges, 2u);
   path.turnings = {Turning::shortest};
   EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+  path.turnings = {Turning::as_given};
+  set_waypoints(path, {{0.1}, {0.9}});
+  EXPECT_EQ(verify_path(path).problem,
+            "The path does not begin where its scene has joint \"elbow\".");
+  set_waypoints(path, {{0.0}, {-2.0}});
+  EXPECT_EQ(verify_path(path).problem,
+            "A waypoint has joint \"elbow\" at -2, outside of its limits.");
+}
+
+/// A ball that passes a door while it is open, from 1.3 to 4.7 s, and then rests.
+PlannedPath path_through_a_door() {
+  PlannedPath path = path_in(R"({"firstcontact": 1, "bodies": [
+    {"name": "ball", "shape": {"sphere": {"radius": 0.2}}},
+    {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
+     "motion": {"type": "waypoints", "times": [0, 3, 6, 8],
+       "poses": [{"position": [1, 0, 0]}, {"position": [1, 4, 0]}, {"position": [1, 0, 0]}, {"position": [1, 0, 0]}]}}]})");
+  path.body = "ball";
+  set_waypoints(
+      path,
+      {{0, 0, 0, 1, 0, 0, 0}, {0, 0, 0, 1, 0, 0, 0}, {2, 0, 0, 1, 0, 0, 0}, {2, 0, 0, 1, 0, 0, 0}});
+  path.times = {0.0, 1.5, 4.0, 8.0};
+  return path;
+}
+
+TEST(VerifyPath, ProvesAPathInTime) {
+  PlannedPath path = path_through_a_door();
+  const PathVerification proven = verify_path(path);
+  EXPECT_EQ(proven.verdict, ProofVerdict::proven) << proven.problem;
+  EXPECT_EQ(proven.edges, 3u);
+  EXPECT_EQ(proven.tested, 1u);
+  // Too early, too late, and at rest in the way of the door that comes back.
+  path.times = {0.0, 0.1, 1.0, 8.0};
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
+  EXPECT_EQ(verify_path(path).problem_edge, 1u);
+  path.times = {0.0, 4.5, 6.5, 8.0};
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
+  path = path_through_a_door();
+  path.waypoints[2][0] = path.waypoints[3][0] = path.goals[0][0] = 1.1;
+  EXPECT_EQ(verify_path(path).problem_edge, 2u);
+  path = path_through_a_door();
+  path.times = {0.0, 1.5, 4.0, 7.0};
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::broken);
+  path.times.clear();
+  EXPECT_EQ(verify_path(path).problem, "The body \"door\" moves by itself.");
 }
 
 TEST(VerifyPath, RefusesAFileThatHasChanged) {

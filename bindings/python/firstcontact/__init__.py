@@ -17,7 +17,8 @@ Lengths are metres, angles radians, t runs from 0 to 1 over the step. Points are
 
 from ._check import Answer, Pair, SceneLike, check, check_many, load_scene
 from ._core import (BodySet, ClosestApproach, ClosestApproachResult, Contact, DistanceResult,
-                    ElementaryContact, Feature, FirstContactResult, LinearContact,
+                    ElementaryContact, Feature, FirstContactResult, HapticSession,
+                    HapticTick, LinearContact,
                     ManyBodiesWorkspace, MeshDefects, Motion, PairAnswer, PairRules, Pose, Result,
                     RobotModel, RobotScene, RunReader, RunStep, Scene, SceneClosest, SceneContact,
                     ScenePair, SceneResult, Shape, ShapeCache, Simulator, StopSource, Trajectory,
@@ -46,7 +47,7 @@ __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproach", "ClosestApproachResult", "Contact", "ContactInterval",
     "ContactState", "DistanceResult", "EdgeAnswers", "EdgeChecker", "ElementaryContact", "ElementaryVerdict", "EndEffector",
     "Feature", "FeatureType", "FileReport", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
-    "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
+    "HapticSession", "HapticTick", "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PlanAnswer", "PlanningRequest", "PointReading", "Pose",

@@ -233,6 +233,8 @@ class PlanAnswer(NamedTuple):
     """``proven``; ``approximate``: so too, but it ends before a goal; ``none``."""
     waypoints: npt.NDArray[np.float64]
     """n×d: a place per row, from the start on; no rows without a path."""
+    times: npt.NDArray[np.float64]
+    """[s]  (n,): of each place, where other bodies or robots move; else (0,)."""
     clearance: npt.NDArray[np.float64]
     """[m]  Of each edge: proven lower bound of the distance of all tested pairs."""
     cost: float

@@ -21,6 +21,7 @@ void bind_trajectory(pybind11::module_& m);
 void bind_robot_scene(pybind11::module_& m);
 void bind_run(pybind11::module_& m);
 void bind_simulator(pybind11::module_& m);
+void bind_haptics(pybind11::module_& m);
 void bind_verify_run(pybind11::module_& m);
 void bind_planning(pybind11::module_& m);
 

@@ -20,6 +20,7 @@ PYBIND11_MODULE(_core, m) {
   bind_robot_scene(m);
   bind_run(m);
   bind_simulator(m);
+  bind_haptics(m);
   bind_verify_run(m);
   bind_planning(m);
 }

@@ -145,6 +145,11 @@ bool equal(const Trajectory& a, const Trajectory& b) {
 py::object read_request(const path& file, const HeldRobotModel& robot) {
   require_file(file);
   const PlanningRequest request = read_planning_request(file, robot.model);
+  if (request.link_goal) {
+    throw ParseError(file.string(),
+                     "expected a goal of joint positions, got the pose of a link; a scene's "
+                     "\"plan\" has such goals");
+  }
   const auto dict = [](const JointPositions& positions) {
     py::dict result;
     for (const auto& [name, position] : positions) {

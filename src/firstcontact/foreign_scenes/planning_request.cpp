@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/foreign_scenes/detail/pose_constraints.h>
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/robot/coordinate_path.h>
@@ -58,22 +59,25 @@ detail::MessagePose read_base(const JsonValue& state, const RobotModel& robot,
   return detail::read_message_pose(poses[0], read);
 }
 
-/// Where the joints are to be.
-detail::MessageState read_goal(const JsonValue& request, const RobotModel& robot,
-                               const JsonReader& read) {
+const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
   const JsonValue& goals = read.member(request, "goal_constraints");
   const JsonArray& list = read.array(goals, "an array of goals");
   if (list.size() != 1) {
     read.fail(goals, "expected one goal, got " + std::to_string(list.size()));
   }
-  const JsonValue* constraints = find_filled(list[0], "joint_constraints");
-  for (const std::string_view key : {"position_constraints", "orientation_constraints"}) {
-    if (find_filled(list[0], key) != nullptr || constraints == nullptr) {
-      read.fail(list[0], "expected a goal of joint positions, \"joint_constraints\" alone");
-    }
-  }
+  return list.front();
+}
+
+bool is_of_link(const JsonValue& goal) {
+  return find_filled(goal, "position_constraints") != nullptr ||
+         find_filled(goal, "orientation_constraints") != nullptr;
+}
+
+/// Where the joints are to be.
+detail::MessageState read_joint_goal(const JsonValue& constraints, const RobotModel& robot,
+                                     const JsonReader& read) {
   detail::MessageState goal;
-  for (const JsonValue& constraint : read.array(*constraints, "an array of joint constraints")) {
+  for (const JsonValue& constraint : read.array(constraints, "an array of joint constraints")) {
     (void)read.object(constraint,
                       {{"joint_name", "position", "tolerance_above", "tolerance_below", "weight"}});
     detail::add_position(read.member(constraint, "joint_name"), read.member(constraint, "position"),
@@ -111,9 +115,20 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
       result.warnings.push_back(detail::zero_quaternion_warning(name, {"the robot's base"}));
     }
   }
-  detail::MessageState goal = read_goal(request, robot, read);
-  result.goal = std::move(goal.positions);
-  fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
+  const JsonValue& wanted = only_goal(request, read);
+  const JsonValue* constraints = find_filled(wanted, "joint_constraints");
+  if ((constraints != nullptr) == is_of_link(wanted)) {
+    read.fail(wanted,
+              "expected \"joint_constraints\" alone, or \"position_constraints\" and "
+              "\"orientation_constraints\" of one link");
+  }
+  if (constraints != nullptr) {
+    detail::MessageState goal = read_joint_goal(*constraints, robot, read);
+    result.goal = std::move(goal.positions);
+    fixed.insert(fixed.end(), goal.fixed.begin(), goal.fixed.end());
+  } else {
+    result.link_goal = detail::read_pose_constraints(wanted, robot, result.base, read);
+  }
   if (!fixed.empty()) {
     result.warnings.push_back(name + ": " + detail::fixed_joints_warning(std::move(fixed)));
   }

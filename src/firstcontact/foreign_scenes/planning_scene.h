@@ -7,12 +7,14 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/plan_question.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/trajectory.h>
 
@@ -52,6 +54,7 @@ struct PlanningScene {
 struct PlanningRequest {
   JointPositions start;
   JointPositions goal;                     ///< Joints that it does not name keep their start.
+  std::optional<LinkGoal> link_goal = {};  ///< In place of positions of joints.
   Pose base;                               ///< Of the robot, where the start has it.
   std::vector<std::string> warnings = {};  ///< What a user should know of the file.
 };
@@ -76,8 +79,8 @@ struct PlanningRequest {
 [[nodiscard]] FIRSTCONTACT_API PlanningScene parse_planning_scene(
     std::string_view text, const std::filesystem::path& source, std::string_view frame);
 
-/// Reads a request, whose goal must be one of joint positions. Positions of fixed joints are left
-/// out with a warning; a quaternion of zeros is the identity, with a warning, too.
+/// Reads a request with one goal: positions of joints, or the pose of a link. Positions of fixed
+/// joints are left out with a warning; a quaternion of zeros is the identity, with a warning, too.
 ///
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API PlanningRequest

@@ -173,6 +173,8 @@ std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) co
   return std::nullopt;
 }
 
+bool ConfigurationSpace::is_in_box(const Configuration& q) const { return !is_body_ || holds(q); }
+
 bool ConfigurationSpace::holds(const Configuration& q) const {
   if (is_body_) {
     const Eigen::Vector3d place(q[0], q[1], q[2]);
@@ -237,6 +239,16 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
   return kUlps * numbers * (1.0 + reach_ + carried + slides);
 }
 
+void ConfigurationSpace::set_path(std::map<std::string, JointMotion>& joints,
+                                  const SpaceCoordinate& coordinate, CoordinatePath path) const {
+  JointMotion& joint = joints.at(model_.joints()[coordinate.joint].name);
+  if (auto* planar = std::get_if<PlanarPath>(&joint)) {
+    (*planar)[coordinate.index] = std::move(path);
+  } else {
+    joint = std::move(path);
+  }
+}
+
 RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to) const {
   if (is_body_) {
     return {model_, {}, Motion::constant_velocity(pose_of(from), pose_of(to))};
@@ -245,15 +257,45 @@ RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configur
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
     const std::array<double, 2> ends = {from[k], to[k]};
-    CoordinatePath path = CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate));
-    JointMotion& joint = joints.at(model_.joints()[coordinate.joint].name);
-    if (auto* planar = std::get_if<PlanarPath>(&joint)) {
-      (*planar)[coordinate.index] = std::move(path);
-    } else {
-      joint = std::move(path);
-    }
+    set_path(joints, coordinate, CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate)));
   }
   return {model_, std::move(joints), base_};
+}
+
+RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
+                                       std::span<const double> times) const {
+  if (is_body_) {
+    std::vector<Pose> poses;
+    for (const Configuration& place : places) {
+      poses.push_back(pose_of(place));
+    }
+    return {model_, {}, Motion::waypoints(times, poses)};
+  }
+  std::map<std::string, JointMotion> joints = held_;
+  std::vector<double> positions(places.size());
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    const SpaceCoordinate& coordinate = coordinates_[k];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      positions[i] = places[i][k];
+    }
+    set_path(joints, coordinate, CoordinatePath::linear(times, positions, turning_of(coordinate)));
+  }
+  return {model_, std::move(joints), base_};
+}
+
+double ConfigurationSpace::travel_time(const Configuration& from, const Configuration& to,
+                                       std::span<const double> speeds) const {
+  if (is_body_) {
+    const Pose a = pose_of(from);
+    const Pose b = pose_of(to);
+    return std::max((b.position - a.position).norm() / speeds[0],
+                    angle_between(a.rotation, b.rotation) / speeds[1]);
+  }
+  double time = 0.0;
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    time = std::max(time, std::abs(way_of(coordinates_[k], from[k], to[k])) / speeds[k]);
+  }
+  return time;
 }
 
 Configuration ConfigurationSpace::sample(detail::PlanRandom& random) const {
@@ -282,13 +324,7 @@ Configuration ConfigurationSpace::sample(detail::PlanRandom& random) const {
 }
 
 void ConfigurationSpace::include(const Configuration& q) {
-  if (is_body_) {
-    const Eigen::Vector3d place(q[0], q[1], q[2]);
-    low_ = low_.cwiseMin(place);
-    high_ = high_.cwiseMax(place);
-    return;
-  }
-  for (std::size_t k = 0; k < q.size(); ++k) {
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     SpaceCoordinate& coordinate = coordinates_[k];
     if (!coordinate.has_limits && !coordinate.turns_short) {
       coordinate.lower = std::min(coordinate.lower, q[k]);

@@ -103,10 +103,26 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// The motion of the robot along an edge, t in [0, 1].
   [[nodiscard]] RobotMotion motion(const Configuration& from, const Configuration& to) const;
 
+  /// The motion through several places, t in [0, 1]; at rest before the first and after the last.
+  ///
+  /// @param times  [-]  in [0, 1], strictly increasing, as many as places
+  [[nodiscard]] RobotMotion motion(std::span<const Configuration> places,
+                                   std::span<const double> times) const;
+
+  /// [s]  The least time for an edge at given speeds.
+  ///
+  /// @param speeds  [rad/s or m/s]  of each coordinate; of a body two: of its origin [m/s], and of
+  ///                its turn [rad/s]
+  [[nodiscard]] double travel_time(const Configuration& from, const Configuration& to,
+                                   std::span<const double> speeds) const;
+
   /// A place drawn evenly: within the limits; of poses within the box, turned in any way.
   [[nodiscard]] Configuration sample(detail::PlanRandom& random) const;
 
-  /// Widens what is sampled, without effect on limits, so that it holds a configuration.
+  /// Whether the place of a body is in the box in which it is sampled; true of joints.
+  [[nodiscard]] bool is_in_box(const Configuration& q) const;
+
+  /// Widens what is sampled of joints without limits, so that it holds a configuration.
   void include(const Configuration& q);
 
   /// Sets the limits of a coordinate of joints, in place of its own.
@@ -123,6 +139,8 @@ class FIRSTCONTACT_API ConfigurationSpace {
   ConfigurationSpace(RobotModel model, Motion base);
 
   [[nodiscard]] std::optional<std::string> defect_of_body(const Configuration& q) const;
+  void set_path(std::map<std::string, JointMotion>& joints, const SpaceCoordinate& coordinate,
+                CoordinatePath path) const;
 
   RobotModel model_;
   Motion base_;

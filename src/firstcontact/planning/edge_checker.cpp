@@ -13,6 +13,7 @@
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
+#include <firstcontact/planning/detail/edge_question.h>
 #include <firstcontact/planning/detail/edge_search.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/text/write_json.h>
@@ -89,13 +90,6 @@ double carried_reach(const RobotScene& scene) {
   return reach;
 }
 
-RobotScene with_extra(RobotScene scene, double extra) {
-  for (std::size_t member = 0; member < scene.size(); ++member) {
-    scene.set_padding(member, scene.padding(member) + 0.5 * extra);
-  }
-  return scene;
-}
-
 std::optional<double> finite_clearance(double clearance) {
   return std::isfinite(clearance) ? std::optional(std::max(0.0, clearance)) : std::nullopt;
 }
@@ -116,19 +110,10 @@ struct EdgeChecker::Data {
       : plan(std::move(given)),
         options(asked),
         carried(carried_reach(plan.scene)),
-        padded(with_extra(plan.scene, options.extra_clearance)),
+        padded(detail::scene_of_edges(plan, options.extra_clearance)),
         works([this] { return std::make_unique<ThreadWork>(padded, question()); }) {}
 
-  [[nodiscard]] RobotCheckOptions question() const {
-    RobotCheckOptions asked;
-    asked.tolerance = options.tolerance;
-    asked.contacts = ContactState::none;
-    asked.budget.steps = options.effort;
-    asked.budget.deadline = options.deadline;
-    asked.budget.stop = options.stop;
-    asked.threads = 1;
-    return asked;
-  }
+  [[nodiscard]] RobotCheckOptions question() const { return detail::question_of_edges(options); }
 
   detail::EdgeSearch& search_along(const Configuration& from, const Configuration& to) {
     detail::EdgeSearch& search = works.local()->search;

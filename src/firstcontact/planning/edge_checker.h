@@ -21,12 +21,19 @@
 
 namespace firstcontact {
 
-/// A scene of which one robot is planned, with all else at rest.
+/// The times of a plan among surroundings that move.
+struct PlanTimes {
+  double duration = 1.0;            ///< [s]  Of the scene: t = time / duration.
+  std::vector<double> speeds = {};  ///< As ConfigurationSpace::travel_time().
+};
+
+/// A scene of which one robot is planned, with all else at rest, or moving on known ways.
 struct PlanScene {
   RobotScene scene;
   std::size_t robot = 0;                ///< That the space is of.
   ConfigurationSpace space;             ///< Its model is that of the robot.
   std::vector<std::string> names = {};  ///< Of members, in messages; else those of the scene.
+  std::optional<PlanTimes> times = {};  ///< Where the surroundings move; see plan_path().
 
   [[nodiscard]] const std::string& name(std::size_t member) const {
     return names.empty() ? scene.name(member) : names[member];
@@ -72,7 +79,8 @@ struct StateAnswer {
   std::optional<BodyPair> pair = {};  ///< Of members: what blocks, else what is nearest.
 };
 
-/// Checks the edges of a planner against a scene at rest. Members are those of the scene.
+/// Checks the edges of a planner against a scene at rest. Members are those of the scene. Pairs
+/// that no edge moves are not tested.
 ///
 /// Thread-safe without locks: every thread has memory of its own. Answers depend neither on other
 /// questions nor on the number of threads, as long as neither the deadline nor the stop token ends

@@ -11,6 +11,7 @@
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/lazy_prm.h>
+#include <firstcontact/planning/detail/plan_in_time.h>
 #include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/rrt_connect.h>
@@ -53,6 +54,10 @@ void require_places(const ConfigurationSpace& space, const Configuration& start,
     const std::optional<std::string> of_goal = space.defect(goals[k]);
     const std::string which = goals.size() == 1 ? "" : " " + std::to_string(k);
     require_plan(!of_goal, "the goal" + which + ": " + of_goal.value_or(""));
+  }
+  require_plan(space.is_in_box(start), "the start is outside of the box; widen the box");
+  for (const Configuration& goal : goals) {
+    require_plan(space.is_in_box(goal), "a goal is outside of the box; widen the box");
   }
   const std::optional<std::string> unbounded = space.unbounded();
   require_plan(!unbounded, "joint " + detail::in_quotes(unbounded.value_or("")) +
@@ -246,6 +251,10 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
   widened.space.include(start);
   for (const Configuration& goal : goals) {
     widened.space.include(goal);
+  }
+  if (widened.times) {
+    const double range = options.range > 0.0 ? options.range : default_range(widened.space);
+    return detail::plan_in_time(widened, start, goals, range, options);
   }
   return PlanSearch(widened, options).run(start, goals);
 }

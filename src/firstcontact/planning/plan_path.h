@@ -89,6 +89,9 @@ struct PlanResult {
   /// The places between which edges lead; start and goal are those of the question to the bit. Only
   /// one where the start is a goal.
   std::vector<Configuration> path = {};
+  /// [s]  Of each place, from 0 to the duration, where the surroundings move; else empty. Between
+  /// two times an edge runs at a constant rate.
+  std::vector<double> times = {};
   /// [m]  Of each edge, or of the only place.
   ///
   /// It is a proven lower bound of the distance of every tested pair; none where no pair is tested.
@@ -108,6 +111,11 @@ struct PlanResult {
 ///
 /// The search keeps twice the tolerance more than the margin, so that another check of the answer
 /// with the same tolerance finds it free, too, wherever it looks.
+///
+/// Where the surroundings move (`times` of the scene), the answer is a motion from the time 0 to
+/// the duration: the mover gets to a goal within its speeds, and rests there until the end. It is
+/// proven as a whole once more. There is no approximate answer; the planner is ST-RRT's, whatever
+/// the options say, and of shortcuts there is one round.
 ///
 /// @throws std::invalid_argument  names what is wrong: an option, a limit, a place that is none; or
 ///         the start, or all goals, are not free, with the pair, how deep it is, and the nearest

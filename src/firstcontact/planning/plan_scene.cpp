@@ -15,6 +15,8 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/inverse_kinematics.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
@@ -28,14 +30,29 @@ using detail::in_quotes;
 
 [[noreturn]] void refuse_plan(const std::string& what) { throw std::invalid_argument(what); }
 
-/// Takes the first point of a trajectory among the positions at which the robot rests.
-void rest_at_begin(SceneRobot& robot, bool is_planned) {
-  const Trajectory& trajectory = robot.trajectory;
-  const bool moves = trajectory.points.size() > 1 && !trajectory.joint_names.empty();
-  if (moves && !is_planned) {
-    refuse_plan("robot " + in_quotes(robot.name) +
-                " moves by itself; a path is planned among robots at rest");
+bool moves_by_itself(const SceneRobot& robot) {
+  return !std::holds_alternative<FixedMotion>(robot.base) ||
+         (robot.trajectory.points.size() > 1 && !robot.trajectory.joint_names.empty());
+}
+
+/// The name of something other than the mover that moves; none where all else rests.
+std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& question) {
+  for (std::size_t k = 0; k < scene.robots.size(); ++k) {
+    if (question.robot != k && moves_by_itself(scene.robots[k])) {
+      return "robot " + in_quotes(scene.robots[k].name);
+    }
   }
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    if (question.body != k && !std::holds_alternative<FixedMotion>(scene.bodies[k].motion)) {
+      return "body " + in_quotes(scene.bodies[k].name);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Takes the first point of a trajectory among the positions at which the robot rests.
+void rest_at_begin(SceneRobot& robot) {
+  const Trajectory& trajectory = robot.trajectory;
   for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
     robot.state[trajectory.joint_names[k]] = trajectory.points.front().positions[k];
   }
@@ -52,20 +69,24 @@ void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
   }
 }
 
-/// The scene at rest, with the mover at its start and the margin of the question.
+/// The scene with the mover at rest at its start, all else at rest or moving by itself, and the
+/// margin of the question.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
+  const bool keeps_times = what_moves(scene, question).has_value();
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
     SceneRobot& robot = scene.robots[k];
     require_all_the_time(scene, robot);
     for (SceneAttachment& held : robot.attached) {
       held.to_time.reset();
     }
-    rest_at_begin(robot, question.robot == k);
-    if (!std::holds_alternative<FixedMotion>(robot.base)) {
-      refuse_plan("the base of robot " + in_quotes(robot.name) +
-                  " moves; a path is planned for a base at rest");
+    if (question.robot == k || !moves_by_itself(robot)) {
+      rest_at_begin(robot);
     }
     if (question.robot == k) {
+      if (!std::holds_alternative<FixedMotion>(robot.base)) {
+        refuse_plan("the base of robot " + in_quotes(robot.name) +
+                    " moves; a path is planned for a base at rest");
+      }
       for (const auto& [name, position] : question.start) {
         robot.state[coordinate_name(robot.model, find_coordinate(robot.model, name))] = position;
       }
@@ -78,16 +99,18 @@ Scene resting_scene(Scene scene, const PlanQuestion& question) {
     if (question.body == k && question.start_pose) {
       body.motion = FixedMotion{*question.start_pose};
     }
-    if (!std::holds_alternative<FixedMotion>(body.motion)) {
+    if (question.body == k && !std::holds_alternative<FixedMotion>(body.motion)) {
       refuse_plan("body " + in_quotes(body.name) +
-                  " moves; a path is planned among bodies at rest");
+                  " moves by itself and is to be planned; give it a \"start\" or a pose at rest");
     }
   }
   scene.options.margin = question.margin.value_or(scene.options.margin);
   scene.options.start_contacts = StartContacts::report;
   scene.simulation.reset();
   scene.plan.reset();
-  scene.duration = 1.0;
+  if (!keeps_times) {
+    scene.duration = 1.0;
+  }
   return scene;
 }
 
@@ -113,6 +136,30 @@ double start_of(const SceneRobot& robot, const std::string& name, const Joint& j
   return found != robot.state.end() ? found->second : default_position(joint);
 }
 
+std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal) {
+  const std::optional<std::size_t> link = model.find_link(goal.link);
+  if (!link) {
+    refuse_plan("expected a goal of a link of the robot, got " + in_quotes(goal.link));
+  }
+  return *link;
+}
+
+/// Adds the joints that move a link and have one coordinate; what they mimic in place of others.
+void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
+  for (auto joint = model.parent_joint(link); joint;
+       joint = model.parent_joint(model.parent_link(*joint))) {
+    std::size_t mover = *joint;
+    while (model.joints()[mover].mimic) {
+      mover = model.find_joint(model.joints()[mover].mimic->joint).value();
+    }
+    const JointType type = model.joints()[mover].type;
+    if (type == JointType::revolute || type == JointType::continuous ||
+        type == JointType::prismatic || type == JointType::screw) {
+      named.insert(find_coordinate(model, model.joints()[mover].name));
+    }
+  }
+}
+
 /// What is asked for by name, or named by a goal; without joints that mimic others.
 std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuestion& question) {
   if (!question.joints.empty()) {
@@ -126,6 +173,9 @@ std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuest
         named.insert(coordinate);
       }
     }
+  }
+  for (const LinkGoal& goal : question.link_goals) {
+    add_joints_below(model, link_of_goal(model, goal), named);
   }
   std::vector<std::string> joints;
   for (const JointCoordinate& coordinate : named) {
@@ -163,6 +213,72 @@ Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
   return goal;
 }
 
+/// [rad/s or m/s]  How fast each coordinate may move, or a body.
+///
+/// @param moving  what makes speeds matter, for errors
+std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationSpace& space,
+                              const std::string& moving) {
+  const auto speed = [&](const std::string& name, const std::optional<double>& own) {
+    const auto found = question.speeds.find(name);
+    if (found == question.speeds.end() && !(own.value_or(0.0) > 0.0)) {
+      refuse_plan(moving + " moves: expected \"speeds\" of what is planned with " +
+                  in_quotes(name) + ", got none");
+    }
+    return found == question.speeds.end() ? *own : found->second;
+  };
+  if (space.is_body()) {
+    return {speed("linear", std::nullopt), speed("angular", std::nullopt)};
+  }
+  std::vector<double> speeds;
+  for (const SpaceCoordinate& coordinate : space.coordinates()) {
+    speeds.push_back(
+        speed(coordinate.name, space.model().joints()[coordinate.joint].limits.velocity));
+  }
+  return speeds;
+}
+
+void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& plan) {
+  if (const std::optional<std::string> moving = what_moves(scene, question)) {
+    plan.times = PlanTimes{scene.duration, speeds_of(question, plan.space, *moving)};
+  }
+}
+
+/// Adds free places of the joints at which a link is at its pose.
+void add_places_of(const PlanScene& plan, const LinkGoal& wanted, const Configuration& start,
+                   std::uint64_t seed, std::vector<Configuration>& goals) {
+  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(), wanted),
+                          .X_LT = wanted.X_LT,
+                          .X_WT = wanted.X_WT,
+                          .position_tolerance = wanted.position_tolerance,
+                          .rotation_tolerance = wanted.rotation_tolerance};
+  const std::vector<ReachedPose> places = reach_pose(plan.space, goal, start, {.seed = seed});
+  const std::string name = "the pose of link " + in_quotes(wanted.link);
+  if (!reaches(places.front(), goal)) {
+    const ReachedPose& nearest = places.front();
+    refuse_plan(name + ": no place of the joints was found at which it is there; the nearest is " +
+                detail::write_json(nearest.position_error) + " m and " +
+                detail::write_json(nearest.rotation_error) + " rad off");
+  }
+  if (plan.times) {
+    // Whether they are free depends on the time: the search finds out.
+    std::transform(places.begin(), places.end(), std::back_inserter(goals),
+                   [](const ReachedPose& place) { return place.q; });
+    return;
+  }
+  const EdgeChecker checker(plan);
+  const std::size_t before = goals.size();
+  for (const ReachedPose& place : places) {
+    if (checker.is_free(place.q)) {
+      goals.push_back(place.q);
+    }
+  }
+  if (goals.size() == before) {
+    refuse_plan(detail::describe_blocked(checker, places.front().q,
+                                         name + " (all " + std::to_string(places.size()) +
+                                             " places of the joints that were found)"));
+  }
+}
+
 ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
   const std::size_t robot = *question.robot;
   const SceneRobot& described = loaded.scene.robots[robot];
@@ -186,6 +302,10 @@ ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
     goals.push_back(goal_of(model, space, goal, start));
   }
   PlanScene plan{.scene = *loaded.robots, .robot = robot, .space = std::move(space)};
+  take_times(loaded.scene, question, plan);
+  for (const LinkGoal& goal : question.link_goals) {
+    add_places_of(plan, goal, start, question.seed.value_or(PlanOptions{}.seed), goals);
+  }
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
 }
 
@@ -201,11 +321,14 @@ std::array<Eigen::Vector3d, 2> box_around(const LoadedScene& loaded, std::size_t
   const Hierarchy& of_mover = shape_of_body(loaded, mover).hierarchy();
   const double reach = of_mover.centre.norm() + of_mover.radius;
   for (std::size_t k = 0; k < loaded.scene.bodies.size(); ++k) {
-    const Pose& pose = std::get<FixedMotion>(loaded.scene.bodies[k].motion).pose;
+    const Motion motion = normalised_motion(loaded.scene.bodies[k].motion, loaded.scene.duration);
     const Hierarchy& hierarchy = shape_of_body(loaded, k).hierarchy();
-    const Eigen::Vector3d centre = pose.position + pose.rotation.normalized() * hierarchy.centre;
-    box.extend(centre - Eigen::Vector3d::Constant(hierarchy.radius));
-    box.extend(centre + Eigen::Vector3d::Constant(hierarchy.radius));
+    for (const double t : {0.0, 1.0}) {
+      const Pose pose = motion.pose(t);
+      const Eigen::Vector3d centre = pose.position + pose.rotation.normalized() * hierarchy.centre;
+      box.extend(centre - Eigen::Vector3d::Constant(hierarchy.radius));
+      box.extend(centre + Eigen::Vector3d::Constant(hierarchy.radius));
+    }
   }
   for (const Pose& goal : goals) {
     box.extend(goal.position);
@@ -224,7 +347,7 @@ RobotScene scene_of_body(const LoadedScene& loaded, std::size_t mover,
       made.add_robot(scene.bodies[k].name, space.motion(start, start));
     } else {
       made.add_body(scene.bodies[k].name, shape_of_body(loaded, k),
-                    Motion::fixed(std::get<FixedMotion>(scene.bodies[k].motion).pose));
+                    normalised_motion(scene.bodies[k].motion, scene.duration));
     }
   }
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
@@ -263,6 +386,7 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
   }
   RobotScene scene = scene_of_body(loaded, mover, space, start);
   PlanScene plan{.scene = std::move(scene), .robot = 0, .space = std::move(space)};
+  take_times(loaded.scene, question, plan);
   for (std::size_t member = 0; member < plan.scene.size(); ++member) {
     plan.names.push_back(member_name(loaded.scene, member));
   }
@@ -332,6 +456,7 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
     path.turnings.push_back(coordinate.turns_short ? Turning::shortest : Turning::as_given);
   }
   path.waypoints = result.path;
+  path.times = result.times;
   if (path.waypoints.size() > 1) {
     path.clearances = result.clearances;
   }

@@ -38,28 +38,38 @@ class BlendPlanner {
       lines_.push_back(detail::line_limits(path, edge, limits, share, true));
     }
     plan_.resize(path.waypoints.size());
+    trial_ = plan_;
+    for (std::size_t edge = 0; edge < lines_.size(); ++edge) {
+      edge_seconds_.push_back(seconds_of(edge));
+      total_ += edge_seconds_.back();
+    }
   }
 
   /// One blend for each waypoint; those of the ends are none.
   std::vector<BlendPlan> run() {
-    double best = seconds_of(plan_);
     constexpr int kSweeps = 4;
     bool has_changed = true;
     for (int sweep = 0; sweep < kSweeps && has_changed; ++sweep) {
       has_changed = false;
       for (std::size_t at = 1; at + 1 < plan_.size(); ++at) {
-        has_changed = improve(at, best) || has_changed;
+        has_changed = improve(at) || has_changed;
       }
     }
-    (void)seconds_of(plan_);  // Leaves the times in it.
     return std::move(plan_);
   }
 
   [[nodiscard]] const LineLimits& line(std::size_t edge) const { return lines_[edge]; }
 
  private:
+  /// The blends of some waypoints in a row, and the time that they save.
+  struct Change {
+    std::size_t first = 0;
+    std::vector<BlendPlan> blends = {};
+    double gain = 0.0;  // [s]
+  };
+
   /// The best length of one blend while the others keep theirs.
-  bool improve(std::size_t at, double& best) {
+  bool improve(std::size_t at) {
     constexpr std::array<double, 11> kShares{1.0,  0.75, 0.55, 0.4,  0.3, 0.22,
                                              0.16, 0.11, 0.07, 0.04, 0.0};
     const double longest = longest_[at - 1];
@@ -68,24 +78,63 @@ class BlendPlanner {
     // Either as long in time at the highest rates, or the same share of both edges.
     const std::array<std::array<double, 2>, 2> kinds{
         {{in / std::max(in, out), out / std::max(in, out)}, {1.0, 1.0}}};
-    std::vector<BlendPlan> chosen;
-    const double before = best;
+    Change best;
     for (const auto& kind : kinds) {
       for (const double part : kShares) {
-        std::vector<BlendPlan> trial = plan_;
-        trial[at] = shortest_blend(at, longest * part * kind[0], longest * part * kind[1]);
-        const double seconds = seconds_of(trial);
-        if (seconds < best) {
-          best = seconds;
-          chosen = std::move(trial);
+        Change change =
+            changed(at, shortest_blend(at, longest * part * kind[0], longest * part * kind[1]));
+        if (change.gain > best.gain) {
+          best = std::move(change);
         }
       }
     }
-    if (!chosen.empty()) {
-      plan_ = std::move(chosen);
-    }
     constexpr double kWorthwhile = 1e-4;  // Relative.
-    return best < before * (1.0 - kWorthwhile);
+    const bool is_worthwhile = best.gain > kWorthwhile * total_;
+    take(best);
+    return is_worthwhile;
+  }
+
+  /// What one blend changes: itself, and those near it that have to be slower for it.
+  Change changed(std::size_t at, const BlendPlan& blend) {
+    trial_[at] = blend;
+    std::size_t last = at;
+    for (std::size_t edge = at - 1; edge < lines_.size(); ++edge) {
+      if (slow_end(edge)) {
+        last = std::max(last, edge + 1);
+      } else if (edge >= at) {
+        break;
+      }
+    }
+    // The ends of the path rest and are never slowed: the loop ends before the first edge does.
+    std::size_t first = at;
+    for (std::size_t edge = last;; --edge) {
+      if (slow_begin(edge)) {
+        first = std::min(first, edge);
+      } else if (edge < at) {
+        break;
+      }
+    }
+    Change change{first, {}, 0.0};
+    for (std::size_t edge = first - 1; edge <= last; ++edge) {
+      change.gain += edge_seconds_[edge] - seconds_of(edge);
+    }
+    for (std::size_t k = first; k <= last; ++k) {
+      change.blends.push_back(std::exchange(trial_[k], plan_[k]));
+    }
+    return change;
+  }
+
+  void take(const Change& change) {
+    if (change.blends.empty()) {
+      return;
+    }
+    for (std::size_t k = 0; k < change.blends.size(); ++k) {
+      trial_[change.first + k] = plan_[change.first + k] = change.blends[k];
+    }
+    for (std::size_t edge = change.first - 1; edge < change.first + change.blends.size(); ++edge) {
+      edge_seconds_[edge] = seconds_of(edge);
+    }
+    total_ -= change.gain;
   }
 
   [[nodiscard]] double way(std::size_t edge, std::size_t joint) const {
@@ -126,46 +175,45 @@ class BlendPlanner {
   }
 
   /// [-]  Of an edge between its blends.
-  static double straight_way(const std::vector<BlendPlan>& plan, std::size_t edge) {
-    return 1.0 - plan[edge].after - plan[edge + 1].before;
+  [[nodiscard]] double straight_way(std::size_t edge) const {
+    return 1.0 - trial_[edge].after - trial_[edge + 1].before;
   }
 
-  /// Slows blends down until each edge can change from the rate of one to that of the next.
-  void make_reachable(std::vector<BlendPlan>& plan) const {
-    for (std::size_t edge = 0; edge + 1 < plan.size(); ++edge) {
-      const double from = plan[edge].rate_after();
-      BlendPlan& next = plan[edge + 1];
-      const double way = straight_way(plan, edge);
-      const double wanted = next.rate_before();
-      if (wanted > from && !has_room(from, wanted, way, lines_[edge])) {
-        next.seconds = 2.0 * next.before / reachable(from, wanted, way, lines_[edge]);
-      }
+  /// Slows the blend at the end of an edge to what can be reached from that at its begin.
+  bool slow_end(std::size_t edge) {
+    BlendPlan& next = trial_[edge + 1];
+    const double from = trial_[edge].rate_after();
+    const double wanted = next.rate_before();
+    const double way = straight_way(edge);
+    if (!(wanted > from) || has_room(from, wanted, way, lines_[edge])) {
+      return false;
     }
-    for (std::size_t edge = plan.size() - 1; edge-- > 0;) {
-      const double to = plan[edge + 1].rate_before();
-      BlendPlan& last = plan[edge];
-      const double way = straight_way(plan, edge);
-      const double wanted = last.rate_after();
-      if (wanted > to && !has_room(to, wanted, way, lines_[edge])) {
-        last.seconds = 2.0 * last.after / reachable(to, wanted, way, lines_[edge]);
-      }
-    }
+    next.seconds = 2.0 * next.before / reachable(from, wanted, way, lines_[edge]);
+    return true;
   }
 
-  /// [s]  Of the whole motion; its blends are made as fast as their neighbours let them.
-  double seconds_of(std::vector<BlendPlan>& plan) const {
-    make_reachable(plan);
-    double sum = 0.0;
-    for (std::size_t edge = 0; edge + 1 < plan.size(); ++edge) {
-      const double from = plan[edge].rate_after();
-      const double to = plan[edge + 1].rate_before();
-      const double way = straight_way(plan, edge);
-      if (!std::isfinite(plan[edge + 1].seconds) || !has_room(from, to, way, lines_[edge])) {
-        return kNever;
-      }
-      sum += detail::line_seconds(way, from, to, lines_[edge]) + plan[edge + 1].seconds;
+  /// Slows the blend at the begin of an edge to that from which its end can be reached.
+  bool slow_begin(std::size_t edge) {
+    BlendPlan& last = trial_[edge];
+    const double to = trial_[edge + 1].rate_before();
+    const double wanted = last.rate_after();
+    const double way = straight_way(edge);
+    if (!(wanted > to) || has_room(to, wanted, way, lines_[edge])) {
+      return false;
     }
-    return sum;
+    last.seconds = 2.0 * last.after / reachable(to, wanted, way, lines_[edge]);
+    return true;
+  }
+
+  /// [s]  Of an edge and the blend behind it; infinite where the rates of its blends cannot be had.
+  [[nodiscard]] double seconds_of(std::size_t edge) const {
+    const double from = trial_[edge].rate_after();
+    const double to = trial_[edge + 1].rate_before();
+    const double way = straight_way(edge);
+    if (!std::isfinite(trial_[edge + 1].seconds) || !has_room(from, to, way, lines_[edge])) {
+      return kNever;
+    }
+    return detail::line_seconds(way, from, to, lines_[edge]) + trial_[edge + 1].seconds;
   }
 
   const WaypointPath& path_;
@@ -174,10 +222,13 @@ class BlendPlanner {
   double share_;
   std::vector<LineLimits> lines_;
   std::vector<BlendPlan> plan_;
+  std::vector<BlendPlan> trial_;      // As plan_, but for what is tried.
+  std::vector<double> edge_seconds_;  // [s]  As seconds_of().
+  double total_ = 0.0;                // [s]
 };
 
 std::int64_t whole_blend(double seconds) {
-  return std::max(detail::kShortestPhase, static_cast<std::int64_t>(std::ceil(seconds * 1e9)));
+  return std::max(detail::kShortestPhase, detail::whole_nanoseconds_up(seconds));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ class Retimer {
   /// A proven motion with blends that is faster than one without; none where there is none.
   std::optional<RetimedMotion> blend(double stop_duration) {
     std::vector<double> longest(path_.waypoints.size() - 2, kLongestBlend);
-    while (true) {
+    while (!options_.proof.budget.stop.stop_requested()) {
       BlendedMotion blended = blended_within_limits(longest);
       if (!(blended.motion.duration() < stop_duration)) {
         return std::nullopt;
@@ -86,9 +86,10 @@ class Retimer {
                              .shortened = shortened_};
       }
       if (!proof.holds_limits() || !shorten(blended.blends, proof, longest)) {
-        return std::nullopt;
+        break;
       }
     }
+    return std::nullopt;
   }
 
   /// Makes the blend shorter that is in contact or undecided; false where none is.

@@ -9,6 +9,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/retiming/detail/blended_path.h>
+#include <firstcontact/retiming/detail/line_profile.h>
 #include <firstcontact/retiming/detail/phase_plane.h>
 #include <firstcontact/retiming/rate_report.h>
 
@@ -118,7 +119,7 @@ class StretchTimer {
       stretch.points.push_back(std::move(point));
     }
     stretch.points.push_back(at_rest(last_));
-    stretch.points.back().time = static_cast<std::int64_t>(std::ceil(duration * 1e9));
+    stretch.points.back().time = detail::whole_nanoseconds_up(duration);
     for (const BlendedPath::Piece& piece : geometry_.pieces()) {
       if (piece.is_blend) {
         const auto time = [&](double S) {
@@ -143,11 +144,14 @@ class StretchTimer {
 Stretch stretch_of(const BlendedMotion& blended, std::int64_t begin, std::int64_t end,
                    std::size_t first, std::size_t last) {
   Stretch stretch;
-  for (const TimedPoint& point : blended.motion.points) {
-    if (begin <= point.time && point.time <= end) {
-      stretch.points.push_back(point);
-      stretch.points.back().time -= begin;
-    }
+  const std::vector<TimedPoint>& points = blended.motion.points;
+  const auto is_before = [](const TimedPoint& point, std::int64_t time) {
+    return point.time < time;
+  };
+  for (auto point = std::lower_bound(points.begin(), points.end(), begin, is_before);
+       point != points.end() && point->time <= end; ++point) {
+    stretch.points.push_back(*point);
+    stretch.points.back().time -= begin;
   }
   for (std::size_t waypoint = first + 1; waypoint < last; ++waypoint) {
     Blend blend = blended.blends[waypoint - 1];

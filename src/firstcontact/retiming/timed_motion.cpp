@@ -10,9 +10,6 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-/// [ns]  Doubles resolve a quarter of a nanosecond up to here, 13 days.
-constexpr double kLatestTime = 0x1p50;
-
 std::int64_t whole_nanoseconds(double seconds) {
   const double product = seconds * kNanosecondsPerSecond;
   const double rounded = std::round(product);

@@ -14,6 +14,9 @@
 
 namespace firstcontact {
 
+/// [ns]  No motion is longer: doubles of seconds tell nanoseconds apart up to here, 13 days.
+inline constexpr double kLatestTime = 0x1p50;
+
 /// The rates that a joint coordinate may have.
 struct RateLimits {
   double velocity = 0.0;            ///< [rad/s or m/s]  > 0.

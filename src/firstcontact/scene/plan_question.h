@@ -35,6 +35,15 @@ enum class Planner {
 /// Its words in files and in Python, in this order.
 inline constexpr std::array<const char*, 2> kPlannerWords{"rrt_connect", "lazy_prm_star"};
 
+/// A goal of a robot: a frame T of one of its links at a pose.
+struct LinkGoal {
+  std::string link = {};
+  Pose X_LT = {};                    ///< T, fixed in the link.
+  Pose X_WT = {};                    ///< Where T is to be.
+  double position_tolerance = 1e-6;  ///< [m]  > 0
+  double rotation_tolerance = 1e-6;  ///< [rad]  > 0; pi or more: any rotation will do.
+};
+
 /// The answer of RRT-Connect to a blocked edge: S. Redon, M. Lin, "Practical local planning in
 /// the contact space", ICRA 2005.
 enum class ContactUse {
@@ -56,6 +65,10 @@ struct PlanQuestion {
   std::vector<std::string> joints = {};
   JointPositions start = {};               ///< Of a robot; others begin where the scene has them.
   std::vector<JointPositions> goals = {};  ///< Joints that they do not name keep their start.
+  /// [rad/s or m/s]  Among surroundings that move: by coordinates, else those of the URDF; of a
+  /// body "linear" and "angular".
+  std::map<std::string, double> speeds = {};
+  std::vector<LinkGoal> link_goals = {};  ///< Beside `goals`: any one of all will do.
   std::map<std::string, std::array<double, 2>> bounds = {};  ///< [rad or m]  By coordinates.
   std::optional<Pose> start_pose = {};  ///< Of a body; else where the scene has it.
   std::vector<Pose> goal_poses = {};    ///< Of a body.

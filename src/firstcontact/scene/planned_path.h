@@ -44,6 +44,9 @@ struct PlannedPath {
   std::vector<Turning> turnings = {};    ///< Of each of them.
   /// At least one. Of a body a position, then a quaternion w, x, y, z.
   std::vector<std::vector<double>> waypoints = {};
+  /// [s]  Of each waypoint, from 0 to the duration of the scene, where the surroundings move; else
+  /// empty.
+  std::vector<double> times = {};
   /// [m]  Of each edge: a proven lower bound of the distance of tested pairs; none where none is.
   std::vector<std::optional<double>> clearances = {};
   double margin = 0.0;                   ///< [m]
@@ -59,7 +62,7 @@ struct PlannedPath {
   std::uint64_t seed = 1;
   double time = 1.0;  ///< [s]
   PlannedPathStatistics statistics = {};
-  /// All that stands still, and the mover at its start. Its text_digest is that of the text from
+  /// All but the mover, which is at its start. Its text_digest is that of the text from
   /// which the path was planned.
   Scene scene = {};
   std::string version = {};

@@ -16,6 +16,7 @@
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/scene/body_motion.h>
 #include <firstcontact/scene/body_shape.h>
+#include <firstcontact/scene/haptic_question.h>
 #include <firstcontact/scene/plan_question.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/simulation.h>
@@ -82,6 +83,7 @@ struct Scene {
   SceneOptions options;
   std::optional<Simulation> simulation = {};
   std::optional<PlanQuestion> plan = {};  ///< write_scene() leaves it out.
+  std::optional<HapticQuestion> haptics = {};  ///< Likewise.
   double duration = 1.0;                  ///< [s]  Of the step; t = 1 there.
   /// SHA-256, in hexadecimal, of the text that was read and of the trajectory files that it names,
   /// which write_scene() writes out; may be empty.

@@ -41,6 +41,7 @@ class PathReader {
                                "verdict",
                                "moves",
                                "waypoints",
+                               "times",
                                "edges",
                                "margin",
                                "tolerance",
@@ -61,6 +62,7 @@ class PathReader {
     path.is_proven = read_.word(read_.member(root, "verdict"), {{"proven", "approximate"}}) == 0;
     take_mover(read_.member(root, "moves"), path);
     path.waypoints = rows(read_.member(root, "waypoints"), path);
+    take_times(root, path);
     path.goals = rows(read_.member(root, "goals"), path);
     take_edges(read_.member(root, "edges"), path);
     path.margin = read_.not_negative(read_.member(root, "margin"));
@@ -162,6 +164,27 @@ class PathReader {
       read_.fail_expected("at least one waypoint", value);
     }
     return all;
+  }
+
+  void take_times(const JsonValue& root, PlannedPath& path) const {
+    const JsonValue* times = find(std::get<JsonObject>(root.value), "times");
+    if (times == nullptr) {
+      return;
+    }
+    for (const JsonValue& time : read_.array(*times, "an array of times")) {
+      path.times.push_back(read_.not_negative(time));
+      const std::size_t count = path.times.size();
+      if (count > 1 && !(path.times[count - 2] < path.times[count - 1])) {
+        read_.fail(time, "expected times that increase strictly");
+      }
+    }
+    if (path.times.size() != path.waypoints.size() || path.times.size() < 2) {
+      read_.fail(*times, "expected a time for each of the " +
+                             std::to_string(path.waypoints.size()) + " waypoints, at least two");
+    }
+    if (path.times.front() != 0.0 || path.times.back() != path.scene.duration) {
+      read_.fail(*times, "expected times from 0 to the duration of the scene");
+    }
   }
 
   void take_edges(const JsonValue& value, PlannedPath& path) const {

@@ -15,6 +15,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/verdict_words.h>
 #include <firstcontact/scene_files/detail/read_dynamics.h>
+#include <firstcontact/scene_files/detail/read_haptics.h>
 #include <firstcontact/scene_files/detail/read_motion.h>
 #include <firstcontact/scene_files/detail/read_pairs.h>
 #include <firstcontact/scene_files/detail/read_plan.h>
@@ -302,7 +303,7 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   require_version(root, read);
   const JsonObject& object =
       read.object(root, {{"firstcontact", "id", "package_roots", "bodies", "robots", "pairs",
-                          "options", "simulation", "plan"}});
+                          "options", "simulation", "plan", "haptics"}});
   Scene scene;
   if (const JsonValue* id = find(object, "id")) {
     const auto* text = std::get_if<std::string>(&id->value);
@@ -315,6 +316,9 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   }
   if (const JsonValue* plan = find(object, "plan")) {
     scene.plan = detail::read_plan(*plan, scene, read);
+  }
+  if (const JsonValue* haptics = find(object, "haptics")) {
+    scene.haptics = detail::read_haptics(*haptics, scene, read);
   }
   const JsonValue* duration = given == nullptr ? nullptr : find(*given, "duration");
   const JsonValue* simulated = take_simulation(object, scene, read);

@@ -132,7 +132,16 @@ class SceneBuilder {
                                                            question_.request, robot.model);
     put(request.start, robot.state);
     robot.base = FixedMotion{request.base};
-    robot.trajectory = straight_motion(robot.model, robot.state, request.goal, turning());
+    if (!request.link_goal) {
+      robot.trajectory = straight_motion(robot.model, robot.state, request.goal, turning());
+    } else if (question_.plans) {
+      robot.trajectory.points = {TrajectoryPoint{}};
+      scene_.plan = PlanQuestion{.robot = 0, .link_goals = {*request.link_goal}};
+    } else {
+      throw ParseError(question_.request.string(),
+                       "expected a goal of joint positions, got the pose of a link; "
+                       "`firstcontact plan` finds a path to it");
+    }
     scene_.id = question_.request.filename().string();
     add_warnings(request.warnings);
   }

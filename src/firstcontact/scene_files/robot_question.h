@@ -43,6 +43,9 @@ struct RobotQuestion {
   double environment_scale = 1.0;  ///< [-]  Of the meshes among the surroundings; > 0.
   double padding = 0.0;            ///< [m]  Of every link.
   double tracking_error = 0.0;     ///< [rad or m]  Of every joint.
+  /// The goal of a request may be the pose of a link. It becomes the scene's `plan`, as no straight
+  /// motion leads there.
+  bool plans = false;
   ReadingOptions reading = {};
 };
 

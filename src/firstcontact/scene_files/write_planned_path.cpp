@@ -1,5 +1,6 @@
 #include <firstcontact/scene_files/write_planned_path.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -39,14 +40,18 @@ JsonValue number_or_null(const std::optional<double>& number) {
   return number ? number_of(*number) : JsonValue{.value = JsonNull{}};
 }
 
+JsonValue numbers_of(const std::vector<double>& row) {
+  JsonArray numbers;
+  for (const double number : row) {
+    numbers.push_back(number_of(number));
+  }
+  return {.value = std::move(numbers)};
+}
+
 JsonValue rows_of(const std::vector<std::vector<double>>& rows) {
   JsonArray array;
   for (const std::vector<double>& row : rows) {
-    JsonArray numbers;
-    for (const double number : row) {
-      numbers.push_back(number_of(number));
-    }
-    array.push_back({.value = std::move(numbers)});
+    array.push_back(numbers_of(row));
   }
   return {.value = std::move(array)};
 }
@@ -127,6 +132,11 @@ std::string write_planned_path(const PlannedPath& path) {
                     {"scene_digest", text_of(path.scene.text_digest)},
                     {"resolved_digest", text_of(resolved_digest)},
                     {"input_digest", text_of(path.input_digest)}};
+  if (!path.times.empty()) {
+    const auto behind_waypoints = std::find_if(
+        object.begin(), object.end(), [](const auto& member) { return member.key == "edges"; });
+    object.insert(behind_waypoints, {"times", numbers_of(path.times)});
+  }
   return detail::write_json({.value = std::move(object)});
 }
 

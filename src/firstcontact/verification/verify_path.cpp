@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/text/write_json.h>
 #include <firstcontact/verification/detail/describe_finding.h>
@@ -36,6 +38,9 @@ class BrokenPath : public std::runtime_error {
 /// How far the length of a quaternion may be from 1, as in scenes.
 constexpr double kUnit = 1e-6;
 
+/// [rad or m]  How far joints may be beyond their limits, as in limit_report().
+constexpr double kLimitTolerance = 1e-9;
+
 /// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
 void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
   if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
@@ -43,13 +48,37 @@ void require_turning(const RobotModel& model, const std::string& name, Turning t
   }
 }
 
-/// The scene in which the mover runs through all waypoints, one edge a second.
+/// Straight edges keep the limits that their ends keep.
+void require_limits(const RobotModel& model, const JointCoordinate& which, double position,
+                    const std::string& name) {
+  const JointLimits& limits = model.joints()[which.joint].limits;
+  if (position < limits.lower.value_or(position) - kLimitTolerance ||
+      position > limits.upper.value_or(position) + kLimitTolerance) {
+    throw BrokenPath("A waypoint has joint " + detail::in_quotes(name) + " at " +
+                     detail::write_json(position) + ", outside of its limits.");
+  }
+}
+
+/// [rad or m]  Where the scene has a joint of a robot at rest.
+double position_in_scene(const SceneRobot& robot, const std::string& name) {
+  const JointCoordinate which = find_coordinate(robot.model, name);
+  const auto found = robot.state.find(coordinate_name(robot.model, which));
+  return found != robot.state.end() ? found->second
+                                    : default_position(robot.model.joints()[which.joint]);
+}
+
+/// The scene in which the mover runs through all waypoints: at their times, else one edge a second.
 class MovingScene {
  public:
   explicit MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
-    require_at_rest(loaded_.scene);
-    const std::size_t edges = path.waypoints.size() - 1;
-    loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
+    require_unheld_motion(loaded_.scene);
+    if (path.times.empty()) {
+      require_at_rest(loaded_.scene);
+      const std::size_t edges = path.waypoints.size() - 1;
+      loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
+    } else {
+      require_times();
+    }
     if (path.body.empty()) {
       move_robot();
     } else {
@@ -64,6 +93,11 @@ class MovingScene {
 
   /// Whether a member moves along edges.
   [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
+
+  /// [s]  Of a waypoint.
+  [[nodiscard]] double time(std::size_t waypoint) const {
+    return path_.times.empty() ? static_cast<double>(waypoint) : path_.times.at(waypoint);
+  }
 
  private:
   static LoadedScene load(const PlannedPath& path) {
@@ -85,12 +119,34 @@ class MovingScene {
       if (!rests(robot.base) || robot.trajectory.points.size() > 1) {
         throw BrokenPath("The robot " + detail::in_quotes(robot.name) + " moves by itself.");
       }
+    }
+  }
+
+  static void require_unheld_motion(const Scene& scene) {
+    for (const SceneRobot& robot : scene.robots) {
       for (const SceneAttachment& held : robot.attached) {
         if (held.from_time != 0.0 || held.to_time) {
           throw BrokenPath("The robot " + detail::in_quotes(robot.name) +
                            " holds a body for a part of the time.");
         }
       }
+    }
+  }
+
+  void require_times() const {
+    const std::vector<double>& times = path_.times;
+    const bool increase =
+        std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+    if (times.size() != path_.waypoints.size() || times.size() < 2 || !increase ||
+        times.front() != 0.0 || times.back() != loaded_.scene.duration) {
+      throw BrokenPath("The times of the path do not run from 0 to the duration of its scene.");
+    }
+  }
+
+  /// The mover has no motion of its own.
+  static void require_own_rest(bool rests, const std::string& name) {
+    if (!rests) {
+      throw BrokenPath("The mover " + detail::in_quotes(name) + " moves by itself.");
     }
   }
 
@@ -102,6 +158,9 @@ class MovingScene {
       throw BrokenPath("The scene has no robot " + detail::in_quotes(path_.robot) + ".");
     }
     SceneRobot& robot = *found;
+    require_own_rest(
+        std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.points.size() <= 1,
+        robot.name);
     const auto number = static_cast<std::size_t>(found - scene.robots.begin());
     robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
     for (std::size_t k = 0; k < path_.joints.size(); ++k) {
@@ -110,11 +169,17 @@ class MovingScene {
         throw BrokenPath("The joint " + detail::in_quotes(path_.joints[k]) + " mimics another.");
       }
       require_turning(robot.model, path_.joints[k], path_.turnings.at(k));
+      if (path_.waypoints.front().at(k) != position_in_scene(robot, path_.joints[k])) {
+        throw BrokenPath("The path does not begin where its scene has joint " +
+                         detail::in_quotes(path_.joints[k]) + ".");
+      }
+      for (const std::vector<double>& waypoint : path_.waypoints) {
+        require_limits(robot.model, which, waypoint.at(k), path_.joints[k]);
+      }
       turnings_[number][path_.joints[k]] = path_.turnings.at(k);
     }
     for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
-      robot.trajectory.points.push_back(
-          {.time = static_cast<double>(k), .positions = path_.waypoints[k]});
+      robot.trajectory.points.push_back({.time = time(k), .positions = path_.waypoints[k]});
     }
     find_moving(robot, number);
   }
@@ -126,6 +191,7 @@ class MovingScene {
         first_member(scene, scene.robots.size() - 1) + scene.robots.back().model.links().size(),
         false);
     for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+      moves_[first + link] = !path_.times.empty();  // Others come near whatever rests.
       for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
            joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
         moves_[first + link] = is_planned(robot.model, *joint);
@@ -160,13 +226,15 @@ class MovingScene {
         }
       }
     }
+    require_own_rest(std::holds_alternative<FixedMotion>(body->motion), body->name);
+    require_begin(std::get<FixedMotion>(body->motion).pose);
     WaypointMotion motion;
     for (const std::vector<double>& q : path_.waypoints) {
       if (!(std::abs(std::hypot(std::hypot(q.at(3), q.at(4)), std::hypot(q.at(5), q.at(6))) -
                      1.0) <= kUnit)) {
         throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
       }
-      motion.times.push_back(static_cast<double>(motion.times.size()));
+      motion.times.push_back(time(motion.times.size()));
       motion.poses.push_back(
           {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
     }
@@ -177,6 +245,17 @@ class MovingScene {
     }
     moves_.assign(members, false);
     moves_[number] = true;
+  }
+
+  void require_begin(const Pose& pose) const {
+    const std::vector<double>& q = path_.waypoints.front();
+    const Eigen::Quaterniond& r = pose.rotation;
+    if (Eigen::Vector3d(q.at(0), q.at(1), q.at(2)) != pose.position ||
+        Eigen::Vector4d(q.at(3), q.at(4), q.at(5), q.at(6)) !=
+            Eigen::Vector4d(r.w(), r.x(), r.y(), r.z())) {
+      throw BrokenPath("The path does not begin where its scene has body " +
+                       detail::in_quotes(path_.body) + ".");
+    }
   }
 
   const PlannedPath& path_;
@@ -196,12 +275,15 @@ class PathProof {
   PathVerification run() {
     result_.warnings = moving_.loaded().warnings;
     count_pairs();
+    if (result_.tested == 0) {
+      result_.warnings.emplace_back("no pair is tested: the scene has nothing that can be touched");
+    }
     require_goal();
     require_totals();
     result_.verdict = ProofVerdict::proven;
     const std::size_t edges = std::max<std::size_t>(path_.waypoints.size() - 1, 1);
     for (std::size_t edge = 0; edge < edges; ++edge) {
-      prove(edge, edges);
+      prove(edge);
       if (result_.verdict == ProofVerdict::proven) {
         result_.edges = std::min(edge + 1, path_.waypoints.size() - 1);
       } else if (result_.verdict == ProofVerdict::refuted) {
@@ -254,7 +336,7 @@ class PathProof {
     }
   }
 
-  void prove(std::size_t edge, std::size_t edges) {
+  void prove(std::size_t edge) {
     FreeClaim claim{.until =
                         [this](const BodyPair& pair) {
                           return moving_.moves(pair[0]) || moving_.moves(pair[1]) ? 1.0 : -1.0;
@@ -262,7 +344,7 @@ class PathProof {
                     .extra = path_.extra_clearance};
     // As the pieces of the motion begin and end, bit for bit.
     const auto share = [&](std::size_t k) {
-      return static_cast<double>(k) / static_cast<double>(edges);
+      return moving_.time(k) / moving_.loaded().scene.duration;
     };
     claim.from = share(edge);
     claim.last = share(edge + 1);

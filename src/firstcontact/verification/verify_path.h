@@ -35,7 +35,10 @@ struct PathVerification {
 /// at all times of the edge, both ends included; and no such pair comes closer than the `clearance`
 /// of the edge, but for 2^-20 of it and rounding. With tracking errors the first holds for all
 /// motions within them, and the second is left out. Of a path of one waypoint this is proven of the
-/// place. A path that calls itself proven has to end at the goal that it names, bit for bit.
+/// place. Where the surroundings move, edges run at the times of the file, and every link of the
+/// mover counts as one that moves. A path begins where its scene has the mover, and one that calls
+/// itself proven ends at the goal that it names, both bit for bit. Joints keep their limits, but
+/// for 1e-9.
 ///
 /// Not proven again are costs and how the path was found.
 ///

@@ -88,13 +88,24 @@ EdgeFound EdgeSearch::first_contact() {
   return first;
 }
 
-EdgeFound EdgeSearch::any_contact() {
+EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
   EdgeFound unknown;
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
-    const std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
+    const TimeWindow whole = timeline_.piece(piece);
+    if (whole.end < within.begin || whole.begin > within.end) {
+      continue;
+    }
+    std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
+    for (GeometryCandidate& candidate : candidates) {
+      candidate.window = {std::max(candidate.window.begin, within.begin),
+                          std::min(candidate.window.end, within.end)};
+    }
+    std::erase_if(candidates, [](const GeometryCandidate& candidate) {
+      return candidate.window.begin > candidate.window.end;
+    });
     for (const GeometryCandidate& candidate : candidates) {
       if (candidate.gap < 0.0) {
         const double middle = 0.5 * (candidate.window.begin + candidate.window.end);

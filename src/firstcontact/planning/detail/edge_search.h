@@ -45,7 +45,9 @@ class EdgeSearch {
 
   /// Whether there is a contact; of several not the first one. Where geometries are in each other
   /// half way, that is seen at once.
-  [[nodiscard]] EdgeFound any_contact();
+  ///
+  /// @param within  a time in which contacts count; of no length where it is of one instant
+  [[nodiscard]] EdgeFound any_contact(const TimeWindow& within = {0.0, 1.0});
 
   /// [m]  Of all pairs; infinite where there are none.
   [[nodiscard]] double least_margin() const { return timeline_.least_margin(); }

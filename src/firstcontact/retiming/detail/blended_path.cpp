@@ -62,8 +62,8 @@ PathPlace BlendedPath::place(const Piece& piece, double S) const {
 }
 
 PathPlace BlendedPath::place(double S) const {
-  const auto holds = [&](const Piece& piece) { return S <= piece.end; };
-  const auto found = std::find_if(pieces_.begin(), pieces_.end(), holds);
+  const auto ends_before = [](const Piece& piece, double at) { return piece.end < at; };
+  const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), S, ends_before);
   return place(found == pieces_.end() ? pieces_.back() : *found, S);
 }
 

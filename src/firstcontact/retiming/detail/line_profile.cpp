@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
+
+#include <firstcontact/retiming/timed_motion.h>
 
 namespace firstcontact::detail {
 namespace {
 
 constexpr double kNano = 1e9;
+
+[[noreturn]] void refuse_slowness() {
+  throw std::invalid_argument(
+      "expected limits with which the motion ends within 13 days; they are too small for its way");
+}
 
 /// A change of rate: jerk for `bend`, constant acceleration for `straight`, jerk back for `bend`.
 struct Ramp {
@@ -60,9 +68,7 @@ double cruise_seconds(double way, double from, double to, double rate, const Lin
 
 /// [ns]  Rounded up; no phase between 0 and the shortest one.
 std::int64_t phase(double seconds) {
-  return seconds > 0.0
-             ? std::max(kShortestPhase, static_cast<std::int64_t>(std::ceil(seconds * kNano)))
-             : 0;
+  return seconds > 0.0 ? std::max(kShortestPhase, whole_nanoseconds_up(seconds)) : 0;
 }
 
 struct WholeRamp {
@@ -142,6 +148,14 @@ class LineWriter {
 
 }  // namespace
 
+std::int64_t whole_nanoseconds_up(double seconds) {
+  const double time = std::ceil(seconds * kNano);
+  if (!(time <= kLatestTime)) {
+    refuse_slowness();
+  }
+  return static_cast<std::int64_t>(time);
+}
+
 double ramp_seconds(double change, const LineLimits& limits) {
   return fastest_ramp(change, limits).seconds();
 }
@@ -164,6 +178,9 @@ std::vector<LineNode> line_profile(double way, double from, double to, const Lin
   const auto between = [&] {
     const double mean_time =
         0.5 * up.seconds() + static_cast<double>(cruise) / kNano + 0.5 * down.seconds();
+    if (!(mean_time > 0.0)) {
+      refuse_slowness();  // Rates below what doubles of this size tell from 0.
+    }
     return (way - 0.5 * (from * up.seconds() + to * down.seconds())) / mean_time;
   };
   double middle = between();

@@ -35,6 +35,11 @@ struct LineNode {
 /// 1e-16 / T^3 on a segment of length T.
 inline constexpr std::int64_t kShortestPhase = 1'000'000;  // [ns]
 
+/// [ns]  Rounded up.
+///
+/// @throws std::invalid_argument beyond the 13 days up to which doubles tell nanoseconds apart
+[[nodiscard]] std::int64_t whole_nanoseconds_up(double seconds);
+
 /// [s]  The time of the fastest ramp that changes the rate by `change`.
 [[nodiscard]] double ramp_seconds(double change, const LineLimits& limits);
 
@@ -57,6 +62,7 @@ inline constexpr double kRampRoom = 4e-3;
 ///
 /// @param way       > 0, at least ramp_way(from, to) with kRampRoom added to the ramp's time
 /// @param from, to  [1/s]  >= 0, at most the limit of the rate
+/// @throws std::invalid_argument as whole_nanoseconds_up()
 [[nodiscard]] std::vector<LineNode> line_profile(double way, double from, double to,
                                                  const LineLimits& limits);
 

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace firstcontact::detail {
+namespace {
+
+// No phase is shorter than a millisecond, so that no motion along an edge is slower for them.
+// Without them a way of 1e-300 would have infinite rates.
+constexpr double kMostRate = 1e6;           // [1/s]
+constexpr double kMostAcceleration = 1e10;  // [1/s^2]
+constexpr double kMostJerk = 1e14;          // [1/s^3]
+
+}  // namespace
 
 LineLimits line_limits(const WaypointPath& path, std::size_t edge,
                        const std::vector<RateLimits>& limits, double share, bool needs_jerk) {
@@ -22,6 +32,11 @@ LineLimits line_limits(const WaypointPath& path, std::size_t edge,
       line.jerk = std::min(line.jerk, share * *limits[joint].jerk / way);
     }
   }
+  line.rate = std::min(line.rate, kMostRate);
+  line.acceleration = std::min(line.acceleration, kMostAcceleration);
+  if (line.has_jerk()) {
+    line.jerk = std::min(line.jerk, kMostJerk);
+  }
   if (needs_jerk && !line.has_jerk()) {
     line.jerk = line.acceleration / kBuildUpTime;
   }
@@ -36,6 +51,9 @@ MotionWriter::MotionWriter(const WaypointPath& path, bool with_accelerations)
 
 void MotionWriter::add(std::int64_t after, TimedPoint point) {
   point.time = motion_.points.empty() ? after : motion_.points.back().time + after;
+  if (!(static_cast<double>(point.time) <= kLatestTime)) {
+    throw std::invalid_argument("expected limits with which the motion ends within 13 days");
+  }
   if (!with_accelerations_) {
     point.accelerations.clear();
   }

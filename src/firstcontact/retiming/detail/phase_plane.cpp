@@ -8,11 +8,12 @@ namespace firstcontact::detail {
 namespace {
 
 constexpr int kCellsOfPiece = 48;
+constexpr double kMostPathRate = 1e6;  // [1/s]  Of S; no motion is slower for it.
 
 /// The greatest square of the rate at a place, by velocities alone.
 double greatest_square(const PathPlace& place, const std::vector<RateLimits>& limits,
                        double share) {
-  double greatest = std::numeric_limits<double>::infinity();
+  double greatest = kMostPathRate * kMostPathRate;
   for (std::size_t j = 0; j < limits.size(); ++j) {
     const double slope = std::abs(place.dp[j]);
     if (slope > 0.0) {

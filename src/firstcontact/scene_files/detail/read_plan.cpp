@@ -25,7 +25,7 @@ class PlanReader {
   PlanQuestion plan(const JsonValue& value) const {
     const JsonObject& object =
         read_.object(value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box",
-                              "margin", "planner", "contacts", "seed", "time"}});
+                              "speeds", "margin", "planner", "contacts", "seed", "time"}});
     PlanQuestion plan;
     take_mover(value, object, plan);
     take_options(object, plan);
@@ -105,12 +105,14 @@ class PlanReader {
     if (const JsonValue* start = find(object, "start")) {
       plan.start = state(*start, robot);
     }
-    if (const JsonValue* bounds = find(object, "bounds")) {
-      const auto* all = std::get_if<JsonObject>(&bounds->value);
-      if (all == nullptr) {
-        read_.fail_expected("limits by joint, such as {\"joint\": [-1, 1]}", *bounds);
+    if (const JsonValue* speeds = find(object, "speeds")) {
+      for (const auto& [name, speed] : members_of(*speeds, "speeds by joint")) {
+        plan.speeds[known_joint(speed, name, robot)] = read_.positive(speed);
       }
-      for (const auto& [name, limits] : *all) {
+    }
+    if (const JsonValue* bounds = find(object, "bounds")) {
+      for (const auto& [name, limits] :
+           members_of(*bounds, "limits by joint, such as {\"joint\": [-1, 1]}")) {
         const JsonArray& two = read_.array(limits, "two numbers");
         if (two.size() != 2) {
           read_.fail_expected("two numbers, the lower limit first", limits);
@@ -121,6 +123,14 @@ class PlanReader {
     }
   }
 
+  const JsonObject& members_of(const JsonValue& value, const std::string& expected) const {
+    const auto* all = std::get_if<JsonObject>(&value.value);
+    if (all == nullptr) {
+      read_.fail_expected(expected, value);
+    }
+    return *all;
+  }
+
   void take_body(const JsonObject& object, PlanQuestion& plan) const {
     for (const char* key : {"joints", "bounds"}) {
       if (const JsonValue* given = find(object, key)) {
@@ -129,6 +139,12 @@ class PlanReader {
     }
     if (const JsonValue* start = find(object, "start")) {
       plan.start_pose = read_pose(*start, read_);
+    }
+    if (const JsonValue* speeds = find(object, "speeds")) {
+      (void)read_.object(*speeds, {{"linear", "angular"}});
+      for (const char* key : {"linear", "angular"}) {
+        plan.speeds[key] = read_.positive(read_.member(*speeds, key));
+      }
     }
     if (const JsonValue* box = find(object, "box")) {
       const JsonArray& corners = read_.array(*box, "two corners");
@@ -158,12 +174,49 @@ class PlanReader {
       read_.fail_expected("at least one goal", *goals);
     }
     for (const JsonValue* one : all) {
-      if (plan.robot) {
+      if (plan.robot && is_link_goal(*one)) {
+        plan.link_goals.push_back(link_goal(*one, scene_.robots[*plan.robot]));
+      } else if (plan.robot) {
         plan.goals.push_back(state(*one, scene_.robots[*plan.robot]));
       } else {
         plan.goal_poses.push_back(read_pose(*one, read_));
       }
     }
+  }
+
+  /// Positions of joints are numbers; the name of a link is a string.
+  static bool is_link_goal(const JsonValue& value) {
+    const auto* object = std::get_if<JsonObject>(&value.value);
+    const JsonValue* link = object == nullptr ? nullptr : find(*object, "link");
+    return link != nullptr && std::holds_alternative<std::string>(link->value);
+  }
+
+  LinkGoal link_goal(const JsonValue& value, const SceneRobot& robot) const {
+    const JsonObject& object = read_.object(
+        value, {{"link", "frame", "pose", "position_tolerance", "rotation_tolerance"}});
+    LinkGoal goal;
+    const JsonValue& link = read_.member(value, "link");
+    goal.link = read_.string(link, "the name of a link");
+    if (!robot.model.find_link(goal.link)) {
+      std::vector<std::string_view> names;
+      for (const Link& one : robot.model.links()) {
+        names.push_back(one.name);
+      }
+      const std::string_view near = nearest_word(goal.link, names);
+      read_.fail(link, "expected a link of the robot, got " + in_quotes(goal.link) +
+                           (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?"));
+    }
+    goal.X_WT = read_pose(read_.member(value, "pose"), read_);
+    if (const JsonValue* frame = find(object, "frame")) {
+      goal.X_LT = read_pose(*frame, read_);
+    }
+    if (const JsonValue* tolerance = find(object, "position_tolerance")) {
+      goal.position_tolerance = read_.positive(*tolerance);
+    }
+    if (const JsonValue* tolerance = find(object, "rotation_tolerance")) {
+      goal.rotation_tolerance = read_.positive(*tolerance);
+    }
+    return goal;
   }
 
   std::string known_joint(const JsonValue& where, const std::string& name,

@@ -14,10 +14,10 @@
 #include <firstcontact/geometry/detail/spatial_hash.h>
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/round_side.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
-#include <firstcontact/simulation_model/detail/surface_neighbours.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -14,7 +14,7 @@
 #include <firstcontact/simulation_model/detail/round_side.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
-#include <firstcontact/simulation_model/detail/surface_neighbours.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 
 namespace firstcontact {
 struct LinksAsBodies;

@@ -191,7 +191,7 @@ Turn turn_of(const Eigen::Vector3d& rotation_vector) {
   return {.axis = (Interval(1.0) / angle) * enclose(rotation_vector), .angle = angle};
 }
 
-Turn shortest_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+Turn least_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Vector4d a = from.coeffs();
   const Eigen::Vector4d b = to.coeffs();
   if (a == b || a == -b) {
@@ -222,7 +222,7 @@ Turn shortest_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to)
 
 RigidMotion motion_between(double from, double to, const Pose& X_from, const Pose& X_to,
                            Between between, const Eigen::Vector3d& p_BC) {
-  const Turn turn = shortest_turn(X_from.rotation, X_to.rotation);
+  const Turn turn = least_turn(X_from.rotation, X_to.rotation);
   OriginWay way{.translation = enclose(X_to.position) - enclose(X_from.position)};
   if (between == Between::screw && turn.angle != Interval(0.0)) {
     way.across = way.translation - dot(way.translation, turn.axis) * turn.axis;

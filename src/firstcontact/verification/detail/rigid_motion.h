@@ -92,7 +92,7 @@ class RigidMotion : public CoveredMotion {
 /// first component that is not zero is positive.
 ///
 /// @throws UncertainMotion
-[[nodiscard]] Turn shortest_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
+[[nodiscard]] Turn least_turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
 
 /// The motion from one pose to another.
 ///

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation_model/detail/surface_neighbours.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 
 #include <algorithm>
 #include <utility>

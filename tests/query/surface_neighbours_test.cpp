@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/simulation_model/detail/surface_neighbours.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -1,0 +1,486 @@
+#include "haptics_command.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptic_devices/recorded_device.h>
+#include <firstcontact/haptic_devices/simulated_operator.h>
+#include <firstcontact/haptics/wall_session.h>
+#include <firstcontact/haptics_files/haptic_log.h>
+#include <firstcontact/haptics_files/haptic_run.h>
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/parse_error.h>
+
+#include "atomic_file.h"
+#include "command_line_file.h"
+#include "command_line_number.h"
+#include "haptic_plot.h"
+#include "interrupt.h"
+#include "output_files.h"
+#include "progress.h"
+#include "quantity_text.h"
+#include "run_file.h"
+#include "standard_streams.h"
+#include "terminal_text.h"
+#include "viewer_page.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr const char* kSimulated = "simulated";
+
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> devices;
+  std::string run;
+  std::string ticks;
+  std::string cycles;
+  std::string timing;
+  std::string plot;
+  std::string page;
+  std::optional<double> duration;  // [s]
+  std::optional<double> latency;   // [s]
+  std::optional<double> radius;    // [m]
+  std::optional<double> speed;     // [m/s]
+  std::size_t seed = 1;
+  bool wall = false;
+  bool force = false;
+};
+
+std::vector<OutputFile> outputs_of(const Arguments& arguments) {
+  return {{"-o", arguments.run},          {"--ticks", arguments.ticks},
+          {"--cycles", arguments.cycles}, {"--timing", arguments.timing},
+          {"--plot", arguments.plot},     {"--html", arguments.page}};
+}
+
+/// What the devices are, before they are opened.
+struct NamedDevices {
+  std::vector<std::optional<Recording>> recordings;  // None: simulated.
+  double duration = 10.0;                            // [s]  Of the longest recording, if any.
+};
+
+NamedDevices read_devices(const Arguments& arguments) {
+  NamedDevices named;
+  double longest = 0.0;
+  for (const std::string& device : arguments.devices) {
+    if (device == kSimulated) {
+      named.recordings.emplace_back();
+      continue;
+    }
+    named.recordings.emplace_back(read_recording(device));
+    longest = std::max(longest, 1e-9 * static_cast<double>(
+                                           RecordedDevice(*named.recordings.back()).duration_ns()));
+  }
+  named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
+  return named;
+}
+
+/// A hand that knows nothing of the scene: it wants to be anywhere around the tool.
+std::unique_ptr<Device> simulated_hand(const Arguments& arguments, const HapticTool& tool,
+                                       const DeviceMapping& mapping, double duration,
+                                       std::size_t number) {
+  RandomPathOptions path;
+  path.seed = arguments.seed + 1000 * number;
+  path.radius = arguments.radius.value_or(2.0 * tool.shape.bounds().reach) / mapping.scale;
+  path.fastest = arguments.speed.value_or(1.0);
+  path.slowest = std::min(path.slowest, path.fastest);
+  path.centre = mapping.X_DH;
+  path.count = static_cast<std::size_t>(std::clamp(20.0 * duration, 10.0, 1e6));
+  SimulatedOperatorOptions options;
+  options.path = random_via_points(path);
+  options.seed = path.seed;
+  return std::make_unique<SimulatedOperator>(options);
+}
+
+/// Opens the files that grow, and writes to them.
+class GrowingFile {
+ public:
+  GrowingFile() = default;
+  GrowingFile(const std::string& path, const std::string& header) {
+    if (!path.empty()) {
+      file_.emplace(path);
+      file_->write(header);
+    }
+  }
+  void write(const std::string& text) {
+    if (file_) {
+      file_->write(text);
+    }
+  }
+  void commit() {
+    if (file_) {
+      file_->commit();
+    }
+  }
+  [[nodiscard]] bool is_open() const { return file_.has_value(); }
+
+ private:
+  std::optional<AtomicFile> file_;
+};
+
+struct SessionTally {
+  std::uint64_t ticks = 0;
+  std::uint64_t cycles = 0;
+  double force = 0.0;                                          // [N]
+  double torque = 0.0;                                         // [N m]
+  double clearance = std::numeric_limits<double>::infinity();  // [m]
+  double time_lost = 0.0;                                      // [s]
+  std::size_t contacts = 0;
+  std::uint64_t touching = 0;    // Cycles that ended with contacts.
+  std::uint64_t unfinished = 0;  // Cycles that could have gained more.
+  std::uint32_t faults = 0;
+};
+
+class HapticsRun {
+ public:
+  explicit HapticsRun(const Arguments& arguments)
+      : arguments_(arguments),
+        named_(read_devices(arguments)),
+        loaded_(load()),
+        setup_(haptic_setup_of()),
+        plot_(setup_.scene.tools.size(), named_.duration) {
+    if (arguments.devices.size() != setup_.scene.tools.size()) {
+      throw std::invalid_argument(
+          fmt::format("{}: expected a --device for each tool, {} of them; got {}", arguments.scene,
+                      setup_.scene.tools.size(), arguments.devices.size()));
+    }
+    open_devices();
+    if (!arguments.page.empty()) {
+      template_ = viewer_page();  // Missing is better known before the work than after it.
+    }
+  }
+
+  ExitStatus run() {
+    begin_files();
+    if (arguments_.wall) {
+      run_on_the_wall();
+    } else {
+      run_virtually();
+    }
+    end_files();
+    print();
+    return is_stopped_ || tally_.time_lost > 0.0 ? ExitStatus::undecided : ExitStatus::free;
+  }
+
+ private:
+  LoadedScene load() const {
+    require_different(outputs_of(arguments_));
+    require_no_input(outputs_of(arguments_), {arguments_.scene});
+    Scene scene = arguments_.scene == kStdin
+                      ? parse_scene(read_stdin(), std::filesystem::path(kStdinName))
+                      : read_scene(arguments_.scene);
+    require_no_input(outputs_of(arguments_), files_of(scene));
+    try {
+      prepare_haptics(scene, named_.duration);
+      ShapeCache cache;
+      return load_scene(std::move(scene), cache);
+    } catch (const std::invalid_argument& error) {
+      throw ParseError(arguments_.scene, error.what());
+    }
+  }
+
+  HapticSetup haptic_setup_of() const {
+    try {
+      HapticSetup setup = haptic_setup(loaded_);
+      setup.options.contact_latency_ns = std::llround(1e9 * arguments_.latency.value_or(0.0));
+      // Refuses what does not begin apart, before anything is written.
+      distance_of(setup);
+      return setup;
+    } catch (const std::invalid_argument& error) {
+      throw ParseError(arguments_.scene, error.what());
+    }
+  }
+
+  static double distance_of(const HapticSetup& setup) {
+    return ContactLoop(setup.scene, setup.options.contacts).contact_distance();
+  }
+
+  void open_devices() {
+    setup_.options.mappings = complete_mappings(setup_.scene, setup_.options.mappings);
+    for (std::size_t k = 0; k < named_.recordings.size(); ++k) {
+      devices_.push_back(named_.recordings[k]
+                             ? std::make_unique<RecordedDevice>(*named_.recordings[k])
+                             : simulated_hand(arguments_, setup_.scene.tools[k],
+                                              setup_.options.mappings[k], named_.duration, k));
+      setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
+      pointers_.push_back(devices_[k].get());
+    }
+  }
+
+  void begin_files() {
+    const double distance = distance_of(setup_);
+    record_.emplace(loaded_, setup_, distance);
+    if (!arguments_.run.empty()) {
+      run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
+    }
+    if (!arguments_.page.empty()) {
+      page_.emplace(record_->header());
+    }
+    ticks_.emplace(arguments_.ticks, haptic_tick_header());
+    cycles_.emplace(arguments_.cycles, haptic_cycle_header());
+    for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+      god_objects_[k] = setup_.scene.tools[k].X_WB;
+    }
+  }
+
+  void take(const ForceTick& tick) {
+    begin_ns_ = tally_.ticks == 0 ? tick.time_ns : begin_ns_;
+    ++tally_.ticks;
+    for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+      const ToolTick& tool = tick.tools[k];
+      tally_.force = std::max(tally_.force, tool.command.force_D.norm());
+      tally_.torque = std::max(tally_.torque, tool.command.torque_D.norm());
+      tally_.faults |= tool.faults;
+    }
+    if (ticks_->is_open()) {
+      ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size()));
+    }
+    if (!arguments_.plot.empty()) {
+      plot_.add(tick, begin_ns_, god_objects_);
+    }
+  }
+
+  void take(const HapticCycle& cycle, std::int64_t time_ns) {
+    ++tally_.cycles;
+    tally_.clearance = std::min(tally_.clearance, cycle.clearance);
+    tally_.time_lost += cycle.asked - cycle.lasted;
+    tally_.contacts = std::max(tally_.contacts, cycle.contacts);
+    tally_.touching += cycle.contacts > 0 ? 1U : 0U;
+    tally_.unfinished += cycle.is_converged ? 0U : 1U;
+    for (const HapticMemberMotion& motion : cycle.members) {
+      if (motion.member < setup_.scene.tools.size()) {
+        god_objects_[motion.member] = motion.X_WB;
+      }
+    }
+    if (cycles_->is_open()) {
+      cycles_->write(haptic_cycle_line(cycle, time_ns));
+    }
+    if (run_file_ || page_) {
+      const RunStep step = record_->step(cycle);
+      if (run_file_) {
+        run_file_->write(step);
+      }
+      if (page_) {
+        page_->add(step);
+      }
+    }
+  }
+
+  void run_virtually() {
+    HapticSession session(setup_.scene, setup_.options);
+    const auto count = static_cast<std::uint64_t>(
+        std::ceil(1e9 * named_.duration / static_cast<double>(session.force_period_ns()) - 1e-6));
+    std::vector<DeviceState> states(devices_.size());
+    for (std::uint64_t k = 0; k < count && !is_stopped_; ++k) {
+      const std::int64_t now = session.time_ns();
+      for (std::size_t d = 0; d < devices_.size(); ++d) {
+        states[d] = devices_[d]->read(now);
+      }
+      const ForceTick& tick = session.step(states);
+      for (std::size_t d = 0; d < devices_.size(); ++d) {
+        devices_[d]->command(tick.tools[d].command, now);
+      }
+      take(tick);
+      if (session.cycle() != nullptr) {
+        take(*session.cycle(), now);
+      }
+      if (k % 1024 == 0) {
+        is_stopped_ = interrupt_.token().stop_requested();
+        progress_.doing(
+            fmt::format("{:.3g} of {:.3g} s", 1e-9 * static_cast<double>(now), named_.duration));
+      }
+    }
+  }
+
+  void run_on_the_wall() {
+    wall_ = run_wall_session(
+        setup_.scene, setup_.options, pointers_, {.duration = named_.duration},
+        [this](const ForceTick& tick) { take(tick); },
+        [this](const HapticCycle& cycle, std::int64_t time_ns) { take(cycle, time_ns); },
+        interrupt_.token());
+    is_stopped_ = interrupt_.token().stop_requested();
+  }
+
+  void end_files() {
+    ticks_->commit();
+    cycles_->commit();
+    if (!arguments_.plot.empty()) {
+      write_file(arguments_.plot, plot_.draw(arguments_.scene));
+    }
+    if (!arguments_.timing.empty() && wall_) {
+      write_file(arguments_.timing, timing_text());
+    }
+    if (page_ && page_->time() > 0.0) {
+      ShapeCache cache;
+      const LoadedScene loaded = load_scene(record_->header().scene, cache);
+      write_file(arguments_.page, page_->write(template_, loaded));
+    }
+  }
+
+  [[nodiscard]] std::string timing_text() const {
+    std::string text = "what,from_ns,count\n";
+    const auto add = [&](const char* what, const TimingHistogram& histogram) {
+      for (std::size_t k = 0; k < TimingHistogram::kBuckets; ++k) {
+        if (histogram.count_of(k) > 0) {
+          text +=
+              fmt::format("{},{},{}\n", what, TimingHistogram::begin_of(k), histogram.count_of(k));
+        }
+      }
+    };
+    add("tick_cpu", wall_->tick_cpu);
+    add("tick_wall", wall_->tick_wall);
+    add("tick_delay", wall_->tick_delay);
+    add("empty_delay", wall_->empty_delay);
+    add("cycle_wall", wall_->cycle_wall);
+    add("cycle_cpu", wall_->cycle_cpu);
+    return text;
+  }
+
+  static void line(const char* label, const std::string& value) {
+    say(fmt::format("  {:<10} {}\n", label, visible(value)));
+  }
+
+  static std::string quantiles(const TimingHistogram& histogram) {
+    const auto seconds = [](std::int64_t ns) { return time_text(1e-9 * static_cast<double>(ns)); };
+    return fmt::format("median {}, p99 {}, p99.9 {}, greatest {}",
+                       seconds(histogram.quantile_ns(0.5)), seconds(histogram.quantile_ns(0.99)),
+                       seconds(histogram.quantile_ns(0.999)), seconds(histogram.greatest_ns()));
+  }
+
+  void print_wall() const {
+    const RealTimeGrant& granted = wall_->granted;
+    const auto word = [](bool is) { return is ? "yes" : "no"; };
+    line("real time",
+         fmt::format("force loop SCHED_FIFO {}, contact loop {}; own processors {} and {}; memory "
+                     "locked {}",
+                     word(granted.force_fifo), word(granted.contact_fifo),
+                     word(granted.force_processor), word(granted.contact_processor),
+                     word(granted.locked_memory)));
+    line("tick CPU", quantiles(wall_->tick_cpu));
+    line("tick late", quantiles(wall_->tick_delay));
+    line("empty loop", "late by " + quantiles(wall_->empty_delay));
+    line("cycle", quantiles(wall_->cycle_wall));
+    line("missed", fmt::format("{} ticks began more than a period late, {} were skipped",
+                               wall_->late_ticks, wall_->skipped_ticks));
+  }
+
+  void print() const {
+    say(fmt::format("{}: {}\n", visible(arguments_.scene),
+                    is_stopped_ ? "stopped early" : "felt; no tool passed through anything"));
+    line("ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", tally_.ticks,
+                              tally_.cycles));
+    line("apart", std::isfinite(tally_.clearance)
+                      ? length_text(tally_.clearance) + " or more, proven"
+                      : "no pair to keep apart");
+    line("contacts", fmt::format("in {} cycles, at most {}", tally_.touching, tally_.contacts));
+    line("force", fmt::format("at most {:.4g} N and {:.4g} N m", tally_.force, tally_.torque));
+    if (tally_.faults != 0) {
+      line("at times", fault_words(tally_.faults));
+    }
+    if (tally_.unfinished > 0) {
+      line("unfinished",
+           fmt::format("{} cycles ended before the tool was where it could be", tally_.unfinished));
+    }
+    line("time lost", tally_.time_lost > 0.0
+                          ? time_text(tally_.time_lost) + ": bodies waited for a tool"
+                          : "none");
+    if (wall_) {
+      print_wall();
+    }
+    for (const std::string& warning : loaded_.warnings) {
+      line("warning", warning);
+    }
+    if (run_file_) {
+      line("run", arguments_.run + "; `firstcontact verify` proves it again");
+    }
+    flush_stdout();
+  }
+
+  const Interrupt interrupt_;  // First: other threads inherit what it blocks.
+  Progress progress_;
+  const Arguments& arguments_;
+  NamedDevices named_;
+  LoadedScene loaded_;
+  HapticSetup setup_;
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<Device*> pointers_;
+  std::string template_;  // Of the page.
+  std::optional<HapticRun> record_;
+  std::optional<RunFile> run_file_;
+  std::optional<RunPage> page_;
+  std::optional<GrowingFile> ticks_;
+  std::optional<GrowingFile> cycles_;
+  HapticPlot plot_;
+  std::array<Pose, kMostTools> god_objects_ = {};
+  std::int64_t begin_ns_ = 0;
+  SessionTally tally_;
+  std::optional<WallSessionReport> wall_;
+  bool is_stopped_ = false;
+};
+
+constexpr const char* kFooter = R"(
+SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices, one --device each.
+DEVICE is a recording (.csv, docs/haptic_devices.md) or "simulated": a hand that knows nothing of
+the scene, on a device without weight. In virtual time the same command gives the same files.
+RUN is the way of the tools. `firstcontact verify RUN` proves it as written, with other code:
+nothing passed through anything, between ticks too. `firstcontact view RUN` plays it.
+
+Exit status: 0 done; 2 bad input; 3 stopped early, or bodies that move had to wait for a tool.)";
+
+}  // namespace
+
+void add_haptics_command(CLI::App& app, ExitStatus& status) {
+  CLI::App* command = app.add_subcommand(
+      "haptics", "Moves tools by haptic devices; they are felt, and pass through nothing");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
+      ->required();
+  command
+      ->add_option("--device", arguments->devices,
+                   "A recording (.csv) or \"simulated\"; once for each tool")
+      ->required()
+      ->expected(1)
+      ->take_all();
+  CLI::Option* run = add_file(*command, "-o,--output", arguments->run,
+                              "Records the way of the tools: JSON Lines, a line a cycle");
+  add_file(*command, "--ticks", arguments->ticks,
+           "Writes each tick: device, target, force, faults (.csv)");
+  add_file(*command, "--cycles", arguments->cycles, "Writes each cycle of the contact loop (.csv)");
+  add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
+  add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
+  add_number(*command, "--duration", arguments->duration, Range::positive,
+             "Seconds; by default those of the longest recording, or 10");
+  add_number(*command, "--latency", arguments->latency, Range::not_negative,
+             "Seconds that a cycle of the contact loop takes in virtual time");
+  add_number(*command, "--radius", arguments->radius, Range::positive,
+             "Metres that the simulated hand goes from the start; twice the tool by default");
+  add_number(
+      *command, "--speed", arguments->speed, Range::positive,
+      "Metres per second at most of the simulated hand, in the mean of a stroke; by default 1");
+  add_count(*command, "--seed", arguments->seed, "The random numbers of the simulated hand");
+  CLI::Option* wall =
+      command->add_flag("--wall", arguments->wall,
+                        "Runs both loops as threads on the wall clock, not in virtual time");
+  add_file(*command, "--timing", arguments->timing, "Writes histograms of all ticks (.csv)")
+      ->needs(wall);
+  command->add_flag("--force", arguments->force, "Replaces what the output file holds")->needs(run);
+  command->footer(kFooter);
+  command->callback([arguments, &status] { status = HapticsRun(*arguments).run(); });
+}
+
+}  // namespace firstcontact::app

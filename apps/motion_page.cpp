@@ -1,0 +1,128 @@
+#include "motion_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/page/write_page.h>
+#include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/retiming/waypoint_path.h>
+#include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene_files/write_result.h>
+
+#include "atomic_file.h"
+#include "scene_answer.h"
+
+namespace firstcontact::app {
+namespace {
+
+constexpr double kPlayed = 8.0;  // [s]  Of a path without times.
+
+/// The way of an edge: of a body its translation and, to look at, a tenth of its turn.
+double way_of(const PlannedPath& path, const std::vector<double>& a, const std::vector<double>& b) {
+  if (path.body.empty()) {
+    double way = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      way = std::max(way, std::abs(b[k] - a[k]));
+    }
+    return way;
+  }
+  const double half = std::abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) +
+         0.1 * 2.0 * std::acos(std::min(1.0, half));
+}
+
+std::vector<double> times_of(const PlannedPath& path,
+                             const std::vector<std::vector<double>>& waypoints) {
+  if (!path.times.empty()) {
+    return path.times;
+  }
+  std::vector<double> times{0.0};
+  for (std::size_t k = 1; k < waypoints.size(); ++k) {
+    times.push_back(times.back() + way_of(path, waypoints[k - 1], waypoints[k]));
+  }
+  const double whole = times.back();
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    times[k] = whole > 0.0 ? kPlayed * times[k] / whole : kPlayed * static_cast<double>(k);
+  }
+  return times;
+}
+
+template <typename Named>
+Named& named(std::vector<Named>& all, const std::string& name) {
+  return *std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+}
+
+/// Without places that follow another one at the same time.
+template <typename Place>
+void append(std::vector<double>& times, std::vector<Place>& places, double time, Place place) {
+  if (times.empty() || time > times.back()) {
+    times.push_back(time);
+    places.push_back(std::move(place));
+  }
+}
+
+}  // namespace
+
+Scene scene_in_motion(const PlannedPath& path) {
+  Scene scene = path.scene;
+  std::vector<double> times;
+  if (!path.body.empty()) {
+    WaypointMotion motion;
+    const std::vector<double> all = times_of(path, path.waypoints);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::vector<double>& q = path.waypoints[k];
+      append(motion.times, motion.poses, all[k],
+             Pose{{q[0], q[1], q[2]}, Eigen::Quaterniond(q[3], q[4], q[5], q[6])});
+    }
+    times = motion.times;
+    named(scene.bodies, path.body).motion = std::move(motion);
+  } else {
+    std::vector<bool> turns_short;
+    for (const Turning turning : path.turnings) {
+      turns_short.push_back(turning == Turning::shortest);
+    }
+    const WaypointPath unwound_path = unwound({path.joints, path.waypoints}, turns_short);
+    const std::vector<double> all = times_of(path, unwound_path.waypoints);
+    std::vector<std::vector<double>> positions;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      append(times, positions, all[k], unwound_path.waypoints[k]);
+    }
+    Trajectory trajectory{.joint_names = path.joints, .points = {}};
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      trajectory.points.push_back({.time = times[k], .positions = std::move(positions[k])});
+    }
+    named(scene.robots, path.robot).trajectory = std::move(trajectory);
+  }
+  scene.duration = times.size() > 1 ? times.back() : 1.0;
+  return scene;
+}
+
+Scene scene_in_motion(Scene scene, std::size_t robot, const TimedMotion& motion) {
+  scene.robots.at(robot).trajectory = trajectory_of(motion);
+  scene.duration = motion.duration();
+  return scene;
+}
+
+void write_motion_page(const std::string& file, const std::string& viewer, Scene scene,
+                       const std::stop_token& stop, const std::function<void(std::string)>& doing) {
+  Question question;
+  question.closest = true;
+  question.gap_curve = true;
+  question.stop = stop;
+  question.doing = doing;
+  ShapeCache cache;
+  ManyBodiesWorkspace workspace;
+  const SceneAnswer answer = answer_scene(std::move(scene), question, cache, workspace);
+  if (stop.stop_requested()) {
+    return;
+  }
+  const std::string result = write_result(answer.loaded, answer.result, {.all_pairs = true, .line = {}, .sampling = {}});
+  const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
+  write_file(file, write_page(viewer, answer.loaded, result, {answer.curve, bound}));
+}
+
+}  // namespace firstcontact::app

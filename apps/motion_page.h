@@ -1,0 +1,34 @@
+/// @file
+/// A page that plays a planned path, or the trajectory that was made of it.
+
+#pragma once
+
+#include <functional>
+#include <stop_token>
+#include <string>
+
+#include <firstcontact/scene/scene.h>
+
+namespace firstcontact {
+struct PlannedPath;
+struct TimedMotion;
+}  // namespace firstcontact
+
+namespace firstcontact::app {
+
+/// The scene in which the mover runs along its path: at its times, or else in eight seconds, each
+/// edge for as long as its way is.
+[[nodiscard]] Scene scene_in_motion(const PlannedPath& path);
+
+/// The scene in which a robot follows a timed motion.
+[[nodiscard]] Scene scene_in_motion(Scene scene, std::size_t robot, const TimedMotion& motion);
+
+/// Checks a scene once more and writes the page of the answer, with the gap over time.
+///
+/// @param viewer  the viewer's page
+/// @param stop    ends the check early, without a page
+/// @param doing   called with what is being done
+void write_motion_page(const std::string& file, const std::string& viewer, Scene scene,
+                       const std::stop_token& stop, const std::function<void(std::string)>& doing);
+
+}  // namespace firstcontact::app

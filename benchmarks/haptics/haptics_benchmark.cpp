@@ -1,0 +1,202 @@
+// Times both loops of a haptic scene in virtual time, and tells how far forces are from those of a
+// contact loop that runs to convergence at each tick.
+//
+//     haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS [HAND]]]]]]
+//
+// The hand knows nothing of the scene: random via points in a ball of RADIUS [m] around the start,
+// strokes of up to SPEED [m/s] in the mean. HAND is its stiffness [N/m]. Times are those of the
+// thread's CPU clock; every tick counts. Forces are compared where there is no friction.
+
+#include <ctime>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptic_devices/simulated_operator.h>
+#include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+
+namespace firstcontact {
+namespace {
+
+struct Options {
+  double seconds = 10.0;
+  double speed = 0.5;
+  double radius = 0.0;
+  std::uint64_t seed = 1;
+  std::size_t most_contacts = 32;
+  double hand = 400.0;
+};
+
+std::int64_t cpu_ns() {
+  timespec now{};
+  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+std::unique_ptr<Device> hand_of(const Options& options, const HapticTool& tool, std::size_t k) {
+  RandomPathOptions path;
+  path.seed = options.seed + 100 * k;
+  path.radius = options.radius > 0.0 ? options.radius : 2.0 * tool.shape.bounds().reach;
+  path.fastest = options.speed;
+  path.slowest = std::min(path.slowest, path.fastest);
+  path.count = static_cast<std::size_t>(20.0 * options.seconds + 10.0);
+  SimulatedOperatorOptions operator_options;
+  operator_options.path = random_via_points(path);
+  operator_options.seed = path.seed;
+  operator_options.hand.stiffness = options.hand;
+  return std::make_unique<SimulatedOperator>(operator_options);
+}
+
+void print(const char* what, const TimingHistogram& histogram, double unit, const char* name) {
+  const auto in_unit = [&](std::int64_t x) { return static_cast<double>(x) / unit; };
+  std::printf("  %-10s median %.4g, p99 %.4g, p99.9 %.4g, greatest %.4g %s of %llu\n", what,
+              in_unit(histogram.quantile_ns(0.5)), in_unit(histogram.quantile_ns(0.99)),
+              in_unit(histogram.quantile_ns(0.999)), in_unit(histogram.greatest_ns()), name,
+              static_cast<unsigned long long>(histogram.count()));
+}
+
+struct Fidelity {
+  std::vector<double> errors;  // [-]
+  std::vector<double> angles;  // [deg]
+
+  void add(const Eigen::Vector3d& felt, const Eigen::Vector3d& exact) {
+    if (exact.norm() < 0.2) {  // [N]  Less says nothing of a direction.
+      return;
+    }
+    errors.push_back((felt - exact).norm() / exact.norm());
+    const double cosine = felt.dot(exact) / std::max(1e-12, felt.norm() * exact.norm());
+    angles.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
+  }
+
+  static double quantile(std::vector<double> values, double share) {
+    if (values.empty()) {
+      return 0.0;
+    }
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  }
+};
+
+int run(const std::string& file, const Options& options) {
+  Scene scene = read_scene(file);
+  prepare_haptics(scene, options.seconds);
+  ShapeCache cache;
+  const HapticSetup setup = haptic_setup(load_scene(std::move(scene), cache));
+  HapticSessionOptions session = setup.options;
+  session.contacts.most_contacts = options.most_contacts;
+  const auto mappings = complete_mappings(setup.scene, session.mappings);
+  ContactLoop contacts(setup.scene, session.contacts);
+  ForceLoop forces(setup.scene, mappings, session.forces);
+  ContactLoopOptions all = session.contacts;
+  all.rounds = 60;
+  all.most_contacts = kMostHapticContacts;
+  ContactLoop exact_contacts(setup.scene, all);
+  ForceLoop exact_forces(setup.scene, mappings, session.forces);
+
+  std::vector<std::unique_ptr<Device>> devices;
+  for (std::size_t k = 0; k < setup.scene.tools.size(); ++k) {
+    devices.push_back(hand_of(options, setup.scene.tools[k], k));
+  }
+  TimingHistogram tick_cpu;
+  TimingHistogram cycle_cpu;
+  TimingHistogram touching_cpu;
+  TimingHistogram listed;
+  TimingHistogram found;
+  TimingHistogram rounds;
+  Fidelity fidelity;
+  double clearance = 1e9;
+  const auto count = static_cast<std::int64_t>(options.seconds * 4000.0);
+  HapticContactSet set = contacts.contact_set();
+  std::vector<DeviceState> states(devices.size());
+  std::vector<Pose> targets(devices.size());
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::int64_t now = 250'000 * k;
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+      states[d] = devices[d]->read(now);
+    }
+    if (k % 4 == 0) {
+      set = contacts.contact_set();  // Of the cycle before: a millisecond of latency.
+    }
+    const std::int64_t before = cpu_ns();
+    const ForceTick& tick = forces.tick(now, set, states);
+    tick_cpu.add(cpu_ns() - before);
+    listed.add(tick.contacts);
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+      devices[d]->command(tick.tools[d].command, now);
+      targets[d] = tick.tools[d].target;
+    }
+    if (k % 16 == 0) {
+      const auto& exact_cycle = exact_contacts.advance(targets, 4e-3, now);
+      const ForceTick& exact = exact_forces.tick(now, exact_contacts.contact_set(), states);
+      if (exact_cycle.is_converged && k > 1000) {
+        fidelity.add(tick.tools[0].force_W, exact.tools[0].force_W);
+      }
+    }
+    if (k % 4 == 0) {
+      const std::int64_t begin = cpu_ns();
+      const HapticCycle& cycle = contacts.advance(targets, 1e-3, now);
+      const std::int64_t took = cpu_ns() - begin;
+      cycle_cpu.add(took);
+      if (cycle.contacts > 0) {
+        touching_cpu.add(took);
+      }
+      found.add(static_cast<std::int64_t>(cycle.contacts));
+      rounds.add(static_cast<std::int64_t>(cycle.rounds));
+      clearance = std::min(clearance, cycle.clearance);
+    }
+  }
+  std::printf("%s: %g s, speed %g m/s, at most %zu contacts listed\n", file.c_str(),
+              options.seconds, options.speed, options.most_contacts);
+  print("tick", tick_cpu, 1e3, "us");
+  print("cycle", cycle_cpu, 1e3, "us");
+  print("touching", touching_cpu, 1e3, "us, of cycles with contacts,");
+  print("listed", listed, 1.0, "contacts");
+  print("found", found, 1.0, "contacts");
+  print("rounds", rounds, 1.0, "rounds");
+  std::printf("  apart      %.4g um at least (proven)\n", 1e6 * clearance);
+  std::printf(
+      "  force      error median %.3g %%, p99 %.3g %%; direction median %.3g, p99 %.3g degrees; "
+      "%zu compared\n",
+      100.0 * Fidelity::quantile(fidelity.errors, 0.5),
+      100.0 * Fidelity::quantile(fidelity.errors, 0.99), Fidelity::quantile(fidelity.angles, 0.5),
+      Fidelity::quantile(fidelity.angles, 0.99), fidelity.errors.size());
+  return 0;
+}
+
+}  // namespace
+}  // namespace firstcontact
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr,
+                 "haptics_benchmark SCENE.json [SECONDS [SPEED [RADIUS [SEED [MOST_CONTACTS "
+                 "[HAND]]]]]]\n");
+    return 2;
+  }
+  firstcontact::Options options;
+  const auto number = [&](int at, double otherwise) {
+    return argc > at ? std::atof(argv[at]) : otherwise;
+  };
+  options.seconds = number(2, options.seconds);
+  options.speed = number(3, options.speed);
+  options.radius = number(4, options.radius);
+  options.seed = static_cast<std::uint64_t>(number(5, 1.0));
+  options.most_contacts = static_cast<std::size_t>(number(6, 32.0));
+  options.hand = number(7, options.hand);
+  return firstcontact::run(argv[1], options);
+}

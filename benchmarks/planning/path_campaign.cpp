@@ -1,0 +1,318 @@
+// The truth of paths: planned, retimed, as they are read back from their files.
+//
+//   path_campaign [--first N] [--seeds N] [--part K/N] [--retime EVERY] [--walls EVERY] OUTPUT.json
+//
+// MotionBenchMaker's 400 problems of the Panda, each with N seeds from the first one on. Every path
+// is written, read back and proven by `verify`'s code, and FCL tests it every 0.25 degrees. Every
+// EVERY-th path is made a trajectory in all modes; FCL tests it as the controller interpolates the
+// file. Across every EVERY-th path a wall of 10 micrometres is put: its proof has to fail. Parts,
+// problem by problem, run side by side. Needs FIRSTCONTACT_DATA_DIR.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/retiming/joint_limits.h>
+#include <firstcontact/retiming/retime.h>
+#include <firstcontact/retiming/retiming_path.h>
+#include <firstcontact/retiming/write_trajectory.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+#include <firstcontact/verification/verify_path.h>
+
+#include "benchmarks/robot_check/straight_motion.h"
+#include "benchmarks/support/fcl_robot.h"
+#include "benchmarks/support/panda_problems.h"
+#include "tests/retiming/retiming_cases.h"
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr double kStep = 0.25 * std::numbers::pi / 180.0;  // [rad]  Of the joint that moves most.
+constexpr double kTimeStep = 1e-3;                         // [s]    Of a controller.
+constexpr double kWall = 1e-5;                             // [m]    Thickness.
+
+struct Settings {
+  std::uint64_t first = 1;
+  std::uint64_t seeds = 1;
+  int part = 0;
+  int parts = 1;
+  int retime_every = 10;
+  int walls_every = 50;
+  std::string output;
+};
+
+/// What was counted; all but the first six should be 0.
+struct Counts {
+  int problems = 0;
+  int paths = 0;
+  int samples = 0;
+  int trajectories = 0;
+  int walls = 0;
+  int unsolved = 0;
+  int not_verified = 0;          ///< By the code of `verify`, from the file.
+  int colliding = 0;             ///< Paths with a sample that FCL finds in collision.
+  int trajectories_refused = 0;  ///< No proven retiming.
+  int trajectories_colliding = 0;
+  int walls_unseen = 0;  ///< Paths that are still proven with a wall across them.
+  int refused = 0;       ///< Questions that are none.
+
+  [[nodiscard]] json summary() const {
+    return {{"problems", problems},
+            {"paths", paths},
+            {"samples_of_fcl", samples},
+            {"trajectories", trajectories},
+            {"walls", walls},
+            {"unsolved", unsolved},
+            {"refused", refused},
+            {"not_verified", not_verified},
+            {"colliding", colliding},
+            {"trajectories_refused", trajectories_refused},
+            {"trajectories_colliding", trajectories_colliding},
+            {"walls_unseen", walls_unseen}};
+  }
+};
+
+/// One problem: its scene for the planner, and the same for FCL.
+class Problem {
+ public:
+  Problem(ScenePlan scene, const Settings& settings, Counts& counts)
+      : scene_(std::move(scene)),
+        settings_(settings),
+        counts_(counts),
+        kinematics_(scene_.plan.space.model()) {
+    fill(peer_, scene_.plan.scene, sources_of(scene_.loaded.scene));
+    for (const Joint& joint : scene_.plan.space.model().joints()) {
+      const auto& state = scene_.loaded.scene.robots[0].state;
+      const auto found = state.find(joint.name);
+      rest_.push_back(found == state.end() ? default_position(joint) : found->second);
+    }
+  }
+
+  void run(std::uint64_t seed) {
+    PlanOptions options = scene_.options;
+    options.seed = seed;
+    options.threads = 1;
+    const PlanResult found = plan_path(scene_.plan, scene_.start, scene_.goals, options);
+    if (found.verdict != PlanVerdict::proven) {
+      ++counts_.unsolved;
+      return;
+    }
+    const std::string text = write_planned_path(planned_path(scene_, options, found));
+    const PlannedPath path = parse_planned_path(text, "path.json");
+    const int number = counts_.paths++;
+    if (verify_path(path, {.threads = 1}).verdict != ProofVerdict::proven) {
+      ++counts_.not_verified;
+    }
+    counts_.colliding += collides(path) ? 1 : 0;
+    if (number % settings_.retime_every == 0) {
+      retime_all(text);
+    }
+    if (number % settings_.walls_every == 0 && found.path.size() > 1) {
+      put_a_wall_across(path, seed);
+    }
+  }
+
+ private:
+  /// The configuration of all joints that a waypoint stands for.
+  [[nodiscard]] Configuration whole(const std::vector<double>& waypoint) const {
+    Configuration q = rest_;
+    const auto coordinates = scene_.plan.space.coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      q[coordinates[k].joint] = waypoint[k];
+    }
+    return q;
+  }
+
+  bool collides_at(const std::vector<double>& waypoint) {
+    ++counts_.samples;
+    return peer_.collides(kinematics_.places(whole(waypoint)));
+  }
+
+  bool collides(const PlannedPath& path) {
+    for (std::size_t edge = 0; edge + 1 < path.waypoints.size(); ++edge) {
+      const std::vector<double>& a = path.waypoints[edge];
+      const std::vector<double>& b = path.waypoints[edge + 1];
+      double longest = 0.0;
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        longest = std::max(longest, std::abs(b[k] - a[k]));
+      }
+      const int steps = std::max(1, static_cast<int>(std::ceil(longest / kStep)));
+      for (int step = 0; step <= steps; ++step) {
+        std::vector<double> q = a;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+          q[k] += (b[k] - a[k]) * step / steps;
+        }
+        if (collides_at(q)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void retime_all(const std::string& text) {
+    const RetimingPath input = parse_retiming_path(text, "path.json");
+    const RobotModel& model = input.scene.robots[input.robot].model;
+    const std::vector<RateLimits> limits =
+        limits_of(model, input.path.joint_names, {}, {.velocity = 2.0, .acceleration = 5.0});
+    const LoadedRetimingScene loaded = load_retiming_scene(input, cache_);
+    for (const RetimingMode mode :
+         {RetimingMode::stop, RetimingMode::blend, RetimingMode::time_optimal}) {
+      const RetimedMotion retimed =
+          retime(input.path, limits, loaded.where, {.mode = mode, .proof = {.threads = 1}});
+      ++counts_.trajectories;
+      if (!retimed.proof.is_proven()) {
+        ++counts_.trajectories_refused;
+        continue;
+      }
+      const std::string file = write_trajectory(retimed.motion, TrajectoryFormat::csv);
+      counts_.trajectories_colliding +=
+          collides(parse_timed_motion(file, "trajectory.csv", model)) ? 1 : 0;
+    }
+  }
+
+  bool collides(const TimedMotion& motion) {
+    const int steps = static_cast<int>(std::ceil(motion.duration() / kTimeStep));
+    for (int step = 0; step <= steps; ++step) {
+      std::vector<double> q;
+      for (std::size_t joint = 0; joint < motion.joint_names.size(); ++joint) {
+        q.push_back(
+            test::controller_state(motion, joint, std::min(step * kTimeStep, motion.duration()))
+                .position);
+      }
+      if (collides_at(q)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// A plate at a vertex of the last link with geometry, somewhere on the path.
+  void put_a_wall_across(PlannedPath path, std::uint64_t seed) {
+    detail::PlanRandom random(seed + 1'000'003);
+    const std::size_t edge = random.below(path.waypoints.size() - 1);
+    const double share = random.unit();
+    std::vector<double> q = path.waypoints[edge];
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      q[k] += share * (path.waypoints[edge + 1][k] - q[k]);
+    }
+    const RobotModel& model = scene_.plan.space.model();
+    std::size_t link = model.links().size() - 1;
+    while (model.links()[link].collision.empty()) {
+      --link;
+    }
+    const std::size_t member = scene_.plan.scene.first_member(0) + link;
+    const MemberGeometry& geometry = scene_.plan.scene.geometries(member).front();
+    const auto& vertices = geometry.shape.mesh().vertices;
+    const Eigen::Vector3d vertex = vertices[random.below(vertices.size())];
+    const Eigen::Isometry3d X_WL = kinematics_.places(whole(q))[link];
+    const Eigen::Vector3d place =
+        X_WL * Eigen::Vector3d(geometry.X_MG.position + geometry.X_MG.rotation * vertex);
+    path.scene.bodies.push_back({.name = "a wall of 10 um",
+                                 .shape = {.source = BoxShape{{0.05, 0.05, kWall}}},
+                                 .motion = FixedMotion{{place, random_rotation(random)}}});
+    ++counts_.walls;
+    ShapeCache cache;
+    path.input_digest = load_scene(path.scene, cache).input_digest;
+    if (verify_path(path, {.threads = 1}).verdict == ProofVerdict::proven) {
+      ++counts_.walls_unseen;
+    }
+  }
+
+  static Eigen::Quaterniond random_rotation(detail::PlanRandom& random) {
+    return Eigen::Quaterniond(random.unit() + 0.1, random.unit() - 0.5, random.unit() - 0.5,
+                              random.unit() - 0.5)
+        .normalized();
+  }
+
+  ScenePlan scene_;
+  const Settings& settings_;
+  Counts& counts_;
+  PlainKinematics kinematics_;
+  FclRobot peer_;
+  Configuration rest_;
+  ShapeCache cache_;
+};
+
+int run(const Settings& settings) {
+  const char* data = std::getenv("FIRSTCONTACT_DATA_DIR");
+  if (data == nullptr || settings.output.empty()) {
+    std::cerr
+        << "usage: FIRSTCONTACT_DATA_DIR=... path_campaign [--first N] [--seeds N] [--part K/N] "
+           "[--retime EVERY] [--walls EVERY] OUTPUT.json\n";
+    return 2;
+  }
+  Counts counts;
+  ShapeCache cache;
+  int number = 0;
+  for (const char* family : kPandaFamilies) {
+    for (int problem = 1; problem <= kPandaProblems; ++problem) {
+      if (number++ % settings.parts != settings.part) {
+        continue;
+      }
+      ++counts.problems;
+      const Scene scene = read_robot_question(panda_problem(data, family, problem));
+      Problem work(make_scene_plan(scene, question_of_trajectory(scene), cache), settings, counts);
+      for (std::uint64_t seed = settings.first; seed < settings.first + settings.seeds; ++seed) {
+        try {
+          work.run(seed);
+        } catch (const std::invalid_argument& error) {
+          ++counts.refused;
+          std::cerr << family << ' ' << problem << ": " << error.what() << '\n';
+          break;
+        }
+      }
+    }
+    std::cerr << family << ": " << counts.summary().dump() << '\n';
+  }
+  std::ofstream(settings.output) << counts.summary().dump(1) << '\n';
+  return counts.not_verified + counts.colliding + counts.trajectories_colliding +
+                     counts.walls_unseen ==
+                 0
+             ? 0
+             : 1;
+}
+
+}  // namespace
+}  // namespace firstcontact::benchmarks
+
+int main(int argc, char** argv) {
+  firstcontact::benchmarks::Settings settings;
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool has_value = k + 1 < argc;
+    if (word == "--first" && has_value) {
+      settings.first = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--seeds" && has_value) {
+      settings.seeds = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--part" && has_value) {
+      std::sscanf(argv[++k], "%d/%d", &settings.part, &settings.parts);
+    } else if (word == "--retime" && has_value) {
+      settings.retime_every = std::max(1, std::atoi(argv[++k]));
+    } else if (word == "--walls" && has_value) {
+      settings.walls_every = std::max(1, std::atoi(argv[++k]));
+    } else {
+      settings.output = word;
+    }
+  }
+  return firstcontact::benchmarks::run(settings);
+}

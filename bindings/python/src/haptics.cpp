@@ -1,0 +1,244 @@
+#include <firstcontact/haptics/haptic_session.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include <firstcontact/haptics_files/haptic_log.h>
+#include <firstcontact/haptics_files/haptic_run.h>
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/record/write_run.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "run.h"
+#include "scene.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// A tick as Python sees it: what was true then.
+struct FeltTick {
+  ForceTick tick;
+  std::size_t tools = 0;
+
+  [[nodiscard]] py::array rows(Eigen::Vector3d ToolTick::*what) const {
+    std::vector<Eigen::Vector3d> found;
+    for (std::size_t k = 0; k < tools; ++k) {
+      found.push_back(tick.tools[k].*what);
+    }
+    return owning(std::move(found));
+  }
+
+  [[nodiscard]] py::array command(Eigen::Vector3d ForceCommand::*what) const {
+    std::vector<Eigen::Vector3d> found;
+    for (std::size_t k = 0; k < tools; ++k) {
+      found.push_back(tick.tools[k].command.*what);
+    }
+    return owning(std::move(found));
+  }
+
+  [[nodiscard]] std::vector<Pose> targets() const {
+    std::vector<Pose> found;
+    for (std::size_t k = 0; k < tools; ++k) {
+      found.push_back(tick.tools[k].target);
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::vector<std::string> faults() const {
+    std::vector<std::string> found;
+    for (std::size_t k = 0; k < tools; ++k) {
+      found.push_back(fault_words(tick.tools[k].faults));
+    }
+    return found;
+  }
+};
+
+/// A session in virtual time, with its record.
+class FeltSession {
+ public:
+  FeltSession(const LoadedScene& loaded, std::int64_t latency_ns)
+      : setup_(with_latency(haptic_setup(loaded), latency_ns)),
+        session_(setup_.scene, setup_.options),
+        run_(loaded, setup_, session_.contacts().contact_distance()) {}
+
+  FeltTick step(const std::vector<std::optional<Pose>>& poses,
+                const std::vector<std::uint32_t>& buttons) {
+    if (!buttons.empty() && buttons.size() != poses.size()) {
+      throw std::invalid_argument("step: expected as many buttons as poses, or none");
+    }
+    std::vector<DeviceState> states;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      DeviceState state;
+      state.time_ns = session_.time_ns();
+      state.sequence = ++count_;
+      state.status = poses[k] ? DeviceStatus::live : DeviceStatus::lost;
+      state.X_DH = poses[k].value_or(Pose{});
+      state.buttons = buttons.empty() ? 0U : buttons[k];
+      states.push_back(state);
+    }
+    const FeltTick felt{session_.step(states), setup_.scene.tools.size()};
+    cycle_.reset();
+    if (session_.cycle() != nullptr) {
+      cycle_ = run_.step(*session_.cycle());
+    }
+    return felt;
+  }
+
+  [[nodiscard]] const HapticSession& session() const { return session_; }
+  [[nodiscard]] const RunHeader& header() const { return run_.header(); }
+  [[nodiscard]] const std::optional<RunStep>& cycle() const { return cycle_; }
+  [[nodiscard]] const HapticSetup& setup() const { return setup_; }
+
+  [[nodiscard]] std::vector<Pose> poses() const {
+    std::vector<Pose> found;
+    for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+      found.push_back(session_.contacts().pose(k));
+    }
+    return found;
+  }
+
+  [[nodiscard]] py::array contacts(Eigen::Vector3d HapticContact::*what) const {
+    const HapticContactSet& set = session_.contacts().contact_set();
+    std::vector<Eigen::Vector3d> found;
+    for (std::size_t k = 0; k < set.count; ++k) {
+      found.push_back(set.contacts[k].*what);
+    }
+    return owning(std::move(found));
+  }
+
+  [[nodiscard]] py::array gaps() const {
+    const HapticContactSet& set = session_.contacts().contact_set();
+    std::vector<double> found;
+    for (std::size_t k = 0; k < set.count; ++k) {
+      found.push_back(set.contacts[k].gap);
+    }
+    return owning(std::move(found));
+  }
+
+ private:
+  static HapticSetup with_latency(HapticSetup setup, std::int64_t latency_ns) {
+    setup.options.contact_latency_ns = latency_ns;
+    return setup;
+  }
+
+  HapticSetup setup_;
+  HapticSession session_;
+  HapticRun run_;
+  std::optional<RunStep> cycle_;
+  std::uint64_t count_ = 0;
+};
+
+std::unique_ptr<FeltSession> make_felt_session(const py::object& scene, double duration,
+                                               double latency) {
+  if (!(latency >= 0.0 && latency <= 10.0)) {
+    throw std::invalid_argument("latency must be 0 to 10 s");
+  }
+  const auto held = py::module_::import("firstcontact._check")
+                        .attr("load_scene")(scene)
+                        .cast<std::shared_ptr<HeldScene>>();
+  const py::gil_scoped_release release;
+  Scene prepared = held->scene();
+  prepare_haptics(prepared, duration);
+  const auto latency_ns = static_cast<std::int64_t>(1e9 * latency + 0.5);
+  return std::make_unique<FeltSession>(held->sharing(std::move(prepared))->loaded(), latency_ns);
+}
+
+void bind_tick(py::module_& m) {
+  py::class_<FeltTick>(m, "HapticTick", "A tick of a HapticSession: what the devices feel.")
+      .def_property_readonly(
+          "time", [](const FeltTick& t) { return 1e-9 * static_cast<double>(t.tick.time_ns); },
+          "[s]")
+      .def_property_readonly(
+          "forces", [](const FeltTick& t) { return t.command(&ForceCommand::force_D); },
+          "[N] n×3, on each device, its own axes.")
+      .def_property_readonly(
+          "torques", [](const FeltTick& t) { return t.command(&ForceCommand::torque_D); },
+          "[N m] n×3, about each handle, its own axes.")
+      .def_property_readonly(
+          "forces_world", [](const FeltTick& t) { return t.rows(&ToolTick::force_W); },
+          "[N] n×3, world axes.")
+      .def_property_readonly(
+          "torques_world", [](const FeltTick& t) { return t.rows(&ToolTick::torque_W); },
+          "[N m] n×3, world axes.")
+      .def_property_readonly("targets", &FeltTick::targets,
+                             "Poses of the tools that the devices ask for.")
+      .def_property_readonly("faults", &FeltTick::faults,
+                             "For each tool, words joined by a bar; empty where all is well.")
+      .def_property_readonly(
+          "contact_count", [](const FeltTick& t) { return t.tick.contacts; },
+          "Contacts of the set that acted.")
+      .def_property_readonly(
+          "pressing", [](const FeltTick& t) { return t.tick.pressing; }, "Those that press.")
+      .def("__repr__", [](const FeltTick& t) {
+        return "<HapticTick at " + std::to_string(t.tick.time_ns) + " ns, " +
+               std::to_string(t.tick.pressing) + " contacts press>";
+      });
+}
+
+}  // namespace
+
+void bind_haptics(py::module_& m) {
+  bind_tick(m);
+  py::class_<FeltSession>(
+      m, "HapticSession",
+      R"(Tools of a scene that follow haptic devices, tick by tick in virtual time.
+
+The scene has "haptics" (see "Feel a mesh"). A tool passes through nothing; its contacts push back.
+The same on every run. One thread at a time may use a session.)")
+      .def(
+          py::init(&make_felt_session), py::arg("scene"), py::kw_only(), py::arg("duration") = 10.0,
+          py::arg("latency") = 0.0,
+          R"(scene: as load_scene takes it. duration: [s] of the record; bodies that move go on so long.
+latency: [s] that a cycle of the contact loop takes.)")
+      .def("step", &FeltSession::step, py::arg("poses"),
+           py::arg("buttons") = std::vector<std::uint32_t>{},
+           R"(Makes the next tick of the force loop; returns a HapticTick.
+
+poses: of the handles, a Pose for each tool; None for a device that is lost. buttons: bits, one
+number for each tool.)")
+      .def_property_readonly(
+          "time",
+          [](const FeltSession& s) { return 1e-9 * static_cast<double>(s.session().time_ns()); },
+          "[s] Of the next tick.")
+      .def_property_readonly(
+          "dt",
+          [](const FeltSession& s) {
+            return 1e-9 * static_cast<double>(s.session().force_period_ns());
+          },
+          "[s] From tick to tick.")
+      .def_property_readonly("poses", &FeltSession::poses, "Where the tools are.")
+      .def_property_readonly(
+          "contact_points", [](const FeltSession& s) { return s.contacts(&HapticContact::point); },
+          "[m] n×3, of the newest contacts.")
+      .def_property_readonly(
+          "contact_normals",
+          [](const FeltSession& s) { return s.contacts(&HapticContact::normal); },
+          "n×3, towards the tool.")
+      .def_property_readonly("contact_gaps", &FeltSession::gaps, "[m] (n,)")
+      .def_property_readonly(
+          "contact_distance",
+          [](const FeltSession& s) { return s.session().contacts().contact_distance(); },
+          "[m] Tools that touch rest at this distance to one and a half of it.")
+      .def_property_readonly(
+          "header_json",
+          [](const FeltSession& s) { return without_line_feed(write_run_header(s.header())); },
+          "The first line of a record, for verify_run and the tool.")
+      .def_property_readonly(
+          "cycle", [](const FeltSession& s) { return s.cycle(); },
+          "RunStep of the contact loop's cycle that the last tick began; None where it began "
+          "none.");
+}
+
+}  // namespace firstcontact::python

@@ -1,0 +1,24 @@
+/// @file
+/// Goals of a moveit_msgs/MotionPlanRequest that are poses of a link.
+
+#pragma once
+
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/scene/plan_question.h>
+#include <firstcontact/text/json_reader.h>
+
+namespace firstcontact::detail {
+
+/// Reads `position_constraints` and `orientation_constraints` of a goal: one of the first, and at
+/// most one of the second for the same link.
+///
+/// The region of the position is a sphere, a box or a cylinder; what is asked for is the ball in
+/// it around its middle. Of three tolerances about axes half of the least bounds the rotation, for
+/// either parameterization.
+///
+/// @param X_WR  of the root link, whose name is a frame, too
+/// @throws ParseError
+[[nodiscard]] LinkGoal read_pose_constraints(const JsonValue& goal, const RobotModel& robot,
+                                             const Pose& X_WR, const JsonReader& read);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,49 @@
+/// @file
+/// The messages of the Haply Inverse Service.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace firstcontact::detail {
+
+/// What one message of the service says.
+struct HaplyMessage {
+  std::optional<Eigen::Quaterniond> orientation;       ///< Of the grip; of length 1.
+  std::optional<Eigen::Vector3d> position;             ///< [m]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
+  std::string device_id;                               ///< Of the Inverse3; empty if there is none.
+  std::string model;          ///< `config.type` of the Inverse3, where the message has it.
+  std::uint32_t buttons = 0;  ///< Of the grip, in the order of their names.
+  bool ready = true;          ///< As its `status` reports.
+  bool has_session = false;   ///< As messages of 3.5 have.
+};
+
+/// Which devices of a message are looked at. Empty for the first one.
+struct HaplyChoice {
+  std::string device_id;
+  std::string grip_id;
+};
+
+/// Parses a message. Keys that are not known are left out.
+///
+/// Grips are looked for in all lists whose name ends in "verse_grip", wired ones first: so the list
+/// of 3.5 with its own types is read as well.
+///
+/// @throws ParseError  where a value is not what its key needs
+[[nodiscard]] HaplyMessage parse_haply_message(std::string_view text, const HaplyChoice& choice);
+
+/// The message that commands a force [N], and so asks for the next state.
+///
+/// @param vector_key  "vector" since 3.5, "values" before
+/// @param profile     names the program, in the first message of a connection; else empty
+[[nodiscard]] std::string haply_force(const std::string& device_id, const Eigen::Vector3d& force,
+                                      const char* vector_key, const std::string& profile);
+
+}  // namespace firstcontact::detail

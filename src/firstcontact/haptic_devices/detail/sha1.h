@@ -1,0 +1,17 @@
+/// @file
+/// SHA-1, which the handshake of WebSockets needs. Not for anything that must be safe.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace firstcontact::detail {
+
+/// The digest of a short text.
+///
+/// Source: NIST FIPS 180-4, "Secure Hash Standard", 2015, sections 5 and 6.1.
+[[nodiscard]] std::array<std::uint8_t, 20> sha1(std::string_view bytes);
+
+}  // namespace firstcontact::detail

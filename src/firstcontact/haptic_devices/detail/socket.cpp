@@ -1,0 +1,174 @@
+#include <firstcontact/haptic_devices/detail/socket.h>
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <system_error>
+
+#include <firstcontact/haptic_devices/device.h>
+
+namespace firstcontact::detail {
+namespace {
+
+std::string text_of(int error) { return std::generic_category().message(error); }
+
+/// Waits for descriptors, at most until the time.
+int poll_until(std::span<pollfd> descriptors, std::int64_t until_ns) noexcept {
+  while (true) {
+    const std::int64_t left = std::max<std::int64_t>(0, until_ns - steady_now_ns());
+    const timespec time{static_cast<time_t>(left / 1'000'000'000),
+                        static_cast<long>(left % 1'000'000'000)};
+    const int count = ::ppoll(descriptors.data(), descriptors.size(), &time, nullptr);
+    if (count >= 0 || errno != EINTR) {
+      return count;
+    }
+  }
+}
+
+/// One address of a host. The descriptor is closed without success.
+FileDescriptor connect_address(const addrinfo& address, const StopSignal& stop,
+                               std::int64_t until_ns, std::string& problem) {
+  FileDescriptor socket(::socket(
+      address.ai_family, address.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC, address.ai_protocol));
+  if (!socket.is_open()) {
+    problem = text_of(errno);
+    return FileDescriptor();
+  }
+  int error = 0;
+  if (::connect(socket.number(), address.ai_addr, address.ai_addrlen) != 0) {
+    error = errno;
+    if (error == EINPROGRESS) {
+      if (wait_for(socket, WaitFor::writing, stop, until_ns) != WaitEnd::ready) {
+        problem = "no answer in time";
+        return FileDescriptor();
+      }
+      socklen_t size = sizeof error;
+      ::getsockopt(socket.number(), SOL_SOCKET, SO_ERROR, &error, &size);
+    }
+  }
+  if (error != 0) {
+    problem = text_of(error);
+    return FileDescriptor();
+  }
+  const int on = 1;  // Small messages leave at once.
+  ::setsockopt(socket.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  return socket;
+}
+
+}  // namespace
+
+FileDescriptor::~FileDescriptor() {
+  if (number_ >= 0) {
+    ::close(number_);
+  }
+}
+
+StopSignal::StopSignal() : event_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+  if (!event_.is_open()) {
+    throw std::system_error(errno, std::generic_category(), "eventfd");
+  }
+}
+
+void StopSignal::set() noexcept {
+  set_.store(true, std::memory_order_release);
+  const std::uint64_t one = 1;
+  // It can only fail if the counter is full, and then the event is set.
+  [[maybe_unused]] const ssize_t written = ::write(event_.number(), &one, sizeof one);
+}
+
+WaitEnd wait_for(const FileDescriptor& socket, WaitFor what, const StopSignal& stop,
+                 std::int64_t until_ns) noexcept {
+  const auto events = static_cast<short>(what == WaitFor::reading ? POLLIN : POLLOUT);
+  std::array<pollfd, 2> descriptors{{{socket.number(), events, 0}, {stop.number(), POLLIN, 0}}};
+  const int count = poll_until(descriptors, until_ns);
+  if (stop.is_set()) {
+    return WaitEnd::stopped;
+  }
+  return count > 0 && descriptors[0].revents != 0 ? WaitEnd::ready : WaitEnd::timed_out;
+}
+
+WaitEnd wait_for(const StopSignal& stop, std::int64_t until_ns) noexcept {
+  std::array<pollfd, 1> descriptors{{{stop.number(), POLLIN, 0}}};
+  (void)poll_until(descriptors, until_ns);
+  return stop.is_set() ? WaitEnd::stopped : WaitEnd::timed_out;
+}
+
+FileDescriptor connect_local(const std::string& path, std::string& problem) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.sun_path) {
+    problem = "the path is longer than " + std::to_string(sizeof address.sun_path - 1) + " bytes";
+    return FileDescriptor();
+  }
+  std::memcpy(address.sun_path, path.data(), path.size());
+  FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!socket.is_open() || ::connect(socket.number(), reinterpret_cast<const sockaddr*>(&address),
+                                     sizeof address) != 0) {
+    problem = text_of(errno);
+    return FileDescriptor();
+  }
+  return socket;
+}
+
+FileDescriptor connect_tcp(const std::string& host, std::uint16_t port, const StopSignal& stop,
+                           std::int64_t until_ns, std::string& problem) {
+  addrinfo wanted{};
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* addresses = nullptr;
+  const int error = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &addresses);
+  if (error != 0) {
+    problem = ::gai_strerror(error);
+    return FileDescriptor();
+  }
+  FileDescriptor socket;
+  for (const addrinfo* address = addresses; address != nullptr && !socket.is_open();
+       address = address->ai_next) {
+    socket = connect_address(*address, stop, until_ns, problem);
+  }
+  ::freeaddrinfo(addresses);
+  return socket;
+}
+
+bool send_all(const FileDescriptor& socket, std::string_view bytes, const StopSignal& stop,
+              std::int64_t until_ns) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t count = ::send(socket.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (count > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      if (wait_for(socket, WaitFor::writing, stop, until_ns) != WaitEnd::ready) {
+        return false;
+      }
+    } else if (count == 0 || errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Received receive(const FileDescriptor& socket, std::span<char> buffer) noexcept {
+  while (true) {
+    const ssize_t count = ::recv(socket.number(), buffer.data(), buffer.size(), 0);
+    if (count > 0) {
+      return {static_cast<std::size_t>(count), true};
+    }
+    if (count < 0 && errno == EINTR) {
+      continue;
+    }
+    return {0, count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)};
+  }
+}
+
+}  // namespace firstcontact::detail

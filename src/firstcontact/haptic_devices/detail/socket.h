@@ -1,0 +1,82 @@
+/// @file
+/// Local sockets of drivers, which wait with a deadline and can be stopped.
+
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace firstcontact::detail {
+
+/// Owns a file descriptor.
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number = -1) noexcept : number_(number) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~FileDescriptor();
+
+  [[nodiscard]] int number() const noexcept { return number_; }
+  [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
+
+ private:
+  int number_;
+};
+
+/// Ends the waits of one thread, from another one. Once set it stays set.
+class StopSignal {
+ public:
+  /// @throws std::system_error  if the system gives no descriptor
+  StopSignal();
+
+  void set() noexcept;
+  [[nodiscard]] bool is_set() const noexcept { return set_.load(std::memory_order_acquire); }
+  [[nodiscard]] int number() const noexcept { return event_.number(); }
+
+ private:
+  FileDescriptor event_;
+  std::atomic<bool> set_{false};
+};
+
+enum class WaitEnd { ready, stopped, timed_out };
+enum class WaitFor { reading, writing };
+
+/// Waits until a socket can be read or written, the signal is set, or the steady clock is at
+/// `until_ns`. A socket that the other side has closed is ready.
+[[nodiscard]] WaitEnd wait_for(const FileDescriptor& socket, WaitFor what, const StopSignal& stop,
+                               std::int64_t until_ns) noexcept;
+
+/// Sleeps until the signal is set or the steady clock is at `until_ns`.
+[[nodiscard]] WaitEnd wait_for(const StopSignal& stop, std::int64_t until_ns) noexcept;
+
+/// Connects to a socket of the file system. Without success the descriptor is closed, and `problem`
+/// has the reason.
+[[nodiscard]] FileDescriptor connect_local(const std::string& path, std::string& problem);
+
+/// Connects to a port of TCP, by all addresses that the host has.
+[[nodiscard]] FileDescriptor connect_tcp(const std::string& host, std::uint16_t port,
+                                         const StopSignal& stop, std::int64_t until_ns,
+                                         std::string& problem);
+
+/// Sends all bytes. False if the other side is gone, or the wait ended.
+[[nodiscard]] bool send_all(const FileDescriptor& socket, std::string_view bytes,
+                            const StopSignal& stop, std::int64_t until_ns) noexcept;
+
+/// What a read from a socket gave.
+struct Received {
+  std::size_t count = 0;  ///< [byte]  May be 0 although the other side is there.
+  bool open = true;       ///< False if the other side is gone.
+};
+
+/// Reads what is there, without waiting.
+[[nodiscard]] Received receive(const FileDescriptor& socket, std::span<char> buffer) noexcept;
+
+}  // namespace firstcontact::detail

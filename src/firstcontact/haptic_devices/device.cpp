@@ -1,0 +1,46 @@
+#include <firstcontact/haptic_devices/device.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+
+namespace firstcontact {
+namespace {
+
+/// The components that are driven, with a length of at most `most`.
+Eigen::Vector3d limited_part(const Eigen::Vector3d& vector, const std::array<bool, 3>& driven,
+                             double most) {
+  Eigen::Vector3d result = Eigen::Vector3d::Zero();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    result[i] = driven[axis] ? vector[i] : 0.0;
+  }
+  const double largest = result.lpNorm<Eigen::Infinity>();
+  if (!(most > 0.0) || !(largest > 0.0)) {
+    return Eigen::Vector3d::Zero();
+  }
+  // Scaled first, as the square of a length may overflow.
+  const Eigen::Vector3d scaled = result / largest;
+  const double length = scaled.norm();
+  return length <= most / largest ? result : Eigen::Vector3d(scaled * (most / length));
+}
+
+}  // namespace
+
+Device::~Device() = default;
+
+std::int64_t steady_now_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+ForceCommand limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept {
+  if (!command.force_D.allFinite() || !command.torque_D.allFinite()) {
+    return {};
+  }
+  return {limited_part(command.force_D, capabilities.driven.linear, capabilities.max_force),
+          limited_part(command.torque_D, capabilities.driven.angular, capabilities.max_torque)};
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,184 @@
+/// @file
+/// Haptic devices: what a device can do, what it senses, and how a force is commanded.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// The meaning of the numbers of a device.
+enum class DeviceKind {
+  pose,  ///< The handle is at a place: `DeviceState::X_DH`.
+  rate,  ///< A deflected cap sets velocities: `DeviceState::linear_rate`, `angular_rate`.
+};
+
+/// Its words in files and messages, in this order.
+inline constexpr std::array<const char*, 2> kDeviceKindWords{"pose", "rate"};
+
+/// Flags of the six degrees of freedom, along and about the axes of the device frame D.
+struct DegreesOfFreedom {
+  std::array<bool, 3> linear{};   ///< Along x, y, z.
+  std::array<bool, 3> angular{};  ///< About x, y, z.
+
+  [[nodiscard]] static constexpr DegreesOfFreedom none() { return {}; }
+  [[nodiscard]] static constexpr DegreesOfFreedom translation() { return {{true, true, true}, {}}; }
+  [[nodiscard]] static constexpr DegreesOfFreedom all() {
+    return {{true, true, true}, {true, true, true}};
+  }
+  [[nodiscard]] bool operator==(const DegreesOfFreedom&) const = default;
+};
+
+/// The abilities and limits of a device. They do not change while the device is open.
+///
+/// A limit that the maker does not state is infinite. A limit of what is not driven is 0.
+struct DeviceCapabilities {
+  std::string name;  ///< Of the model: "Inverse3".
+  std::string id;    ///< Of this specimen, as logs write it; may be empty.
+  DeviceKind kind = DeviceKind::pose;
+  DegreesOfFreedom sensed;  ///< The others stay at the identity, or at rate 0.
+  DegreesOfFreedom driven;  ///< Components of a command along the others are dropped.
+  int buttons = 0;          ///< At most 32.
+
+  double max_force = 0.0;              ///< [N]          Greatest length of the force vector.
+  double max_torque = 0.0;             ///< [N m]        Greatest length of the torque vector.
+  double max_stiffness = 0.0;          ///< [N/m]
+  double max_angular_stiffness = 0.0;  ///< [N m/rad]
+  double max_damping = 0.0;            ///< [N s/m]
+  double max_angular_damping = 0.0;    ///< [N m s/rad]
+
+  /// [m]  Of a ball about the origin of D that the handle can reach everywhere.
+  double workspace_radius = std::numeric_limits<double>::infinity();
+
+  // The declared class of the device, for bounds of stable gains. 0 claims nothing.
+  double damping = 0.0;           ///< [N s/m]      Own viscous damping of the mechanism, at least.
+  double angular_damping = 0.0;   ///< [N m s/rad]
+  double friction = 0.0;          ///< [N]          Own Coulomb friction of the mechanism, at least.
+  double angular_friction = 0.0;  ///< [N m]
+  double resolution = 0.0;        ///< [m]          Step of the encoders, at most.
+  double angular_resolution = 0.0;  ///< [rad]
+
+  /// [Hz]  Rate of new samples; 0 where it is not regular.
+  double sample_rate = 0.0;
+
+  /// [ns]  Age of a sample from which the status is `silent`; the greatest integer for never.
+  std::int64_t silent_after_ns = std::numeric_limits<std::int64_t>::max();
+};
+
+/// The worth of a state. Only `live` states may move anything.
+enum class DeviceStatus : std::uint8_t {
+  waiting,  ///< Open, but no sample has come yet. The pose is the identity.
+  live,     ///< A sample that is as young as the device promises.
+  silent,   ///< The connection stands, but the last sample is older than `silent_after_ns`.
+  lost,     ///< The device is gone, or its data make no sense any more. It may come back.
+  ended,    ///< A recording is over. It will not come back.
+};
+
+/// Its words in files and messages, in this order.
+inline constexpr std::array<const char*, 5> kDeviceStatusWords{"waiting", "live", "silent", "lost",
+                                                               "ended"};
+
+/// One sample of a device.
+///
+/// All numbers are finite, and the quaternion is not zero, whatever the status. Where the status is
+/// not `live`, the pose is that of the last sample, both rates are 0 and no button is pressed. So
+/// a dead-man button is released when the device is lost.
+struct DeviceState {
+  /// The pose of the handle H in the device frame D. For a rate device the identity.
+  Pose X_DH;
+  /// [m/s]  Velocity that a rate device sets, in D. For a pose device its own measurement of
+  /// the velocity of H's origin, or 0 where it has none.
+  Eigen::Vector3d linear_rate = Eigen::Vector3d::Zero();
+  /// [rad/s]  The same for the angular velocity, in D.
+  Eigen::Vector3d angular_rate = Eigen::Vector3d::Zero();
+  /// [ns]  When the sample was taken, or else when it arrived, on the clock of `Device::read`.
+  std::int64_t time_ns = 0;
+  /// Counts the samples. The same number is the same sample; a jump shows how many were missed.
+  std::uint64_t sequence = 0;
+  /// Bit i is set while button i is pressed.
+  std::uint32_t buttons = 0;
+  DeviceStatus status = DeviceStatus::waiting;
+};
+
+/// The force that the device shall put on the user's hand.
+struct ForceCommand {
+  Eigen::Vector3d force_D = Eigen::Vector3d::Zero();   ///< [N]    At the origin of H, axes of D.
+  Eigen::Vector3d torque_D = Eigen::Vector3d::Zero();  ///< [N m]  About the origin of H, axes of D.
+};
+
+/// Counts of the events since a device was opened.
+struct DeviceCounts {
+  std::uint64_t samples = 0;      ///< New samples.
+  std::uint64_t missed = 0;       ///< Samples that the source numbered and nobody received.
+  std::uint64_t malformed = 0;    ///< Records that were dropped because they make no sense.
+  std::uint64_t connections = 0;  ///< How often a connection was made.
+};
+
+/// A haptic device.
+///
+/// **Frames and units.** The device frame D is fixed to the base. It is right-handed, with x to the
+/// right of the user, y away from the user and z up. Lengths are in metres, angles in radians,
+/// times in nanoseconds, forces in newtons and torques in newton metres. A driver converts
+/// whatever the hardware has.
+///
+/// **Time.** `now_ns` is the time of the tick. Real loops pass the steady clock (`steady_now_ns`);
+/// loops in virtual time pass their own. It never decreases from call to call. Devices behind a
+/// network stamp their samples by the steady clock, and so are for real loops only.
+///
+/// **Force loop.** `read` and `command` are called from one thread, the force loop, at 1 kHz to
+/// 10 kHz. Both return at once: they allocate nothing, take no lock, make no system call that could
+/// block, and throw nothing. A driver that must wait for hardware or a network does so in a thread
+/// of its own, and hands states over by a `MailSlot`. `read` gives the newest sample, again and
+/// again if there is no new one; it never waits for the next.
+///
+/// **Loss.** A lost device goes on to answer: see `DeviceState`. A driver that can open the device
+/// again does so by itself. It then starts with a new connection, without a force.
+///
+/// **Safety.** A device limits each command to `max_force` and `max_torque`, takes a component that
+/// is not finite as a command of zero, and falls back to zero force by itself where no command came
+/// for 100 ms. The destructor sets the force to zero before it lets the device go.
+class FIRSTCONTACT_API Device {
+ public:
+  Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device();
+
+  /// The abilities and limits. The reference holds as long as the device.
+  [[nodiscard]] virtual const DeviceCapabilities& capabilities() const noexcept = 0;
+
+  /// Reads the newest sample at time `now_ns`. For the force loop.
+  [[nodiscard]] virtual DeviceState read(std::int64_t now_ns) noexcept = 0;
+
+  /// Commands the force from now on, until the next command. For the force loop. Devices that are
+  /// not driven ignore it.
+  virtual void command(const ForceCommand& command, std::int64_t now_ns) noexcept = 0;
+
+  /// The counts up to now. For any thread; not for the force loop.
+  [[nodiscard]] virtual DeviceCounts counts() const = 0;
+
+  /// Describes in one sentence why the device is waiting or lost; empty if it is neither. For any
+  /// thread; not for the force loop.
+  [[nodiscard]] virtual std::string problem() const = 0;
+};
+
+/// The steady clock [ns], as real loops pass it to `Device::read`.
+[[nodiscard]] FIRSTCONTACT_API std::int64_t steady_now_ns() noexcept;
+
+/// Limits a command to what the device drives: components along other axes are 0, the lengths are
+/// at most `max_force` and `max_torque`. A force or torque that is not finite makes both 0.
+[[nodiscard]] FIRSTCONTACT_API ForceCommand
+limited(const ForceCommand& command, const DeviceCapabilities& capabilities) noexcept;
+
+/// How long a force lasts without a further command.
+inline constexpr std::int64_t kCommandLifetimeNs = 100'000'000;
+
+}  // namespace firstcontact

@@ -1,0 +1,168 @@
+#include <firstcontact/haptics/contact_loop.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/contact_finder.h>
+#include <firstcontact/haptics/detail/contact_loop_implementation.h>
+#include <firstcontact/haptics/detail/haptic_scene_check.h>
+#include <firstcontact/query/distance.h>
+
+namespace firstcontact {
+namespace detail {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+double reach_of(const Shape& shape) {
+  const ShapeBounds& bounds = shape.bounds();
+  return bounds.reach + shape.radius();
+}
+
+}  // namespace
+}  // namespace detail
+
+ContactLoop::Implementation::Implementation(HapticScene scene, const ContactLoopOptions& options)
+    : scene_(std::move(scene)), options_(options) {
+  detail::check_haptic_scene(scene_);
+  detail::require_haptic(options.rounds > 0, "ContactLoopOptions::rounds must be > 0");
+  detail::require_haptic(options.angle > 0.0 && options.angle < 1.0,
+                         "ContactLoopOptions::angle must be in (0, 1)");
+  detail::require_haptic(options.most_contacts > 0 && options.most_contacts <= kMostHapticContacts,
+                         "ContactLoopOptions::most_contacts must be in 1 to 128");
+  begin_members();
+  require_start();
+  set_frames();
+  find_contacts();
+  publish(0);
+}
+
+void ContactLoop::Implementation::begin_members() {
+  double least_reach = detail::kInfinite;
+  double extent = 0.0;
+  const auto add = [&](const Shape& given, const Pose& pose, double friction) {
+    const Shape shape = given.as_triangles();
+    const double reach = detail::reach_of(shape);
+    extent = std::max(extent, pose.position.cwiseAbs().maxCoeff() + reach);
+    members_.push_back({.shape = shape, .reach = reach, .friction = friction});
+    poses_.push_back(pose);
+    placed_.emplace_back();
+    motions_.push_back(Motion::fixed(pose));
+    return reach;
+  };
+  for (const HapticTool& tool : scene_.tools) {
+    least_reach = std::min(least_reach, add(tool.shape, tool.X_WB, tool.friction));
+  }
+  for (const HapticBody& body : scene_.bodies) {
+    add(body.shape, body.course ? body.course->pose(0.0) : body.X_WB, body.friction);
+  }
+  distance_ = scene_.contact_distance.value_or(detail::kContactDistanceOfReach * least_reach);
+  detail::require_haptic(distance_ >= detail::kLeastContactDistanceOfExtent * extent,
+                         "the contact distance is too small to be proven at coordinates of " +
+                             std::to_string(extent) + " m");
+  finder_ = detail::ContactFinder(distance_);
+  courses_.resize(members_.size());
+  for (detail::HapticMember& member : members_) {
+    member.neighbours = std::make_shared<const detail::SurfaceNeighbours>(
+        member.shape, detail::kSlackOfNeighbours * distance_);
+  }
+  for (std::size_t tool = 0; tool < tools(); ++tool) {
+    for (std::size_t other = tool + 1; other < members_.size(); ++other) {
+      const auto is_this = [&](const std::array<std::size_t, 2>& pair) {
+        return std::minmax(pair[0], pair[1]) == std::minmax(tool, other);
+      };
+      if (std::ranges::any_of(scene_.ignored_pairs, is_this)) {
+        continue;
+      }
+      // The first tool is the other member of a pair of tools.
+      pairs_.push_back({.members = {other < tools() ? tool : other, other < tools() ? other : tool},
+                        .gap = 0.0});
+    }
+  }
+}
+
+void ContactLoop::Implementation::require_start() {
+  rest_clearance_ = detail::kInfinite;
+  for (const detail::HapticPair& pair : pairs_) {
+    const auto [other, tool] = pair.members;
+    const MovingShape A{members_[other].shape, motions_[other]};
+    const MovingShape B{members_[tool].shape, motions_[tool]};
+    const std::string names = "\"" + name_of(tool) + "\" and \"" + name_of(other) + "\"";
+    const FirstContactResult start =
+        first_contact(A, B, workspace_, {.tolerance = 1e-3 * distance_});
+    detail::require_haptic(start.verdict == Verdict::free, names + " meet at the start");
+    const double gap = distance(A, B, 0.0, workspace_).lower_bound;
+    detail::require_haptic(gap >= 0.1 * distance_,
+                           names +
+                               " start nearer to each other than a tenth of the contact "
+                               "distance: choose a smaller one, or part them");
+    rest_clearance_ = std::min(rest_clearance_, gap);
+  }
+}
+
+void ContactLoop::Implementation::set_frames() {
+  for (std::size_t k = 0; k < tools(); ++k) {
+    const HapticCoupling& coupling = scene_.tools[k].coupling;
+    frames_.p_WC[k] = centre(k);
+    frames_.lengths[k] = std::sqrt(coupling.angular_stiffness / coupling.stiffness);
+    frames_.weights[k] = std::sqrt(coupling.stiffness / scene_.tools[0].coupling.stiffness);
+  }
+}
+
+void ContactLoop::Implementation::find_contacts() {
+  if (is_found_) {
+    return;
+  }
+  touches_.clear();
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (!placed_[m]) {
+      placed_[m].emplace(members_[m].shape, poses_[m]);
+    }
+  }
+  for (detail::HapticPair& pair : pairs_) {
+    const auto [other, tool] = pair.members;
+    const std::size_t first = touches_.size();
+    pair.gap =
+        finder_.find(members_[other], *placed_[other], members_[tool], *placed_[tool], touches_);
+    for (std::size_t k = first; k < touches_.size(); ++k) {
+      HapticContact& contact = touches_[k].contact;
+      contact.tool = static_cast<std::int32_t>(tool);
+      contact.other = other < tools() ? static_cast<std::int32_t>(other) : -1;
+      contact.body = other < tools() ? -1 : static_cast<std::int32_t>(other - tools());
+      contact.way = std::max(0.0, contact.gap - detail::kRestGap * distance_);
+    }
+  }
+  is_found_ = true;
+}
+
+ContactLoop::ContactLoop(HapticScene scene, const ContactLoopOptions& options)
+    : implementation_(std::make_unique<Implementation>(std::move(scene), options)) {}
+ContactLoop::~ContactLoop() = default;
+ContactLoop::ContactLoop(ContactLoop&&) noexcept = default;
+ContactLoop& ContactLoop::operator=(ContactLoop&&) noexcept = default;
+
+const HapticScene& ContactLoop::scene() const { return implementation_->scene_; }
+double ContactLoop::contact_distance() const { return implementation_->distance_; }
+double ContactLoop::time() const { return implementation_->time_; }
+const Pose& ContactLoop::pose(std::size_t member) const {
+  return implementation_->poses_.at(member);
+}
+const HapticCycle& ContactLoop::advance(std::span<const Pose> targets, double dt,
+                                        std::int64_t stamp_ns,
+                                        const std::optional<Deadline>& deadline) {
+  return implementation_->advance(targets, dt, stamp_ns, deadline);
+}
+const HapticContactSet& ContactLoop::contact_set() const { return implementation_->set_; }
+
+}  // namespace firstcontact

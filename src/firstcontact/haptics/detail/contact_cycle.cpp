@@ -1,0 +1,323 @@
+// A cycle of the contact loop: plans, proofs, pieces.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/haptics/detail/contact_listing.h>
+#include <firstcontact/haptics/detail/contact_loop_implementation.h>
+#include <firstcontact/haptics/detail/contact_reduction.h>
+#include <firstcontact/haptics/detail/haptic_scene_check.h>
+#include <firstcontact/math/float_environment.h>
+
+namespace firstcontact {
+namespace detail {
+namespace {
+
+/// [m]  How far the points of a body get in a displacement, at most, about.
+double extent_of(const Displacement& way, double reach) {
+  return way.translation.norm() + way.rotation_vector.norm() * reach;
+}
+
+Eigen::Vector3d moved_by(const Displacement& way, const Eigen::Vector3d& arm) {
+  return way.translation + way.rotation_vector.cross(arm);
+}
+
+}  // namespace
+}  // namespace detail
+
+detail::ToolDisplacements ContactLoop::Implementation::wanted(std::span<const Pose> targets) const {
+  detail::ToolDisplacements ways;
+  for (std::size_t k = 0; k < tools(); ++k) {
+    const Eigen::Quaterniond R_WB = targets[k].rotation.normalized();
+    ways[k].translation = targets[k].position + R_WB * scene_.tools[k].p_BC - centre(k);
+    ways[k].rotation_vector = detail::turn_between(poses_[k].rotation, R_WB);
+  }
+  return ways;
+}
+
+double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& ways) const {
+  double gain = 0.0;
+  for (std::size_t k = 0; k < tools(); ++k) {
+    gain = std::max(gain, detail::extent_of(ways[k], members_[k].reach));
+  }
+  return gain;
+}
+
+/// Sets how far the bodies with courses go in a part of the cycle: from where they are to where
+/// their courses are then.
+void ContactLoop::Implementation::set_courses(double slot) {
+  for (std::size_t m = tools(); m < members_.size(); ++m) {
+    courses_[m] = {};
+    if (has_course(m)) {
+      const Pose to = on_course(m, time_ + now_ + slot);
+      courses_[m].translation = to.position - poses_[m].position;
+      courses_[m].rotation_vector = detail::turn_between(poses_[m].rotation, to.rotation);
+    }
+  }
+}
+
+detail::GodObjectPlan ContactLoop::Implementation::plan(const detail::ToolDisplacements& wanted) {
+  std::vector<std::size_t> chosen;
+  if (touches_.size() > detail::kMostProjected) {
+    std::vector<HapticContact> contacts;
+    for (const HapticTouch& touch : touches_) {
+      contacts.push_back(touch.contact);
+    }
+    chosen =
+        detail::reduce_contacts(contacts, frames_, tools(), options_.angle, detail::kMostProjected)
+            .kept;
+  } else {
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      chosen.push_back(k);
+    }
+  }
+  planned_.clear();
+  for (const std::size_t k : chosen) {
+    const HapticContact& contact = touches_[k].contact;
+    detail::PlannedTouch touch{.contact = &contact,
+                               .way = contact.gap - detail::kRestGap * distance_};
+    if (contact.body >= 0) {
+      const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
+      touch.surface = detail::moved_by(courses_[member], contact.point - poses_[member].position);
+    }
+    planned_.push_back(touch);
+  }
+  detail::GodObjectPlan plan =
+      detail::plan_god_objects(wanted, frames_, tools(), planned_, detail::kSolvedTo * distance_);
+  for (Displacement& way : plan.displacements) {
+    if (!way.translation.allFinite() || !way.rotation_vector.allFinite()) {
+      way = {};
+    }
+  }
+  cycle_.residual = std::max(cycle_.residual, plan.residual);
+  return plan;
+}
+
+/// Plans with a shorter way where contacts would turn a tool so far that its straight constraints
+/// do not hold.
+detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
+    detail::ToolDisplacements wanted) {
+  detail::GodObjectPlan found = plan(wanted);
+  double part = 1.0;
+  for (std::size_t k = 0; k < tools() && found.is_pressed; ++k) {
+    // A point at the reach sinks by half of reach times the square of the angle.
+    const double most = std::sqrt(2.0 * detail::kSinkOfTurn * distance_ / members_[k].reach);
+    part = std::min(part, most / found.displacements[k].rotation_vector.norm());
+  }
+  if (!(part < 1.0)) {
+    return found;
+  }
+  if (are_courses_moving_) {
+    for (Displacement& way : wanted) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+    found = plan(wanted);
+  } else {
+    for (Displacement& way : found.displacements) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+  }
+  found.is_shortened = true;
+  return found;
+}
+
+void ContactLoop::Implementation::append_piece(std::size_t member, const Displacement& way,
+                                               double part, double to) {
+  for (HapticMemberMotion& motion : cycle_.members) {
+    if (motion.member == member) {
+      motion.pieces.push_back({.to = to,
+                               .X_WB = poses_[member],
+                               .translation = part * way.translation,
+                               .rotation_vector = part * way.rotation_vector});
+    }
+  }
+}
+
+/// Makes the plan as far as it is proven.
+///
+/// @returns  [-]  the part of it that was made
+double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, double slot,
+                                            double dt, const std::optional<Deadline>& deadline) {
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (m >= tools() && !has_course(m)) {
+      continue;
+    }
+    const Displacement& way = m < tools() ? plan.displacements[m] : courses_[m];
+    const ConstantRatePiece piece{
+        .X_WB = poses_[m], .translation = way.translation, .rotation_vector = way.rotation_vector};
+    motions_[m] = Motion::constant_rates(std::span(&piece, 1),
+                                         m < tools() ? scene_.tools[m].p_BC : Vector3d::Zero());
+  }
+  const detail::ProvenPart proven =
+      detail::prove_plan(members_, motions_, pairs_, distance_, deadline, workspace_, scratch_);
+  cycle_.is_late = cycle_.is_late || proven.is_late;
+  const double to = proven.t == 1.0 && slot == dt - now_ ? dt : now_ + proven.t * slot;
+  if (!(to > now_)) {
+    return 0.0;
+  }
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (m >= tools() && !has_course(m)) {
+      continue;
+    }
+    append_piece(m, m < tools() ? plan.displacements[m] : courses_[m], proven.t, to);
+    poses_[m] = has_course(m) && proven.t == 1.0 ? on_course(m, time_ + now_ + slot)
+                                                 : motions_[m].pose(proven.t);
+    placed_[m].reset();
+  }
+  rest_clearance_ = proven.clearance;
+  cycle_.clearance = std::min(cycle_.clearance, proven.clearance);
+  now_ = to;
+  is_found_ = false;
+  set_frames();
+  return proven.t;
+}
+
+void ContactLoop::Implementation::begin_cycle(double dt) {
+  now_ = 0.0;
+  cycle_.index += 1;
+  cycle_.asked = dt;
+  cycle_.lasted = 0.0;
+  cycle_.clearance = rest_clearance_;
+  cycle_.rounds = 0;
+  cycle_.is_converged = false;
+  cycle_.is_late = false;
+  cycle_.residual = 0.0;
+  cycle_.members.clear();
+  are_courses_moving_ = false;
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (m < tools() || has_course(m)) {
+      cycle_.members.push_back({.member = m});
+    }
+    are_courses_moving_ = are_courses_moving_ || (has_course(m) && time_ < scene_.duration);
+  }
+}
+
+/// All members rest until the end of the cycle.
+void ContactLoop::Implementation::rest_until(double dt) {
+  if (now_ < dt) {
+    for (const HapticMemberMotion& motion : cycle_.members) {
+      append_piece(motion.member, {}, 0.0, dt);
+    }
+    now_ = dt;
+  }
+}
+
+/// [m]  What the rounding of pieces is a part of.
+double ContactLoop::Implementation::size_of_cycle() const {
+  double size = 0.0;
+  for (const HapticMemberMotion& motion : cycle_.members) {
+    for (const HapticPiece& piece : motion.pieces) {
+      size = std::max(size, piece.X_WB.position.norm() + piece.translation.norm() +
+                                (1.0 + piece.rotation_vector.norm()) *
+                                    (members_[motion.member].reach +
+                                     members_[motion.member].shape.bounds().centre.norm()));
+    }
+  }
+  return size;
+}
+
+void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
+  find_contacts();
+  for (HapticTouch& touch : touches_) {
+    HapticContact& contact = touch.contact;
+    if (contact.body >= 0 && now_ > 0.0) {
+      const std::size_t member = tools() + static_cast<std::size_t>(contact.body);
+      contact.surface_velocity.setZero();
+      for (const HapticMemberMotion& motion : cycle_.members) {
+        if (motion.member == member && !motion.pieces.empty()) {
+          // How fast it went in this cycle, waiting included.
+          const HapticPiece& first = motion.pieces.front();
+          const Displacement way{
+              poses_[member].position - first.X_WB.position,
+              detail::turn_between(first.X_WB.rotation, poses_[member].rotation)};
+          contact.surface_velocity =
+              detail::moved_by(way, contact.point - poses_[member].position) / dt;
+        }
+      }
+    }
+  }
+  cycle_.lasted = now_;
+  time_ += now_;
+  for (HapticMemberMotion& motion : cycle_.members) {
+    motion.X_WB = poses_[motion.member];
+  }
+  cycle_.clearance = std::max(0.0, cycle_.clearance - detail::kRoundingOfPieces * size_of_cycle());
+  cycle_.contacts = touches_.size();
+  publish(stamp_ns);
+}
+
+const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> targets, double dt,
+                                                        std::int64_t stamp_ns,
+                                                        const std::optional<Deadline>& deadline) {
+  detail::require_haptic(targets.size() == tools(), "a target for each tool was expected");
+  detail::require_haptic(dt > 0.0 && std::isfinite(dt), "dt must be > 0 s");
+  for (const Pose& target : targets) {
+    detail::require_haptic(detail::is_finite_pose(target), "a target is not finite");
+  }
+  const FloatEnvironmentGuard guard;
+  begin_cycle(dt);
+  const double least_gain = detail::kLeastGain * distance_;
+  bool goes_on = true;
+  double share = 1.0;  // Of the time that courses go on in a round.
+  for (std::size_t round = 0; round < options_.rounds && now_ < dt && goes_on; ++round) {
+    if (deadline && round > 0 && std::chrono::steady_clock::now() >= *deadline) {
+      cycle_.is_late = true;
+      break;
+    }
+    const double left = dt - now_;
+    find_contacts();
+    const bool is_last = round + 1 == options_.rounds;
+    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * left;
+    set_courses(slot);
+    const detail::ToolDisplacements ways = wanted(targets);
+    detail::GodObjectPlan plan = plan_within_turn(ways);
+    ++cycle_.rounds;
+    const bool gains = gain_of(plan.displacements) > least_gain;
+    if (!gains && !are_courses_moving_) {
+      cycle_.is_converged = true;
+      break;
+    }
+    if (!gains && slot < left && share == 1.0) {  // Only the courses are left: all of them.
+      slot = left;
+      set_courses(slot);
+      plan = plan_within_turn(ways);
+    }
+    if (are_courses_moving_ &&
+        !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
+      share *= detail::kShareWithoutRoom;
+      continue;
+    }
+    const double made = execute(plan, slot, dt, deadline);
+    const bool is_there = made == 1.0 && !plan.is_pressed && !plan.is_shortened;
+    cycle_.is_converged = is_there;
+    goes_on = made * gain_of(plan.displacements) > 1e-3 * least_gain ||
+              (are_courses_moving_ && made > 0.0);
+    goes_on = goes_on && !(is_there && !are_courses_moving_);
+  }
+  if (!are_courses_moving_) {
+    rest_until(dt);
+  }
+  end_cycle(dt, stamp_ns);
+  return cycle_;
+}
+
+void ContactLoop::Implementation::publish(std::int64_t stamp_ns) {
+  set_.sequence += 1;
+  set_.stamp_ns = stamp_ns;
+  set_.tools = static_cast<std::uint32_t>(tools());
+  detail::list_contacts(touches_, frames_, tools(), options_, set_, cycle_.touches);
+  for (std::size_t k = 0; k < tools(); ++k) {
+    set_.X_WB[k] = poses_[k];
+    set_.p_WC[k] = frames_.p_WC[k];
+  }
+  set_.checksum = checksum_of(set_);
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,121 @@
+#include <firstcontact/haptics/detail/contact_finder.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/math/cell_hash.h>
+#include <firstcontact/query/close_features.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Whether both surfaces bulge towards each other at a contact. Edges that cross within a flat face
+/// do not count: over it the gap is least elsewhere.
+bool are_outermost(const HapticMember& A, const Eigen::Quaterniond& R_AW, const HapticMember& B,
+                   const Eigen::Quaterniond& R_BW, const Contact& contact) {
+  const bool are_edges =
+      contact.feature_A.type == FeatureType::edge && contact.feature_B.type == FeatureType::edge;
+  if (are_edges && (A.neighbours->is_flat_edge(contact.feature_A) ||
+                    B.neighbours->is_flat_edge(contact.feature_B))) {
+    return false;
+  }
+  const Vector3d& n_W = *contact.n_AB_W;
+  return A.neighbours->is_outermost(contact.feature_A, R_AW * n_W) &&
+         B.neighbours->is_outermost(contact.feature_B, R_BW * -n_W);
+}
+
+HapticTouch touch_of(const Contact& contact, double friction) {
+  HapticTouch touch;
+  touch.contact.point = 0.5 * (contact.p_WA + contact.p_WB);
+  touch.contact.normal = *contact.n_AB_W;
+  touch.contact.gap = contact.distance;
+  touch.contact.friction = friction;
+  touch.feature_of_other = contact.feature_A;
+  touch.feature_of_tool = contact.feature_B;
+  return touch;
+}
+
+}  // namespace
+
+/// Of contacts beside each other that face alike the nearest.
+void ContactFinder::keep_nearest_of_many(double width) {
+  using Cell = std::array<std::int64_t, 4>;
+  std::unordered_map<Cell, const Contact*, CellHash> nearest;
+  for (const Contact* contact : chosen_) {
+    const Vector3d& n = *contact->n_AB_W;
+    Cell key{0, 0, 0, (n.x() > 0.0 ? 1 : 0) + (n.y() > 0.0 ? 2 : 0) + (n.z() > 0.0 ? 4 : 0)};
+    for (int k = 0; k < 3; ++k) {
+      key[static_cast<std::size_t>(k)] = cell_along(contact->p_WA[k], width);
+    }
+    const Contact*& kept = nearest.try_emplace(key, contact).first->second;
+    if (contact->distance < kept->distance) {
+      kept = contact;
+    }
+  }
+  chosen_.clear();
+  for (const auto& [cell, contact] : nearest) {
+    chosen_.push_back(contact);
+  }
+  std::ranges::sort(chosen_);  // In the order of the list.
+}
+
+void ContactFinder::choose(const HapticMember& other, const PlacedShape& other_at,
+                           const HapticMember& tool, const PlacedShape& tool_at) {
+  const Eigen::Quaterniond R_AW = other_at.pose().rotation.normalized().conjugate();
+  const Eigen::Quaterniond R_BW = tool_at.pose().rotation.normalized().conjugate();
+  chosen_.clear();
+  for (const Contact& contact : contacts_) {
+    if (contact.n_AB_W && are_outermost(other, R_AW, tool, R_BW, contact)) {
+      chosen_.push_back(&contact);
+    }
+  }
+  if (chosen_.empty()) {
+    for (const Contact& contact : contacts_) {
+      if (contact.n_AB_W) {
+        chosen_.push_back(&contact);
+      }
+    }
+  }
+}
+
+double ContactFinder::find(const HapticMember& other, const PlacedShape& other_at,
+                           const HapticMember& tool, const PlacedShape& tool_at,
+                           std::vector<HapticTouch>& touches) {
+  const double reach = std::min(other.reach, tool.reach);
+  close_features(other_at, tool_at, kContactBand * distance_, workspace_, contacts_,
+                 kWidthOfNeighbourhood * reach);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : contacts_) {
+    least = std::min(least, contact.distance);
+  }
+  choose(other, other_at, tool, tool_at);
+  if (chosen_.size() > kManyContacts) {
+    keep_nearest_of_many(kWidthOfNeighbourhood * reach);
+  }
+  const double friction = std::sqrt(other.friction * tool.friction);
+  const auto begin = static_cast<std::ptrdiff_t>(touches.size());
+  for (const Contact* contact : chosen_) {
+    const HapticTouch touch = touch_of(*contact, friction);
+    const auto same = std::find_if(touches.begin() + begin, touches.end(), [&](const auto& kept) {
+      return (kept.contact.point - touch.contact.point).norm() <= kOnePlace * reach &&
+             kept.contact.normal.dot(touch.contact.normal) >= kOneNormal;
+    });
+    if (same == touches.end()) {
+      touches.push_back(touch);
+    } else if (touch.contact.gap < same->contact.gap) {
+      *same = touch;
+    }
+  }
+  return least;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,97 @@
+/// @file
+/// The state of a contact loop, and its steps.
+
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/detail/contact_coordinates.h>
+#include <firstcontact/haptics/detail/contact_finder.h>
+#include <firstcontact/haptics/detail/god_object_plan.h>
+#include <firstcontact/haptics/detail/pair_proof.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/placed_shape.h>
+
+namespace firstcontact {
+
+/// Starts in contact_loop.cpp; its cycles are in contact_cycle.cpp.
+class ContactLoop::Implementation {
+ public:
+  Implementation(HapticScene scene, const ContactLoopOptions& options);
+
+  const HapticCycle& advance(std::span<const Pose> targets, double dt, std::int64_t stamp_ns,
+                             const std::optional<Deadline>& deadline);
+
+  HapticScene scene_;
+  double distance_ = 0.0;  // [m]
+  double time_ = 0.0;      // [s]
+  std::vector<Pose> poses_;
+  HapticContactSet set_;
+
+ private:
+  using Vector3d = Eigen::Vector3d;
+  using Displacement = detail::Displacement;
+
+  [[nodiscard]] std::size_t tools() const { return scene_.tools.size(); }
+  [[nodiscard]] const HapticBody& body_of(std::size_t member) const {
+    return scene_.bodies[member - tools()];
+  }
+  [[nodiscard]] bool has_course(std::size_t member) const {
+    return member >= tools() && body_of(member).course.has_value();
+  }
+  [[nodiscard]] Pose on_course(std::size_t member, double time) const {
+    return body_of(member).course->pose(std::min(1.0, time / scene_.duration));
+  }
+  [[nodiscard]] Vector3d centre(std::size_t tool) const {
+    return poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
+  }
+
+  void begin_members();
+  void require_start();
+  [[nodiscard]] std::string name_of(std::size_t member) const {
+    return member < tools() ? scene_.tools[member].name : body_of(member).name;
+  }
+  void find_contacts();
+  void set_frames();
+  void begin_cycle(double dt);
+  [[nodiscard]] detail::ToolDisplacements wanted(std::span<const Pose> targets) const;
+  [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
+  void set_courses(double slot);
+  [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
+  [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
+  double execute(const detail::GodObjectPlan& plan, double slot, double dt,
+                 const std::optional<Deadline>& deadline);
+  void append_piece(std::size_t member, const Displacement& way, double part, double to);
+  void rest_until(double dt);
+  void end_cycle(double dt, std::int64_t stamp_ns);
+  void publish(std::int64_t stamp_ns);
+  [[nodiscard]] double size_of_cycle() const;
+
+  ContactLoopOptions options_;
+  std::vector<detail::HapticMember> members_;
+  std::vector<std::optional<PlacedShape>> placed_;
+  std::vector<detail::HapticPair> pairs_;
+  std::vector<Displacement> courses_;  // Of members, over the next plan.
+  std::vector<Motion> motions_;
+  detail::ContactFinder finder_{0.0};
+  Workspace workspace_;
+  FirstContactResult scratch_;
+  bool is_found_ = false;  // The contacts are those of the poses.
+  std::vector<HapticTouch> touches_;
+  std::vector<detail::PlannedTouch> planned_;
+  detail::ToolFrames frames_;
+  double rest_clearance_ = 0.0;  // [m]  Proven where the members are.
+  bool are_courses_moving_ = false;
+  double now_ = 0.0;  // [s]  Since the cycle began.
+  HapticCycle cycle_;
+};
+
+}  // namespace firstcontact

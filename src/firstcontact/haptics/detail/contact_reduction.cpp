@@ -1,0 +1,177 @@
+#include <firstcontact/haptics/detail/contact_reduction.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include <firstcontact/haptics/detail/cone_projection.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// [pivots]  Of one projection on a cone.
+constexpr int kPivotsOfRow = 60;
+
+/// [-]  Of a row of unit length.
+constexpr double kToleranceOfRow = 1e-12;
+
+/// The unit rows that count of a contact: that of its normal, or the four edges of its cone.
+struct ContactRows {
+  std::array<Coordinates, 4> rows = {};
+  std::size_t count = 0;
+};
+
+double product(const Coordinates& a, const Coordinates& b, std::size_t n) {
+  return std::inner_product(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(n), b.begin(), 0.0);
+}
+
+Coordinates unit(Coordinates row, std::size_t n) {
+  const double length = std::sqrt(product(row, row, n));
+  for (std::size_t k = 0; k < n; ++k) {
+    row[k] /= length;
+  }
+  return row;
+}
+
+ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std::size_t n) {
+  const ConeContact cone = cone_contact(contact, frames, 0.0);
+  ContactRows rows;
+  if (cone.friction == 0.0) {
+    rows.rows[0] = unit(cone.rows[0], n);
+    rows.count = 1;
+    return rows;
+  }
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    const double mu = edge % 2 == 0 ? cone.friction : -cone.friction;
+    Coordinates row = cone.rows[0];
+    for (std::size_t k = 0; k < n; ++k) {
+      row[k] += mu * cone.rows[1 + edge / 2][k];
+    }
+    rows.rows[edge] = unit(row, n);
+  }
+  rows.count = 4;
+  return rows;
+}
+
+/// What is kept with one angle.
+class Reduction {
+ public:
+  Reduction(std::size_t coordinates, double angle, std::size_t most)
+      : n_(coordinates),
+        cosine_of_half_(std::cos(0.5 * angle * kRoom)),
+        sine_of_half_(std::sin(0.5 * angle * kRoom)),
+        cone_(coordinates, 4 * most) {}
+
+  [[nodiscard]] bool spans(const ContactRows& contact) {
+    for (std::size_t k = 0; k < contact.count; ++k) {
+      if (!spans(contact.rows[k])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether each row is within half of the angle of one row that was seen.
+  [[nodiscard]] bool is_like_another(const ContactRows& contact) const {
+    return std::ranges::any_of(seen_, [&](const ContactRows& other) {
+      if (other.count != contact.count) {
+        return false;
+      }
+      for (std::size_t k = 0; k < contact.count; ++k) {
+        if (!(product(other.rows[k], contact.rows[k], n_) >= cosine_of_half_)) {
+          return false;
+        }
+      }
+      return true;
+    });
+  }
+
+  void see(const ContactRows& contact) { seen_.push_back(contact); }
+
+  void keep(const ContactRows& contact) {
+    for (std::size_t k = 0; k < contact.count; ++k) {
+      cone_.add({.rows = {contact.rows[k], {}, {}}});
+    }
+  }
+
+ private:
+  /// So that both halves are within the angle: 2 sin(a / 4) + sin(a / 2) is a little above sin(a).
+  static constexpr double kRoom = 0.98;
+
+  bool spans(const Coordinates& row) {
+    Coordinates against{};
+    for (std::size_t k = 0; k < n_; ++k) {
+      against[k] = -row[k];
+    }
+    const ConeProjectionResult rest = cone_.project(against, kToleranceOfRow, kPivotsOfRow);
+    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= sine_of_half_;
+  }
+
+  std::size_t n_;
+  double cosine_of_half_;
+  double sine_of_half_;
+  ConeProjection cone_;
+  std::vector<ContactRows> seen_;
+};
+
+/// Those kept with one angle; none where they are more than allowed.
+std::optional<std::vector<std::size_t>> kept_within(const std::vector<ContactRows>& rows,
+                                                    const std::vector<std::size_t>& order,
+                                                    std::size_t coordinates, double angle,
+                                                    std::size_t most) {
+  Reduction reduction(coordinates, angle, most);
+  std::vector<std::size_t> kept;
+  for (const std::size_t c : order) {
+    if (reduction.is_like_another(rows[c])) {
+      continue;
+    }
+    reduction.see(rows[c]);
+    if (reduction.spans(rows[c])) {
+      continue;
+    }
+    if (kept.size() == most) {
+      return {};
+    }
+    kept.push_back(c);
+    reduction.keep(rows[c]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+ReducedContacts reduce_contacts(std::span<const HapticContact> contacts, const ToolFrames& frames,
+                                std::size_t tools, double angle, std::size_t most) {
+  const std::size_t coordinates = 6 * tools;
+  std::vector<ContactRows> rows;
+  rows.reserve(contacts.size());
+  for (const HapticContact& contact : contacts) {
+    rows.push_back(rows_of(contact, frames, coordinates));
+  }
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t c) { return contacts[c].gap; });
+  ReducedContacts reduced{.kept = {}, .angle = angle};
+  while (true) {
+    if (auto kept = kept_within(rows, order, coordinates, reduced.angle, most)) {
+      reduced.kept = std::move(*kept);
+      break;
+    }
+    reduced.angle *= 2.0;
+    if (reduced.angle >= std::numbers::pi / 2.0) {  // Nothing is claimed: the nearest.
+      reduced.angle = std::numbers::pi;
+      reduced.kept.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(most));
+      break;
+    }
+  }
+  std::ranges::sort(reduced.kept);
+  if (reduced.kept.size() == contacts.size()) {
+    reduced.angle = 0.0;
+  }
+  return reduced;
+}
+
+}  // namespace firstcontact::detail

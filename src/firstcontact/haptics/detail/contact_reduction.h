@@ -1,0 +1,39 @@
+/// @file
+/// Few contacts that allow about the same motions as very many.
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <firstcontact/haptics/contact_set.h>
+#include <firstcontact/haptics/detail/contact_coordinates.h>
+
+namespace firstcontact::detail {
+
+struct ReducedContacts {
+  std::vector<std::size_t> kept;  ///< Indices, increasing.
+  double angle = 0.0;             ///< [rad]  See below; 0 where all are kept.
+};
+
+/// Chooses contacts whose admissible cone is that of all, within an angle.
+///
+/// A motion x that all chosen contacts allow (n . u >= 0) leaves the half space of any other by at
+/// most this angle: row . x >= -sin(angle) |row| |x|, in the coordinates of the metric. With
+/// friction the same holds for the four edges n +- mu t of each cone, so that the forces which the
+/// others could give are near those that the chosen ones give. Gaps do not count: what is listed
+/// lies within a band that is small by itself.
+///
+/// Derivation: a contact is dropped if each of its rows is within the angle of the cone that the
+/// rows of those kept span: row = sum of shares row_k + rest, with shares >= 0 and |rest| <=
+/// sin(angle) |row|. So row . x >= rest . x. The rest is that of a projection on the cone
+/// (ConeProjection), after contacts within half the angle of one kept were dropped.
+///
+/// @param angle  [rad]  > 0; it is doubled until no more than `most` are kept
+/// @param most   1 to kMostHapticContacts
+[[nodiscard]] ReducedContacts reduce_contacts(std::span<const HapticContact> contacts,
+                                              const ToolFrames& frames, std::size_t tools,
+                                              double angle, std::size_t most);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,51 @@
+#include <firstcontact/haptics/detail/pair_proof.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <firstcontact/haptics/detail/constants.h>
+
+namespace firstcontact::detail {
+namespace {
+
+struct HeldApart {
+  double margin = 0.0;     // [m]
+  double tolerance = 0.0;  // [m]
+};
+
+/// A pair that is near already is held to a share of its gap, so that it can slide and part.
+HeldApart held_apart(double gap, double contact_distance) {
+  if (gap > kFreeGap * contact_distance) {
+    return {contact_distance, kFoundWithin * contact_distance};
+  }
+  const double margin = std::max(
+      kShareOfGap * gap, std::min(kLeastHeldGap * contact_distance, kShareOfJammedGap * gap));
+  return {margin, 0.5 * (gap - margin)};
+}
+
+}  // namespace
+
+ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Motion> motions,
+                      std::span<const HapticPair> pairs, double contact_distance,
+                      const std::optional<std::chrono::steady_clock::time_point>& deadline,
+                      Workspace& workspace, FirstContactResult& scratch) {
+  ProvenPart proven{.clearance = std::numeric_limits<double>::infinity()};
+  for (const HapticPair& pair : pairs) {
+    const auto [other, tool] = pair.members;
+    const HeldApart held = held_apart(pair.gap, contact_distance);
+    FirstContactOptions options{
+        .margin = held.margin, .tolerance = held.tolerance, .contacts = ContactState::none};
+    options.budget.deadline = deadline;
+    options.budget.steps = kProofSteps;
+    first_contact({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
+                  workspace, options, scratch);
+    if (scratch.verdict != Verdict::free) {
+      proven.t = std::min(proven.t, scratch.t);
+      proven.is_late = proven.is_late || scratch.reason == UndecidedReason::deadline;
+    }
+    proven.clearance = std::min(proven.clearance, held.margin);
+  }
+  return proven;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,21 @@
+/// @file
+/// The periods of a session's loops.
+
+#pragma once
+
+#include <cstdint>
+
+#include <firstcontact/haptics/haptic_session.h>
+
+namespace firstcontact::detail {
+
+struct SessionPeriods {
+  std::int64_t force_ns = 0;    ///< [ns]
+  std::int64_t cycle_ns = 0;    ///< [ns]  A whole number of ticks.
+  std::int64_t latency_ns = 0;  ///< [ns]  At least a tick.
+};
+
+/// @throws std::invalid_argument if a rate or the latency is out of its range
+[[nodiscard]] SessionPeriods session_periods(const HapticSessionOptions& options);
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,111 @@
+#include <firstcontact/haptics/detail/target_follower.h>
+
+#include <cmath>
+
+#include <firstcontact/haptics/detail/god_object_plan.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [m], [rad]  A device that sets rates leads its god-object by no more: it could not be felt that
+/// it is far behind a wall.
+constexpr double kMostLead = 0.02;
+constexpr double kMostLeadOfTurn = 0.3;
+
+bool has_button(const DeviceState& device, int button) noexcept {
+  return button >= 0 && (device.buttons >> static_cast<unsigned>(button) & 1U) != 0;
+}
+
+bool is_sound(const DeviceState& device) noexcept {
+  return device.X_DH.position.allFinite() && device.X_DH.rotation.coeffs().allFinite() &&
+         device.X_DH.rotation.squaredNorm() > 0.0 && device.linear_rate.allFinite() &&
+         device.angular_rate.allFinite();
+}
+
+Eigen::Quaterniond turn_by(const Vector3d& rotation_vector) noexcept {
+  const double angle = rotation_vector.norm();
+  if (!(angle > 0.0)) {
+    return Eigen::Quaterniond::Identity();
+  }
+  Eigen::Quaterniond turn;
+  turn.w() = std::cos(0.5 * angle);
+  turn.vec() = std::sin(0.5 * angle) / angle * rotation_vector;
+  return turn;
+}
+
+Vector3d shortened(const Vector3d& vector, double most) noexcept {
+  const double length = vector.norm();
+  return length > most ? Vector3d(most / length * vector) : vector;
+}
+
+}  // namespace
+
+std::uint32_t TargetFollower::faults_of(const DeviceState& device) const noexcept {
+  std::uint32_t faults = 0;
+  if (device.status != DeviceStatus::live) {
+    faults |= static_cast<std::uint32_t>(ForceFault::device);
+  }
+  if (!is_sound(device)) {
+    faults |= static_cast<std::uint32_t>(ForceFault::not_finite);
+  }
+  if (has_button(device, mapping_.clutch_button) ||
+      (mapping_.dead_man_button >= 0 && !has_button(device, mapping_.dead_man_button))) {
+    faults |= static_cast<std::uint32_t>(ForceFault::disengaged);
+  }
+  return faults;
+}
+
+Pose TargetFollower::mapped(const Pose& X_DH) const noexcept {
+  const Eigen::Quaterniond& R_WD = mapping_.R_WD;
+  const Eigen::Quaterniond turn = X_DH.rotation.normalized() * X_DH_.rotation.conjugate();
+  return {X_WB_.position + mapping_.scale * (R_WD * (X_DH.position - X_DH_.position)),
+          (R_WD * turn * R_WD.conjugate() * X_WB_.rotation).normalized()};
+}
+
+void TargetFollower::drive(const DeviceState& device, const Pose& god_object,
+                           double seconds) noexcept {
+  const Eigen::Quaterniond& R_WD = mapping_.R_WD;
+  const Vector3d way = seconds * mapping_.scale * (R_WD * device.linear_rate);
+  const Vector3d lead = shortened(target_.position + way - god_object.position, kMostLead);
+  const Eigen::Quaterniond turned =
+      turn_by(seconds * (R_WD * device.angular_rate)) * target_.rotation;
+  const Vector3d turn = shortened(turn_between(god_object.rotation, turned), kMostLeadOfTurn);
+  target_ = {god_object.position + lead,
+             (turn_by(turn) * god_object.rotation.normalized()).normalized()};
+}
+
+void TargetFollower::follow(const DeviceState& device, const Pose& god_object, double seconds,
+                            std::int64_t now_ns) noexcept {
+  faults_ = faults_of(device);
+  if (faults_ != 0) {
+    // A lost device keeps its references: where it is means the same when it comes back.
+    is_rebased_ = is_rebased_ ||
+                  (faults_ == static_cast<std::uint32_t>(ForceFault::disengaged) && has_begun_);
+    is_engaged_ = false;
+    target_ = god_object;
+    return;
+  }
+  if (!is_engaged_) {
+    is_engaged_ = true;
+    since_ns_ = now_ns;
+    const bool takes_handle = !has_begun_ && mapping_.begins_at_handle;
+    if (is_rebased_ || takes_handle) {
+      X_DH_ = {device.X_DH.position, device.X_DH.rotation.normalized()};
+    }
+    if (is_rebased_) {
+      X_WB_ = {god_object.position, god_object.rotation.normalized()};
+    }
+    target_ = mapping_.kind == DeviceKind::rate ? god_object : target_;
+    is_rebased_ = false;
+    has_begun_ = true;
+  }
+  if (mapping_.kind == DeviceKind::rate) {
+    drive(device, god_object, seconds);
+  } else {
+    target_ = mapped(device.X_DH);
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,45 @@
+/// @file
+/// Where a device wants its tool to be: mapping, clutch, and devices that set rates.
+
+#pragma once
+
+#include <cstdint>
+
+#include <firstcontact/haptics/force_loop.h>
+
+namespace firstcontact::detail {
+
+/// Follows one device.
+class TargetFollower {
+ public:
+  TargetFollower(const DeviceMapping& mapping, const Pose& X_WB)
+      : mapping_(mapping), X_DH_(mapping.X_DH), X_WB_(X_WB), target_(X_WB) {}
+
+  /// @param god_object  where it is
+  /// @param seconds     since the last tick
+  void follow(const DeviceState& device, const Pose& god_object, double seconds,
+              std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] const Pose& target() const noexcept { return target_; }
+  [[nodiscard]] bool is_engaged() const noexcept { return is_engaged_; }
+  [[nodiscard]] std::int64_t engaged_since_ns() const noexcept { return since_ns_; }
+  [[nodiscard]] std::uint32_t faults() const noexcept { return faults_; }
+  [[nodiscard]] const DeviceMapping& mapping() const noexcept { return mapping_; }
+
+ private:
+  [[nodiscard]] std::uint32_t faults_of(const DeviceState& device) const noexcept;
+  [[nodiscard]] Pose mapped(const Pose& X_DH) const noexcept;
+  void drive(const DeviceState& device, const Pose& god_object, double seconds) noexcept;
+
+  DeviceMapping mapping_;
+  Pose X_DH_;  // References.
+  Pose X_WB_;
+  Pose target_;
+  bool is_engaged_ = false;
+  bool has_begun_ = false;
+  bool is_rebased_ = false;  // At the next engagement: the clutch was used.
+  std::int64_t since_ns_ = 0;
+  std::uint32_t faults_ = 0;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,324 @@
+#include <firstcontact/haptics/force_loop.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <firstcontact/haptics/detail/contact_coordinates.h>
+#include <firstcontact/haptics/detail/god_object_plan.h>
+#include <firstcontact/haptics/detail/target_follower.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::Coordinates;
+using Eigen::Vector3d;
+
+constexpr double kNanosecond = 1e-9;  // [s]
+
+/// [s]  Ticks farther apart count as this: what was not watched is not made up for.
+constexpr double kLongestTick = 0.01;
+
+/// [s]  Over which velocities are smoothed, for damping.
+constexpr double kSmoothing = 0.002;
+
+std::uint32_t bit(ForceFault fault) noexcept { return static_cast<std::uint32_t>(fault); }
+
+bool is_positive_number(double x) { return x > 0.0 && x < std::numeric_limits<double>::infinity(); }
+
+void check_options(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
+                   const ForceLoopOptions& options) {
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) {
+      throw std::invalid_argument(what);
+    }
+  };
+  require(!scene.tools.empty() && scene.tools.size() <= kMostTools,
+          "a haptic scene has 1 or 2 tools");
+  require(mappings.size() == scene.tools.size(), "each tool needs the mapping of its device");
+  for (const HapticTool& tool : scene.tools) {
+    require(is_positive_number(tool.coupling.stiffness) &&
+                is_positive_number(tool.coupling.angular_stiffness),
+            "HapticCoupling: stiffnesses must be > 0");
+    require(tool.coupling.damping >= 0.0 && is_positive_number(1.0 + tool.coupling.damping),
+            "HapticCoupling::damping must be >= 0");
+  }
+  for (const DeviceMapping& mapping : mappings) {
+    require(is_positive_number(mapping.scale), "DeviceMapping::scale must be > 0");
+    require(is_positive_number(mapping.R_WD.squaredNorm()) &&
+                is_positive_number(mapping.X_DH.rotation.squaredNorm()) &&
+                mapping.X_DH.position.allFinite(),
+            "DeviceMapping: its poses must be finite");
+    require(mapping.clutch_button < 32 && mapping.dead_man_button < 32,
+            "DeviceMapping: a device has at most 32 buttons");
+  }
+  const HapticLimits& limits = options.limits;
+  require(limits.force >= 0.0 && is_positive_number(1.0 + limits.force) && limits.torque >= 0.0 &&
+              is_positive_number(1.0 + limits.torque),
+          "HapticLimits: force and torque must be >= 0");
+  require(is_positive_number(limits.force_slew) && is_positive_number(limits.torque_slew),
+          "HapticLimits: slews must be > 0");
+  require(limits.fresh_ns >= 0 && limits.stale_ns >= limits.fresh_ns && limits.ramp_ns >= 0,
+          "HapticLimits: 0 <= fresh_ns <= stale_ns, and ramp_ns >= 0");
+  require(is_positive_number(options.tolerance) && options.pivots > 0,
+          "ForceLoopOptions: tolerance and pivots must be > 0");
+}
+
+/// Cuts a vector to a length.
+bool cut_to(double most, Vector3d& vector) noexcept {
+  const double length = vector.norm();
+  if (!(length > most)) {
+    return false;
+  }
+  vector *= most / length;
+  return true;
+}
+
+/// Lets a vector change by no more than a length.
+bool slew_to(double most, const Vector3d& before, Vector3d& vector) noexcept {
+  Vector3d change = vector - before;
+  if (!cut_to(most, change)) {
+    return false;
+  }
+  vector = before + change;
+  return true;
+}
+
+}  // namespace
+
+namespace detail {
+
+/// What is kept of a tool from tick to tick.
+struct FeltTool {
+  explicit FeltTool(TargetFollower its) : follower(its) {}
+
+  TargetFollower follower;
+  Vector3d p_BC = Vector3d::Zero();  // [m]
+  double stiffness = 0.0;            // [N/m]
+  double look_ahead = 0.0;           // [s]  Damping by stiffness.
+  double scale = 1.0;                // [-]
+  Eigen::Quaterniond R_DW = Eigen::Quaterniond::Identity();
+  Pose last_target;
+  bool has_last = false;
+  Vector3d velocity = Vector3d::Zero();  // [m/s]  Of the target, smoothed.
+  Vector3d turning = Vector3d::Zero();   // [rad/s]
+};
+
+}  // namespace detail
+
+class ForceLoop::Implementation {
+ public:
+  Implementation(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
+                 const ForceLoopOptions& options)
+      : options_(options), cone_(6 * scene.tools.size(), kMostHapticContacts) {
+    for (std::size_t k = 0; k < scene.tools.size(); ++k) {
+      const HapticTool& tool = scene.tools[k];
+      DeviceMapping mapping = mappings[k];
+      mapping.R_WD.normalize();
+      mapping.X_DH.rotation.normalize();
+      const Pose start{tool.X_WB.position, tool.X_WB.rotation.normalized()};
+      detail::FeltTool felt{detail::TargetFollower(mapping, start)};
+      felt.p_BC = tool.p_BC;
+      felt.stiffness = tool.coupling.stiffness;
+      felt.look_ahead = tool.coupling.damping / tool.coupling.stiffness;
+      felt.scale = mapping.scale;
+      felt.R_DW = mapping.R_WD.conjugate();
+      tools_.push_back(felt);
+      frames_.lengths[k] = std::sqrt(tool.coupling.angular_stiffness / tool.coupling.stiffness);
+      frames_.weights[k] = std::sqrt(tool.coupling.stiffness / scene.tools[0].coupling.stiffness);
+      tick_.tools[k].target = start;
+    }
+  }
+
+  const ForceTick& tick(std::int64_t now_ns, const HapticContactSet& set,
+                        std::span<const DeviceState> devices) noexcept {
+    const double seconds =
+        has_ticked_ ? std::clamp(kNanosecond * static_cast<double>(now_ns - tick_.time_ns), 0.0,
+                                 kLongestTick)
+                    : 0.0;
+    has_ticked_ = true;
+    tick_.time_ns = now_ns;
+    tick_.set = set.sequence;
+    tick_.age_ns = now_ns - set.stamp_ns;
+    tick_.contacts = set.count;
+    take_set(set);
+    for (std::size_t k = 0; k < tools_.size() && k < devices.size(); ++k) {
+      ToolTick& tick = tick_.tools[k];
+      tick.device = devices[k];
+      const Pose& god_object = set.sequence > 0 ? set.X_WB[k] : tick.target;
+      tools_[k].follower.follow(devices[k], god_object, seconds, now_ns);
+      tick.target = tools_[k].follower.target();
+      tick.faults = tools_[k].follower.faults();
+      measure_velocity(tools_[k], seconds);
+    }
+    const detail::ConeProjectionResult projected = project(set, now_ns);
+    tick_.pressing = static_cast<std::uint32_t>(projected.pressing);
+    tick_.pivots = static_cast<std::uint32_t>(projected.pivots);
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+      if (!projected.is_solved && cone_.size() > 0) {
+        tick_.tools[k].faults |= bit(ForceFault::unsolved);
+      }
+      give_force(k, projected.force, seconds);
+    }
+    return tick_;
+  }
+
+ private:
+  void take_set(const HapticContactSet& set) noexcept {
+    if (set.sequence == taken_) {
+      return;
+    }
+    taken_ = set.sequence;
+    frames_.p_WC = set.p_WC;
+    cone_.clear();
+    for (std::size_t c = 0; c < set.count && c < kMostHapticContacts; ++c) {
+      cone_.add(detail::cone_contact(set.contacts[c], frames_, 0.0));
+    }
+  }
+
+  static void measure_velocity(detail::FeltTool& tool, double seconds) noexcept {
+    const Pose& target = tool.follower.target();
+    if (!tool.follower.is_engaged() || !tool.has_last || !(seconds > 0.0)) {
+      tool.velocity.setZero();
+      tool.turning.setZero();
+    } else {
+      const double part = seconds / (kSmoothing + seconds);
+      const Vector3d centre = target.position + target.rotation * tool.p_BC;
+      const Vector3d before = tool.last_target.position + tool.last_target.rotation * tool.p_BC;
+      tool.velocity += part * ((centre - before) / seconds - tool.velocity);
+      tool.turning +=
+          part * (detail::turn_between(tool.last_target.rotation, target.rotation) / seconds -
+                  tool.turning);
+    }
+    tool.last_target = target;
+    tool.has_last = tool.follower.is_engaged();
+  }
+
+  [[nodiscard]] detail::ConeProjectionResult project(const HapticContactSet& set,
+                                                     std::int64_t now_ns) noexcept {
+    if (cone_.size() == 0) {
+      return {};
+    }
+    const double seconds = kNanosecond * static_cast<double>(std::clamp<std::int64_t>(
+                                             now_ns - set.stamp_ns, 0, options_.limits.fresh_ns));
+    for (std::size_t c = 0; c < cone_.size(); ++c) {
+      const HapticContact& contact = set.contacts[c];
+      if (contact.surface_velocity != Vector3d::Zero()) {
+        cone_.set_shift(c, detail::cone_contact(contact, frames_, seconds).shift);
+      }
+    }
+    Coordinates wanted{};
+    for (std::size_t k = 0; k < tools_.size(); ++k) {
+      const detail::FeltTool& tool = tools_[k];
+      if (!tool.follower.is_engaged()) {
+        continue;
+      }
+      const Pose& target = tool.follower.target();
+      const Vector3d way = target.position + target.rotation * tool.p_BC - set.p_WC[k] +
+                           tool.look_ahead * tool.velocity;
+      const Vector3d turn = detail::turn_between(set.X_WB[k].rotation, target.rotation) +
+                            tool.look_ahead * tool.turning;
+      for (int i = 0; i < 3; ++i) {
+        const auto at = 6 * k + static_cast<std::size_t>(i);
+        wanted[at] = frames_.weights[k] * way[i];
+        wanted[at + 3] = frames_.weights[k] * frames_.lengths[k] * turn[i];
+      }
+    }
+    return cone_.project(wanted, options_.tolerance, options_.pivots);
+  }
+
+  /// [-]  The part of the spring's force that acts.
+  [[nodiscard]] double share_of(const detail::FeltTool& tool,
+                                std::uint32_t& faults) const noexcept {
+    const HapticLimits& limits = options_.limits;
+    double share = 1.0;
+    const std::int64_t since = tick_.time_ns - tool.follower.engaged_since_ns();
+    if (since < limits.ramp_ns) {
+      share = static_cast<double>(since) / static_cast<double>(limits.ramp_ns);
+      faults |= bit(ForceFault::ramping);
+    }
+    if (tick_.age_ns > limits.fresh_ns) {
+      faults |= bit(ForceFault::stale);
+      share *= tick_.age_ns >= limits.stale_ns
+                   ? 0.0
+                   : static_cast<double>(limits.stale_ns - tick_.age_ns) /
+                         static_cast<double>(limits.stale_ns - limits.fresh_ns);
+    }
+    return share;
+  }
+
+  void give_force(std::size_t k, const Coordinates& force, double seconds) noexcept {
+    ToolTick& tick = tick_.tools[k];
+    const detail::FeltTool& tool = tools_[k];
+    constexpr std::uint32_t kAtOnce = static_cast<std::uint32_t>(ForceFault::device) |
+                                      static_cast<std::uint32_t>(ForceFault::not_finite);
+    if ((tick.faults & kAtOnce) != 0) {
+      set_force(tick, tool, Vector3d::Zero(), Vector3d::Zero());
+      return;
+    }
+    Vector3d at_centre = Vector3d::Zero();
+    Vector3d about_centre = Vector3d::Zero();
+    if (tool.follower.is_engaged()) {
+      // Coordinates are weights times metres, and a unit of force is the first tool's stiffness.
+      const double factor = share_of(tool, tick.faults) * tool.stiffness / frames_.weights[k];
+      for (int i = 0; i < 3; ++i) {
+        const auto at = 6 * k + static_cast<std::size_t>(i);
+        at_centre[i] = factor * force[at];
+        about_centre[i] = factor * frames_.lengths[k] * force[at + 3];
+      }
+    }
+    Vector3d force_W = at_centre;
+    Vector3d torque_W = about_centre + (tick.target.rotation * tool.p_BC).cross(at_centre);
+    const HapticLimits& limits = options_.limits;
+    // Limits are those of the device, which feels the force times the scale.
+    const bool is_limited = static_cast<int>(cut_to(limits.force / tool.scale, force_W)) +
+                                static_cast<int>(cut_to(limits.torque, torque_W)) >
+                            0;
+    const bool is_slewed =
+        static_cast<int>(slew_to(limits.force_slew * seconds / tool.scale, tick.force_W, force_W)) +
+            static_cast<int>(slew_to(limits.torque_slew * seconds, tick.torque_W, torque_W)) >
+        0;
+    tick.faults |= is_limited ? bit(ForceFault::limited) : 0U;
+    tick.faults |= is_slewed ? bit(ForceFault::slewed) : 0U;
+    if (!force_W.allFinite() || !torque_W.allFinite()) {
+      tick.faults |= bit(ForceFault::not_finite);
+      force_W.setZero();
+      torque_W.setZero();
+    }
+    set_force(tick, tool, force_W, torque_W);
+  }
+
+  static void set_force(ToolTick& tick, const detail::FeltTool& tool, const Vector3d& force_W,
+                        const Vector3d& torque_W) noexcept {
+    tick.force_W = force_W;
+    tick.torque_W = torque_W;
+    tick.command.force_D = tool.scale * (tool.R_DW * force_W);
+    tick.command.torque_D = tool.R_DW * torque_W;
+  }
+
+  ForceLoopOptions options_;
+  detail::ConeProjection cone_;
+  detail::ToolFrames frames_;
+  std::vector<detail::FeltTool> tools_;
+  std::uint64_t taken_ = 0;
+  bool has_ticked_ = false;
+  ForceTick tick_;
+};
+
+ForceLoop::ForceLoop(const HapticScene& scene, const std::vector<DeviceMapping>& mappings,
+                     const ForceLoopOptions& options) {
+  check_options(scene, mappings, options);
+  implementation_ = std::make_unique<Implementation>(scene, mappings, options);
+}
+ForceLoop::~ForceLoop() = default;
+ForceLoop::ForceLoop(ForceLoop&&) noexcept = default;
+ForceLoop& ForceLoop::operator=(ForceLoop&&) noexcept = default;
+
+const ForceTick& ForceLoop::tick(std::int64_t now_ns, const HapticContactSet& set,
+                                 std::span<const DeviceState> devices) noexcept {
+  return implementation_->tick(now_ns, set, devices);
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,59 @@
+/// @file
+/// A scene that is felt: the tools in a user's hands and the bodies around them.
+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/motion/pose.h>
+
+namespace firstcontact {
+
+/// The spring by which a device holds its god-object.
+struct HapticCoupling {
+  double stiffness = 1000.0;       ///< [N/m]  > 0
+  double angular_stiffness = 1.0;  ///< [N m/rad]  > 0; about the tool's centre.
+  double damping = 0.0;            ///< [N s/m]  >= 0. It costs stability; see docs/haptics.md.
+};
+
+/// A body in a user's hand. Its god-object is where contacts let it be.
+struct HapticTool {
+  std::string name;
+  Shape shape;
+  Pose X_WB = {};                                  ///< Where the god-object begins: free.
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The centre that it turns about.
+  double friction = 0.0;                           ///< [-]  >= 0
+  HapticCoupling coupling = {};
+};
+
+/// A body around the tools. It does not yield.
+struct HapticBody {
+  std::string name;
+  Shape shape;
+  Pose X_WB = {};                     ///< Where it rests if it has no course.
+  std::optional<Motion> course = {};  ///< X_WB(t), t = time / HapticScene::duration.
+  double friction = 0.0;              ///< [-]  >= 0
+};
+
+/// Tools and surroundings. The friction of a pair is the geometric mean of the two.
+struct HapticScene {
+  std::vector<HapticTool> tools;  ///< 1 or 2.
+  std::vector<HapticBody> bodies;
+  double duration = 1.0;  ///< [s]  Of the courses; bodies rest afterwards.
+  /// [m]  > 0  Tools are kept at least so far from everything, to a few roundings, and rest at up
+  /// to one and a half of it. Default: 1e-4 of the reach of the smallest tool.
+  std::optional<double> contact_distance = {};
+  /// Pairs that may pass through each other, by their numbers among the tools, then the bodies.
+  std::vector<std::array<std::size_t, 2>> ignored_pairs = {};
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,113 @@
+#include <firstcontact/haptics/haptic_session.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include <firstcontact/haptics/detail/session_periods.h>
+
+namespace firstcontact {
+
+namespace detail {
+
+SessionPeriods session_periods(const HapticSessionOptions& options) {
+  if (!(options.force_rate > 0.0 && options.force_rate <= 1e6)) {
+    throw std::invalid_argument("HapticSessionOptions::force_rate must be in (0, 1e6] Hz");
+  }
+  if (!(options.contact_rate > 0.0 && options.contact_rate <= options.force_rate)) {
+    throw std::invalid_argument(
+        "HapticSessionOptions::contact_rate must be > 0 Hz and at most the force rate");
+  }
+  if (!(options.contact_latency_ns >= 0 && options.contact_latency_ns <= 10'000'000'000)) {
+    throw std::invalid_argument(
+        "HapticSessionOptions::contact_latency_ns must be 0 to 10,000,000,000");
+  }
+  constexpr double kSecond = 1e9;  // [ns]
+  SessionPeriods periods;
+  periods.force_ns = std::llround(kSecond / options.force_rate);
+  periods.latency_ns = std::max(options.contact_latency_ns, periods.force_ns);
+  const std::int64_t cycle =
+      std::max<std::int64_t>(std::llround(kSecond / options.contact_rate), periods.latency_ns);
+  // Cycles begin with ticks.
+  periods.cycle_ns = (cycle + periods.force_ns - 1) / periods.force_ns * periods.force_ns;
+  return periods;
+}
+
+}  // namespace detail
+
+std::vector<DeviceMapping> complete_mappings(const HapticScene& scene,
+                                             const std::vector<DeviceMapping>& mappings) {
+  if (mappings.size() > scene.tools.size()) {
+    throw std::invalid_argument("there are more mappings than tools");
+  }
+  std::vector<DeviceMapping> all = mappings;
+  all.resize(scene.tools.size());
+  return all;
+}
+
+class HapticSession::Implementation {
+ public:
+  Implementation(HapticScene scene, const HapticSessionOptions& options)
+      : periods_(detail::session_periods(options)),
+        forces_(scene, complete_mappings(scene, options.mappings), options.forces),
+        contacts_(std::move(scene), options.contacts),
+        set_(contacts_.contact_set()) {
+    targets_.resize(contacts_.scene().tools.size());
+  }
+
+  const ForceTick& step(std::span<const DeviceState> devices) {
+    if (devices.size() != targets_.size()) {
+      throw std::invalid_argument("a device state for each tool was expected");
+    }
+    if (is_running_ && now_ns_ >= ends_ns_) {
+      set_ = contacts_.contact_set();
+      is_running_ = false;
+    }
+    const ForceTick& tick = forces_.tick(now_ns_, set_, devices);
+    cycle_ = nullptr;
+    if (!is_running_ && now_ns_ >= begins_ns_) {
+      for (std::size_t k = 0; k < targets_.size(); ++k) {
+        targets_[k] = tick.tools[k].target;
+      }
+      cycle_ = &contacts_.advance(targets_, 1e-9 * static_cast<double>(periods_.cycle_ns), now_ns_);
+      is_running_ = true;
+      ends_ns_ = now_ns_ + periods_.latency_ns;
+      begins_ns_ = now_ns_ + periods_.cycle_ns;
+    }
+    now_ns_ += periods_.force_ns;
+    return tick;
+  }
+
+  detail::SessionPeriods periods_;
+  ForceLoop forces_;
+  ContactLoop contacts_;
+  HapticContactSet set_;
+  const HapticCycle* cycle_ = nullptr;
+  std::int64_t now_ns_ = 0;
+
+ private:
+  std::vector<Pose> targets_;
+  bool is_running_ = false;
+  std::int64_t ends_ns_ = 0;
+  std::int64_t begins_ns_ = 0;
+};
+
+HapticSession::HapticSession(HapticScene scene, const HapticSessionOptions& options)
+    : implementation_(std::make_unique<Implementation>(std::move(scene), options)) {}
+HapticSession::~HapticSession() = default;
+HapticSession::HapticSession(HapticSession&&) noexcept = default;
+HapticSession& HapticSession::operator=(HapticSession&&) noexcept = default;
+
+const ForceTick& HapticSession::step(std::span<const DeviceState> devices) {
+  return implementation_->step(devices);
+}
+const HapticCycle* HapticSession::cycle() const { return implementation_->cycle_; }
+std::int64_t HapticSession::time_ns() const { return implementation_->now_ns_; }
+std::int64_t HapticSession::force_period_ns() const { return implementation_->periods_.force_ns; }
+std::int64_t HapticSession::cycle_period_ns() const { return implementation_->periods_.cycle_ns; }
+const ContactLoop& HapticSession::contacts() const { return implementation_->contacts_; }
+const HapticContactSet& HapticSession::contact_set() const { return implementation_->set_; }
+
+}  // namespace firstcontact

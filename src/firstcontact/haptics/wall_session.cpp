@@ -1,0 +1,279 @@
+#include <firstcontact/haptics/wall_session.h>
+
+#include <ctime>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/haptic_devices/mail_slot.h>
+#include <firstcontact/haptics/detail/real_time.h>
+#include <firstcontact/haptics/detail/session_periods.h>
+#include <firstcontact/haptics/detail/tick_ring.h>
+
+namespace firstcontact {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr int kForcePriority = 80;
+constexpr int kContactPriority = 60;
+constexpr std::size_t kRing = 1U << 14;         // Ticks: 4 s at 4 kHz.
+constexpr std::int64_t kEmptyNs = 200'000'000;  // So long the loop that does nothing runs.
+
+std::int64_t cpu_now_ns() noexcept {
+  timespec now{};
+  (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+void sleep_until_ns(std::int64_t at_ns) {
+  std::this_thread::sleep_until(WallClock::time_point(std::chrono::nanoseconds(at_ns)));
+}
+
+/// Where the devices want the tools, as the force loop hands it to the contact loop.
+struct HandedTargets {
+  std::uint64_t sequence = 0;
+  std::int64_t time_ns = 0;
+  std::array<Pose, kMostTools> targets = {};
+};
+
+/// What both threads and the caller share.
+struct SharedSession {
+  MailSlot<HapticContactSet> sets;
+  MailSlot<HandedTargets> targets;
+  detail::TickRing<ForceTick> ticks{kRing};
+  std::mutex cycles_mutex;  // Of the contact loop and the caller alone.
+  std::deque<std::pair<HapticCycle, std::int64_t>> cycles;
+  std::atomic<bool> is_over{false};
+  std::atomic<bool> force_is_done{false};
+};
+
+/// The force loop's thread.
+class ForceThread {
+ public:
+  ForceThread(SharedSession& shared, ForceLoop& loop, std::span<Device* const> devices,
+              std::int64_t period_ns, std::int64_t duration_ns, bool real_time,
+              WallSessionReport& report)
+      : shared_(shared),
+        loop_(loop),
+        devices_(devices),
+        period_ns_(period_ns),
+        duration_ns_(duration_ns),
+        real_time_(real_time),
+        report_(report) {}
+
+  void run() {
+    if (real_time_) {
+      report_.granted.force_fifo = detail::take_real_time_priority(kForcePriority);
+      report_.granted.force_processor = detail::bind_to_processor(0);
+    }
+    run_empty();
+    const std::int64_t begin = steady_now_ns();
+    std::int64_t next = begin;
+    while (next - begin < duration_ns_ && !shared_.is_over.load(std::memory_order_relaxed)) {
+      sleep_until_ns(next);
+      const std::int64_t now = steady_now_ns();
+      report_.tick_delay.add(now - next);
+      report_.late_ticks += now - next > period_ns_ ? 1U : 0U;
+      make_tick(now);
+      next += period_ns_;
+      const std::int64_t behind = steady_now_ns() - next;
+      if (behind > period_ns_) {  // Ticks whose time has passed are not made up for.
+        const std::int64_t skipped = behind / period_ns_;
+        report_.skipped_ticks += static_cast<std::uint64_t>(skipped);
+        next += skipped * period_ns_;
+      }
+    }
+    for (Device* device : devices_) {
+      device->command({}, steady_now_ns());
+    }
+    shared_.is_over = true;
+    shared_.force_is_done = true;
+  }
+
+ private:
+  void run_empty() {
+    std::int64_t next = steady_now_ns();
+    const std::int64_t end = next + std::min(kEmptyNs, duration_ns_);
+    while (next < end) {
+      sleep_until_ns(next);
+      report_.empty_delay.add(steady_now_ns() - next);
+      next += period_ns_;
+    }
+  }
+
+  void make_tick(std::int64_t now) {
+    const std::int64_t cpu = cpu_now_ns();
+    std::array<DeviceState, kMostTools> states;
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+      states[k] = devices_[k]->read(now);
+    }
+    const ForceTick& tick =
+        loop_.tick(now, shared_.sets.newest(), std::span(states.data(), devices_.size()));
+    HandedTargets handed{.sequence = ++sequence_, .time_ns = now};
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+      devices_[k]->command(tick.tools[k].command, now);
+      handed.targets[k] = tick.tools[k].target;
+    }
+    shared_.targets.put(handed);
+    shared_.ticks.push(tick);
+    report_.tick_cpu.add(cpu_now_ns() - cpu);
+    report_.tick_wall.add(steady_now_ns() - now);
+    ++report_.ticks;
+  }
+
+  SharedSession& shared_;
+  ForceLoop& loop_;
+  std::span<Device* const> devices_;
+  std::int64_t period_ns_;
+  std::int64_t duration_ns_;
+  bool real_time_;
+  WallSessionReport& report_;
+  std::uint64_t sequence_ = 0;
+};
+
+/// The contact loop's thread.
+class ContactThread {
+ public:
+  ContactThread(SharedSession& shared, ContactLoop& loop, std::int64_t period_ns,
+                const WallSessionOptions& wall, WallSessionReport& report)
+      : shared_(shared), loop_(loop), period_ns_(period_ns), wall_(wall), report_(report) {}
+
+  void run() {
+    if (wall_.real_time) {
+      report_.granted.contact_fifo = detail::take_real_time_priority(kContactPriority);
+      report_.granted.contact_processor = detail::bind_to_processor(1);
+    }
+    std::int64_t next = steady_now_ns();
+    while (!shared_.is_over.load(std::memory_order_relaxed)) {
+      sleep_until_ns(next);
+      const HandedTargets handed = shared_.targets.newest();
+      if (handed.sequence > 0) {
+        make_cycle(handed);
+      }
+      next = std::max(next + period_ns_, steady_now_ns());
+    }
+  }
+
+ private:
+  void make_cycle(const HandedTargets& handed) {
+    const std::int64_t cpu = cpu_now_ns();
+    const std::int64_t begin = steady_now_ns();
+    const WallClock::time_point deadline(std::chrono::nanoseconds(begin + period_ns_));
+    const HapticCycle& cycle =
+        loop_.advance(std::span(handed.targets.data(), loop_.scene().tools.size()),
+                      1e-9 * static_cast<double>(period_ns_), handed.time_ns, deadline);
+    report_.cycle_wall.add(steady_now_ns() - begin);
+    report_.cycle_cpu.add(cpu_now_ns() - cpu);
+    if (wall_.contact_delay_ns > 0) {
+      sleep_until_ns(steady_now_ns() + wall_.contact_delay_ns);
+    }
+    shared_.sets.put(loop_.contact_set());
+    ++report_.cycles;
+    const std::lock_guard lock(shared_.cycles_mutex);
+    shared_.cycles.emplace_back(cycle, handed.time_ns);
+  }
+
+  SharedSession& shared_;
+  ContactLoop& loop_;
+  std::int64_t period_ns_;
+  const WallSessionOptions& wall_;
+  WallSessionReport& report_;
+};
+
+/// Hands the caller what has come.
+void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)>& on_tick,
+               const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle) {
+  ForceTick tick;
+  while (shared.ticks.pop(tick)) {
+    if (on_tick) {
+      on_tick(tick);
+    }
+  }
+  std::deque<std::pair<HapticCycle, std::int64_t>> cycles;
+  {
+    const std::lock_guard lock(shared.cycles_mutex);
+    cycles.swap(shared.cycles);
+  }
+  for (const auto& [cycle, time_ns] : cycles) {
+    if (on_cycle) {
+      on_cycle(cycle, time_ns);
+    }
+  }
+}
+
+/// Ends both threads, whatever the caller's functions throw.
+class RunningThreads {
+ public:
+  RunningThreads(SharedSession& shared, ForceThread& force, ContactThread& contact)
+      : shared_(shared),
+        contact_([&contact] { contact.run(); }),
+        force_([&force] { force.run(); }) {}
+  ~RunningThreads() {
+    shared_.is_over = true;
+    force_.join();
+    contact_.join();
+  }
+  RunningThreads(const RunningThreads&) = delete;
+  RunningThreads& operator=(const RunningThreads&) = delete;
+
+ private:
+  SharedSession& shared_;
+  std::thread contact_;
+  std::thread force_;
+};
+
+}  // namespace
+
+WallSessionReport run_wall_session(
+    HapticScene scene, const HapticSessionOptions& options, std::span<Device* const> devices,
+    const WallSessionOptions& wall, const std::function<void(const ForceTick&)>& on_tick,
+    const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle,
+    const std::stop_token& stop) {
+  if (!(wall.duration > 0.0 && wall.duration < 1e9) || wall.contact_delay_ns < 0) {
+    throw std::invalid_argument("WallSessionOptions: the duration must be > 0, the delay >= 0");
+  }
+  if (devices.size() != scene.tools.size()) {
+    throw std::invalid_argument("a device for each tool was expected");
+  }
+  HapticSessionOptions without_latency = options;
+  without_latency.contact_latency_ns = 0;
+  const detail::SessionPeriods periods = detail::session_periods(without_latency);
+  ForceLoop forces(scene, complete_mappings(scene, options.mappings), options.forces);
+  ContactLoop contacts(std::move(scene), options.contacts);
+  const auto shared = std::make_unique<SharedSession>();
+  WallSessionReport report;
+  report.granted.locked_memory = wall.real_time && detail::lock_memory();
+  {
+    const auto duration_ns = static_cast<std::int64_t>(1e9 * wall.duration);
+    ForceThread force(*shared, forces, devices, periods.force_ns, duration_ns, wall.real_time,
+                      report);
+    ContactThread contact(*shared, contacts, periods.cycle_ns, wall, report);
+    const RunningThreads threads(*shared, force, contact);
+    while (!shared->force_is_done) {
+      hand_over(*shared, on_tick, on_cycle);
+      if (stop.stop_requested()) {
+        shared->is_over = true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  hand_over(*shared, on_tick, on_cycle);
+  report.unread_ticks = shared->ticks.dropped();
+  if (report.granted.locked_memory) {
+    detail::unlock_memory();
+  }
+  return report;
+}
+
+}  // namespace firstcontact

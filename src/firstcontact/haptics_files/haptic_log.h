@@ -1,0 +1,36 @@
+/// @file
+/// Logs of a haptic session as CSV: ticks of the force loop, cycles of the contact loop.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+/// The first line of a log of ticks. Numbers read back to the same double.
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_tick_header();
+
+/// The lines of a tick, one for each tool.
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_tick_lines(const ForceTick& tick,
+                                                             std::size_t tools);
+
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_header();
+
+/// @param time_ns  of the targets that the cycle followed
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_line(const HapticCycle& cycle,
+                                                             std::int64_t time_ns);
+
+/// A histogram as CSV: from_ns,count for each bucket with a count.
+[[nodiscard]] FIRSTCONTACT_API std::string histogram_csv(const TimingHistogram& histogram);
+
+/// The words of the faults of a tick, joined by a bar; empty without one.
+[[nodiscard]] FIRSTCONTACT_API std::string fault_words(std::uint32_t faults);
+
+}  // namespace firstcontact

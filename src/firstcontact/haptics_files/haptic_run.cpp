@@ -1,0 +1,84 @@
+#include <firstcontact/haptics_files/haptic_run.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/version.h>
+
+namespace firstcontact {
+namespace {
+
+RunBody run_body(const HapticMemberMotion& motion, std::size_t body) {
+  RunBody made{.body = body, .X_WB = motion.X_WB};
+  for (const HapticPiece& piece : motion.pieces) {
+    made.pieces.push_back({.to = piece.to,
+                           .X_WB = piece.X_WB,
+                           .translation = piece.translation,
+                           .rotation_vector = piece.rotation_vector});
+  }
+  return made;
+}
+
+/// Contacts of a run name the body with the smaller number first.
+RunContact run_contact(const HapticTouch& touch, std::size_t other, std::size_t tool) {
+  const HapticContact& contact = touch.contact;
+  RunContact made{.bodies = {other, tool},
+                  .feature_A = touch.feature_of_other,
+                  .feature_B = touch.feature_of_tool,
+                  .point = contact.point,
+                  .normal = contact.normal,
+                  .distance = contact.gap};
+  if (tool < other) {
+    made.bodies = {tool, other};
+    std::swap(made.feature_A, made.feature_B);
+    made.normal = -made.normal;
+  }
+  return made;
+}
+
+}  // namespace
+
+HapticRun::HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double contact_distance)
+    : header_{.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest},
+      bodies_(setup.bodies),
+      tools_(setup.scene.tools.size()) {
+  header_.scene.simulation->contact_distance = contact_distance;
+  header_.masses.assign(loaded.scene.bodies.size(), 0.0);
+  header_.centres_of_mass.assign(loaded.scene.bodies.size(), Eigen::Vector3d::Zero());
+  for (std::size_t k = 0; k < tools_; ++k) {
+    header_.masses[bodies_[k]] = 1.0;
+    header_.centres_of_mass[bodies_[k]] = setup.scene.tools[k].p_BC;
+  }
+}
+
+RunStep HapticRun::step(const HapticCycle& cycle) {
+  time_ += cycle.lasted;
+  RunStep step{.index = ++count_,
+               .time = time_,
+               .lasted = cycle.lasted,
+               .time_lost = cycle.asked - cycle.lasted,
+               .clearance = cycle.clearance,
+               .events = cycle.rounds};
+  for (const HapticMemberMotion& motion : cycle.members) {
+    step.bodies.push_back(run_body(motion, bodies_[motion.member]));
+  }
+  std::ranges::sort(step.bodies, {}, &RunBody::body);
+  for (const HapticTouch& touch : cycle.touches) {
+    const HapticContact& contact = touch.contact;
+    const std::size_t other = contact.other >= 0 ? static_cast<std::size_t>(contact.other)
+                                                 : tools_ + static_cast<std::size_t>(contact.body);
+    step.contacts.push_back(
+        run_contact(touch, bodies_[other], bodies_[static_cast<std::size_t>(contact.tool)]));
+  }
+  std::ranges::sort(step.contacts, {}, [](const RunContact& c) {
+    return std::tuple(c.bodies, c.feature_A.type, c.feature_A.index, c.feature_B.type,
+                      c.feature_B.index);
+  });
+  return step;
+}
+
+}  // namespace firstcontact

@@ -1,0 +1,36 @@
+/// @file
+/// The way of god-objects as the record of a run, which `verify` proves and the page plays.
+
+#pragma once
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/math/export.h>
+#include <firstcontact/record/run.h>
+
+namespace firstcontact {
+
+/// Writes cycles of a contact loop as steps of a run (docs/run_format.md).
+///
+/// A tool is a free body of 1 kg; the clearance, contacts and poses are those of the cycle.
+/// Energies, momenta and impulses are 0: a god-object has none.
+class FIRSTCONTACT_API HapticRun {
+ public:
+  /// @param loaded  a scene that was prepared
+  /// @param contact_distance  [m]  that the contact loop keeps
+  HapticRun(const LoadedScene& loaded, const HapticSetup& setup, double contact_distance);
+
+  [[nodiscard]] const RunHeader& header() const { return header_; }
+
+  /// Converts the next cycle.
+  [[nodiscard]] RunStep step(const HapticCycle& cycle);
+
+ private:
+  RunHeader header_;
+  std::vector<std::size_t> bodies_;
+  std::size_t tools_ = 0;
+  double time_ = 0.0;  // [s]
+  std::size_t count_ = 0;
+};
+
+}  // namespace firstcontact

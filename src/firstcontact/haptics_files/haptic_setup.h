@@ -1,0 +1,38 @@
+/// @file
+/// The haptic session that a scene file describes.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/haptics/haptic_scene.h>
+#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/math/export.h>
+
+namespace firstcontact {
+
+struct LoadedScene;
+struct Scene;
+
+/// A session, and which body of the scene each of its members is.
+struct HapticSetup {
+  HapticScene scene = {};
+  HapticSessionOptions options = {};
+  std::vector<std::size_t> bodies = {};  ///< Of the tools, then of the others.
+};
+
+/// Prepares a scene with "haptics" for the record of a session of this length.
+///
+/// Its tools become free bodies; its simulation has the steps of the contact loop.
+///
+/// @param duration  [s]  > 0; motions of other bodies go on as in set_simulation_duration()
+/// @throws std::invalid_argument if the scene has no "haptics", robots, bodies that other things
+///         move (dynamics, vertices), margins; or the duration is not > 0
+FIRSTCONTACT_API void prepare_haptics(Scene& scene, double duration);
+
+/// @param loaded  of a scene that was prepared
+/// @throws std::invalid_argument as ContactLoop
+[[nodiscard]] FIRSTCONTACT_API HapticSetup haptic_setup(const LoadedScene& loaded);
+
+}  // namespace firstcontact

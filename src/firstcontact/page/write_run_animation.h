@@ -1,0 +1,60 @@
+/// @file
+/// A run as an animation that other programs play: binary glTF 2.0.
+
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/page/detail/glb_scene.h>
+#include <firstcontact/record/run.h>
+
+namespace firstcontact {
+
+struct LoadedScene;
+
+/// Collects a run, step after step, for a .glb file.
+///
+/// Each body is a node at its centre of mass, with its mesh below it. Between two keys a player
+/// moves the node on a line and turns it at a constant rate, which is the in-between motion of the
+/// run. Pieces that turn by more than a quarter have keys in between, as a player turns the short
+/// way. Numbers are in single precision, as glTF has them: the file shows a run and proves nothing.
+/// The root turns the scene so that gravity pulls along -y; without gravity z becomes y.
+class FIRSTCONTACT_API RunAnimation {
+ public:
+  explicit RunAnimation(const RunHeader& header);
+
+  /// The next step, from the first one on.
+  void add(const RunStep& step);
+
+  /// [s]  The end of the last step. An animation shows some time: it is written when this is > 0.
+  [[nodiscard]] double time() const { return time_; }
+
+  /// The file.
+  ///
+  /// @param loaded  the scene of the run, for the meshes
+  /// @throws std::invalid_argument if no time has gone by, or the file would be larger than 4 GiB
+  [[nodiscard]] std::string write(const LoadedScene& loaded) const;
+
+ private:
+  /// A body's keys, and where it is behind the last of them.
+  struct Course {
+    std::vector<detail::GlbKey> keys;
+    double end = 0.0;  // [s]
+    Pose X_WB;
+  };
+
+  void add_piece(std::size_t body, double from, const RunPiece& piece, double seconds);
+  [[nodiscard]] Eigen::Vector3d centre(std::size_t body, const Pose& X_WB) const;
+
+  RunHeader header_;
+  double time_ = 0.0;            // [s]
+  std::vector<Course> courses_;  // Of every body; of those at rest empty.
+};
+
+}  // namespace firstcontact

@@ -1,0 +1,74 @@
+#include <firstcontact/planning/detail/edge_question.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace firstcontact::detail {
+namespace {
+
+/// Whether a coordinate of the space moves a joint, or the one that it mimics.
+bool is_planned(const ConfigurationSpace& space, std::size_t joint) {
+  const RobotModel& model = space.model();
+  while (model.joints()[joint].mimic) {
+    joint = model.find_joint(model.joints()[joint].mimic->joint).value();
+  }
+  return std::any_of(space.coordinates().begin(), space.coordinates().end(),
+                     [&](const SpaceCoordinate& one) { return one.joint == joint; });
+}
+
+bool is_moved(const PlanScene& plan, std::size_t link) {
+  const RobotModel& model = plan.space.model();
+  bool moves = plan.space.is_body() || plan.times.has_value();
+  for (auto joint = model.parent_joint(link); joint && !moves;
+       joint = model.parent_joint(model.parent_link(*joint))) {
+    moves = is_planned(plan.space, *joint);
+  }
+  return moves;
+}
+
+std::vector<bool> moved_members(const PlanScene& plan) {
+  std::vector<bool> moved(plan.scene.size(), false);
+  for (std::size_t member = 0; member < moved.size(); ++member) {
+    const std::optional<RobotLink> link = plan.scene.robot_link(member);
+    moved[member] = link && link->robot == plan.robot && is_moved(plan, link->link);
+  }
+  for (const Attachment& attachment : plan.scene.attachments()) {
+    if (moved[attachment.link]) {
+      moved[attachment.body] = true;
+    }
+  }
+  return moved;
+}
+
+}  // namespace
+
+RobotScene scene_of_edges(const PlanScene& plan, double extra) {
+  RobotScene scene = plan.scene;
+  const std::vector<bool> moved = moved_members(plan);
+  std::vector<std::size_t> others;
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    scene.set_padding(member, scene.padding(member) + 0.5 * extra);
+    if (!moved[member]) {
+      others.push_back(member);
+    }
+  }
+  const std::size_t group = scene.rules().add_group(std::move(others));
+  scene.rules().ignore_groups(group, group);
+  return scene;
+}
+
+RobotCheckOptions question_of_edges(const EdgeCheckOptions& options) {
+  RobotCheckOptions asked;
+  asked.tolerance = options.tolerance;
+  asked.contacts = ContactState::none;
+  asked.budget.steps = options.effort;
+  asked.budget.deadline = options.deadline;
+  asked.budget.stop = options.stop;
+  asked.threads = 1;
+  return asked;
+}
+
+}  // namespace firstcontact::detail

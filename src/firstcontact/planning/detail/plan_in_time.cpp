@@ -1,0 +1,158 @@
+#include <firstcontact/planning/detail/plan_in_time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <firstcontact/planning/detail/edge_question.h>
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/detail/timed_connect.h>
+#include <firstcontact/planning/detail/timed_edges.h>
+#include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void require_times(const PlanScene& scene) {
+  const PlanTimes& times = scene.times.value();
+  if (!(times.duration > 0.0 && std::isfinite(times.duration))) {
+    throw std::invalid_argument("expected a duration of the scene that is finite and > 0");
+  }
+  if (times.speeds.size() != (scene.space.is_body() ? 2 : scene.space.size())) {
+    throw std::invalid_argument("expected a speed for each coordinate, or two of a body");
+  }
+  for (const double speed : times.speeds) {
+    if (!(speed > 0.0 && std::isfinite(speed))) {
+      throw std::invalid_argument("expected speeds that are finite and > 0");
+    }
+  }
+}
+
+class PlanInTime {
+ public:
+  PlanInTime(const PlanScene& scene, const PlanOptions& options)
+      : scene_(scene),
+        options_(options),
+        begin_(Clock::now()),
+        edges_(scene, {.tolerance = options.tolerance,
+                       .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
+                       .effort = options.effort,
+                       .stop = options.stop}) {}
+
+  PlanResult run(const Configuration& start, const std::vector<Configuration>& goals,
+                 double range) {
+    PlanResult result;
+    if (require_free(start, goals)) {
+      PlanRandom random(options_.seed);
+      const auto is_over = [this] { return report_and_ask(); };
+      std::vector<TimedPlace> path = timed_connect(edges_, start, goals, range, random, is_over);
+      if (!path.empty()) {
+        edges_.counts().first_path_seconds = seconds();
+        shorten_timed_path(edges_, path, is_over);
+        prove(path, goals, result);
+      }
+    }
+    result.statistics = edges_.statistics();
+    result.statistics.seconds = seconds();
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
+  bool report_and_ask() {
+    constexpr std::size_t kReportEvery = 64;
+    if (options_.progress && ++asked_ % kReportEvery == 0) {
+      options_.progress({seconds(), edges_.counts().nodes, std::nullopt});
+    }
+    return options_.stop.stop_requested() || seconds() > options_.time;
+  }
+
+  /// False where the search was stopped.
+  bool require_free(const Configuration& start, const std::vector<Configuration>& goals) {
+    const auto refuse = [&](const EdgeFound& found, const std::string& what) {
+      const std::string pair = found.pair ? scene_.name((*found.pair)[0]) + " and " +
+                                                scene_.name((*found.pair)[1]) +
+                                                " are in contact or nearer than their margin"
+                                          : "it could not be decided";
+      throw std::invalid_argument(what + " is not free: " + pair);
+    };
+    if (const EdgeFound found = edges_.at({start, 0.0}); found.verdict != Verdict::free) {
+      if (options_.stop.stop_requested()) {
+        return false;
+      }
+      refuse(found, "the start, at the time 0,");
+    }
+    EdgeFound last;
+    for (const Configuration& goal : goals) {
+      last = edges_.at({goal, edges_.duration()});
+      if (last.verdict == Verdict::free || options_.stop.stop_requested()) {
+        return !options_.stop.stop_requested();
+      }
+    }
+    refuse(last, goals.size() == 1 ? "the goal, at the end of the time,"
+                                   : "each goal, at the end of the time,");
+    return false;
+  }
+
+  /// Proves the whole motion anew, in one piece.
+  void prove(const std::vector<TimedPlace>& path, const std::vector<Configuration>& goals,
+             PlanResult& result) const {
+    std::vector<Configuration> places;
+    std::vector<double> times;
+    for (const TimedPlace& place : path) {
+      places.push_back(place.q);
+      times.push_back(place.t / edges_.duration());
+    }
+    RobotScene scene = scene_of_edges(scene_, options_.extra_clearance);
+    scene.set_motion(scene_.robot, scene_.space.motion(places, times));
+    RobotCheckOptions question =
+        question_of_edges({.tolerance = options_.tolerance, .effort = options_.effort});
+    question.threads = options_.threads;
+    question.closest = true;
+    const SceneResult found = check_robots(scene, question);
+    if (found.verdict != Verdict::free) {
+      result.warnings.emplace_back("a path was found, but it could not be proven again");
+      return;
+    }
+    const std::optional<double> clearance = std::isfinite(found.clearance)
+                                                ? std::optional(std::max(0.0, found.clearance))
+                                                : std::nullopt;
+    result.clearances.assign(path.size() - 1, clearance);
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) {
+      result.cost += scene_.space.distance(places[k], places[k + 1]);
+    }
+    for (std::size_t k = goals.size(); k-- > 0;) {
+      result.goal = goals[k] == places.back() ? std::optional(k) : result.goal;
+    }
+    result.verdict = PlanVerdict::proven;
+    result.path = std::move(places);
+    for (const TimedPlace& place : path) {
+      result.times.push_back(place.t);
+    }
+  }
+
+  const PlanScene& scene_;
+  const PlanOptions& options_;
+  Clock::time_point begin_;
+  TimedEdges edges_;
+  std::size_t asked_ = 0;
+};
+
+}  // namespace
+
+PlanResult plan_in_time(const PlanScene& scene, const Configuration& start,
+                        const std::vector<Configuration>& goals, double range,
+                        const PlanOptions& options) {
+  require_times(scene);
+  return PlanInTime(scene, options).run(start, goals, range);
+}
+
+}  // namespace firstcontact::detail

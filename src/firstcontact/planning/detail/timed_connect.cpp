@@ -1,0 +1,249 @@
+#include <firstcontact/planning/detail/timed_connect.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <firstcontact/planning/detail/timed_edges.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kRestNodes = 16;  // Times at which a goal is a node, while it is free.
+constexpr int kMostSteps = 32;          // Of a tree towards a node of the other one.
+
+/// Places, each with a proven edge from or to its parent; times go on in one direction.
+class TimedTree {
+ public:
+  TimedTree(const TimedEdges& edges, bool is_forward) : edges_(edges), is_forward_(is_forward) {}
+
+  std::size_t add(TimedPlace place, std::size_t parent) {
+    places_.push_back(std::move(place));
+    parents_.push_back(parent);
+    return places_.size() - 1;
+  }
+
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] const TimedPlace& operator[](std::size_t node) const { return places_[node]; }
+
+  /// [s]  From a node on in the tree's direction; negative against it.
+  [[nodiscard]] double time_from(const TimedPlace& node, const TimedPlace& to) const {
+    return is_forward_ ? to.t - node.t : node.t - to.t;
+  }
+
+  /// The time some seconds on from a node in the tree's direction.
+  [[nodiscard]] double time_on(const TimedPlace& node, double seconds) const {
+    return is_forward_ ? node.t + seconds : node.t - seconds;
+  }
+
+  /// The node that is nearest in the space, of those on the right side in time.
+  [[nodiscard]] std::optional<std::size_t> nearest(const TimedPlace& to) const {
+    std::optional<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      if (!(time_from(places_[k], to) > 0.0)) {
+        continue;
+      }
+      const double way = edges_.space().distance(places_[k].q, to.q);
+      if (way < least) {
+        least = way;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  /// The node from which one edge at the allowed speeds gets there, with the least time between.
+  [[nodiscard]] std::optional<std::size_t> latest(const TimedPlace& to) const {
+    std::optional<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      const double time = time_from(places_[k], to);
+      if (time > 0.0 && time < least && edges_.travel_time(places_[k].q, to.q) <= time) {
+        least = time;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] std::vector<TimedPlace> to_root(std::size_t node) const {
+    std::vector<TimedPlace> places;
+    for (; node != kNoParent; node = parents_[node]) {
+      places.push_back(places_[node]);
+    }
+    return places;
+  }
+
+ private:
+  const TimedEdges& edges_;
+  bool is_forward_;
+  std::vector<TimedPlace> places_;
+  std::vector<std::size_t> parents_;
+};
+
+class TimedConnect {
+ public:
+  TimedConnect(TimedEdges& edges, double range)
+      : edges_(edges), range_(range), trees_{TimedTree(edges, true), TimedTree(edges, false)} {}
+
+  std::vector<TimedPlace> run(const Configuration& start, const std::vector<Configuration>& goals,
+                              PlanRandom& random, const std::function<bool()>& is_over) {
+    trees_[0].add({start, 0.0}, kNoParent);
+    for (const Configuration& goal : goals) {
+      add_rests(goal);
+    }
+    if (trees_[1].size() == 0) {
+      return {};
+    }
+    std::optional<std::array<std::size_t, 2>> met = meet_at_once();
+    for (std::size_t grows = 0; !met && !is_over(); grows = 1 - grows) {
+      ++edges_.counts().iterations;
+      met = grow(grows, {edges_.space().sample(random), edges_.duration() * random.unit()});
+    }
+    edges_.counts().nodes = trees_[0].size() + trees_[1].size();
+    return met ? joined(*met) : std::vector<TimedPlace>{};
+  }
+
+ private:
+  /// A goal at the end, and at earlier times from which it is free until then.
+  void add_rests(const Configuration& goal) {
+    const double duration = edges_.duration();
+    const TimedPlace end{goal, duration};
+    if (edges_.at(end).verdict != Verdict::free) {
+      return;
+    }
+    std::size_t last = trees_[1].add(end, kNoParent);
+    for (std::size_t k = kRestNodes; k-- > 1;) {
+      const TimedPlace earlier{goal,
+                               duration * static_cast<double>(k) / static_cast<double>(kRestNodes)};
+      if (!edges_.is_free(earlier, trees_[1][last])) {
+        return;
+      }
+      last = trees_[1].add(earlier, last);
+    }
+  }
+
+  /// The start may see a goal.
+  std::optional<std::array<std::size_t, 2>> meet_at_once() {
+    for (std::size_t node = trees_[1].size(); node-- > 0;) {
+      if (edges_.is_free(trees_[0][0], trees_[1][node])) {
+        return std::array{trees_[0].add(trees_[1][node], 0), node};
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool is_edge_free(std::size_t tree, const TimedPlace& node, const TimedPlace& next) {
+    return tree == 0 ? edges_.is_free(node, next) : edges_.is_free(next, node);
+  }
+
+  /// The place towards another one that is no farther than the range and keeps the speeds.
+  [[nodiscard]] TimedPlace towards(const TimedTree& tree, const TimedPlace& from,
+                                   const TimedPlace& to) const {
+    const double time = tree.time_from(from, to);
+    const double pace = std::max(edges_.travel_time(from.q, to.q), time);
+    const double way = edges_.space().distance(from.q, to.q);
+    const double share = std::min(way > range_ ? range_ / way : 1.0, time / pace);
+    if (share >= 1.0) {
+      return to;
+    }
+    return {edges_.space().interpolate(from.q, to.q, share), tree.time_on(from, share * pace)};
+  }
+
+  /// Extends a tree towards a sample, and the other one towards what was added.
+  std::optional<std::array<std::size_t, 2>> grow(std::size_t grows, const TimedPlace& sample) {
+    TimedTree& tree = trees_[grows];
+    const std::optional<std::size_t> near = tree.nearest(sample);
+    if (!near) {
+      return std::nullopt;
+    }
+    const TimedPlace target = towards(tree, tree[*near], sample);
+    if (!is_edge_free(grows, tree[*near], target)) {
+      return std::nullopt;
+    }
+    const std::size_t added = tree.add(target, *near);
+    if (const auto reached = connect(1 - grows, target)) {
+      return grows == 0 ? std::array{added, *reached} : std::array{*reached, added};
+    }
+    return std::nullopt;
+  }
+
+  /// Grows a tree towards a place, edge by edge. The node there.
+  std::optional<std::size_t> connect(std::size_t grows, const TimedPlace& target) {
+    TimedTree& tree = trees_[grows];
+    const std::optional<std::size_t> from = tree.latest(target);
+    if (!from) {
+      return std::nullopt;
+    }
+    std::size_t node = *from;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const TimedPlace next = towards(tree, tree[node], target);
+      if (!is_edge_free(grows, tree[node], next)) {
+        return std::nullopt;
+      }
+      node = tree.add(next, node);
+      if (next == target) {
+        return node;
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::vector<TimedPlace> joined(const std::array<std::size_t, 2>& met) const {
+    std::vector<TimedPlace> path = trees_[0].to_root(met[0]);
+    std::reverse(path.begin(), path.end());
+    const std::vector<TimedPlace> rest = trees_[1].to_root(met[1]);
+    path.insert(path.end(), rest.begin() + 1, rest.end());  // Both have the place where they met.
+    return path;
+  }
+
+  TimedEdges& edges_;
+  double range_;
+  std::array<TimedTree, 2> trees_;
+};
+
+}  // namespace
+
+std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
+                                      const std::vector<Configuration>& goals, double range,
+                                      PlanRandom& random, const std::function<bool()>& is_over) {
+  return TimedConnect(edges, range).run(start, goals, random, is_over);
+}
+
+void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
+                        const std::function<bool()>& is_over) {
+  const TimedPlace end = path.back();
+  for (std::size_t k = 0; k + 1 < path.size() && !is_over(); ++k) {
+    const TimedPlace arrived{end.q, path[k].t + edges.travel_time(path[k].q, end.q)};
+    const bool is_later = arrived.t > path[k].t;
+    if (arrived.t < end.t && (!is_later || edges.is_free(path[k], arrived)) &&
+        edges.is_free(is_later ? arrived : path[k], end)) {
+      path.resize(k + 1);
+      if (is_later) {
+        path.push_back(arrived);
+      }
+      path.push_back(end);
+      break;
+    }
+  }
+  for (std::size_t from = 0; from + 2 < path.size(); ++from) {
+    for (std::size_t to = path.size() - 1; to > from + 1 && !is_over();
+         to = from + (to - from) / 2) {
+      // The rest at the goal stays: what arrives early is done early.
+      const bool keeps_rest = to + 1 < path.size() || path[from].q == end.q;
+      if (keeps_rest && edges.is_free(path[from], path[to])) {
+        path.erase(path.begin() + static_cast<std::ptrdiff_t>(from + 1),
+                   path.begin() + static_cast<std::ptrdiff_t>(to));
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace firstcontact::detail

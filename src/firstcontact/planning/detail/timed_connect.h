@@ -1,0 +1,34 @@
+/// @file
+/// Two trees in space and time.
+
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/detail/timed_place.h>
+
+namespace firstcontact::detail {
+
+class TimedEdges;
+
+/// Looks for a way from a start at time 0 to one of several goals, where it rests until the end.
+///
+/// After F. Grothe, V. Hartmann, A. Orthey, M. Toussaint, "ST-RRT*: Asymptotically-optimal
+/// bidirectional motion planning through space-time", ICRA 2022, with a fixed horizon and without
+/// its optimisation: one tree grows from the start forward in time, one from the goals backward.
+///
+/// @param range    [-]  the longest edge, in the length of the space
+/// @param is_over  whether to end without an answer
+/// @returns  places with times from 0 to the duration; empty where none was found
+[[nodiscard]] std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
+                                                    const std::vector<Configuration>& goals,
+                                                    double range, PlanRandom& random,
+                                                    const std::function<bool()>& is_over);
+
+/// Leaves out places that an edge can pass by, and arrives as early as the rest allows.
+void shorten_timed_path(TimedEdges& edges, std::vector<TimedPlace>& path,
+                        const std::function<bool()>& is_over);
+
+}  // namespace firstcontact::detail

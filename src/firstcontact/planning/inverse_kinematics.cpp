@@ -1,0 +1,232 @@
+#include <firstcontact/planning/inverse_kinematics.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <firstcontact/math/float_environment.h>
+#include <firstcontact/planning/detail/plan_random.h>
+
+namespace firstcontact {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+constexpr int kIterations = 100;
+constexpr int kPatience = 8;           // Iterations in which the error has to fall to
+constexpr double kWorthwhile = 0.999;  // this share; else the search is at its nearest place.
+constexpr double kLongestStep = 0.5;   // [rad or m]  Of a coordinate in one iteration.
+constexpr double kSame = 1e-3;         // Of the space's length: two places are one.
+
+void require_goal(bool condition, const char* what) {
+  if (!condition) {
+    throw std::invalid_argument(what);
+  }
+}
+
+bool is_pose(const Pose& pose) {
+  return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1.0) <= 1e-6;
+}
+
+/// The rotation vector of a rotation matrix; of at most half a turn.
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+class PoseSearch {
+ public:
+  PoseSearch(const ConfigurationSpace& space, const LinkPoseGoal& goal)
+      : space_(space),
+        goal_(goal),
+        has_rotation_(goal.rotation_tolerance < std::numbers::pi),
+        X_LT_(precise(goal.X_LT)),
+        R_WT_(goal.X_WT.rotation.normalized().toRotationMatrix()) {}
+
+  /// Goes from a place towards the goal as far as that helps.
+  ///
+  /// @param is_patient  also where it helps little
+  ReachedPose run(Configuration q, bool is_patient = false) {
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      q[k] = within_limits(k, q[k]);
+    }
+    double damping = 1e-3;
+    Vector6 error = error_at(q);
+    double size_before = error.norm();
+    for (int k = 0; k < kIterations && !is_exact(error) && damping < 1e6; ++k) {
+      if (!is_patient && k % kPatience == kPatience - 1) {
+        if (error.norm() > kWorthwhile * size_before) {
+          break;
+        }
+        size_before = error.norm();
+      }
+      const Configuration next = stepped(q, error, damping);
+      const Vector6 error_there = error_at(next);
+      if (error_there.norm() < error.norm()) {
+        q = next;
+        error = error_there;
+        damping = std::max(0.2 * damping, 1e-12);
+      } else {
+        damping *= 8.0;
+      }
+    }
+    return bounded(std::move(q));
+  }
+
+ private:
+  /// Far within the tolerances, so that rounding does not decide.
+  [[nodiscard]] bool is_exact(const Vector6& error) const {
+    return error.head<3>().norm() <= 1e-3 * goal_.position_tolerance &&
+           error.tail<3>().norm() <= 1e-3 * goal_.rotation_tolerance;
+  }
+
+  /// [m]  With a metre for a radian.
+  [[nodiscard]] Vector6 weighed(Vector6 error) const {
+    if (!has_rotation_) {
+      error.tail<3>().setZero();
+    }
+    return error;
+  }
+
+  [[nodiscard]] LinkPath path(const Configuration& from, const Configuration& to) const {
+    return space_.motion(from, to).path(goal_.link, 0.0).then(X_LT_);
+  }
+
+  [[nodiscard]] Vector6 error_at(const Configuration& q) const {
+    const LinkPose pose = path(q, q).pose(0.0);
+    Vector6 error;
+    error << goal_.X_WT.position - pose.p_OL, rotation_vector(R_WT_ * pose.R_FL.transpose());
+    return weighed(error);
+  }
+
+  /// The rates of T along each coordinate, with the others at rest.
+  [[nodiscard]] Jacobian jacobian(const Configuration& q) {
+    Jacobian J(6, static_cast<Eigen::Index>(q.size()));
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      Configuration to = q;
+      to[k] += 1.0;
+      const LinkState state = path(q, to).state(0.0, scratch_);
+      J.col(static_cast<Eigen::Index>(k)) << state.velocity, state.spin;
+    }
+    if (!has_rotation_) {
+      J.bottomRows<3>().setZero();
+    }
+    return J;
+  }
+
+  /// A damped step; coordinates that it would take beyond a limit stay there.
+  Configuration stepped(const Configuration& q, const Vector6& error, double damping) {
+    Jacobian J = jacobian(q);
+    Configuration next = q;
+    std::vector<bool> is_held(q.size(), false);
+    for (std::size_t round = 0; round <= q.size(); ++round) {
+      Eigen::Matrix<double, 6, 6> A = J * J.transpose();
+      A.diagonal().array() += damping;
+      Eigen::VectorXd step = J.transpose() * A.ldlt().solve(error);
+      const double longest = step.cwiseAbs().maxCoeff();
+      step *= longest > kLongestStep ? kLongestStep / longest : 1.0;
+      bool has_left = false;
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        if (is_held[k]) {
+          continue;
+        }
+        const auto column = static_cast<Eigen::Index>(k);
+        const double wanted = q[k] + step[column];
+        next[k] = within_limits(k, wanted);
+        if (next[k] != wanted) {
+          is_held[k] = has_left = true;
+          J.col(column).setZero();
+        }
+      }
+      if (!has_left) {
+        break;
+      }
+    }
+    return next;
+  }
+
+  [[nodiscard]] double within_limits(std::size_t k, double position) const {
+    const SpaceCoordinate& coordinate = space_.coordinates()[k];
+    return coordinate.has_limits ? std::clamp(position, coordinate.lower, coordinate.upper)
+                                 : position;
+  }
+
+  /// With bounds of the errors: those that were computed, and how far the pose may be from exact.
+  [[nodiscard]] ReachedPose bounded(Configuration q) const {
+    constexpr double kRounding = 0x1p-44;  // Relative; of the few operations from the pose on.
+    const LinkPose pose = path(q, q).pose(0.0);
+    const double size = pose.p_OL.norm() + goal_.X_WT.position.norm();
+    ReachedPose reached{std::move(q), 0.0, 0.0};
+    reached.position_error =
+        (goal_.X_WT.position - pose.p_OL).norm() + pose.position_error + kRounding * size;
+    reached.rotation_error = rotation_vector(R_WT_ * pose.R_FL.transpose()).norm() +
+                             4.0 * (pose.rotation_error + kRounding);
+    return reached;
+  }
+
+  const ConfigurationSpace& space_;
+  const LinkPoseGoal& goal_;
+  bool has_rotation_;
+  PreciseTransform X_LT_;
+  Eigen::Matrix3d R_WT_;
+  LinkScratch scratch_;
+};
+
+}  // namespace
+
+bool reaches(const ReachedPose& place, const LinkPoseGoal& goal) {
+  return place.position_error <= goal.position_tolerance &&
+         (place.rotation_error <= goal.rotation_tolerance ||
+          goal.rotation_tolerance >= std::numbers::pi);
+}
+
+std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkPoseGoal& goal,
+                                    const Configuration& start, const ReachOptions& options) {
+  const FloatEnvironmentGuard guard;
+  require_goal(!space.is_body(), "expected a robot with joints: a body is at a pose without them");
+  require_goal(goal.link < space.model().links().size(), "expected a link of the robot");
+  require_goal(start.size() == space.size(), "expected a start with a number for each coordinate");
+  require_goal(is_pose(goal.X_WT) && is_pose(goal.X_LT),
+               "expected poses with finite numbers and quaternions of length 1");
+  require_goal(goal.position_tolerance > 0.0 && goal.rotation_tolerance > 0.0,
+               "expected tolerances > 0");
+  PoseSearch search(space, goal);
+  detail::PlanRandom random(options.seed);
+  std::vector<ReachedPose> found;
+  std::optional<ReachedPose> nearest;
+  for (std::size_t k = 0; k < options.tries && found.size() < options.places; ++k) {
+    if (options.stop.stop_requested()) {
+      break;
+    }
+    ReachedPose place = search.run(k == 0 ? start : space.sample(random));
+    if (!reaches(place, goal)) {
+      const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
+      if (!nearest || size(place) < size(*nearest)) {
+        nearest = std::move(place);
+      }
+      continue;
+    }
+    const bool is_new = std::none_of(found.begin(), found.end(), [&](const ReachedPose& other) {
+      return space.distance(place.q, other.q) < kSame;
+    });
+    if (is_new) {
+      found.push_back(std::move(place));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [&](const ReachedPose& a, const ReachedPose& b) {
+    return space.distance(start, a.q) < space.distance(start, b.q);
+  });
+  if (found.empty() && nearest) {
+    found.push_back(search.run(nearest->q, true));
+  }
+  return found;
+}
+
+}  // namespace firstcontact

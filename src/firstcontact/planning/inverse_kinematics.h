@@ -1,0 +1,60 @@
+/// @file
+/// Places of joints that bring a link to a pose: numerical inverse kinematics with limits.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/planning/configuration_space.h>
+
+namespace firstcontact {
+
+/// A frame of a link that is to be at a pose.
+struct LinkPoseGoal {
+  std::size_t link = 0;              ///< Of the model.
+  Pose X_LT = {};                    ///< The frame T, fixed in the link.
+  Pose X_WT = {};                    ///< Where T is to be.
+  double position_tolerance = 1e-6;  ///< [m]  > 0
+  double rotation_tolerance = 1e-6;  ///< [rad]  > 0; pi or more: any rotation will do.
+};
+
+/// A place of the joints, and how far T is from its pose there.
+struct ReachedPose {
+  Configuration q;
+  double position_error = 0.0;  ///< [m]  An upper bound, rounding included.
+  double rotation_error = 0.0;  ///< [rad]  So, too: of the rotation between the two.
+};
+
+struct ReachOptions {
+  std::size_t places = 8;   ///< At most so many are found.
+  std::size_t tries = 100;  ///< Places from which the search begins: the start, then random ones.
+  std::uint64_t seed = 1;
+  std::stop_token stop = {};  ///< Ends with what was found.
+};
+
+/// Finds places that bring a link to a pose, within all limits; those nearest to the start first.
+///
+/// Damped least squares (C. Wampler, "Manipulator inverse kinematic solutions based on vector
+/// formulations and damped least-squares methods", IEEE Transactions on Systems, Man, and
+/// Cybernetics 16 (1986)), from the start and from random places. Coordinates that would leave
+/// their limits are held there while the others go on. The result is the same for a seed. No place
+/// that is found says nothing: there may be one.
+///
+/// @param start  a configuration of the space
+/// @returns  places with both errors within the tolerances, no two closer than 1e-3 of the space's
+///           length; where there is none, the one place that came nearest, whose errors are larger
+/// @throws std::invalid_argument if the space is that of a body, the model has no such link, or a
+///         number of the goal makes no sense
+[[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(
+    const ConfigurationSpace& space, const LinkPoseGoal& goal, const Configuration& start,
+    const ReachOptions& options = {});
+
+/// Whether a place meets the tolerances of a goal.
+[[nodiscard]] FIRSTCONTACT_API bool reaches(const ReachedPose& place, const LinkPoseGoal& goal);
+
+}  // namespace firstcontact

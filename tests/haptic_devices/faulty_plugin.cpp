@@ -1,0 +1,86 @@
+// Plug-ins that are wrong in one way each, for the tests of the loader.
+#include <firstcontact/haptic_devices/device_plugin.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#ifndef FAULT_NO_ENTRY
+namespace {
+
+void* open(const char* /*settings*/, char* problem, std::size_t problem_size) {
+#ifdef FAULT_NO_OPEN
+  std::strncpy(problem, "the arm is switched off", problem_size);
+  return nullptr;
+#else
+  static int device = 0;
+  (void)problem;
+  (void)problem_size;
+  return &device;
+#endif
+}
+
+void describe(void*, firstcontact_device_abilities* abilities) {
+  std::strncpy(abilities->name, "faulty", sizeof abilities->name);
+  abilities->max_force = 3.0;
+  for (int i = 0; i < 3; ++i) {
+    abilities->sensed[i] = 1;
+    abilities->driven[i] = 1;
+  }
+#ifdef FAULT_BAD_ABILITIES
+  abilities->max_torque = std::nan("");
+#endif
+}
+
+std::int64_t samples = 0;
+double last_force = 0.0;
+
+void read(void*, std::int64_t now_ns, firstcontact_device_sample* sample) {
+  ++samples;
+  sample->quaternion_wxyz[0] = 1.0;
+  sample->position[0] = last_force;
+  sample->position[1] = 0.25;
+  sample->time_ns = now_ns;
+  sample->sequence = static_cast<std::uint64_t>(samples);
+  sample->buttons = 1;
+  sample->status = FIRSTCONTACT_DEVICE_LIVE;
+#ifdef FAULT_BAD_SAMPLES
+  if (samples % 3 == 2) {
+    sample->position[0] = std::nan("");
+  } else if (samples % 3 == 0) {
+    sample->quaternion_wxyz[0] = 0.0;
+  }
+#endif
+}
+
+void command(void*, std::int64_t, const double force[3], const double torque[3]) {
+  last_force = force[0] + torque[0];
+}
+
+void close(void*) {}
+
+}  // namespace
+
+extern "C" const firstcontact_device_plugin_functions* firstcontact_device_plugin(void) {
+  static firstcontact_device_plugin_functions functions = {};
+  functions.abi = FIRSTCONTACT_DEVICE_PLUGIN_ABI;
+  functions.sample_size = sizeof(firstcontact_device_sample);
+  functions.abilities_size = sizeof(firstcontact_device_abilities);
+  functions.open = open;
+  functions.describe = describe;
+  functions.read = read;
+  functions.command = command;
+  functions.close = close;
+#ifdef FAULT_OTHER_VERSION
+  functions.abi = 999;
+#endif
+#ifdef FAULT_OTHER_SIZE
+  functions.sample_size = 8;
+#endif
+#ifdef FAULT_NO_READ
+  functions.read = nullptr;
+#endif
+  return &functions;
+}
+#endif

@@ -1,0 +1,259 @@
+// God-objects follow their devices, and pass through nothing.
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/query/first_contact.h>
+
+#include "haptics/haptic_scenes.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMillisecond = 1e-3;  // [s]
+
+Pose at(const Vector3d& position, const Eigen::Vector3d& rotation_vector = Vector3d::Zero()) {
+  const double angle = rotation_vector.norm();
+  return {position, angle > 0.0
+                        ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle))
+                        : Eigen::Quaterniond::Identity()};
+}
+
+/// Runs cycles towards a target.
+void run_to(ContactLoop& loop, const Pose& target, int cycles) {
+  for (int k = 0; k < cycles; ++k) {
+    (void)loop.advance(std::array{target}, kMillisecond, k);
+  }
+}
+
+/// Proves again what a cycle did: each piece of the tool, apart from bodies at rest.
+void require_free(const HapticScene& scene, const HapticCycle& cycle, Workspace& workspace) {
+  for (const HapticMemberMotion& motion : cycle.members) {
+    const HapticTool& tool = scene.tools.at(motion.member);
+    for (const HapticPiece& piece : motion.pieces) {
+      const ConstantRatePiece way{.X_WB = piece.X_WB,
+                                  .translation = piece.translation,
+                                  .rotation_vector = piece.rotation_vector};
+      const Motion X_WB = Motion::constant_rates(std::span(&way, 1), tool.p_BC);
+      for (const HapticBody& body : scene.bodies) {
+        const Motion rests = Motion::fixed(body.X_WB);
+        const FirstContactResult found =
+            first_contact({body.shape, rests}, {tool.shape, X_WB}, workspace,
+                          {.margin = 0.9 * cycle.clearance, .tolerance = 0.05 * cycle.clearance});
+        ASSERT_EQ(found.verdict, Verdict::free) << body.name << ", " << cycle.clearance;
+      }
+    }
+  }
+}
+
+TEST(ContactLoop, GoesToATargetThatIsFree) {
+  ContactLoop loop(cube_on_floor());
+  const Pose target = at({0.1, 0.05, 0.2}, {0.3, -0.2, 1.0});
+  run_to(loop, target, 1);
+  EXPECT_LT((loop.pose(0).position - target.position).norm(), 1e-12);
+  EXPECT_LT(loop.pose(0).rotation.angularDistance(target.rotation), 1e-12);
+  EXPECT_EQ(loop.contact_set().count, 0U);
+}
+
+TEST(ContactLoop, RestsOnTheFloorWithinTheContactDistance) {
+  ContactLoop loop(cube_on_floor());
+  run_to(loop, at({0.05, 0.0, -0.1}), 5);
+  const double gap = loop.pose(0).position.z() - 0.02;
+  EXPECT_GE(gap, loop.contact_distance() * (1.0 - 1e-6));
+  EXPECT_LE(gap, 1.5 * loop.contact_distance());
+  EXPECT_NEAR(loop.pose(0).position.x(), 0.05, 1e-6);  // Nothing holds it back along the floor.
+  EXPECT_EQ(loop.contact_set().count, 4U);
+  EXPECT_EQ(loop.contact_set().checksum, checksum_of(loop.contact_set()));
+}
+
+// 5 m/s through a plate of 0.1 mm, at a thousand cycles a second: 5 mm a cycle.
+TEST(ContactLoop, StopsAtAThinPlateHoweverFast) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.05}));
+  scene.bodies.push_back(body_at("plate", make_box({0.2, 0.2, 1e-4}), Vector3d::Zero()));
+  ContactLoop loop(scene);
+  Workspace workspace;
+  for (int k = 0; k < 40; ++k) {
+    const Pose target = at({0.0, 0.0, 0.05 - 5.0 * kMillisecond * k});
+    const HapticCycle& cycle = loop.advance(std::array{target}, kMillisecond, k);
+    require_free(scene, cycle, workspace);
+    ASSERT_GT(loop.pose(0).position.z(), 0.01);
+  }
+  EXPECT_NEAR(loop.pose(0).position.z(), 0.01 + 5e-5, 2.0 * loop.contact_distance());
+}
+
+TEST(ContactLoop, StaysOnItsSideWhenTheDeviceJumpsAMetre) {
+  HapticScene scene = cube_on_floor();
+  ContactLoop loop(scene);
+  run_to(loop, at({0.0, 0.0, -1.0}), 1);
+  EXPECT_GT(loop.pose(0).position.z(), 0.02);
+  run_to(loop, at({0.0, 0.0, 1.0}), 1);
+  EXPECT_NEAR(loop.pose(0).position.z(), 1.0, 1e-12);
+}
+
+TEST(ContactLoop, NeverPassesWhileADeviceRagesAround) {
+  HapticScene scene = peg_over_hole(1e-4);
+  ContactLoop loop(scene);
+  Workspace workspace;
+  std::mt19937 rng(5);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 60; ++k) {
+    const Vector3d goal(0.03 * normal(rng), 0.03 * normal(rng), 0.04 * normal(rng));
+    const Vector3d turn(normal(rng), normal(rng), normal(rng));
+    const HapticCycle& cycle = loop.advance(std::array{at(goal, turn)}, kMillisecond, k);
+    ASSERT_GT(cycle.clearance, 0.0);
+    ASSERT_EQ(cycle.lasted, kMillisecond);
+    require_free(scene, cycle, workspace);
+  }
+}
+
+// A hand that is off by half a millimetre and two degrees finds the hole by the wall's help.
+TEST(ContactLoop, LetsAPegIntoItsHole) {
+  for (const double clearance : {1e-4, 2e-5}) {
+    ContactLoop loop(peg_over_hole(clearance));
+    for (int k = 0; k < 400; ++k) {
+      const double depth = 0.04 - 0.07 * k / 400.0;
+      const double sway = 3e-4 * std::sin(0.3 * k);
+      const Pose target = at({0.5 * clearance + (k < 200 ? 0.0 : sway), 0.0, depth},
+                             {k < 200 ? 0.0 : 0.01 * std::sin(0.17 * k), 0.0, 0.0});
+      (void)loop.advance(std::array{target}, kMillisecond, k);
+    }
+    EXPECT_LT(loop.pose(0).position.z(), -0.02) << clearance;
+  }
+}
+
+// On a slope of 20 degrees, held by a friction whose angle is 22 degrees.
+TEST(ContactLoop, DoesNotCreepWhereFrictionHolds) {
+  const double slope = 20.0 * std::numbers::pi / 180.0;
+  HapticScene scene = cube_on_floor(std::tan(22.0 * std::numbers::pi / 180.0));
+  ContactLoop loop(scene);
+  // The pull of the spring is what leans: into the floor, and along it.
+  run_to(loop, at({0.0, 0.0, 0.019}), 20);
+  const Vector3d pull(1e-3 * std::sin(slope), 0.0, -1e-3 * std::cos(slope));
+  const Pose target = at(loop.pose(0).position + pull);
+  run_to(loop, target, 20);
+  const Vector3d held = loop.pose(0).position;
+  EXPECT_LT((held - target.position + pull).head<2>().norm(), 2e-6);
+  run_to(loop, target, 60'000);  // A minute.
+  EXPECT_EQ((loop.pose(0).position - held).norm(), 0.0);
+}
+
+TEST(ContactLoop, SlidesWhereFrictionDoesNotHold) {
+  const double slope = 30.0 * std::numbers::pi / 180.0;
+  const double mu = 0.3;
+  ContactLoop loop(cube_on_floor(mu));
+  run_to(loop, at({0.0, 0.0, 0.02}), 20);
+  const Vector3d from = loop.pose(0).position;
+  const double pull = 5e-3;
+  const Pose target = at(from + Vector3d(pull * std::sin(slope), 0.0, -pull * std::cos(slope)));
+  run_to(loop, target, 50);
+  // It ends where the spring is at the edge of the cone.
+  const Vector3d left = target.position - loop.pose(0).position;
+  EXPECT_NEAR(left.x() / -left.z(), mu, 0.02);
+}
+
+TEST(ContactLoop, IsPushedByWhatMoves) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.0}));
+  HapticBody pusher = body_at("pusher", make_box({0.02, 0.1, 0.1}), {-0.05, 0.0, 0.0});
+  pusher.course = Motion::constant_velocity(pusher.X_WB, Vector3d(0.2, 0.0, 0.0));
+  scene.bodies.push_back(pusher);
+  scene.duration = 0.2;
+  ContactLoop loop(scene);
+  for (int k = 0; k < 200; ++k) {
+    const HapticCycle& cycle = loop.advance(std::array{at(Vector3d::Zero())}, kMillisecond, k);
+    ASSERT_NEAR(cycle.lasted, kMillisecond, 1e-15) << k;
+  }
+  EXPECT_NEAR(loop.pose(0).position.x(), -0.05 + 0.2 + 0.01 + 0.01, 1e-4);
+  EXPECT_NEAR(loop.time(), 0.2, 1e-12);
+}
+
+// Between a wall and a pusher there is an end: the pusher waits.
+TEST(ContactLoop, MakesCoursesWaitWhereTheyWouldCrushATool) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.0}));
+  HapticBody pusher = body_at("pusher", make_box({0.02, 0.1, 0.1}), {-0.05, 0.0, 0.0});
+  pusher.course = Motion::constant_velocity(pusher.X_WB, Vector3d(0.2, 0.0, 0.0));
+  scene.bodies.push_back(pusher);
+  scene.bodies.push_back(body_at("wall", make_box({0.02, 0.1, 0.1}), {0.05, 0.0, 0.0}));
+  scene.duration = 0.2;
+  ContactLoop loop(scene);
+  double lost = 0.0;
+  for (int k = 0; k < 200; ++k) {
+    const HapticCycle& cycle = loop.advance(std::array{at(Vector3d::Zero())}, kMillisecond, k);
+    ASSERT_GT(cycle.clearance, 0.0);
+    lost += cycle.asked - cycle.lasted;
+  }
+  EXPECT_GT(lost, 0.05);
+  EXPECT_LT(loop.pose(0).position.x(), 0.03);
+  EXPECT_GT(loop.pose(1).position.x(), -0.02);
+}
+
+TEST(ContactLoop, KeepsTwoToolsApart) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("left", make_box({0.02, 0.02, 0.02}), {-0.03, 0.0, 0.0}));
+  scene.tools.push_back(tool_at("right", make_box({0.02, 0.02, 0.02}), {0.03, 0.0, 0.0}));
+  ContactLoop loop(scene);
+  for (int k = 0; k < 20; ++k) {
+    // They want to change places.
+    const HapticCycle& cycle =
+        loop.advance(std::array{at({0.03, 0.0, 0.0}), at({-0.03, 0.0, 0.0})}, kMillisecond, k);
+    ASSERT_GT(cycle.clearance, 0.0);
+  }
+  EXPECT_NEAR(loop.pose(1).position.x() - loop.pose(0).position.x(), 0.02, 1e-5);
+  EXPECT_NEAR(loop.pose(1).position.x() + loop.pose(0).position.x(), 0.0, 1e-5);
+  EXPECT_EQ(loop.contact_set().contacts[0].other, 0);
+}
+
+TEST(ContactLoop, RefusesToStartInsideAndNamesBoth) {
+  HapticScene scene = cube_on_floor(0.0, 0.01);
+  try {
+    const ContactLoop loop(scene);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("\"cube\" and \"floor\""), std::string::npos);
+  }
+  scene = cube_on_floor();
+  scene.tools.clear();
+  EXPECT_THROW(ContactLoop{scene}, std::invalid_argument);
+}
+
+TEST(ContactLoop, LetsIgnoredPairsPass) {
+  HapticScene scene = cube_on_floor();
+  scene.ignored_pairs = {{0, 1}};
+  ContactLoop loop(scene);
+  run_to(loop, at({0.0, 0.0, -0.5}), 1);
+  EXPECT_NEAR(loop.pose(0).position.z(), -0.5, 1e-12);
+}
+
+TEST(ContactLoop, IsTheSameOnEveryRun) {
+  const auto poses = [] {
+    ContactLoop loop(peg_over_hole(2e-5, 0.2));
+    std::vector<double> all;
+    for (int k = 0; k < 100; ++k) {
+      const double x = 0.01 * std::sin(0.1 * k);
+      (void)loop.advance(std::array{at({x, 0.5 * x, 0.03 - 0.0006 * k}, {x, 0.1, 0.0})},
+                         kMillisecond, k);
+      all.push_back(loop.pose(0).position.x());
+      all.push_back(loop.pose(0).rotation.z());
+    }
+    return all;
+  };
+  EXPECT_EQ(poses(), poses());
+}
+
+}  // namespace
+}  // namespace firstcontact

@@ -1,0 +1,138 @@
+// Few contacts in place of many: what they allow.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <firstcontact/haptics/detail/cone_projection.h>
+#include <firstcontact/haptics/detail/contact_reduction.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+ToolFrames bolt_frames() {
+  ToolFrames frames;
+  frames.lengths = {0.02, 0.02};
+  frames.p_WC = {Vector3d::Zero(), Vector3d::Zero()};
+  return frames;
+}
+
+/// Contacts of a nut on the lower flank of its thread: thousands along a helix.
+std::vector<HapticContact> thread_contacts(int count, double friction, bool both_flanks) {
+  std::vector<HapticContact> contacts;
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> gap(1e-6, 2e-6);
+  for (int k = 0; k < count; ++k) {
+    const double turn = 8.0 * 2.0 * std::numbers::pi * k / count;
+    const Vector3d out(std::cos(turn), std::sin(turn), 0.0);
+    HapticContact contact;
+    contact.point = 0.008 * out + Vector3d(0.0, 0.0, 0.002 * turn / (2.0 * std::numbers::pi));
+    const double side = both_flanks && k % 2 == 0 ? -1.0 : 1.0;
+    contact.normal =
+        (0.5 * -out + side * Vector3d::UnitZ() + side * 0.04 * Vector3d::UnitZ().cross(out))
+            .normalized();
+    contact.gap = gap(rng);
+    contact.friction = friction;
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+Vector6d row(const HapticContact& contact, const ToolFrames& frames) {
+  return Eigen::Map<const Vector6d>(cone_contact(contact, frames, 0.0).rows[0].data());
+}
+
+class Reductions : public testing::TestWithParam<bool> {};
+
+TEST_P(Reductions, LeaveOtherContactsByNoMoreThanTheirAngle) {
+  const ToolFrames frames = bolt_frames();
+  const auto contacts = thread_contacts(4000, 0.0, GetParam());
+  const ReducedContacts reduced = reduce_contacts(contacts, frames, 1, 0.0175, 128);
+  EXPECT_LT(reduced.kept.size(), 128U);
+  EXPECT_LT(reduced.angle, 0.3);
+  ConeProjection few(6, reduced.kept.size());
+  for (const std::size_t k : reduced.kept) {
+    ConeContact cone = cone_contact(contacts[k], frames, 0.0);
+    few.add(cone);
+  }
+  std::mt19937 rng(4);
+  std::normal_distribution<double> normal;
+  double greatest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    Coordinates free{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      free[k] = normal(rng);
+    }
+    const ConeProjectionResult found = few.project(free, 1e-12, 500);
+    ASSERT_TRUE(found.is_solved);
+    const Vector6d x = Eigen::Map<const Vector6d>(found.x.data());
+    if (x.norm() < 1e-6) {
+      continue;
+    }
+    for (const HapticContact& contact : contacts) {
+      const Vector6d a = row(contact, frames);
+      greatest = std::max(greatest, -a.dot(x) / (a.norm() * x.norm()));
+    }
+  }
+  EXPECT_LE(greatest, std::sin(reduced.angle) + 1e-9);
+}
+INSTANTIATE_TEST_SUITE_P(OneAndBothFlanks, Reductions, testing::Bool());
+
+// The other way round: what all contacts allow, the few allow too, as they are among them. So the
+// projections differ little.
+TEST(Reduction, ChangesProjectionsLittle) {
+  const ToolFrames frames = bolt_frames();
+  const auto contacts = thread_contacts(1000, 0.0, false);
+  const ReducedContacts reduced = reduce_contacts(contacts, frames, 1, 0.0175, 128);
+  ConeProjection all(6, contacts.size());
+  for (const HapticContact& contact : contacts) {
+    all.add(cone_contact(contact, frames, 0.0));
+  }
+  ConeProjection few(6, 128);
+  for (const std::size_t k : reduced.kept) {
+    few.add(cone_contact(contacts[k], frames, 0.0));
+  }
+  std::mt19937 rng(5);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 50; ++i) {
+    Coordinates free{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      free[k] = normal(rng);
+    }
+    const ConeProjectionResult x = all.project(free, 1e-12, 1000);
+    const ConeProjectionResult y = few.project(free, 1e-12, 1000);
+    ASSERT_TRUE(x.is_solved && y.is_solved);
+    const Vector6d free_v = Eigen::Map<const Vector6d>(free.data());
+    const Vector6d off =
+        Eigen::Map<const Vector6d>(x.x.data()) - Eigen::Map<const Vector6d>(y.x.data());
+    EXPECT_LT(off.norm(), 0.15 * free_v.norm()) << i;
+  }
+}
+
+TEST(Reduction, KeepsAllOfFew) {
+  std::vector<HapticContact> contacts(3);
+  contacts[1].normal = Vector3d::UnitX();
+  contacts[2].normal = Vector3d::UnitY();
+  const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 32);
+  EXPECT_EQ(reduced.kept.size(), 3U);
+  EXPECT_EQ(reduced.angle, 0.0);
+}
+
+TEST(Reduction, ClaimsALargerAngleWhereFewAreAllowed) {
+  const auto contacts = thread_contacts(2000, 0.3, true);
+  const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 8);
+  EXPECT_LE(reduced.kept.size(), 8U);
+  EXPECT_GT(reduced.angle, 0.0175);
+}
+
+}  // namespace
+}  // namespace firstcontact::detail

@@ -1,0 +1,203 @@
+// What the hand feels, and what it never does.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/force_loop.h>
+
+#include "haptics/haptic_scenes.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kTick = 250'000;  // [ns]
+
+DeviceState handle_at(const Vector3d& position) {
+  DeviceState device;
+  device.X_DH.position = position;
+  device.status = DeviceStatus::live;
+  return device;
+}
+
+bool has(const ToolTick& tick, ForceFault fault) {
+  return (tick.faults & static_cast<std::uint32_t>(fault)) != 0;
+}
+
+/// A cube that rests on the floor, and its set; the handle's zero is 1 cm above.
+struct OnTheFloor {
+  explicit OnTheFloor(const DeviceMapping& mapping = {}, const ForceLoopOptions& options = {},
+                      double friction = 0.0)
+      : contacts(cube_on_floor(friction)), forces(contacts.scene(), {mapping}, options) {
+    Pose below = contacts.pose(0);
+    below.position.z() = 0.0;
+    for (int k = 0; k < 5; ++k) {
+      (void)contacts.advance(std::array{below}, 1e-3, 0);
+    }
+  }
+
+  const ToolTick& tick(const DeviceState& device) {
+    now += kTick;
+    set = contacts.contact_set();
+    set.stamp_ns = now;
+    return forces.tick(now, set, std::array{device}).tools[0];
+  }
+
+  ToolTick ticks(const DeviceState& device, int count) {
+    ToolTick last;
+    for (int k = 0; k < count; ++k) {
+      last = tick(device);
+    }
+    return last;
+  }
+
+  ContactLoop contacts;
+  ForceLoop forces;
+  HapticContactSet set;
+  std::int64_t now = 0;
+};
+
+constexpr int kRamp = 900;  // Ticks, longer than the ramp.
+
+TEST(ForceLoop, PushesOutByTheStiffness) {
+  OnTheFloor felt;
+  const ToolTick tick = felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp);
+  // The target is at 0.018, the cube at about 0.02: 2 mm at 1000 N/m.
+  EXPECT_NEAR(tick.command.force_D.z(), 2.0, 0.03);
+  EXPECT_NEAR(tick.command.force_D.head<2>().norm(), 0.0, 1e-6);
+  EXPECT_NEAR(tick.command.torque_D.norm(), 0.0, 1e-6);
+  EXPECT_EQ(tick.faults, 0U);
+}
+
+TEST(ForceLoop, IsExactlyZeroWithoutContactHoweverFarTheGodObjectLags) {
+  ContactLoop contacts(cube_on_floor());
+  ForceLoop forces(contacts.scene(), {{}});
+  std::int64_t now = 0;
+  for (int k = 0; k < 2000; ++k) {
+    now += kTick;
+    const double x = 0.3 * std::sin(0.01 * k);
+    const ForceTick& tick =
+        forces.tick(now, contacts.contact_set(), std::array{handle_at({x, 0.2, 0.5 + x})});
+    ASSERT_EQ(tick.tools[0].command.force_D, Vector3d::Zero());
+    ASSERT_EQ(tick.tools[0].command.torque_D, Vector3d::Zero());
+  }
+}
+
+TEST(ForceLoop, GrowsOverTheRampAndNeverFasterThanTheSlew) {
+  ForceLoopOptions options;
+  options.limits.force_slew = 100.0;
+  OnTheFloor felt({}, options);
+  Vector3d last = Vector3d::Zero();
+  for (int k = 0; k < 2 * kRamp; ++k) {
+    const ToolTick& tick = felt.tick(handle_at({0.0, 0.0, k % 100 < 50 ? -0.02 : 0.02}));
+    ASSERT_LE((tick.command.force_D - last).norm(), 100.0 * 1e-9 * kTick * (1.0 + 1e-9));
+    last = tick.command.force_D;
+  }
+  EXPECT_TRUE(felt.tick(handle_at({0.0, 0.0, -0.02})).faults != 0);
+}
+
+TEST(ForceLoop, KeepsItsLimits) {
+  OnTheFloor felt;
+  const ToolTick tick = felt.ticks(handle_at({0.0, 0.0, -1.0}), kRamp);
+  EXPECT_NEAR(tick.command.force_D.norm(), 10.0, 1e-9);
+  EXPECT_TRUE(has(tick, ForceFault::limited));
+}
+
+TEST(ForceLoop, IsZeroAtOnceForNaNAndForALostDevice) {
+  OnTheFloor felt;
+  EXPECT_GT(felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp).command.force_D.norm(), 1.0);
+  DeviceState wrong = handle_at({0.0, std::numeric_limits<double>::quiet_NaN(), -0.012});
+  ToolTick tick = felt.tick(wrong);
+  EXPECT_EQ(tick.command.force_D, Vector3d::Zero());
+  EXPECT_TRUE(has(tick, ForceFault::not_finite));
+  // When it comes back the force grows from nothing.
+  tick = felt.tick(handle_at({0.0, 0.0, -0.012}));
+  EXPECT_LT(tick.command.force_D.norm(), 0.01);
+  (void)felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp);
+  DeviceState lost = handle_at({0.0, 0.0, -0.012});
+  lost.status = DeviceStatus::lost;
+  tick = felt.tick(lost);
+  EXPECT_EQ(tick.command.force_D, Vector3d::Zero());
+  EXPECT_TRUE(has(tick, ForceFault::device));
+  EXPECT_TRUE(tick.target.position.allFinite());
+}
+
+TEST(ForceLoop, DecaysToZeroWithTheAgeOfTheSet) {
+  OnTheFloor felt;
+  (void)felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp);
+  double last = 10.0;
+  std::int64_t now = felt.now;
+  for (std::int64_t age = 0; age <= 160'000'000; age += kTick) {
+    now += kTick;
+    const ForceTick& tick =
+        felt.forces.tick(now, felt.set, std::array{handle_at({0.0, 0.0, -0.012})});
+    const double force = tick.tools[0].command.force_D.norm();
+    ASSERT_LE(force, last + 1e-12);
+    last = force;
+    if (age >= 150'000'000) {
+      ASSERT_EQ(force, 0.0);
+    }
+  }
+}
+
+TEST(ForceLoop, ClutchLetsGoAndTakesUpWhereTheGodObjectIs) {
+  OnTheFloor felt({.clutch_button = 2});
+  (void)felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp);
+  DeviceState held = handle_at({0.0, 0.0, -0.012});
+  held.buttons = 1U << 2;
+  ToolTick tick = felt.ticks(held, 50);
+  EXPECT_EQ(tick.command.force_D, Vector3d::Zero());
+  EXPECT_TRUE(has(tick, ForceFault::disengaged));
+  // Deep below the floor it is let go: there is the god-object now.
+  tick = felt.ticks(handle_at({0.5, 0.0, -0.3}), kRamp);
+  EXPECT_LT((tick.target.position - felt.contacts.pose(0).position).norm(), 1e-12);
+  EXPECT_LT(tick.command.force_D.norm(), 1e-6);
+  tick = felt.ticks(handle_at({0.5, 0.0, -0.302}), kRamp);
+  EXPECT_NEAR(tick.command.force_D.z(), 2.0, 0.03);
+}
+
+TEST(ForceLoop, DeadManButtonIsNeededForAnyForce) {
+  OnTheFloor felt({.dead_man_button = 0});
+  EXPECT_EQ(felt.ticks(handle_at({0.0, 0.0, -0.012}), kRamp).command.force_D, Vector3d::Zero());
+}
+
+TEST(ForceLoop, ScalesSoThatWorkIsTheSame) {
+  // The tool goes five times as far, turned by a quarter turn about z.
+  const Eigen::Quaterniond quarter(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitY()));
+  OnTheFloor felt({.R_WD = quarter, .scale = 5.0});
+  // D's z is the world's x, D's x is the world's -z.
+  const ToolTick tick = felt.ticks(handle_at({0.0022, 0.0, 0.0}), kRamp);
+  EXPECT_NEAR(tick.target.position.z(), 0.03 - 5.0 * 0.0022, 1e-12);
+  EXPECT_NEAR(tick.command.force_D.x(), -5.0 * tick.force_W.z(), 1e-9);
+  EXPECT_GT(tick.force_W.z(), 0.5);
+}
+
+TEST(ForceLoop, RateDevicesLeadByLittle) {
+  OnTheFloor felt({.kind = DeviceKind::rate});
+  DeviceState device;
+  device.status = DeviceStatus::live;
+  device.linear_rate = {0.0, 0.0, -0.1};
+  const ToolTick tick = felt.ticks(device, 8000);
+  EXPECT_LE((tick.target.position - felt.contacts.pose(0).position).norm(), 0.02 + 1e-12);
+}
+
+TEST(ForceLoop, RefusesNumbersOutOfRange) {
+  const HapticScene scene = cube_on_floor();
+  EXPECT_THROW((ForceLoop{scene, {}}), std::invalid_argument);
+  EXPECT_THROW((ForceLoop{scene, {{.scale = 0.0}}}), std::invalid_argument);
+  ForceLoopOptions options;
+  options.limits.stale_ns = 1;
+  EXPECT_THROW((ForceLoop{scene, {{}}, options}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact

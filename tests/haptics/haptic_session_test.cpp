@@ -1,0 +1,146 @@
+// Both loops in virtual time.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/haptics/haptic_session.h>
+#include <firstcontact/haptics/timing_histogram.h>
+
+#include "haptics/haptic_scenes.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+
+DeviceState live_at(const Vector3d& position) {
+  DeviceState device;
+  device.X_DH.position = position;
+  device.status = DeviceStatus::live;
+  return device;
+}
+
+TEST(HapticSession, RunsCyclesAtTheirRate) {
+  HapticSession session(cube_on_floor());
+  int cycles = 0;
+  for (int k = 0; k < 4000; ++k) {
+    EXPECT_EQ(session.time_ns(), 250'000 * k);
+    (void)session.step(std::array{live_at(Vector3d::Zero())});
+    cycles += session.cycle() != nullptr ? 1 : 0;
+  }
+  EXPECT_EQ(cycles, 1000);
+}
+
+TEST(HapticSession, IsTheSameOnEveryRun) {
+  const auto forces = [] {
+    HapticSession session(peg_over_hole(1e-4, 0.2));
+    std::vector<double> all;
+    for (int k = 0; k < 1200; ++k) {
+      const ForceTick& tick = session.step(
+          std::array{live_at({1e-3 * std::sin(0.01 * k), 1e-4, -5e-5 * std::min(k, 900)})});
+      all.push_back(tick.tools[0].command.force_D.x());
+      all.push_back(tick.tools[0].command.torque_D.y());
+    }
+    return all;
+  };
+  EXPECT_EQ(forces(), forces());
+}
+
+/// Slides a small cube over a large one, across all edges of its top and down its sides.
+Vector3d around_a_cube(double s) {
+  const double angle = 2.0 * std::numbers::pi * s;
+  // The wish is inside of the cube all the way round: 45 mm around 50 mm.
+  return {0.045 * std::cos(angle), 0.0, 0.045 * std::sin(angle) - 0.065};
+}
+
+TEST(HapticSession, SlewStaysAsDeclaredOverTheEdgesOfACube) {
+  HapticScene scene;
+  scene.tools.push_back(tool_at("finger", make_sphere(0.005), {0.0, 0.0, 0.065}));
+  scene.bodies.push_back(body_at("cube", make_box({0.1, 0.1, 0.1}), Vector3d::Zero()));
+  HapticSessionOptions options;
+  options.forces.limits.force_slew = 2000.0;
+  HapticSession session(scene, options);
+  Vector3d last = Vector3d::Zero();
+  double greatest = 0.0;
+  constexpr int kTicks = 16'000;
+  for (int k = 0; k < kTicks; ++k) {
+    const double s = 0.25 + static_cast<double>(k) / kTicks;
+    const ForceTick& tick = session.step(std::array{live_at(around_a_cube(s))});
+    const Vector3d& force = tick.tools[0].command.force_D;
+    ASSERT_LE((force - last).norm(), 2000.0 * 250e-6 * (1.0 + 1e-9)) << k;
+    ASSERT_TRUE(force.allFinite());
+    greatest = std::max(greatest, force.norm());
+    last = force;
+  }
+  EXPECT_GT(greatest, 3.0);
+}
+
+// The contact loop hangs for a while: no kick, and no force of long ago.
+TEST(HapticSession, BoundsTheForceWhileTheContactLoopStalls) {
+  for (const std::int64_t stall_ms : {5, 50, 500}) {
+    HapticSessionOptions options;
+    options.contact_latency_ns = 1'000'000 * stall_ms;
+    HapticSession session(cube_on_floor(), options);
+    double greatest = 0.0;
+    Vector3d last = Vector3d::Zero();
+    for (int k = 0; k < 8000; ++k) {
+      const double press = -0.012 + 1e-3 * std::sin(0.004 * k);
+      const ForceTick& tick = session.step(std::array{live_at({0.0, 0.0, press})});
+      const Vector3d& force = tick.tools[0].command.force_D;
+      ASSERT_LE((force - last).norm(), 5.0 + 1e-9);
+      greatest = std::max(greatest, force.norm());
+      if (tick.age_ns >= 150'000'000) {
+        ASSERT_LT(force.norm(), 1e-12) << stall_ms;
+      }
+      last = force;
+    }
+    EXPECT_LE(greatest, 3.2) << stall_ms;
+    EXPECT_GE(greatest, stall_ms < 500 ? 1.0 : 0.0) << stall_ms;
+  }
+}
+
+TEST(HapticSession, DeviceThatStartsInsideFeelsARampAndNoKick) {
+  HapticSession session(cube_on_floor());
+  Vector3d last = Vector3d::Zero();
+  for (int k = 0; k < 2000; ++k) {
+    const ForceTick& tick = session.step(std::array{live_at({0.0, 0.0, -0.015})});
+    ASSERT_LE((tick.tools[0].command.force_D - last).norm(), 0.05) << k;
+    last = tick.tools[0].command.force_D;
+  }
+  EXPECT_NEAR(last.z(), 5.0, 0.05);
+  EXPECT_GT(session.contacts().pose(0).position.z(), 0.02);
+}
+
+TEST(HapticSession, RefusesRatesOutOfRange) {
+  EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 0.0}), std::invalid_argument);
+  EXPECT_THROW(HapticSession(cube_on_floor(), {.force_rate = 100.0, .contact_rate = 200.0}),
+               std::invalid_argument);
+  HapticSession session(cube_on_floor());
+  EXPECT_THROW((void)session.step({}), std::invalid_argument);
+}
+
+TEST(TimingHistogram, CountsEveryDuration) {
+  TimingHistogram histogram;
+  for (std::int64_t k = 0; k < 1000; ++k) {
+    histogram.add(1000 * k);
+  }
+  EXPECT_EQ(histogram.count(), 1000U);
+  EXPECT_EQ(histogram.greatest_ns(), 999'000);
+  EXPECT_NEAR(static_cast<double>(histogram.quantile_ns(0.5)), 5e5, 7e4);
+  std::uint64_t sum = 0;
+  for (std::size_t k = 0; k + 1 < TimingHistogram::kBuckets; ++k) {
+    ASSERT_LT(TimingHistogram::begin_of(k), TimingHistogram::begin_of(k + 1));
+    sum += histogram.count_of(k);
+  }
+  EXPECT_EQ(sum, 1000U);
+}
+
+}  // namespace
+}  // namespace firstcontact

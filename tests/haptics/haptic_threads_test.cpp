@@ -1,0 +1,147 @@
+// What both loops share: run under the thread sanitizer.
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/haptic_devices/mail_slot.h>
+#include <firstcontact/haptics/contact_set.h>
+#include <firstcontact/haptics/detail/tick_ring.h>
+#include <firstcontact/haptics/wall_session.h>
+
+#include "haptics/haptic_scenes.h"
+
+namespace firstcontact {
+namespace {
+
+/// A set that differs everywhere from the one before.
+void fill(std::uint64_t sequence, HapticContactSet& set) {
+  set.sequence = sequence;
+  set.stamp_ns = static_cast<std::int64_t>(3 * sequence);
+  set.tools = 1;
+  set.count = static_cast<std::uint32_t>(sequence % (kMostHapticContacts + 1));
+  set.p_WC[0].setConstant(static_cast<double>(sequence));
+  for (std::size_t k = 0; k < set.count; ++k) {
+    set.contacts[k].point.setConstant(static_cast<double>(sequence + k));
+    set.contacts[k].gap = static_cast<double>(sequence);
+  }
+  set.checksum = checksum_of(set);
+}
+
+TEST(HandOver, NeverGivesATornOrAnOlderSet) {
+  constexpr std::uint64_t kSets = 20'000;
+  MailSlot<HapticContactSet> slot;
+  std::thread producer([&slot] {
+    HapticContactSet set;
+    for (std::uint64_t k = 1; k <= kSets; ++k) {
+      fill(k, set);
+      slot.put(set);
+    }
+  });
+  std::uint64_t last = 0;
+  std::uint64_t torn = 0;
+  std::uint64_t older = 0;
+  while (last < kSets) {
+    const HapticContactSet& set = slot.newest();
+    torn += set.sequence > 0 && set.checksum != checksum_of(set) ? 1U : 0U;
+    older += set.sequence < last ? 1U : 0U;
+    last = set.sequence;
+  }
+  producer.join();
+  EXPECT_EQ(torn, 0U);
+  EXPECT_EQ(older, 0U);
+}
+
+TEST(HandOver, ChecksumTellsATornSet) {
+  HapticContactSet set;
+  fill(77, set);
+  set.contacts[50].point.x() += 1e-9;
+  EXPECT_NE(set.checksum, checksum_of(set));
+}
+
+TEST(TickRing, KeepsTheOrderAndCountsWhatItDrops) {
+  detail::TickRing<int> ring(8);
+  std::atomic<bool> is_done{false};
+  constexpr int kItems = 20'000;
+  std::thread producer([&] {
+    for (int k = 0; k < kItems; ++k) {
+      ring.push(k);
+    }
+    is_done = true;
+  });
+  int taken = 0;
+  int last = -1;
+  int item = 0;
+  bool in_order = true;
+  bool goes_on = true;
+  while (goes_on) {
+    goes_on = !is_done;
+    while (ring.pop(item)) {
+      in_order = in_order && item > last;
+      last = item;
+      ++taken;
+    }
+  }
+  producer.join();
+  EXPECT_TRUE(in_order);
+  EXPECT_EQ(static_cast<std::uint64_t>(taken) + ring.dropped(), std::uint64_t{kItems});
+}
+
+/// A handle that is pressed into the floor.
+class StillDevice : public Device {
+ public:
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override {
+    return capabilities_;
+  }
+  [[nodiscard]] DeviceState read(std::int64_t now_ns) noexcept override {
+    DeviceState state;
+    state.X_DH.position = {0.0, 0.0, -0.012};
+    state.time_ns = now_ns;
+    state.sequence = ++sequence_;
+    state.status = DeviceStatus::live;
+    return state;
+  }
+  void command(const ForceCommand& command, std::int64_t /*now_ns*/) noexcept override {
+    last_ = command;
+  }
+  [[nodiscard]] DeviceCounts counts() const override { return {}; }
+  [[nodiscard]] std::string problem() const override { return {}; }
+
+  [[nodiscard]] const ForceCommand& last() const { return last_; }
+
+ private:
+  DeviceCapabilities capabilities_;
+  std::uint64_t sequence_ = 0;
+  ForceCommand last_;
+};
+
+TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
+  StillDevice device;
+  Device* const devices[] = {&device};
+  HapticSessionOptions options{.force_rate = 500.0, .contact_rate = 100.0};
+  std::uint64_t ticks = 0;
+  std::uint64_t cycles = 0;
+  double greatest = 0.0;
+  const WallSessionReport report = run_wall_session(
+      cube_on_floor(), options, devices, {.duration = 0.1, .real_time = false},
+      [&](const ForceTick& tick) {
+        ++ticks;
+        greatest = std::max(greatest, tick.tools[0].command.force_D.norm());
+      },
+      [&](const HapticCycle& cycle, std::int64_t) {
+        ++cycles;
+        EXPECT_GT(cycle.clearance, 0.0);
+      });
+  EXPECT_EQ(ticks, report.ticks);
+  EXPECT_EQ(cycles, report.cycles);
+  EXPECT_EQ(report.unread_ticks, 0U);
+  EXPECT_EQ(report.tick_cpu.count(), report.ticks);
+  EXPECT_GE(report.ticks + report.skipped_ticks, 49U);
+  EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.
+}
+
+}  // namespace
+}  // namespace firstcontact

@@ -1,0 +1,79 @@
+// What a scene file says of haptics, and what is refused.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/parse_error.h>
+
+namespace firstcontact {
+namespace {
+
+std::string scene_text(const std::string& haptics, const std::string& of_tool = "") {
+  return R"({"firstcontact": 1, "bodies": [
+    {"name": "peg", "shape": {"box": {"size": [1, 1, 1]}})" +
+         of_tool + R"(},
+    {"name": "plate", "shape": {"box": {"size": [9, 9, 1]}}, "pose": {"position": [0, 0, -5]},
+     "surface": {"friction": 0.25}}],
+    "haptics": )" +
+         haptics + "}";
+}
+
+TEST(HapticSetup, TakesWhatTheSceneSays) {
+  Scene scene = parse_scene(
+      scene_text(R"({"tools": [{"body": "peg", "stiffness": 500, "scale": 2, "clutch_button": 3}],
+                     "contact_distance": 1e-5, "friction": 0.5, "max_force": 4,
+                     "contact_rate": 500})"),
+      "scene.json");
+  prepare_haptics(scene, 2.0);
+  EXPECT_EQ(scene.simulation->step, 0.002);
+  ShapeCache cache;
+  const HapticSetup setup = haptic_setup(load_scene(std::move(scene), cache));
+  ASSERT_EQ(setup.scene.tools.size(), 1U);
+  EXPECT_EQ(setup.scene.tools[0].coupling.stiffness, 500.0);
+  EXPECT_EQ(setup.scene.tools[0].friction, 0.5);
+  EXPECT_EQ(setup.scene.bodies.at(0).friction, 0.25);
+  EXPECT_EQ(setup.scene.contact_distance, 1e-5);
+  EXPECT_EQ(setup.options.forces.limits.force, 4.0);
+  EXPECT_EQ(setup.options.mappings[0].scale, 2.0);
+  EXPECT_EQ(setup.options.mappings[0].clutch_button, 3);
+  EXPECT_EQ(setup.options.mappings[0].dead_man_button, -1);
+}
+
+void expect_refused(const std::string& text, const std::string& part) {
+  try {
+    (void)parse_scene(text, "scene.json");
+    FAIL() << "accepted: " << text;
+  } catch (const ParseError& error) {
+    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+  }
+}
+
+TEST(HapticSetup, NamesWhatIsWrong) {
+  expect_refused(scene_text("{}"), "\"tools\"");
+  expect_refused(scene_text(R"({"tools": []})"), "1 or 2 tools");
+  expect_refused(scene_text(R"({"tools": [{"body": "nail"}]})"), "\"peg\", \"plate\"");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg"}, {"body": "peg"}]})"), "another body");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg", "stiffness": 0}]})"), "stiffness");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg", "clutch_button": 32}]})"), "button");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg"}], "force_rate": 1e9})"), "1e6");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg"}], "contact_rate": 9000})"), "force_rate");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg"}], "wobble": 1})"), "wobble");
+  expect_refused(scene_text(R"({"tools": [{"body": "peg"}]})", R"(, "dynamics": {})"), "pose");
+}
+
+TEST(HapticSetup, RefusesScenesWithoutHaptics) {
+  Scene scene = parse_scene(
+      R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": {"sphere": {"radius": 1}}}]})",
+      "scene.json");
+  EXPECT_THROW(prepare_haptics(scene, 1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact

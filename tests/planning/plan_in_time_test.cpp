@@ -1,0 +1,185 @@
+// Plans among things that move, judged by closed forms at many times, and by a second proof.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+
+#include "robot/planar_arm.h"
+
+namespace firstcontact::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadius = 0.2;  // [m]  Of the ball.
+
+/// A ball in a channel along x, and a door across it that is open in the middle of 8 s.
+std::string door_scene(double goal) {
+  return R"({"firstcontact": 1,
+    "bodies": [
+      {"name": "ball", "shape": {"sphere": {"radius": 0.2}}},
+      {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
+       "motion": {"type": "waypoints", "times": [0, 3, 6, 8],
+                  "poses": [{"position": [1, 0, 0]}, {"position": [1, 4, 0]}, {"position": [1, 0, 0]}, {"position": [1, 0, 0]}]}}],
+    "plan": {"body": "ball", "goal": {"position": [)" +
+         std::to_string(goal) + R"(, 0, 0]}, "speeds": {"linear": 1, "angular": 2},
+             "box": [[-1, -0.01, -0.01], [3, 0.01, 0.01]], "time": 20}})";
+}
+
+ScenePlan plan_of(const std::string& text) {
+  const Scene scene = parse_scene(text, "scene.json", 1, {});
+  ShapeCache cache;
+  return make_scene_plan(scene, *scene.plan, cache);
+}
+
+/// Where the door is.
+double door_y(double time) {
+  return time < 3.0 ? 4.0 * time / 3.0 : time < 6.0 ? 4.0 * (6.0 - time) / 3.0 : 0.0;
+}
+
+double distance_to_door(const Vector3d& ball, double time) {
+  const Vector3d off = (ball - Vector3d(1.0, door_y(time), 0.0)).cwiseAbs();
+  return (off - Vector3d(0.01, 1.5, 1.5)).cwiseMax(0.0).norm() - kRadius;
+}
+
+/// The place of the ball at a time.
+Vector3d ball_at(const PlanResult& result, double time) {
+  std::size_t k = 0;
+  while (k + 2 < result.times.size() && result.times[k + 1] <= time) {
+    ++k;
+  }
+  const double share = (time - result.times[k]) / (result.times[k + 1] - result.times[k]);
+  const auto place = [&](std::size_t i) {
+    return Vector3d(result.path[i][0], result.path[i][1], result.path[i][2]);
+  };
+  return place(k) + std::clamp(share, 0.0, 1.0) * (place(k + 1) - place(k));
+}
+
+TEST(PlanInTime, WaitsUntilTheDoorIsOpen) {
+  const ScenePlan plan = plan_of(door_scene(2.0));
+  ASSERT_TRUE(plan.plan.times.has_value());
+  EXPECT_EQ(plan.plan.times->duration, 8.0);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+  EXPECT_EQ(result.path.front(), plan.start);
+  EXPECT_EQ(result.path.back(), plan.goals.front());
+  EXPECT_EQ(result.times.front(), 0.0);
+  EXPECT_EQ(result.times.back(), 8.0);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= 80'000; ++k) {
+    const double time = k * 1e-4;
+    least = std::min(least, distance_to_door(ball_at(result, time), time));
+  }
+  EXPECT_GT(least, 0.0);
+  EXPECT_GE(least, *result.clearances.front() - 1e-9);  // Proven, so no more than is seen.
+  for (std::size_t k = 0; k + 1 < result.path.size(); ++k) {
+    const double dt = result.times[k + 1] - result.times[k];
+    EXPECT_GT(dt, 0.0);
+    EXPECT_LE(
+        plan.plan.space.travel_time(result.path[k], result.path[k + 1], plan.plan.times->speeds),
+        dt * (1.0 + 1e-9));
+  }
+}
+
+TEST(PlanInTime, HasNoAnswerWhereTheDoorStaysShut) {
+  ScenePlan plan = plan_of(door_scene(2.0));
+  // So slow that the door is shut again.
+  plan.plan.times->speeds[0] = 0.2;
+  plan.options.time = 0.3;
+  EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict, PlanVerdict::none);
+}
+
+TEST(PlanInTime, IsTheSameForASeed) {
+  const ScenePlan plan = plan_of(door_scene(2.0));
+  const auto answer = [&](int threads) {
+    PlanOptions options = plan.options;
+    options.threads = threads;
+    return plan_path(plan.plan, plan.start, plan.goals, options);
+  };
+  EXPECT_EQ(answer(1).path, answer(2).path);
+  EXPECT_EQ(answer(1).times, answer(1).times);
+}
+
+TEST(PlanInTime, NeedsAGoalThatIsFreeAtTheEnd) {
+  const auto message = [](const std::string& text) {
+    try {
+      const ScenePlan plan = plan_of(text);
+      (void)plan_path(plan.plan, plan.start, plan.goals, plan.options);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(message(door_scene(0.9)).find("the goal, at the end of the time, is not free"),
+            std::string::npos);
+  std::string without = door_scene(2.0);
+  without.erase(without.find(R"("speeds")"),
+                std::string(R"("speeds": {"linear": 1, "angular": 2}, )").size());
+  EXPECT_NE(message(without).find("\"speeds\""), std::string::npos);
+}
+
+TEST(PlanInTime, WritesAPathWithTimes) {
+  const ScenePlan plan = plan_of(door_scene(2.0));
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  const PlannedPath path = planned_path(plan, plan.options, result);
+  const std::string text = write_planned_path(path);
+  const PlannedPath read = parse_planned_path(text, "path.json");
+  EXPECT_EQ(read.times, result.times);
+  EXPECT_EQ(read.scene.duration, 8.0);
+  EXPECT_EQ(write_planned_path(read), text);
+}
+
+/// An arm of one bar that waits, among another one that sweeps a quarter turn.
+TEST(PlanInTime, LetsAnArmPassAnotherOne) {
+  RobotScene scene;
+  const RobotMotion at_rest = planar_motion({ramp(0.0, 0.0)});
+  const std::size_t mover = scene.add_robot("mover", at_rest);
+  scene.add_robot(
+      "other", planar_motion({ramp(-2.8, -0.4)}, Motion::fixed({{1.5, 0.0, 0.0}, {1, 0, 0, 0}})));
+  const std::vector<std::string> names{"j0"};
+  PlanScene plan{
+      .scene = scene,
+      .robot = mover,
+      .space = ConfigurationSpace::of_joints(at_rest.model(), names, {{"j0", ramp(0.0, 0.0)}})};
+  plan.times = PlanTimes{4.0, {1.0}};
+  const Configuration start{1.2};
+  const Configuration goal{-1.2};
+  const PlanResult result = plan_path(plan, start, {goal}, {.time = 20.0});
+  ASSERT_EQ(result.verdict, PlanVerdict::proven);
+  for (int k = 0; k <= 4000; ++k) {
+    const double time = k * 1e-3;
+    std::size_t i = 0;
+    while (i + 2 < result.times.size() && result.times[i + 1] <= time) {
+      ++i;
+    }
+    const double share =
+        std::clamp((time - result.times[i]) / (result.times[i + 1] - result.times[i]), 0.0, 1.0);
+    const double way =
+        std::remainder(result.path[i + 1][0] - result.path[i][0], 2.0 * std::numbers::pi);
+    const double q = result.path[i][0] + share * way;
+    const double other = -2.8 + 2.4 * time / 4.0;
+    const Eigen::Vector2d base(1.5, 0.0);
+    EXPECT_GT(segments_distance({0, 0}, {std::cos(q), std::sin(q)}, base,
+                                base + Eigen::Vector2d(std::cos(other), std::sin(other))),
+              2.0 * kBarRadius)
+        << time;
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact::test

@@ -1,0 +1,71 @@
+"""Tools that follow haptic devices."""
+
+import numpy as np
+import pytest
+
+import firstcontact as fc
+
+SCENE = {
+    "firstcontact": 1,
+    "bodies": [
+        {"name": "floor", "shape": {"box": {"size": [1, 1, 0.1]}}, "pose": {"position": [0, 0, -0.05]}},
+        {"name": "cube", "shape": {"box": {"size": [0.04, 0.04, 0.04]}}, "pose": {"position": [0, 0, 0.03]}},
+    ],
+    "haptics": {"tools": [{"body": "cube", "clutch_button": 1}], "contact_distance": 1e-5},
+}
+
+
+def press(session, depth, ticks=2000, buttons=()):
+    tick = None
+    for _ in range(ticks):
+        tick = session.step([fc.Pose((0, 0, -depth))], list(buttons))
+    return tick
+
+
+def test_pushes_back_where_a_tool_touches():
+    session = fc.HapticSession(SCENE)
+    assert session.dt == 0.00025
+    tick = press(session, 0.005)
+    assert (tick.forces == 0).all() and tick.faults == [""]
+    tick = press(session, 0.012)
+    assert tick.forces.shape == (1, 3)
+    assert tick.forces[0, 2] == pytest.approx(2.0, rel=0.02)
+    assert session.poses[0].position[2] > 0.02
+    assert tick.targets[0].position[2] == pytest.approx(0.018)
+    assert session.contact_points.shape == (4, 3)
+    assert np.allclose(session.contact_normals, [0, 0, 1])
+    assert (session.contact_gaps >= 1e-5 * (1 - 1e-6)).all()
+
+
+def test_feels_nothing_by_a_lost_device_or_a_clutch():
+    session = fc.HapticSession(SCENE)
+    assert press(session, 0.012).forces[0, 2] > 1
+    tick = session.step([None])
+    assert (tick.forces == 0).all() and tick.faults == ["device"]
+    tick = press(session, 0.012, buttons=[2])
+    assert (tick.forces == 0).all() and tick.faults == ["disengaged"]
+
+
+def test_is_proven_by_its_record(tmp_path):
+    session = fc.HapticSession(SCENE, duration=0.1)
+    lines = [session.header_json]
+    for k in range(400):
+        session.step([fc.Pose((0.1 * np.sin(0.05 * k), 0, -0.06 * np.sin(0.02 * k)))])
+        if session.cycle is not None:
+            lines.append(session.cycle.to_json())
+    record = tmp_path / "run.jsonl"
+    record.write_text("\n".join(lines) + "\n")
+    proof = fc.verify_run(record)
+    assert proof.verdict == "proven"
+    assert proof.steps == 100
+
+
+def test_refuses_what_makes_no_sense():
+    with pytest.raises(ValueError, match="haptics"):
+        fc.HapticSession({key: value for key, value in SCENE.items() if key != "haptics"})
+    inside = {**SCENE, "bodies": [SCENE["bodies"][0], {**SCENE["bodies"][1], "pose": {"position": [0, 0, 0]}}]}
+    with pytest.raises(ValueError, match='"cube" and "floor" meet'):
+        fc.HapticSession(inside)
+    session = fc.HapticSession(SCENE)
+    with pytest.raises(ValueError, match="each tool"):
+        session.step([])
