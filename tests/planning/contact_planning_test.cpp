@@ -167,8 +167,8 @@ TEST(ContactMotion, LeadsToTheMiddleOfANarrowPassage) {
   const Configuration q = placed(Vector3d::Zero(), Eigen::Quaterniond::Identity());
   const ContactMotion motion =
       contact_motion(tangents, finder.near(q, 0.05), VectorXd::Zero(6), 0.02);
-  EXPECT_NEAR(motion.dq[0], 0.002, 1e-5);
-  EXPECT_NEAR(motion.gap, 0.004, 1e-5);
+  EXPECT_NEAR(motion.dq[0], 0.002, 3e-5);  // To the tolerance of the projection.
+  EXPECT_NEAR(motion.gap, 0.004, 3e-5);
 }
 
 TEST(ContactSteering, SlidesAlongAFloor) {
@@ -227,7 +227,7 @@ TEST(NarrowPassages, HaveTwinsThatNothingGetsThrough) {
     const NarrowPassage twin = narrow_passage(family, -1e-5);
     for (const ContactUse use : kUses) {
       const PlanResult result = plan_path(twin.scene, twin.start, {twin.goal},
-                                          {.contacts = use, .time = rounds(100, 20) * 1e-3});
+                                          {.contacts = use, .time = rounds(40, 20) * 1e-3});
       EXPECT_EQ(result.verdict, PlanVerdict::none)
           << family << ' ' << kContactUseWords.at(static_cast<std::size_t>(use));
     }

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
+
+#include <firstcontact/planning/detail/contact_motion.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -20,6 +23,8 @@ constexpr double kGain = 0.02;            // [-]  Of the way of these steps.
 constexpr double kMostTurn = 2.5;         // [rad]  Of one edge.
 constexpr double kRangesOfPush = 20.0;    // [-]  The longest push, in ranges.
 constexpr std::size_t kLongestWait = 16;
+constexpr int kMostCentres = 32;
+constexpr double kSureTurn = 1.0;  // [rad]  After which a screw is known well enough.
 
 }  // namespace
 
@@ -33,6 +38,7 @@ class ContactSteering::Way {
         q_(from),
         step_(kFirstStep * t_.reach()),
         trail_{from},
+        screw_(Eigen::VectorXd::Zero(t_.size())),
         place_before_(from) {
     if (aim_.target != nullptr) {
       before_ = t_.length(t_.difference(q_, *aim_.target));
@@ -42,6 +48,7 @@ class ContactSteering::Way {
   ContactWay run() {
     if (aim_.target == nullptr && centre()) {
       trail_ = {q_};
+      screw_.setZero();
     }
     for (std::size_t k = 0; k < kMostSteps && !s_.work_.is_over(); ++k) {
       const Eigen::VectorXd wanted = wanted_motion();
@@ -81,7 +88,9 @@ class ContactSteering::Way {
   }
 
   void take(Configuration to) {
-    travelled_ += t_.length(t_.difference(q_, to));
+    const Eigen::VectorXd dq = t_.difference(q_, to);
+    travelled_ += t_.length(dq);
+    screw_ += t_.in_body(q_, dq);
     q_ = std::move(to);
     looked_within_ = -1.0;
     way_.places.push_back(q_);
@@ -122,9 +131,11 @@ class ContactSteering::Way {
     if (std::optional<Configuration> near = t_.screwed(q_, dq);
         near && s_.work_.is_free(q_, *near)) {
       take(*std::move(near));
+      is_screw_ = t_.size() == 6;
       step_ = std::min(2.0 * step_, s_.range_);
       return true;
     }
+    is_screw_ = false;
     const EdgeAnswer answer = s_.work_.check(q_, to);
     if (answer.verdict == EdgeVerdict::free) {
       take(std::move(to));
@@ -139,20 +150,44 @@ class ContactSteering::Way {
     return step_ >= least_step();
   }
 
+  /// [m]  The way along a direction behind which the least gap is the greatest, to first order.
+  [[nodiscard]] double middle_along(const Eigen::Vector3d& along, const ContactsAt& at) const {
+    const auto least_gap = [&](double way) {
+      double least = s_.hover_;
+      for (const NearContact& contact : at.contacts) {
+        const double sign = at.members[contact.members[1]].J.cols() > 0 ? 1.0 : -1.0;
+        least = std::min(least, contact.gap + sign * contact.n_AB_W.dot(along) * way);
+      }
+      return least;
+    };
+    double low = -2.0 * s_.hover_;
+    double high = 2.0 * s_.hover_;
+    for (int k = 0; k < 40; ++k) {  // A concave function.
+      const double a = low + (high - low) / 3.0;
+      const double b = high - (high - low) / 3.0;
+      const bool rises = least_gap(a) < least_gap(b);
+      (rises ? low : high) = rises ? a : b;
+    }
+    return 0.5 * (low + high);
+  }
+
   /// Goes to the middle between contacts along one axis of the mover, so that what is repeated
   /// from there is not led astray by the play of a fit.
   bool centre() {
     if (!s_.work_.space().is_body()) {
       return false;
     }
-    const ContactMotion motion = contact_motion(t_, contacts_within(2.0 * s_.hover_),
-                                                Eigen::VectorXd::Zero(t_.size()), s_.hover_);
-    Eigen::VectorXd in_body = t_.in_body(q_, motion.dq);
+    const Eigen::VectorXd turn = screw_.isZero(0.0) ? aim_.in_body : screw_;
     Eigen::Index axis = 0;
-    in_body.head<3>().cwiseAbs().maxCoeff(&axis);
-    const double along = in_body[axis];
-    in_body.setZero();
-    in_body[axis] = along;
+    const bool turns = turn.size() == 6 && !turn.tail<3>().isZero(0.0);
+    if (!turns) {
+      return false;
+    }
+    turn.tail<3>().cwiseAbs().maxCoeff(&axis);
+    Eigen::VectorXd in_body = Eigen::VectorXd::Unit(6, axis);
+    const double along =
+        middle_along(t_.in_world(q_, in_body).head<3>(), contacts_within(2.0 * s_.hover_));
+    in_body *= along;
     if (!(std::abs(along) > 0.1 * least_step())) {
       return false;
     }
@@ -171,15 +206,47 @@ class ContactSteering::Way {
       return;
     }
     bool any = repeat_while_free();
-    if (!any && turns_ && centre()) {
-      any = repeat_while_free();
+    for (int k = 0; k < kMostCentres && is_screw_ && screw_.tail<3>().norm() > kSureTurn; ++k) {
+      (void)centre();
+      if (!repeat_screw()) {
+        break;
+      }
+      any = true;
     }
-    turns_ = any;
     wait_ = any ? 0 : std::min(2 * wait_ + 1, kLongestWait);
     waits_ = wait_;
     if (!any && trail_.size() > 8) {
       trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(trail_.size() / 2));
     }
+  }
+
+  /// Goes on by the screw that all steps since the middle of the contacts make, where they are all
+  /// about one axis.
+  bool repeat_screw() {
+    bool any = false;
+    const double turn = screw_.tail<3>().norm();
+    if (!(turn > 0.0) || !is_screw_) {
+      return false;
+    }
+    Eigen::VectorXd in_body = screw_ * std::min(1.0, kMostTurn / turn);
+    int halvings = 0;
+    while (!s_.work_.is_over() && travelled_ < aim_.most) {
+      const Eigen::VectorXd dq = t_.in_world(q_, in_body);
+      if (!(t_.product(dq, wanted_motion()) > 0.0)) {
+        break;
+      }
+      Configuration to = t_.moved(q_, dq);
+      if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
+        if (any || ++halvings > 4) {
+          break;
+        }
+        in_body *= 0.5;
+        continue;
+      }
+      take(std::move(to));
+      any = true;
+    }
+    return any;
   }
 
   bool repeat_while_free() {
@@ -255,13 +322,14 @@ class ContactSteering::Way {
   Configuration q_;
   double step_;
   std::vector<Configuration> trail_;
+  Eigen::VectorXd screw_;  // The sum of all steps, in axes of the mover.
   ContactWay way_;
   double travelled_ = 0.0;
   bool held_back_ = false;
   ContactsAt at_;
   double looked_within_ = -1.0;  // [m]  Of the contacts; below 0 where there are none yet.
   double free_way_ = 0.0;        // [m]  Since the last contact.
-  bool turns_ = false;           // The trail was repeated the last time.
+  bool is_screw_ = false;        // The last step was one about an axis of it.
   std::size_t wait_ = 0;         // Steps between two tries to repeat the trail.
   std::size_t waits_ = 0;        // Steps that are left until the next try.
   std::size_t looked_at_ = 0;

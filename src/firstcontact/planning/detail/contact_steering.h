@@ -11,7 +11,6 @@
 
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/contact_finder.h>
-#include <firstcontact/planning/detail/contact_motion.h>
 #include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
