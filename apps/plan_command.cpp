@@ -52,6 +52,7 @@ struct Arguments {
   std::optional<double> time;
   std::optional<std::uint64_t> seed;
   std::string planner;
+  std::string contacts;
   std::size_t shortcuts = PlanOptions().shortcuts;
   int threads = 0;
 };
@@ -134,6 +135,11 @@ class Plan {
     if (!arguments_.planner.empty()) {
       const auto found = std::find(kPlannerWords.begin(), kPlannerWords.end(), arguments_.planner);
       options.planner = static_cast<Planner>(found - kPlannerWords.begin());
+    }
+    if (!arguments_.contacts.empty()) {
+      const auto found =
+          std::find(kContactUseWords.begin(), kContactUseWords.end(), arguments_.contacts);
+      options.contacts = static_cast<ContactUse>(found - kContactUseWords.begin());
     }
     options.seed = arguments_.seed.value_or(options.seed);
     options.time = arguments_.time.value_or(options.time);
@@ -245,6 +251,13 @@ class Plan {
     line("planner",
          fmt::format("{}, seed {}", kPlannerWords.at(static_cast<std::size_t>(options.planner)),
                      options.seed));
+    if (options.contacts != ContactUse::none) {
+      line("contacts",
+           fmt::format("{}: {} slides, {} pushes; {} of {} ends in contact, with at most {} active",
+                       kContactUseWords.at(static_cast<std::size_t>(options.contacts)),
+                       counts.contacts.slides, counts.contacts.pushes, counts.contacts.in_contact,
+                       counts.contacts.nodes, counts.contacts.most_active));
+    }
     for (const std::string& warning : scene.loaded.warnings) {
       line("warning", warning);
     }
@@ -304,6 +317,13 @@ void add_plan_command(CLI::App& app, ExitStatus& status) {
       ->add_option("--planner", arguments->planner,
                    "rrt_connect, the default, or lazy_prm_star, which looks for short paths")
       ->check(CLI::IsMember(std::vector<std::string>(kPlannerWords.begin(), kPlannerWords.end())));
+  command
+      ->add_option(
+          "--contacts", arguments->contacts,
+          "Motion in contact where an edge is blocked: none, the default; sample, slide or "
+          "both, for narrow passages (docs/planning.md)")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(kContactUseWords.begin(), kContactUseWords.end())));
   command
       ->add_option("--seed", arguments->seed,
                    "Seed of the random numbers; 1 by default. The same seed finds the same path")

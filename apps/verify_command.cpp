@@ -162,7 +162,7 @@ ExitStatus verify(const ProofArguments& arguments) {
   Progress progress;
   std::ifstream stream(arguments.file, std::ios::binary);
   if (!stream) {
-    throw ParseError(arguments.file, "expected a run, cannot open this one");
+    throw ParseError(arguments.file, "expected a run, a result or a path, cannot open this file");
   }
   progress.doing("verifying");
   ProvableFile kind = ProvableFile::unknown;

@@ -126,6 +126,7 @@ set(supporting_headers
   firstcontact/scene/scene_robot.h
   firstcontact/scene/shape_cache.h
   firstcontact/scene/simulation.h
+  firstcontact/scene/tie.h
   firstcontact/scene/trajectory.h
   firstcontact/retiming/executed_proof.h
   firstcontact/retiming/rate_report.h

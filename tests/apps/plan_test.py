@@ -132,6 +132,26 @@ class Plan(unittest.TestCase):
         path = json.loads(self.plan("scene.json", "--json").stdout)
         self.assertEqual((path["verdict"], path["planner"]["name"]), ("proven", "lazy_prm_star"))
 
+    def test_moves_in_contact(self):
+        for name in ("square_peg", "bug_trap"):
+            question = SOURCE / "examples/scenes" / f"{name}.json"
+            result = self.plan(str(question), "-o", "path.json")
+            self.assertEqual(result.returncode, 0, result)
+            self.assertIn("ends in contact", result.stdout)
+            path = json.loads((self.folder / "path.json").read_text())
+            self.assertEqual(path["planner"]["contacts"], "both")
+            proof = subprocess.run([TOOL, "verify", "path.json"], cwd=self.folder, capture_output=True, text=True,
+                                   check=False)
+            self.assertEqual(proof.returncode, 0, proof)
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
+        (self.folder / "path.json").unlink()
+        self.assert_refused(self.plan("scene.json", "-o", "path.json", "--contacts", "slide"), "contacts",
+                            "rrt_connect")
+        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "contacts": "roll"}))
+        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "contacts", '"slide"')
+        path = json.loads(self.plan("scene.json", "--json", "--contacts", "slide").stdout or "{}")
+        self.assertEqual(path, {})
+
     def test_plans_a_robot_between_states(self):
         self.write("gantry.urdf", URDF)
         self.write("room.json", scene(None, [WALL]))

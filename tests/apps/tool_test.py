@@ -362,7 +362,7 @@ $""")
         self.assertEqual(json.loads(result.stdout)["verdict"], "broken")
 
     def test_refuses_what_is_no_run(self):
-        self.assert_refused(self.run_tool("verify", "gone.jsonl"), "gone.jsonl: expected a run, cannot open this one")
+        self.assert_refused(self.run_tool("verify", "gone.jsonl"), "gone.jsonl: expected a run, a result or a path, cannot open this file")
         self.assert_refused(self.run_tool("verify", self.file("scene.jsonl", scenes.FREE + "\n")),
                             'scene.jsonl:1: expected the header of a run, an object with "firstcontact_run": 1')
         self.steps[1]["lasted"] = None

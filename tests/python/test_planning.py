@@ -60,6 +60,14 @@ def test_plans_in_time_among_what_moves():
         fc.EdgeChecker(fc.load_scene(scene))
 
 
+def test_moves_in_contact():
+    answer = fc.plan(SCENE, contacts="both")
+    assert answer.verdict == "proven"
+    assert json.loads(answer.json)["planner"]["contacts"] == "both"
+    with pytest.raises(ValueError, match="contacts"):
+        fc.plan(SCENE, contacts="roll")
+
+
 def test_has_no_path_where_there_is_none():
     closed = {**SCENE, "bodies": [{"name": "wall", "shape": {"box": {"size": [1e-5, 100, 100]}}}, SCENE["bodies"][1]],
               "plan": {**SCENE["plan"], "box": [[-1, -1, -1], [1, 1, 1]]}}

@@ -419,8 +419,19 @@ def test_motors_are_set_while_it_runs(tmp_path):
         simulator.set_motor(0, "knee", torque=1)
     with pytest.raises(ValueError, match="stiffness is for a position"):
         simulator.set_motor(0, "hinge", torque=1, stiffness=2)
-    with pytest.raises(ValueError, match="is a link; drive its joints with set_motor"):
-        simulator.apply_force("p/rod", (0, 0, 1))
+    simulator.apply_force("p/rod", (0, 0, 1))
+
+
+def test_steps_tell_the_forces_of_ties():
+    ball = {"name": "ball", "shape": {"sphere": {"radius": 0.1}},
+            "pose": {"position": [0, 0, -1]}, "dynamics": {"mass": 2}}
+    scene = {"firstcontact": 1, "bodies": [ball], "simulation": {"step": 0.01, "ties": [
+        {"type": "cable", "bodies": [None, "ball"], "points": [[0, 0, 0], [0, 0, 0]]}]}}
+    simulator = fc.Simulator(scene)
+    for _ in range(5):
+        step = simulator.step()
+    assert step.ties.forces == pytest.approx(np.array([[0, 0, 2 * 9.81]]), abs=1e-6)
+    assert step.ties.torques == pytest.approx(np.zeros((1, 3)))
 
 
 def test_steps_tell_what_motors_apply(tmp_path):

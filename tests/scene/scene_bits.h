@@ -255,6 +255,17 @@ class SceneBits {
       add(pair.bodies);
       add(pair.surface);
     }
+    for (const Tie& tie : simulation.ties) {
+      add(static_cast<double>(tie.type));
+      for (std::size_t s = 0; s < 2; ++s) {
+        add(tie.bodies[s] ? static_cast<double>(*tie.bodies[s]) : -1.0);
+        add(tie.points[s]);
+      }
+      add(tie.length);
+      add(tie.stiffness);
+      add(tie.damping);
+      add(tie.axis);
+    }
   }
 
   void add(const Trajectory& trajectory) {

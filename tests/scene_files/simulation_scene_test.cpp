@@ -91,6 +91,28 @@ TEST(SimulationScene, TakesEveryKey) {
   EXPECT_EQ(simulation.pairs[1].surface.restitution, std::nullopt);
 }
 
+TEST(SimulationScene, TakesTiesOfEveryType) {
+  const Scene scene = read_scene(std::filesystem::path(FIRSTCONTACT_SOURCE_DIR) /
+                                 "tests/fuzz/corpus/fuzz_scene/good/ties.json");
+  const std::vector<Tie>& ties = scene.simulation.value().ties;
+  ASSERT_EQ(ties.size(), 7u);
+  EXPECT_EQ(ties[0].type, TieType::spring);
+  EXPECT_EQ(ties[0].bodies[0], std::nullopt);
+  EXPECT_EQ(ties[0].bodies[1], 0u);
+  EXPECT_EQ(ties[0].points[1], Eigen::Vector3d(0, 0, 0.5));
+  EXPECT_EQ(ties[0].length, 1.5);
+  EXPECT_EQ(ties[0].stiffness, 200.0);
+  EXPECT_EQ(ties[0].damping, 2.0);
+  EXPECT_EQ(ties[1].stiffness, std::nullopt);
+  EXPECT_EQ(ties[3].type, TieType::cable);
+  EXPECT_EQ(ties[3].length, std::nullopt);
+  EXPECT_EQ(ties[4].type, TieType::hinge);
+  EXPECT_EQ(ties[4].axis, Eigen::Vector3d(1, 0, 1));
+  EXPECT_EQ(ties[4].points[1], std::nullopt);
+  EXPECT_EQ(ties[5].type, TieType::pin);
+  EXPECT_EQ(ties[6].type, TieType::weld);
+}
+
 TEST(SimulationScene, IsThereWhereABodyIsFree) {
   EXPECT_FALSE(parse_scene(scene(body("a")), "s").simulation);
   const Scene free = parse_scene(free_body(""), "s");

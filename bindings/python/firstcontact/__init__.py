@@ -39,7 +39,7 @@ from ._run import Run, read_run
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RobotGroup,
-                      RobotSemantics, RunContacts, RunImpacts, RunMoment, RunVerification)
+                      RobotSemantics, RunContacts, RunImpacts, RunMoment, RunTies, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
                      JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
 
@@ -52,7 +52,7 @@ __all__ = [
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PlanAnswer", "PlanningRequest", "PointReading", "Pose",
     "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
-    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunVerdict", "RunVerification", "Scene",
+    "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
     "__version__", "answer_each_pair", "check", "check_many", "closest_approach", "convex_hull",

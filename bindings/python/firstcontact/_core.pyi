@@ -8,7 +8,7 @@ import numpy.typing as npt
 from ._reports import FileReport, MeshReading, PairCounts, PointReading
 from ._trajectory import Columns
 from ._tuples import (ContactInterval, EdgeAnswers, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RobotSemantics, RunContacts, RunImpacts,
+                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RobotSemantics, RunContacts, RunImpacts, RunTies,
                       RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      Turning, UndecidedReason, Verdict)
@@ -681,6 +681,8 @@ class RunStep:
     def contacts(self) -> RunContacts: ...
     @property
     def impacts(self) -> RunImpacts: ...
+    @property
+    def ties(self) -> RunTies: ...
     def pieces(self, body: int) -> _Doubles: ...
     def to_json(self) -> str: ...
 
@@ -819,8 +821,9 @@ class EdgeChecker:
     def check(self, start: _Numbers, end: _Numbers, *, threads: int = ...) -> EdgeAnswers: ...
     def clearance(self, places: _Numbers) -> _Doubles: ...
 
-def plan(scene: Scene, *, planner: str | None, seed: int | None, time: float | None, shortcuts: int,
-         approximate: bool, threads: int, stop: StopSource | None) -> PlanAnswer: ...
+def plan(scene: Scene, *, planner: str | None, contacts: str | None, seed: int | None,
+         time: float | None, shortcuts: int, approximate: bool, threads: int,
+         stop: StopSource | None) -> PlanAnswer: ...
 
 def verify_run(path: _Path, *, scripted_tolerance: float = ..., work: int = ..., threads: int = ...,
                progress: Callable[[float], object] | None = ...,

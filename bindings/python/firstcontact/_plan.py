@@ -6,23 +6,24 @@ from ._core import plan as _plan
 from ._tuples import PlanAnswer
 
 
-def plan(scene: SceneLike, *, planner: str | None = None, seed: int | None = None,
-         time: float | None = None, shortcuts: int = 100, approximate: bool = False,
-         threads: int = 0, stop: StopSource | None = None) -> PlanAnswer:
+def plan(scene: SceneLike, *, planner: str | None = None, contacts: str | None = None,
+         seed: int | None = None, time: float | None = None, shortcuts: int = 100,
+         approximate: bool = False, threads: int = 0, stop: StopSource | None = None) -> PlanAnswer:
     """Plans a path of a robot or body to a goal and proves it edge by edge.
 
     The same path as the tool's ``firstcontact plan``. scene: with ``"plan"``: what moves, from
-    where, to where. planner: ``rrt_connect`` or ``lazy_prm_star``; seed: of the random numbers;
-    time: [s] at most: in place of the scene's. shortcuts: tries to shorten the path. approximate:
-    without a path, one that ends as near to a goal as was reached. threads: at most, of the proof;
-    0 for one on each core; the path does not depend on it. stop: ends the search with the best path
-    so far. Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.
+    where, to where. planner: ``rrt_connect`` or ``lazy_prm_star``; contacts: motion in contact of
+    ``rrt_connect`` where an edge is blocked: ``none``, ``sample``, ``slide`` or ``both``; seed: of
+    the random numbers; time: [s] at most: in place of the scene's. shortcuts: tries to shorten the
+    path. approximate: without a path, one that ends as near to a goal as was reached. threads: at
+    most, of the proof; 0 for one on each core; the path does not depend on it. stop: ends the search
+    with the best path so far. Other threads run meanwhile. Ctrl-C raises KeyboardInterrupt.
 
     ValueError where a start or all goals are not free, with the pair, its depth and the nearest free
     place that was found.
     """
-    return _plan(load_scene(scene), planner=planner, seed=seed, time=time, shortcuts=shortcuts,
-                 approximate=approximate, threads=threads, stop=stop)
+    return _plan(load_scene(scene), planner=planner, contacts=contacts, seed=seed, time=time,
+                 shortcuts=shortcuts, approximate=approximate, threads=threads, stop=stop)
 
 
 __all__ = ["EdgeChecker", "plan"]

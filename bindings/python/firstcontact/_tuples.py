@@ -213,6 +213,18 @@ class RunImpacts(NamedTuple):
     """[N s]  m×3, on the second body."""
 
 
+class RunTies(NamedTuple):
+    """The mean forces of the m ties of a scene over a step of a simulation, one a row.
+
+    Impacts are not among them.
+    """
+
+    forces: npt.NDArray[np.float64]
+    """[N]  m×3, on the second body of each."""
+    torques: npt.NDArray[np.float64]
+    """[N m]  m×3, likewise; those of springs, cables and pins are 0."""
+
+
 class EdgeAnswers(NamedTuple):
     """The answers about edges, in their order."""
 

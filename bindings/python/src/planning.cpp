@@ -148,7 +148,17 @@ std::vector<std::string> joint_names_of(const HeldEdges& edges) {
   return names;
 }
 
+ContactUse contact_use_from(const std::string& word) {
+  const auto found = std::find(kContactUseWords.begin(), kContactUseWords.end(), word);
+  if (found == kContactUseWords.end()) {
+    throw py::value_error("contacts: expected \"none\", \"sample\", \"slide\" or \"both\", got \"" +
+                          word + "\"");
+  }
+  return static_cast<ContactUse>(found - kContactUseWords.begin());
+}
+
 py::object plan(const HeldScene& scene, const std::optional<std::string>& planner,
+                const std::optional<std::string>& contacts,
                 const std::optional<std::uint64_t>& seed, const std::optional<double>& time,
                 std::size_t shortcuts, bool approximate, int threads,
                 OrNone<std::stop_source> stop) {
@@ -162,6 +172,7 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
     }
     options.planner = static_cast<Planner>(found - kPlannerWords.begin());
   }
+  options.contacts = contacts ? contact_use_from(*contacts) : options.contacts;
   options.seed = seed.value_or(options.seed);
   options.time = time.value_or(options.time);
   options.shortcuts = shortcuts;
@@ -232,9 +243,9 @@ threads: at most; 0 for one on each core. Other threads of Python run meanwhile.
           R"([m] A proven lower bound of the distance of all tested pairs at each place, n×d numbers.
 
 0 where a place is not free; NaN where no pair is tested.)");
-  m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("seed"),
-        py::arg("time"), py::arg("shortcuts"), py::arg("approximate"), py::arg("threads"),
-        py::arg("stop"));
+  m.def("plan", &plan, py::arg("scene"), py::kw_only(), py::arg("planner"), py::arg("contacts"),
+        py::arg("seed"), py::arg("time"), py::arg("shortcuts"), py::arg("approximate"),
+        py::arg("threads"), py::arg("stop"));
 }
 
 }  // namespace firstcontact::python

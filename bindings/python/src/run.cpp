@@ -135,6 +135,11 @@ py::object impacts(const RunStep& step) {
                           rows(step.impacts, &RunImpact::impulse));
 }
 
+py::object ties(const RunStep& step) {
+  return py::module_::import("firstcontact._tuples")
+      .attr("RunTies")(rows(step.ties, &RunTie::force), rows(step.ties, &RunTie::torque));
+}
+
 py::object contacts(const RunStep& step) {
   std::vector<double> distances;
   py::list features;
@@ -215,6 +220,7 @@ rows of positions, quaternions_wxyz, linear_velocities and angular_velocities ar
           "[N m or N] Of the motors along each of the robots' velocities, the mean over the step; "
           "0 where there is none.")
       .def_property_readonly("contacts", &contacts, "What acted at the end, as RunContacts.")
+      .def_property_readonly("ties", &ties, "The forces of springs, cables and joints, as RunTies.")
       .def_property_readonly("impacts", &impacts,
                              "What impacts within the step did, as RunImpacts.")
       .def("pieces", &pieces, py::arg("body"),

@@ -75,12 +75,33 @@ struct JointDrive {
   double guess = 0.0;                                         ///< [N m s or N s]  To start from.
 };
 
+/// The part of one body in a tie: its velocity (v, w) adds `row` times itself to that of the tie.
+struct TieSide {
+  std::size_t body = 0;
+  Eigen::Matrix<double, 6, 1> row = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// A spring, a cable or one direction of a joint between two bodies.
+///
+/// Its velocity u is the sum of what its sides add, and its impulse r changes the momenta of a side
+/// by row r. The law is that of JointDrive: u + compliance r = target, as far as the bounds of r
+/// let it. A body that is held by the world has one side alone.
+struct TieRow {
+  std::vector<TieSide> sides = {};  ///< One or two, of different bodies.
+  double target = 0.0;              ///< [m/s or rad/s]
+  double compliance = 0.0;          ///< [m/s for N s, or rad/s for N m s]  >= 0
+  double least = -std::numeric_limits<double>::infinity();    ///< [N s or N m s]
+  double greatest = std::numeric_limits<double>::infinity();  ///< [N s or N m s]  >= least
+  double guess = 0.0;                                         ///< [N s or N m s]  To start from.
+};
+
 /// Bodies with the velocities that they would have without contacts, and the contacts.
 struct ContactProblem {
   std::vector<ContactBody> bodies = {};
   std::vector<ContactPoint> contacts = {};
   std::vector<ContactMechanism> mechanisms = {};
   std::vector<JointDrive> drives = {};
+  std::vector<TieRow> ties = {};
 };
 
 /// The space in which the problem is solved; the answer is the same.
@@ -111,6 +132,7 @@ struct ContactSolution {
       {};                                      ///< [rad/s or m/s]  Likewise, of their coordinates.
   std::vector<Eigen::Vector3d> impulses = {};  ///< [N s]  r of each contact, in its frame.
   std::vector<double> drives = {};             ///< [N m s or N s]  r of each drive.
+  std::vector<double> ties = {};               ///< [N s or N m s]  r of each tie.
   double residual = 0.0;  ///< [m/s]  See contact_residual(); above `allowed`: not converged.
   double allowed = 0.0;   ///< [m/s]  What the options let a residual be, `of_hits` and `enough`
                           ///< included.
@@ -129,8 +151,8 @@ struct ContactSolution {
 /// not 0, it is on the side. Here u_t is the tangential velocity minus `sticking_velocity`. All
 /// contacts count at once: impacts are simultaneous.
 ///
-/// Drives are projected along with the contacts: their impulses lie between their bounds, and the
-/// energy of their compliances adds to what is least.
+/// Drives and ties are projected along with the contacts: their impulses lie between their bounds,
+/// and the energy of their compliances adds to what is least.
 ///
 /// The velocities are unique without friction, the impulses only without redundant contacts.
 ///
@@ -146,12 +168,12 @@ struct ContactSolution {
 /// whose minimum gives the next r (method of multipliers). There is one equation for each degree of
 /// freedom, however many contacts there are, and no loss where masses differ greatly.
 ///
-/// Choice: from 120 contacts on (300 where there are two for each velocity), without drives, an
-/// interior point comes before the augmented Lagrangian, in rounds. Each round solves the convex
-/// problem in which |u_t| is what the round before left, and sweeps all contacts. Where a part is
-/// enough, the automatic choice takes what its rounds leave. Where there are 300 contacts and two
-/// for each velocity, it first solves a few alone, with all drives. The contacts that the answer
-/// closes fastest join them, until none is left or these are no longer few.
+/// Choice: from 120 contacts on (300 where there are two for each velocity), without drives and
+/// ties, an interior point comes before the augmented Lagrangian, in rounds. Each round solves the
+/// convex problem in which |u_t| is what the round before left, and sweeps all contacts. Where a
+/// part is enough, the automatic choice takes what its rounds leave. Where there are 300 contacts
+/// and two for each velocity, it first solves a few alone, with all drives. The contacts that the
+/// answer closes fastest join them, until none is left or these are no longer few.
 ///
 /// @throws std::invalid_argument if an option is outside its range.
 [[nodiscard]] FIRSTCONTACT_API ContactSolution
@@ -161,8 +183,8 @@ project_on_contacts(const ContactProblem& problem, const ProjectionOptions& opti
 ///
 /// It is the greatest over contacts of |r - proj_K(r - rho (u' + mu |u_t| n))| / rho.
 /// There rho is the inverse of the contact's greatest response to an impulse (the largest of the
-/// diagonal), and u' = u - (least_normal_velocity, sticking_velocity). Drives count in the same
-/// way, with the interval of their bounds as K. It is 0 exactly where all laws hold.
+/// diagonal), and u' = u - (least_normal_velocity, sticking_velocity). Drives and ties count in the
+/// same way, with the interval of their bounds as K. It is 0 exactly where all laws hold.
 [[nodiscard]] FIRSTCONTACT_API double contact_residual(const ContactProblem& problem,
                                                        const ContactSolution& solution);
 

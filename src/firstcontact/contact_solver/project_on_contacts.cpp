@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,9 @@ Impulses guesses(const ContactProblem& problem, const ContactRows& rows) {
   for (const JointDrive& drive : problem.drives) {
     impulses.drives.push_back(std::clamp(drive.guess, drive.least, drive.greatest));
   }
+  for (const TieRow& tie : problem.ties) {
+    impulses.drives.push_back(std::clamp(tie.guess, tie.least, tie.greatest));
+  }
   return impulses;
 }
 
@@ -77,7 +81,13 @@ double dual_objective(const ContactRows& rows, const Projection& projection) {
 Projection start(const ContactProblem& problem, const ContactRows& rows, double tolerance) {
   Projection none{.velocities = rows.free_velocities};
   none.impulses.contacts.assign(rows.contacts.size(), Eigen::Vector3d::Zero());
-  none.impulses.drives.assign(rows.drives.size(), 0.0);
+  for (const detail::DriveRow& row : rows.drives) {  // Those of a tie may not be 0.
+    none.impulses.drives.push_back(row.tie.empty() ? 0.0
+                                                   : std::clamp(0.0, row.least, row.greatest));
+  }
+  if (!problem.ties.empty()) {
+    none.velocities = detail::velocities_after(rows, none.impulses);
+  }
   none.residual = detail::greatest_residual(rows, none.impulses, none.velocities);
   Projection guessed{.impulses = guesses(problem, rows)};
   guessed.velocities = detail::velocities_after(rows, guessed.impulses);
@@ -135,10 +145,11 @@ class Solver {
     are_redundant_ = 6 * contacts >= detail::kManyContactsOfBody * moving;
     are_many_redundant_ = is_automatic_ && are_redundant_ && contacts >= detail::kManyRedundant;
     has_interior_ =
-        is_small_ && problem.drives.empty() &&
+        is_small_ && !has_drives() &&
         contacts >= (are_redundant_ ? detail::kManyRedundant : detail::kManyForInteriorPoint);
-    // Along a chain of links impulses would have to travel from joint to joint.
-    has_many_ = !problem.mechanisms.empty() || has_interior_ || are_redundant_;
+    // Along a chain of links or ties impulses would have to travel from joint to joint.
+    has_many_ =
+        !problem.mechanisms.empty() || !problem.ties.empty() || has_interior_ || are_redundant_;
   }
 
   ContactSolution solve() {
@@ -160,6 +171,10 @@ class Solver {
   }
 
  private:
+  [[nodiscard]] bool has_drives() const {
+    return !problem_.drives.empty() || !problem_.ties.empty();
+  }
+
   [[nodiscard]] bool is_solved(const Projection& projection) const {
     return projection.residual <= options_.tolerance;
   }
@@ -224,7 +239,7 @@ class Solver {
   ContactSolution by_multipliers() {
     const Projection before = projection_;
     detail::project_by_augmented_lagrangian(problem_, rows_, options_, projection_);
-    if (!is_solved(projection_) && is_automatic_ && !has_interior_ && problem_.drives.empty() &&
+    if (!is_solved(projection_) && is_automatic_ && !has_interior_ && !has_drives() &&
         are_unequal(problem_)) {
       by_interior_point_after_all();
     }
@@ -269,6 +284,7 @@ ContactSolution project_on_contacts(const ContactProblem& problem,
 double contact_residual(const ContactProblem& problem, const ContactSolution& solution) {
   const ContactRows rows(problem);
   Impulses impulses{.contacts = {}, .drives = solution.drives};
+  std::ranges::copy(solution.ties, std::back_inserter(impulses.drives));
   for (std::size_t k = 0; k < rows.contacts.size(); ++k) {
     impulses.contacts.emplace_back(rows.contacts[k].own.turn() * solution.impulses[k]);
   }

@@ -87,6 +87,7 @@ std::string RunPage::header_json(const Scene& linked) const {
   header.scene = linked;
   header.scene.simulation = header_.scene.simulation;
   header.scene.simulation->pairs = linked.simulation->pairs;
+  header.scene.simulation->ties = linked.simulation->ties;
   for (std::size_t b = header_.scene.bodies.size(); b < header.scene.bodies.size(); ++b) {
     header.scene.bodies[b].shape.source = Mesh{};
   }

@@ -173,9 +173,20 @@ std::optional<std::string> ConfigurationSpace::defect(const Configuration& q) co
   return std::nullopt;
 }
 
-bool ConfigurationSpace::is_in_box(const Configuration& q) const {
-  const Eigen::Array3d place = is_body_ ? Eigen::Array3d(q[0], q[1], q[2]) : low_.array();
-  return (low_.array() <= place).all() && (place <= high_.array()).all();
+bool ConfigurationSpace::is_in_box(const Configuration& q) const { return !is_body_ || holds(q); }
+
+bool ConfigurationSpace::holds(const Configuration& q) const {
+  if (is_body_) {
+    const Eigen::Vector3d place(q[0], q[1], q[2]);
+    return (place.array() >= low_.array()).all() && (place.array() <= high_.array()).all();
+  }
+  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
+    if (coordinates_[k].has_limits &&
+        !(q[k] >= coordinates_[k].lower && q[k] <= coordinates_[k].upper)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 double ConfigurationSpace::distance(const Configuration& from, const Configuration& to) const {

@@ -80,6 +80,9 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// where it is one. Beyond a limit by no more than 1e-9 is within it.
   [[nodiscard]] std::optional<std::string> defect(const Configuration& q) const;
 
+  /// Whether a place is where samples lie: a body in its box, joints with limits within these.
+  [[nodiscard]] bool holds(const Configuration& q) const;
+
   /// The length of an edge.
   ///
   /// That of joints is Euclid's [rad and m alike]. That of a body is the way of its origin plus its

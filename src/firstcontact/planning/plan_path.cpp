@@ -27,6 +27,8 @@ using detail::PlanWork;
 
 constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
 constexpr int kSamplesOfRange = 64;
+constexpr std::uint64_t kLessEffort = 20;
+constexpr int kWiderMargins = 12;  // Each twice as wide as the one before.
 
 void require_plan(bool condition, const std::string& what) {
   if (!condition) {
@@ -39,6 +41,8 @@ void require_plan_options(const PlanOptions& options) {
                "the time must be finite and > 0 s, got " + std::to_string(options.time));
   require_plan(options.range >= 0.0 && std::isfinite(options.range),
                "the range must be finite and >= 0");
+  require_plan(options.contacts == ContactUse::none || options.planner == Planner::rrt_connect,
+               "contacts: only rrt_connect moves in contact; lazy_prm_star takes \"none\"");
 }
 
 void require_places(const ConfigurationSpace& space, const Configuration& start,
@@ -70,6 +74,13 @@ double default_range(const ConfigurationSpace& space) {
   return kShareOfRange * sum / kSamplesOfRange;
 }
 
+/// In contact an edge is soon tried again, and its proven part is kept: there less effort is more.
+std::uint64_t effort_of_search(const PlanOptions& options) {
+  return options.contacts == ContactUse::none
+             ? options.effort
+             : std::max<std::uint64_t>(options.effort / kLessEffort, 1);
+}
+
 /// One question, from the start to the proof.
 class PlanSearch {
  public:
@@ -81,7 +92,7 @@ class PlanSearch {
                           std::chrono::duration<double>(std::min(options.time, 1e9)))),
         checker_(scene, {.tolerance = options.tolerance,
                          .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
-                         .effort = options.effort,
+                         .effort = effort_of_search(options),
                          .stop = options.stop}),
         work_(checker_, options_, begin_, end_) {}
 
@@ -160,6 +171,33 @@ class PlanSearch {
     return detail::rrt_connect(work_, start, goals_, range, random);
   }
 
+  /// Proves an edge, with a clearance that is near the least distance where the effort is enough
+  /// for that.
+  ///
+  /// Where surfaces are close to each other over much of themselves, as threads are, the least
+  /// distance costs far more than the proof. A bound by wider and wider margins does without it.
+  [[nodiscard]] EdgeAnswer proof_of(const EdgeChecker& fresh, const Configuration& from,
+                                    const Configuration& to) const {
+    const EdgeAnswer close = fresh.check_closely(from, to);
+    if (close.verdict != EdgeVerdict::undecided) {
+      return close;
+    }
+    EdgeAnswer best = fresh.check(from, to);
+    double extra = options_.extra_clearance + options_.tolerance;
+    for (int k = 0; k < kWiderMargins && best.verdict == EdgeVerdict::free; ++k) {
+      extra *= 2.0;
+      const EdgeChecker wider(
+          scene_,
+          {.tolerance = options_.tolerance, .extra_clearance = extra, .effort = options_.effort});
+      const EdgeAnswer more = wider.check(from, to);
+      if (more.verdict != EdgeVerdict::free) {
+        break;
+      }
+      best.clearance = more.clearance;
+    }
+    return best;
+  }
+
   /// Proves the edges anew, by a checker that has not seen them.
   void prove(FoundPath found, const std::vector<Configuration>& goals, PlanResult& result) const {
     const EdgeChecker fresh(scene_, {.tolerance = options_.tolerance,
@@ -169,7 +207,7 @@ class PlanSearch {
     const std::size_t edges = std::max<std::size_t>(path.size() - 1, 1);
     std::vector<EdgeAnswer> answers(edges);
     parallel_for(options_.threads, edges, [&](std::size_t k) {
-      answers[k] = fresh.check_closely(path[k], path[std::min(k + 1, path.size() - 1)]);
+      answers[k] = proof_of(fresh, path[k], path[std::min(k + 1, path.size() - 1)]);
     });
     for (const EdgeAnswer& answer : answers) {
       if (answer.verdict != EdgeVerdict::free) {

@@ -30,6 +30,7 @@ struct PlanProgress {
 
 struct PlanOptions {
   Planner planner = Planner::rrt_connect;
+  ContactUse contacts = ContactUse::none;  ///< Of RRT-Connect; others take `none` only.
   std::uint64_t seed = 1;
   double time = 10.0;              ///< [s]  Wall clock; > 0.
   double tolerance = 1e-6;         ///< [m]  See EdgeCheckOptions.
@@ -51,6 +52,16 @@ struct BlockingPair {
   std::size_t count = 0;
 };
 
+/// The work of a planner in contact; all 0 where it was not to.
+struct ContactStatistics {
+  std::size_t slides = 0;      ///< Ways along contacts towards a target.
+  std::size_t pushes = 0;      ///< Ways along contacts in a random direction.
+  std::size_t nodes = 0;       ///< Places of trees that they ended at.
+  std::size_t in_contact = 0;  ///< Of these: no farther from contact than the gap that is kept.
+  std::size_t active = 0;      ///< Contacts that held the last steps back, of all of these.
+  std::size_t most_active = 0;
+};
+
 struct PlanStatistics {
   double seconds = 0.0;
   std::optional<double> first_path_seconds = {};
@@ -61,6 +72,7 @@ struct PlanStatistics {
   std::size_t undecided = 0;               ///< Edges that cost too much: taken as blocked.
   std::optional<double> first_cost = {};   ///< Before the shortcuts.
   std::vector<BlockingPair> blocked = {};  ///< The most frequent first.
+  ContactStatistics contacts = {};
 };
 
 enum class PlanVerdict {

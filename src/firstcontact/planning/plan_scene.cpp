@@ -414,6 +414,7 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
                                   : plan_of_body(std::move(loaded), question);
   const PlanOptions defaults;
   made.options.planner = question.planner.value_or(defaults.planner);
+  made.options.contacts = question.contacts.value_or(defaults.contacts);
   made.options.seed = question.seed.value_or(defaults.seed);
   made.options.time = question.time.value_or(defaults.time);
   made.options.tolerance = made.loaded.scene.options.tolerance;
@@ -472,6 +473,7 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   path.distance_to_goal = result.distance_to_goal;
   path.cost = result.cost;
   path.planner = options.planner;
+  path.contacts = options.contacts;
   path.seed = options.seed;
   path.time = options.time;
   const PlanStatistics& counts = result.statistics;

@@ -279,6 +279,28 @@ RunImpact read_impact(const json& value, std::size_t bodies, const Line& line) {
           .impulse = line.vector3(value["impulse"])};
 }
 
+RunTie read_tie(const json& value, const Line& line) {
+  line.require_keys(value, {"force"}, {"torque"});
+  RunTie tie{.force = line.vector3(value["force"])};
+  if (value.contains("torque")) {
+    tie.torque = line.vector3(value["torque"]);
+  }
+  return tie;
+}
+
+std::vector<RunTie> read_ties(const json& root, std::size_t count, const Line& line) {
+  std::vector<RunTie> ties;
+  if (root.contains("ties")) {
+    for (const json& tie : line.array(root["ties"])) {
+      ties.push_back(read_tie(tie, line));
+    }
+  }
+  if (ties.size() != count) {
+    line.fail(root, std::to_string(count) + " \"ties\", as many as the scene's");
+  }
+  return ties;
+}
+
 std::vector<RunBody> read_bodies(const json& array, std::size_t bodies, double lasted,
                                  const Line& line) {
   std::vector<RunBody> result;
@@ -317,13 +339,13 @@ std::vector<RunRobot> read_robots(const json& array, std::size_t robots, const L
   return result;
 }
 
-RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
+RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots, std::size_t ties) {
   const json& root = line.root();
   line.require_keys(
       root,
       {"step", "time", "lasted", "time_lost", "bodies", "contacts", "clearance", "kinetic_energy",
        "potential_energy", "linear_momentum", "angular_momentum", "residual", "events"},
-      {"robots", "impacts"});
+      {"robots", "impacts", "ties"});
   RunStep step;
   step.index = line.index(root["step"], kAnyCount);
   step.time = line.not_negative(root["time"]);
@@ -341,6 +363,7 @@ RunStep read_step(const Line& line, std::size_t bodies, std::size_t robots) {
       step.impacts.push_back(read_impact(impact, bodies, line));
     }
   }
+  step.ties = read_ties(root, ties, line);
   step.clearance = root["clearance"].is_null() ? std::numeric_limits<double>::infinity()
                                                : line.not_negative(root["clearance"]);
   step.kinetic_energy = line.number(root["kinetic_energy"]);
@@ -370,7 +393,8 @@ std::optional<RunStep> RunReader::next() {
     return std::nullopt;
   }
   const Line line(*text, path_, line_);
-  RunStep step = read_step(line, bodies_, header_.scene.robots.size());
+  RunStep step = read_step(line, bodies_, header_.scene.robots.size(),
+                           header_.scene.simulation ? header_.scene.simulation->ties.size() : 0);
   if (step.index != steps_ + 1) {
     line.fail(line.root()["step"], std::to_string(steps_ + 1) + ", the steps in order");
   }

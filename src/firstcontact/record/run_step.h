@@ -67,6 +67,12 @@ struct RunImpact {
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On the second body.
 };
 
+/// The force of a tie of the simulation: the mean over a step, without its impacts.
+struct RunTie {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]  On the second body, at its point.
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]  Likewise, of a hinge or a weld.
+};
+
 struct RunStep {
   std::size_t index = 0;          ///< From 1.
   double time = 0.0;              ///< [s]  Simulated until here; the sum of what the steps lasted.
@@ -75,7 +81,8 @@ struct RunStep {
   double clearance = 0.0;         ///< [m]  Proven: no pair came closer in this step; > 0, infinite
                                   ///< where there is no pair.
   double kinetic_energy = 0.0;    ///< [J]  Of the free bodies and robots.
-  double potential_energy = 0.0;  ///< [J]  In the field of gravity; 0 at the world's origin.
+  double potential_energy = 0.0;  ///< [J]  In the field of gravity, 0 at the world's origin; and of
+                                  ///< springs and cables.
   Eigen::Vector3d linear_momentum = Eigen::Vector3d::Zero();   ///< [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
   double residual = 0.0;   ///< [m/s]  The greatest of the step's contact problems.
@@ -84,6 +91,7 @@ struct RunStep {
   std::vector<RunRobot> robots = {};  ///< That forces move, in order.
   std::vector<RunContact> contacts = {};
   std::vector<RunImpact> impacts = {};  ///< In the order of time.
+  std::vector<RunTie> ties = {};        ///< In the order of the scene's.
 };
 
 }  // namespace firstcontact

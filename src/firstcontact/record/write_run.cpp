@@ -141,6 +141,14 @@ class StepText {
       field("impulse", contact.impulse);
     });
   }
+  void add(const RunTie& tie) {
+    object([&] {
+      field("force", tie.force);
+      if (tie.torque.any()) {
+        field("torque", tie.torque);
+      }
+    });
+  }
   void add(const RunImpact& impact) {
     object([&] {
       field("at", impact.at);
@@ -248,6 +256,9 @@ std::string write_run_step(const RunStep& step) {
     }
     if (!step.impacts.empty()) {
       text.field("impacts", step.impacts);
+    }
+    if (!step.ties.empty()) {
+      text.field("ties", step.ties);
     }
   });
   return text.take() + "\n";

@@ -216,9 +216,38 @@ class Links {
         scene_.simulation->pairs.push_back({bodies, pair.surface});
       });
     }
+    for (Tie& tie : scene_.simulation->ties) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        take_end(s, tie);
+      }
+    }
     for (std::size_t r = 0; r < given.robots.size(); ++r) {
       ignore_within(r, ignore);
       take_padding(r);
+    }
+  }
+
+  /// Ties the first geometry of a link in place of the link.
+  void take_end(std::size_t side, Tie& tie) const {
+    if (!tie.bodies[side] || *tie.bodies[side] < given_.scene.bodies.size()) {
+      return;
+    }
+    const std::size_t member = *tie.bodies[side];
+    if (bodies_of_[member].empty()) {
+      throw std::invalid_argument("simulation.ties: link " +
+                                  detail::in_quotes(member_name(given_.scene, member)) +
+                                  " has no geometry, and cannot be tied; give it a <collision>, of "
+                                  "pairs that are ignored");
+    }
+    const std::size_t body = bodies_of_[member].front();
+    const Pose& X_LG = geometries_[body - given_.scene.bodies.size()].X_LG;
+    const Eigen::Quaterniond R_GL = X_LG.rotation.normalized().conjugate();
+    tie.bodies[side] = body;
+    if (tie.points[side]) {
+      tie.points[side] = R_GL * (*tie.points[side] - X_LG.position);
+    }
+    if (side == 0) {
+      tie.axis = R_GL * tie.axis;
     }
   }
 

@@ -44,6 +44,18 @@ struct LinkGoal {
   double rotation_tolerance = 1e-6;  ///< [rad]  > 0; pi or more: any rotation will do.
 };
 
+/// The answer of RRT-Connect to a blocked edge: S. Redon, M. Lin, "Practical local planning in
+/// the contact space", ICRA 2005.
+enum class ContactUse {
+  none,    ///< It keeps the free part of the edge.
+  sample,  ///< The place of the contact becomes a place of the tree.
+  slide,   ///< It goes on along the contacts.
+  both,    ///< It slides, and moves from places in contact in random directions.
+};
+
+/// Its words in files and in Python, in this order.
+inline constexpr std::array<const char*, 4> kContactUseWords{"none", "sample", "slide", "both"};
+
 /// A path that is asked for, of a robot or of a body of the scene.
 struct PlanQuestion {
   std::optional<std::size_t> robot = {};  ///< Of the scene; or a body.
@@ -64,6 +76,7 @@ struct PlanQuestion {
   std::optional<std::array<Eigen::Vector3d, 2>> box = {};
   std::optional<double> margin = {};  ///< [m]  In place of the scene's; >= 0.
   std::optional<Planner> planner = {};
+  std::optional<ContactUse> contacts = {};
   std::optional<std::uint64_t> seed = {};
   std::optional<double> time = {};  ///< [s]  > 0.
 };

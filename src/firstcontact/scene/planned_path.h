@@ -58,6 +58,7 @@ struct PlannedPath {
   double distance_to_goal = 0.0;
   double cost = 0.0;
   Planner planner = Planner::rrt_connect;
+  ContactUse contacts = ContactUse::none;
   std::uint64_t seed = 1;
   double time = 1.0;  ///< [s]
   PlannedPathStatistics statistics = {};

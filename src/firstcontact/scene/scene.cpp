@@ -53,6 +53,11 @@ void add_body(Scene& scene, Body body) {
     for (PairSurface& pair : scene.simulation->pairs) {
       renumber(pair.bodies);
     }
+    for (Tie& tie : scene.simulation->ties) {
+      for (std::optional<std::size_t>& member : tie.bodies) {
+        member = member && *member >= number ? *member + 1 : member;
+      }
+    }
   }
   scene.bodies.push_back(std::move(body));
 }

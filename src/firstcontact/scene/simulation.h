@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/scene/tie.h>
 
 namespace firstcontact {
 
@@ -117,6 +118,7 @@ struct Simulation {
   std::optional<double> contact_distance;
   std::size_t events = 1000;  ///< > 0  In a step; past them the step ends early.
   std::vector<PairSurface> pairs;
+  std::vector<Tie> ties = {};
 };
 
 }  // namespace firstcontact

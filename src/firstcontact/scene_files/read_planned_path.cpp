@@ -213,8 +213,11 @@ class PathReader {
   }
 
   void take_planner(const JsonValue& value, PlannedPath& path) const {
-    (void)read_.object(value, {{"name", "seed", "time"}});
+    const JsonObject& object = read_.object(value, {{"name", "contacts", "seed", "time"}});
     path.planner = read_.enumerator<Planner>(read_.member(value, "name"), kPlannerWords);
+    if (const JsonValue* contacts = find(object, "contacts")) {
+      path.contacts = read_.enumerator<ContactUse>(*contacts, kContactUseWords);
+    }
     path.seed = count(read_.member(value, "seed"));
     path.time = read_.positive(read_.member(value, "time"));
   }

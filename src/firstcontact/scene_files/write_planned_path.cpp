@@ -105,10 +105,11 @@ JsonValue statistics_of(const PlannedPathStatistics& statistics) {
 
 std::string write_planned_path(const PlannedPath& path) {
   const JsonValue planner = {
-      .value =
-          JsonObject{{"name", text_of(kPlannerWords.at(static_cast<std::size_t>(path.planner)))},
-                     {"seed", count_of(path.seed)},
-                     {"time", number_of(path.time)}}};
+      .value = JsonObject{
+          {"name", text_of(kPlannerWords.at(static_cast<std::size_t>(path.planner)))},
+          {"contacts", text_of(kContactUseWords.at(static_cast<std::size_t>(path.contacts)))},
+          {"seed", count_of(path.seed)},
+          {"time", number_of(path.time)}}};
   JsonValue scene = detail::parse_json(write_scene(path.scene), "scene", 1);
   const std::string resolved_digest = detail::sha256(detail::write_json(scene));
   JsonObject object{{"firstcontact_path", count_of(1)},

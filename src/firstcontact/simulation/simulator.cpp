@@ -17,11 +17,11 @@
 #include <firstcontact/simulation/detail/islands.h>
 #include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
-#include <firstcontact/simulation/detail/wrong_commands.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>
+#include <firstcontact/simulation_model/detail/wrong_commands.h>
 
 namespace firstcontact {
 
@@ -59,20 +59,6 @@ void require_right(const char* call, const std::string& wrong) {
   if (!wrong.empty()) {
     throw std::invalid_argument(std::string(call) + ": " + wrong);
   }
-}
-
-/// The rotation vector over a part of a motion: of one piece with all its turns, over several by
-/// the shortest way.
-Vector3d rotation_between(const Motion& motion, double from, double to) {
-  const auto breaks = motion.breaks();
-  const auto piece = static_cast<std::size_t>(
-      std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from) - breaks.begin() - 1);
-  if (to <= breaks[piece + 1]) {
-    const ConstantRatePath path = motion.path(piece, Vector3d::Zero());
-    return path.axis() * (path.rate() * (to - from));
-  }
-  const Eigen::AngleAxisd turn(motion.pose(to).rotation * motion.pose(from).rotation.conjugate());
-  return turn.angle() * turn.axis();
 }
 
 }  // namespace
@@ -136,6 +122,7 @@ class Simulator::Implementation {
     states[body].X_WB.rotation.normalize();
     lock(model_.bodies[body].inertia, states[body]);
     require_apart(states, [body](std::size_t b) { return b == body; });
+    require_tied("set_state", states);
     state_.states = std::move(states);
     state_.rests.assign(state_.states.size(), false);  // What it held may fall.
   }
@@ -168,6 +155,7 @@ class Simulator::Implementation {
       require_apart(states, [&](std::size_t b) {
         return model_.bodies[b].link_body && model_.bodies[b].link_body->robot == robot;
       });
+      require_tied("set_robot_state", states);
     } catch (...) {
       state_.robots = std::move(robots);
       throw;
@@ -178,7 +166,7 @@ class Simulator::Implementation {
 
   void apply_force(std::size_t body, const Vector3d& force, const Vector3d& torque,
                    const std::optional<Vector3d>& p_WP) {
-    require_free("apply_force", body, "drive its joints with set_motor");
+    require_free("apply_force", body);
     const Vector3d p_WC = centre_of_mass(model_.bodies[body].inertia, state_.states[body].X_WB);
     const Vector3d about_C = torque + (p_WP.value_or(p_WC) - p_WC).cross(force);
     if (!force.allFinite() || !about_C.allFinite()) {
@@ -261,6 +249,7 @@ class Simulator::Implementation {
       state_.rests[body.body] = body.rests;
     }
     state_.contacts = step.contacts;
+    state_.ties = step.ties;
   }
 
   std::optional<RunStep> step(const std::stop_token& stop) {
@@ -282,16 +271,19 @@ class Simulator::Implementation {
     }
   }
 
-  /// @param mend  for a link
-  void require_free(const char* call, std::size_t body, const char* mend) const {
+  void require_free(const char* call, std::size_t body) const {
     require_body(call, body);
-    const std::string at = std::string(call) + ": body " + std::to_string(body);
     if (model_.bodies[body].kind != BodyKind::free) {
-      throw std::invalid_argument(at + " is not free");
+      throw std::invalid_argument(std::string(call) + ": body " + std::to_string(body) +
+                                  " is not free");
     }
-    if (model_.bodies[body].link_body) {
-      throw std::invalid_argument(at + " is a link; " + mend);
-    }
+  }
+
+  void require_tied(const char* call, const std::vector<RigidState>& states) const {
+    require_right(call, detail::wrong_ties(
+                            model_.ties, [&](std::size_t b) { return states[b].X_WB; },
+                            model_.distances.least,
+                            [&](std::size_t b) { return loaded_.scene.bodies[b].name; }));
   }
 
   detail::JointLaw& law_of(const char* call, std::size_t robot, std::string_view joint) {
@@ -437,7 +429,7 @@ class Simulator::Implementation {
       const double from = std::min(1.0, state_.time / loaded_.scene.duration);
       const double to = std::min(1.0, (state_.time + start.h) / loaded_.scene.duration);
       start.scripted[b] = {motion.pose(to).position - state_.states[b].X_WB.position,
-                           rotation_between(motion, from, to)};
+                           detail::rotation_between(motion, from, to)};
     }
     return start;
   }

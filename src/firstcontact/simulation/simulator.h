@@ -63,7 +63,8 @@ class FIRSTCONTACT_API Simulator {
   /// Moves a free body elsewhere, or gives it other velocities.
   ///
   /// @throws std::invalid_argument if the body is not free or a link, a number is not finite, the
-  ///         quaternion is zero, or the body would meet another one: then nothing is changed
+  ///         quaternion is zero, the body would meet another one, or a tie would be torn: then
+  ///         nothing is changed
   void set_state(std::size_t body, const RigidState& state);
 
   /// The states of all robots that have dynamics.
@@ -73,10 +74,11 @@ class FIRSTCONTACT_API Simulator {
   ///
   /// @param robot  among those that have dynamics
   /// @throws std::invalid_argument if the sizes are not those of the robot, a number is not finite,
-  ///         a quaternion is zero, or a link would meet a body: then nothing is changed
+  ///         a quaternion is zero, a link would meet a body, or a tie would be torn: then nothing
+  ///         is changed
   void set_robot_state(std::size_t robot, const MechanismState& state);
 
-  /// Adds a force and a torque to those on a free body, for the next step alone.
+  /// Adds a force and a torque to those on a free body or a link body, for the next step alone.
   ///
   /// They are constant over the step. Forces of several calls add up.
   ///
@@ -84,7 +86,8 @@ class FIRSTCONTACT_API Simulator {
   /// @param torque   [N m]  World axes.
   /// @param p_WP     [m]    The point that the force acts on, which adds a torque; the centre of
   ///                        mass where none is given.
-  /// @throws std::invalid_argument if the body is not free or a link, or a number is not finite
+  /// @throws std::invalid_argument if the body is neither free nor of a robot with dynamics, or a
+  ///         number is not finite
   void apply_force(std::size_t body, const Eigen::Vector3d& force,
                    const Eigen::Vector3d& torque = Eigen::Vector3d::Zero(),
                    const std::optional<Eigen::Vector3d>& p_WP = {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <utility>
 #include <vector>
@@ -60,8 +61,10 @@ class ActiveSet {
 
   /// Solves them alone, from the projection's impulses on.
   ContactSolution solve(const ProjectionOptions& options, Projection& projection) const {
-    ContactProblem part{
-        .bodies = problem_.bodies, .mechanisms = problem_.mechanisms, .drives = problem_.drives};
+    ContactProblem part{.bodies = problem_.bodies,
+                        .mechanisms = problem_.mechanisms,
+                        .drives = problem_.drives,
+                        .ties = problem_.ties};
     for (const std::size_t k : chosen_) {
       part.contacts.push_back(problem_.contacts[k]);
       part.contacts.back().guess =
@@ -70,12 +73,16 @@ class ActiveSet {
     for (std::size_t k = 0; k < part.drives.size(); ++k) {
       part.drives[k].guess = projection.impulses.drives[k];
     }
+    for (std::size_t k = 0; k < part.ties.size(); ++k) {
+      part.ties[k].guess = projection.impulses.drives[part.drives.size() + k];
+    }
     ContactSolution solution = project_on_contacts(part, options);
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       projection.impulses.contacts[chosen_[i]] =
           rows_.contacts[chosen_[i]].own.turn() * solution.impulses[i];
     }
     projection.impulses.drives = solution.drives;
+    std::ranges::copy(solution.ties, std::back_inserter(projection.impulses.drives));
     projection.velocities = velocities_after(rows_, projection.impulses);
     projection.iterations += solution.iterations;
     return solution;
@@ -130,7 +137,7 @@ std::optional<ProjectionSpace> project_by_active_set(const ContactProblem& probl
   if (found.residual < projection.residual) {
     projection = std::move(found);
   }
-  const double enough = problem.drives.empty() ? options.enough : 0.0;
+  const double enough = problem.drives.empty() && problem.ties.empty() ? options.enough : 0.0;
   if (projection.residual <= std::max(options.tolerance, enough)) {
     return space;
   }

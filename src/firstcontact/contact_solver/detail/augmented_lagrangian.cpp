@@ -113,7 +113,12 @@ class Lagrangian {
   /// r y / rho - r^2 (compliance + 1 / rho) / 2, with y = r_0 - rho (u - target).
   void add_drive(const Round& round, std::size_t k, Point& point) const {
     const DriveRow& row = rows_.drives[k];
-    const double u = rows_.free_velocities[row.place] + drives_.times(k, point.x).value();
+    if (!(row.own > 0.0)) {  // Of two bodies that nothing moves.
+      point.next.drives.push_back(0.0);
+      point.stiffness.push_back(0.0);
+      return;
+    }
+    const double u = row.velocity(rows_.free_velocities) + drives_.times(k, point.x).value();
     const double rho = round.penalty / row.own;
     const double y = round.multipliers.drives[k] - rho * (u - row.target);
     const double soft = 1.0 + rho * row.compliance;

@@ -45,7 +45,8 @@ template <class Number>
 std::optional<ContactBatches<Number>> ContactBatches<Number>::of(const ContactProblem& problem,
                                                                  const ContactRows& rows,
                                                                  const BatchUnits& units) {
-  if (problem.contacts.size() < kFewContacts || !problem.mechanisms.empty()) {
+  if (problem.contacts.size() < kFewContacts || !problem.mechanisms.empty() ||
+      !problem.ties.empty()) {
     return std::nullopt;
   }
   const bool in_any_order = sizeof(Number) == 4 || problem.contacts.size() >= kVeryManyInOrder;

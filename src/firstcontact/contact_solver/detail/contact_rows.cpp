@@ -75,6 +75,46 @@ DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout,
           .greatest = drive.greatest};
 }
 
+TieRowSide make_side(const ContactProblem& problem, const VelocityLayout& layout,
+                     const TieSide& side) {
+  const ContactBody& body = problem.bodies[side.body];
+  TieRowSide made{.at = layout.body[side.body]};
+  if (body.link) {
+    made.J = body.link->J.transpose() * side.row;
+    return made;
+  }
+  made.J = side.row;
+  made.response = VectorXd(6);
+  made.response << body.inverse_inertia.mass.cwiseProduct(side.row.head<3>()),
+      body.inverse_inertia.rotation * side.row.tail<3>();
+  return made;
+}
+
+/// Two links of one mechanism are one side.
+DriveRow make_row(const ContactProblem& problem, const VelocityLayout& layout, const TieRow& tie) {
+  DriveRow row{.own = tie.compliance,
+               .target = tie.target,
+               .compliance = tie.compliance,
+               .least = tie.least,
+               .greatest = tie.greatest};
+  for (const TieSide& side : tie.sides) {
+    TieRowSide made = make_side(problem, layout, side);
+    if (!row.tie.empty() && row.tie.front().at == made.at) {
+      row.tie.front().J += made.J;
+    } else {
+      row.tie.push_back(std::move(made));
+    }
+  }
+  for (std::size_t s = 0; s < row.tie.size(); ++s) {
+    TieRowSide& side = row.tie[s];
+    if (const auto& link = problem.bodies[tie.sides[s].body].link) {
+      side.response = problem.mechanisms[link->mechanism].inverse_mass * side.J;
+    }
+    row.own += side.J.dot(side.response);
+  }
+  return row;
+}
+
 VectorXd free_velocities(const ContactProblem& problem, const VelocityLayout& layout) {
   VectorXd V(layout.size);
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
@@ -91,6 +131,9 @@ VectorXd free_velocities(const ContactProblem& problem, const VelocityLayout& la
 }
 
 double residual_of(const DriveRow& row, double impulse, const VectorXd& V) {
+  if (!(row.own > 0.0)) {
+    return 0.0;  // No impulse would change anything.
+  }
   const double wanted = impulse - row.excess_velocity(impulse, V) / row.own;
   return std::abs(impulse - std::clamp(wanted, row.least, row.greatest)) * row.own;
 }
@@ -160,6 +203,9 @@ ContactRows::ContactRows(const ContactProblem& problem)
   for (const JointDrive& drive : problem.drives) {
     drives.push_back(make_row(problem, layout, drive));
   }
+  for (const TieRow& tie : problem.ties) {
+    drives.push_back(make_row(problem, layout, tie));
+  }
 }
 
 double greatest_residual(const ContactRows& rows, const Impulses& impulses, const VectorXd& V) {
@@ -209,7 +255,10 @@ ContactSolution solution_of(const ContactProblem& problem, const ContactRows& ro
     solution.impulses.emplace_back(rows.contacts[k].own.turn().transpose() *
                                    projection.impulses.contacts[k]);
   }
-  solution.drives = projection.impulses.drives;
+  const auto first_tie =
+      projection.impulses.drives.begin() + static_cast<std::ptrdiff_t>(problem.drives.size());
+  solution.drives.assign(projection.impulses.drives.begin(), first_tie);
+  solution.ties.assign(first_tie, projection.impulses.drives.end());
   solution.residual = projection.residual;
   solution.space = space;
   solution.iterations = projection.iterations;

@@ -98,23 +98,47 @@ inline double solve_alone(const ContactRow& row, Eigen::Vector3d& impulse, Eigen
   return change.norm() * row.greatest();
 }
 
-/// A drive of one coordinate.
+/// The part of one body in a tie: it adds J V to its velocity, and impulses change V by the
+/// response.
+struct TieRowSide {
+  Eigen::Index at = 0;  // In the vector of velocities.
+  Eigen::VectorXd J = {};
+  Eigen::VectorXd response = {};
+};
+
+/// A drive of one coordinate, or a tie.
 struct DriveRow {
-  Eigen::Index at;         // Of its mechanism.
-  Eigen::Index place;      // Of its coordinate.
-  Eigen::VectorXd column;  // Of the mechanism's inverse mass.
-  double own;              // To its own impulse, with its compliance.
+  Eigen::Index at = 0;          // Of its mechanism.
+  Eigen::Index place = 0;       // Of its coordinate.
+  Eigen::VectorXd column = {};  // Of the mechanism's inverse mass.
+  double own;                   // To its own impulse, with its compliance.
   double target;
   double compliance;
   double least;
   double greatest;
+  std::vector<TieRowSide> tie = {};  // Of a tie, in place of the first three.
 
+  [[nodiscard]] double velocity(const Eigen::VectorXd& V) const {
+    if (tie.empty()) {
+      return V[place];
+    }
+    double u = 0.0;
+    for (const TieRowSide& side : tie) {
+      u += side.J.dot(V.segment(side.at, side.J.size()));
+    }
+    return u;
+  }
   /// u + compliance r - target
   [[nodiscard]] double excess_velocity(double impulse, const Eigen::VectorXd& V) const {
-    return V[place] + compliance * impulse - target;
+    return velocity(V) + compliance * impulse - target;
   }
   void apply(double impulse, Eigen::VectorXd& V) const {
-    V.segment(at, column.size()) += impulse * column;
+    if (tie.empty()) {
+      V.segment(at, column.size()) += impulse * column;
+    }
+    for (const TieRowSide& side : tie) {
+      V.segment(side.at, side.response.size()) += impulse * side.response;
+    }
   }
 };
 
@@ -125,12 +149,12 @@ struct ContactRows {
   VelocityLayout layout;
   Eigen::VectorXd free_velocities;
   std::vector<ContactRow> contacts;
-  std::vector<DriveRow> drives;
+  std::vector<DriveRow> drives;  // Then the ties.
 };
 
 struct Impulses {
   std::vector<Eigen::Vector3d> contacts;  // [N s]  In the frames of the rows.
-  std::vector<double> drives;             // [N m s or N s]
+  std::vector<double> drives;             // [N m s or N s]  Then of the ties.
 };
 
 /// [m/s]  The residual of one contact as in contact_residual(); not finite where it cannot be

@@ -54,8 +54,15 @@ MassWhitenedCoordinates::MassWhitenedCoordinates(const ContactProblem& problem,
   }
   for (const DriveRow& row : rows.drives) {
     drives_.add_row();
-    const Part& part = *part_of(row.at);
-    drives_.add(part.in_x, part.root.row(row.place - row.at));
+    if (row.tie.empty()) {
+      const Part& part = *part_of(row.at);
+      drives_.add(part.in_x, part.root.row(row.place - row.at));
+    }
+    for (const TieRowSide& side : row.tie) {
+      if (const Part* part = part_of(side.at)) {
+        drives_.add(part->in_x, Eigen::MatrixXd(side.J.transpose() * part->root));
+      }
+    }
   }
 }
 

@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 double solve_alone(const DriveRow& row, double& impulse, VectorXd& V) {
+  if (!(row.own > 0.0)) {
+    return 0.0;
+  }
   const double solved =
       std::clamp(impulse - row.excess_velocity(impulse, V) / row.own, row.least, row.greatest);
   const double change = solved - impulse;

@@ -211,7 +211,7 @@ class Neighbourhood {
 ContactSolution re_solve(const ContactProblem& problem, const ContactSolution& before,
                          const std::vector<std::size_t>& changed,
                          const ProjectionOptions& options) {
-  assert(problem.mechanisms.empty() && problem.drives.empty());
+  assert(problem.mechanisms.empty() && problem.drives.empty() && problem.ties.empty());
   Neighbourhood around(problem, before);
   around.balance(changed);
   around.solve(changed, options);

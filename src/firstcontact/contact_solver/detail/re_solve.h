@@ -17,7 +17,8 @@ namespace firstcontact::detail {
 /// are contacts. Bodies far from them keep their velocity to the last bit, and cost next to
 /// nothing. Velocities belong to the impulses, as those before did.
 ///
-/// @param problem  without mechanisms and drives; its guesses are the impulses of the solution
+/// @param problem  without mechanisms, drives and ties; its guesses are the impulses of the
+/// solution
 ///                 before
 /// @param before   the solution before: velocities of the first bodies of the problem, and the
 ///                 residual of contacts that did not change

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/query/first_contact.h>
 #include <firstcontact/robot_check/detail/geometry_search.h>
 
 namespace firstcontact::detail {
@@ -15,11 +16,39 @@ EdgeSearch::EdgeSearch(RobotScene scene, const RobotCheckOptions& options)
 }
 
 void EdgeSearch::set_motion(std::size_t robot, RobotMotion motion) {
+  robot_ = robot;
+  moved_body_ = motion.model().joints().empty() ? std::optional(motion.base()) : std::nullopt;
   scene_.set_motion(robot, std::move(motion));
   timeline_.follow_motions();
 }
 
+const Motion* EdgeSearch::body_motion(std::size_t geometry) const {
+  const std::size_t member = timeline_.geometries()[geometry].member;
+  if (const std::optional<RobotLink> link = scene_.robot_link(member)) {
+    return link->robot == robot_ && moved_body_ ? &*moved_body_ : nullptr;
+  }
+  return scene_.rests(member) ? &scene_.body_motion(member) : nullptr;
+}
+
 FirstContactResult EdgeSearch::ask(const GeometryCandidate& candidate, const TimeWindow& window) {
+  const Motion* A = body_motion(candidate.geometries[0]);
+  const Motion* B = body_motion(candidate.geometries[1]);
+  if (A != nullptr && B != nullptr && !candidate.hold && window.begin < window.end) {
+    const auto shape = [&](std::size_t k) -> const Shape& {
+      return *timeline_.geometries()[candidate.geometries[k]].shape;
+    };
+    FirstContactResult result =
+        firstcontact::first_contact({shape(0), *A}, {shape(1), *B}, workspace_.queries,
+                                    {.margin = candidate.threshold,
+                                     .tolerance = options_.tolerance,
+                                     .contacts = ContactState::none,
+                                     .budget = options_.budget});
+    if (result.t > window.end) {
+      result.verdict = Verdict::free;
+      result.t = window.end;
+    }
+    return result;
+  }
   GeometrySearch search(timeline_, candidate, options_, workspace_);
   return search.first_contact(window);
 }

@@ -3,10 +3,12 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/motion/motion.h>
 #include <firstcontact/query/outcome.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/robot_check/detail/candidates.h>
@@ -25,6 +27,8 @@ struct EdgeFound {
 };
 
 /// As RobotChecker, for robots of which all paths have one piece: no answers of pairs, no contacts.
+///
+/// Bodies are asked as bodies: where two slide in each other on a screw, few steps prove that.
 ///
 /// For one thread.
 class EdgeSearch {
@@ -51,6 +55,8 @@ class EdgeSearch {
  private:
   [[nodiscard]] FirstContactResult ask(const GeometryCandidate& candidate,
                                        const TimeWindow& window);
+  /// The motion of a geometry as that of a rigid body, where it is no link among joints; null else.
+  [[nodiscard]] const Motion* body_motion(std::size_t geometry) const;
   [[nodiscard]] EdgeFound found_by(const GeometryCandidate& candidate,
                                    const FirstContactResult& result) const;
 
@@ -59,6 +65,8 @@ class EdgeSearch {
   RobotTimeline timeline_;
   CandidateSearch candidates_;
   LinkWorkspace workspace_;
+  std::size_t robot_ = 0;             // The last that was moved.
+  std::optional<Motion> moved_body_;  // Of that, where it is a body.
 };
 
 }  // namespace firstcontact::detail

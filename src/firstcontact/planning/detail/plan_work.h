@@ -25,6 +25,11 @@ class PlanWork {
 
   [[nodiscard]] const ConfigurationSpace& space() const { return checker_.space(); }
   [[nodiscard]] const PlanOptions& options() const { return options_; }
+  [[nodiscard]] const PlanScene& scene() const { return checker_.scene(); }
+  /// [m]  What is nearer than its margin and this may count as blocked.
+  [[nodiscard]] double kept() const {
+    return checker_.options().extra_clearance + checker_.options().tolerance;
+  }
 
   /// With the fraction that is free.
   EdgeAnswer check(const Configuration& from, const Configuration& to);

@@ -4,70 +4,35 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+
+#include <firstcontact/planning/detail/contact_growth.h>
+#include <firstcontact/planning/detail/plan_tree.h>
 
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kTriesToLeave = 8;   // Iterations before a tree without edges is stuck.
 constexpr std::size_t kReportEvery = 256;  // Iterations.
-
-/// Places, each with an edge from its parent that is proven.
-class PlanTree {
- public:
-  explicit PlanTree(const ConfigurationSpace& space) : space_(space) {}
-
-  std::size_t add(Configuration q, std::size_t parent) {
-    places_.push_back(std::move(q));
-    parents_.push_back(parent);
-    return places_.size() - 1;
-  }
-
-  [[nodiscard]] std::size_t size() const { return places_.size(); }
-  [[nodiscard]] const Configuration& operator[](std::size_t node) const { return places_[node]; }
-
-  [[nodiscard]] std::size_t nearest(const Configuration& q) const {
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < places_.size(); ++k) {
-      const double distance = space_.distance(places_[k], q);
-      if (distance < least) {
-        least = distance;
-        best = k;
-      }
-    }
-    return best;
-  }
-
-  /// From a node to its root.
-  [[nodiscard]] std::vector<Configuration> to_root(std::size_t node) const {
-    std::vector<Configuration> places;
-    for (; node != kNoParent; node = parents_[node]) {
-      places.push_back(places_[node]);
-    }
-    return places;
-  }
-
- private:
-  const ConfigurationSpace& space_;
-  std::vector<Configuration> places_;
-  std::vector<std::size_t> parents_;
-};
 
 class Connect {
  public:
   Connect(PlanWork& work, double range)
-      : work_(work), range_(range), trees_{PlanTree(work.space()), PlanTree(work.space())} {}
+      : work_(work),
+        range_(range),
+        trees_{PlanTree(work.space()), PlanTree(work.space())},
+        contact_(work, work.options().contacts, range) {}
 
   FoundPath run(const Configuration& start, const std::vector<Configuration>& goals,
                 PlanRandom& random) {
-    trees_[0].add(start, kNoParent);
+    trees_[0].mark(trees_[0].add(start, PlanTree::kNoParent));
     for (const Configuration& goal : goals) {
-      trees_[1].add(goal, kNoParent);
+      trees_[1].mark(trees_[1].add(goal, PlanTree::kNoParent));
     }
     for (std::size_t goal = 0; goal < goals.size() && !work_.is_over(); ++goal) {
       if (work_.is_free(start, goals[goal])) {
-        return joined(0, goal);
+        return joined({0, goal});
       }
     }
     std::size_t grows = 0;
@@ -76,8 +41,15 @@ class Connect {
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
+      contact_.next(iteration >= kTriesToLeave && trees_[grows].size() == 1, random);
       if (const auto met = grow(grows, work_.space().sample(random))) {
-        return joined((*met)[0], (*met)[1]);
+        return joined(*met);
+      }
+      if (const auto met = push(grows, random)) {
+        return joined(*met);
+      }
+      if (const auto met = reach_passage(grows, random)) {
+        return joined(*met);
       }
       // The lesser tree grows next: M. Kuffner's balance.
       grows = trees_[0].size() <= trees_[1].size() ? 0 : 1;
@@ -88,11 +60,12 @@ class Connect {
   [[nodiscard]] std::size_t size() const { return trees_[0].size() + trees_[1].size(); }
 
  private:
-  /// Extends a tree towards a sample, then the other one towards what was added. The nodes of both
-  /// trees at which they met.
-  std::optional<std::array<std::size_t, 2>> grow(std::size_t grows, const Configuration& sample) {
+  /// The nodes of both trees at which they met.
+  using Meeting = std::array<std::size_t, 2>;
+
+  /// Extends a tree towards a sample, then the other one towards what was added.
+  std::optional<Meeting> grow(std::size_t grows, const Configuration& sample) {
     PlanTree& tree = trees_[grows];
-    PlanTree& other = trees_[1 - grows];
     const std::size_t near = tree.nearest(sample);
     const double length = work_.space().distance(tree[near], sample);
     if (!(length > 0.0)) {
@@ -100,15 +73,58 @@ class Connect {
     }
     const Configuration target =
         length > range_ ? work_.space().interpolate(tree[near], sample, range_ / length) : sample;
-    if (!work_.is_free(tree[near], target)) {
-      return std::nullopt;
+    if (work_.is_free(tree[near], target)) {
+      return meet(grows, tree.add(target, near));
     }
-    const std::size_t added = tree.add(target, near);
-    const std::size_t reached = other.nearest(target);
-    if (const auto met = connect(1 - grows, reached, target)) {
-      return grows == 0 ? std::array{added, *met} : std::array{*met, added};
+    if (const auto followed = contact_.follow(tree, near, target)) {
+      return meet(grows, followed->node);
     }
     return std::nullopt;
+  }
+
+  /// Moves in contact in a random direction, then extends the other tree towards the end.
+  std::optional<Meeting> push(std::size_t grows, PlanRandom& random) {
+    const std::optional<std::size_t> end = contact_.push(trees_[grows], random);
+    return end ? meet(grows, *end) : std::nullopt;
+  }
+
+  /// Extends a tree to a passage, and takes it over; meets the other tree if that has it already.
+  std::optional<Meeting> reach_passage(std::size_t grows, PlanRandom& random) {
+    PlanTree& tree = trees_[grows];
+    const auto passage = contact_.passage(grows, tree[tree.size() - 1], random);
+    if (!passage) {
+      return std::nullopt;
+    }
+    const Configuration target = contact_.passages()[*passage];
+    const std::size_t from = tree.nearest(target);
+    std::optional<std::size_t> reached;
+    if (work_.is_free(tree[from], target)) {
+      reached = tree.add(target, from);
+    } else if (const auto followed = contact_.follow_to_passage(tree, from, target);
+               followed && followed->reaches_target) {
+      reached = followed->node;
+    }
+    if (!reached) {
+      return std::nullopt;
+    }
+    const std::optional<std::size_t> owner = contact_.passages().owner(passage->passage);
+    if (!owner) {
+      contact_.passages().give(*passage, tree, *reached, grows);
+      return meet(grows, tree.size() - 1);
+    }
+    const std::size_t other = contact_.passages().in_owner(*passage);
+    return grows == 0 ? Meeting{*reached, other} : Meeting{other, *reached};
+  }
+
+  /// Extends the other tree towards a node of one.
+  std::optional<Meeting> meet(std::size_t grows, std::size_t node) {
+    PlanTree& other = trees_[1 - grows];
+    const Configuration target = trees_[grows][node];
+    const std::optional<std::size_t> met = connect(1 - grows, other.nearest(target), target);
+    if (!met) {
+      return std::nullopt;
+    }
+    return grows == 0 ? Meeting{node, *met} : Meeting{*met, node};
   }
 
   /// Grows a tree from a node towards a target as far as it is free. The node at the target.
@@ -127,13 +143,14 @@ class Connect {
     for (double step = 1.0; step <= free_steps; ++step) {
       last = tree.add(work_.space().interpolate(from, target, step * range_ / length), last);
     }
-    return std::nullopt;
+    const auto followed = contact_.follow(tree, last, target);
+    return followed && followed->reaches_target ? std::optional(followed->node) : std::nullopt;
   }
 
-  [[nodiscard]] FoundPath joined(std::size_t in_first, std::size_t in_second) const {
-    FoundPath found{trees_[0].to_root(in_first), true};
+  [[nodiscard]] FoundPath joined(const Meeting& meeting) const {
+    FoundPath found{trees_[0].to_root(meeting[0]), true};
     std::reverse(found.places.begin(), found.places.end());
-    const std::vector<Configuration> rest = trees_[1].to_root(in_second);
+    const std::vector<Configuration> rest = trees_[1].to_root(meeting[1]);
     // Both trees have the place at which they met, unless the start leads straight to a goal.
     const std::size_t skip = rest.front() == found.places.back() ? 1 : 0;
     found.places.insert(found.places.end(), rest.begin() + static_cast<std::ptrdiff_t>(skip),
@@ -160,6 +177,7 @@ class Connect {
   PlanWork& work_;
   double range_;
   std::array<PlanTree, 2> trees_;
+  ContactGrowth contact_;
 };
 
 }  // namespace

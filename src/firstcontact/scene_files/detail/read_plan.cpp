@@ -25,7 +25,7 @@ class PlanReader {
   PlanQuestion plan(const JsonValue& value) const {
     const JsonObject& object =
         read_.object(value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box",
-                              "speeds", "margin", "planner", "seed", "time"}});
+                              "speeds", "margin", "planner", "contacts", "seed", "time"}});
     PlanQuestion plan;
     take_mover(value, object, plan);
     take_options(object, plan);
@@ -80,6 +80,9 @@ class PlanReader {
     }
     if (const JsonValue* planner = find(object, "planner")) {
       plan.planner = read_.enumerator<Planner>(*planner, kPlannerWords);
+    }
+    if (const JsonValue* contacts = find(object, "contacts")) {
+      plan.contacts = read_.enumerator<ContactUse>(*contacts, kContactUseWords);
     }
     if (const JsonValue* seed = find(object, "seed")) {
       plan.seed = read_.index(*seed, kSeeds, "a seed, a whole number");

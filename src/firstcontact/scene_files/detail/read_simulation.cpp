@@ -9,23 +9,10 @@
 #include <firstcontact/scene/detail/scene_names.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene_files/detail/read_dynamics.h>
-#include <firstcontact/text/write_json.h>
+#include <firstcontact/scene_files/detail/read_ties.h>
 
 namespace firstcontact::detail {
 namespace {
-
-std::size_t read_member(const JsonValue& value, const SceneNames& names, const JsonReader& read) {
-  const std::string expected = "the name of a body, or robot/link";
-  const std::string& name = read.string(value, expected);
-  const auto found = names.find(name);
-  if (found == names.end()) {
-    read.fail(value, "expected " + expected + ", got " + in_quotes(name) + hint(names, name));
-  }
-  if (found->second.kind != Named::Kind::member) {
-    read.fail(value, "expected " + expected + ", got the robot or group " + in_quotes(name));
-  }
-  return found->second.index;
-}
 
 PairSurface read_pair(const JsonValue& value, const SceneNames& names, const JsonReader& read) {
   const JsonObject& object = read.object(value, {{"bodies", "friction", "restitution"}});
@@ -46,9 +33,8 @@ PairSurface read_pair(const JsonValue& value, const SceneNames& names, const Jso
   return pair;
 }
 
-std::vector<PairSurface> read_pairs(const JsonValue& value, const Scene& scene,
+std::vector<PairSurface> read_pairs(const JsonValue& value, const SceneNames& names,
                                     const JsonReader& read) {
-  const SceneNames names = names_in(scene);
   std::vector<PairSurface> pairs;
   std::set<BodyPair> seen;
   for (const JsonValue& element : read.array(value, "an array of pairs with their surfaces")) {
@@ -65,7 +51,7 @@ std::vector<PairSurface> read_pairs(const JsonValue& value, const Scene& scene,
 Simulation read_simulation(const JsonValue& value, const Scene& scene, const JsonReader& read) {
   const JsonObject& object =
       read.object(value, {{"duration", "step", "gravity", "friction", "restitution", "impacts",
-                           "contact_distance", "events", "pairs"}});
+                           "contact_distance", "events", "pairs", "ties"}});
   Simulation simulation;
   if (const JsonValue* duration = find(object, "duration")) {
     simulation.duration = read.positive(*duration);
@@ -95,7 +81,10 @@ Simulation read_simulation(const JsonValue& value, const Scene& scene, const Jso
     }
   }
   if (const JsonValue* pairs = find(object, "pairs")) {
-    simulation.pairs = read_pairs(*pairs, scene, read);
+    simulation.pairs = read_pairs(*pairs, names_in(scene), read);
+  }
+  if (const JsonValue* ties = find(object, "ties")) {
+    simulation.ties = read_ties(*ties, names_in(scene), read);
   }
   return simulation;
 }

@@ -92,6 +92,36 @@ JsonValue motor_json(const JointMotor& motor) {
   return {.value = std::move(object)};
 }
 
+template <class T, class Write>
+JsonValue two_or_null(const std::array<std::optional<T>, 2>& values, const Write& write) {
+  JsonArray pair;
+  for (const std::optional<T>& value : values) {
+    pair.push_back(value ? write(*value) : JsonValue{.value = JsonNull{}});
+  }
+  return {.value = std::move(pair)};
+}
+
+JsonValue tie_json(const Tie& tie, const Scene& scene) {
+  JsonObject object{{"type", to_json(kTieTypeWords[static_cast<std::size_t>(tie.type)])},
+                    {"bodies", two_or_null(tie.bodies, [&](std::size_t member) {
+                       return to_json(member_name(scene, member));
+                     })}};
+  if (tie.points[0] || tie.points[1]) {
+    object.push_back({"points", two_or_null(tie.points, [](const Eigen::Vector3d& point) {
+                        return to_json(point);
+                      })});
+  }
+  add_given("length", tie.length, object);
+  add_given("stiffness", tie.stiffness, object);
+  if (tie.damping > 0.0) {
+    object.push_back({"damping", to_json(tie.damping)});
+  }
+  if (tie.type == TieType::hinge) {
+    object.push_back({"axis", to_json(tie.axis)});
+  }
+  return {.value = std::move(object)};
+}
+
 }  // namespace
 
 JsonValue robot_dynamics_to_json(const SceneRobot& robot) {
@@ -147,6 +177,13 @@ JsonValue simulation_to_json(const Scene& scene) {
     pairs.push_back({.value = std::move(entry)});
   }
   object.push_back({"pairs", {.value = std::move(pairs)}});
+  if (!simulation.ties.empty()) {
+    JsonArray ties;
+    for (const Tie& tie : simulation.ties) {
+      ties.push_back(tie_json(tie, scene));
+    }
+    object.push_back({"ties", {.value = std::move(ties)}});
+  }
   return {.value = std::move(object)};
 }
 

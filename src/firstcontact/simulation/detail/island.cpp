@@ -10,6 +10,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/island_ties.h>
 #include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 
@@ -33,7 +34,7 @@ class Island {
   std::optional<IslandTrack> run() {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
-    if (has_bounce()) {
+    if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
     }
@@ -65,7 +66,19 @@ class Island {
   [[nodiscard]] double span() const {
     const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
                                     kLeastShareOfFast * state_.start.h);
-    return std::min({span_, state_.start.h - state_.reached, of_fast});
+    return std::min({span_, state_.start.h - state_.reached, of_fast, tied_span()});
+  }
+
+  /// [s]  For which no body with ties turns too far: impulses act where ties are halfway.
+  [[nodiscard]] double tied_span() const {
+    double fastest = 0.0;  // [rad/s]
+    for (std::size_t k = 0; k < state_.size() && !state_.ties.empty(); ++k) {
+      if (!state_.model.ties_of[state_.members[k]].empty()) {
+        fastest = std::max(fastest, state_.states[k].w_WB.norm());
+      }
+    }
+    return fastest > 0.0 ? std::max(kMostTurnOfTied / fastest, kLeastShareOfFast * state_.start.h)
+                         : std::numeric_limits<double>::infinity();
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
@@ -113,6 +126,11 @@ class Island {
         for (const Impact& hit : hits) {
           t = std::min(t, hit.t);
         }
+        if (!state_.ties.empty() && state_.taut <= kMostTautEvents) {
+          const double within = share_within_cables(state_, plan, span());
+          state_.taut += within < t ? 1 : 0;
+          t = std::min(t, within);
+        }
         move_to(plan, planner.touches(), t, search.clearance());
         return t;
       }
@@ -157,6 +175,11 @@ class Island {
     if (t == 1.0 && planned == state_.start.h && track_.events == 0 &&
         falls_asleep(state_, plan, touches)) {
       come_to_rest();
+    }
+    for (const TieTrackPiece& tie : plan.ties) {
+      if (t > 0.0) {
+        track_.ties.push_back({tie.tie, state_.reached, to, t * tie.linear, t * tie.angular});
+      }
     }
     state_.reached = to;
     track_.residual = std::max(track_.residual, plan.residual);
@@ -219,7 +242,9 @@ class Island {
         pairs.push_back(pair);
       }
     }
-    if (problem.contacts.empty()) {
+    add_tied_bodies(state_, bodies);
+    problem.ties = rigid_rows(state_, bodies);
+    if (problem.contacts.empty() && problem.ties.empty()) {
       return;
     }
     problem.bodies = bodies.bodies();
@@ -227,8 +252,10 @@ class Island {
     state_.robots.add_drives_at_impact(problem);
     const ContactSolution solution = project_impact_of(state_, problem, pairs);
     const PlanSolution impact{solution, !is_solved(state_, solution)};
-    state_.robots.take_velocities(
-        solution, outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0));
+    std::vector<OuterImpulse> outer =
+        outer_impulses(problem, impact, bodies, state_.robots.size(), 0.0);
+    add_outer_of_ties(problem, solution, bodies, outer);
+    state_.robots.take_velocities(solution, outer);
     for (std::size_t k = 0; k < touches.size(); ++k) {
       if (!solution.impulses[k].isZero(0.0)) {
         track_.impacts.push_back({state_.reached, touches[k]->bodies, touches[k]->point,

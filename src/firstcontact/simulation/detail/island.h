@@ -27,6 +27,15 @@ struct TrackPiece {
   RigidState end;    ///< Pose and velocities at its end.
 };
 
+/// The impulse of a tie over a piece.
+struct TieTrackPiece {
+  std::size_t tie = 0;                                ///< Of the model.
+  double from = 0.0;                                  ///< [s]  Since the step began.
+  double to = 0.0;                                    ///< [s]
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< [N s]    On the second body, at its
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< [N m s]  point.
+};
+
 /// Whether the bodies of an island are at rest.
 enum class Rest {
   no,
@@ -41,7 +50,8 @@ struct IslandTrack {
   std::vector<RobotTrack> robots = {};          ///< Whose links are members.
   std::vector<ManifoldPoint> touches = {};      ///< That acted last, with their impulses.
   std::vector<RunImpact> impacts = {};          ///< In the order of time.
-  double reached = 0.0;                         ///< [s]
+  std::vector<TieTrackPiece> ties = {};
+  double reached = 0.0;    ///< [s]
   double clearance = 0.0;  ///< [m]  No pair with a member came closer; infinite if none was near.
   double residual = 0.0;   ///< [m/s]
   std::size_t events = 0;

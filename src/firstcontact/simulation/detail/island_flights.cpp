@@ -51,11 +51,39 @@ MechanismDrive driven_by(const std::vector<JointDrive>& drives, const std::vecto
 
 }  // namespace
 
+void IslandRobots::take_links(std::vector<LinkPlace>& links, RobotFlight& flight) {
+  for (LinkPlace& link : links) {
+    flight.J.push_back(std::move(link.J));
+    flight.X_WB.push_back(link.X_WB);
+  }
+}
+
+VectorXd IslandRobots::forces_of(std::size_t r, const std::vector<LinkLoad>& loads,
+                                 const RobotFlight& flight, double span) const {
+  const Robot& robot = robots_[r];
+  const Mechanism& mechanism = robot.robot->mechanism;
+  const VectorXd positions =
+      flight.is_known ? mechanism.between(robot.state.positions, flight.end.positions, 0.5)
+                      : mechanism.moved(robot.state.positions, 0.5 * span * robot.state.velocities);
+  const MechanismInstant halfway = mechanism.at({positions, robot.state.velocities});
+  VectorXd forces = VectorXd::Zero(mechanism.size());
+  for (const LinkLoad& load : loads) {
+    const auto& [of, link] = place_[load.member];
+    if (of == r) {
+      const Jacobian& J = halfway.J[robot.links[link].body->link_body->link];
+      const Vector3d torque = load.torque - halfway.reference.cross(load.force);
+      forces += J.topRows<3>().transpose() * load.force + J.bottomRows<3>().transpose() * torque;
+    }
+  }
+  return forces;
+}
+
 /// The flight of inertia alone, and drives by the end of the span.
 ///
 /// Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It does
 /// not fall: the forces of gravity are those where it gets.
-RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span) const {
+RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span,
+                                        const VectorXd& load) const {
   const Robot& robot = robots_[r];
   const Mechanism& mechanism = robot.robot->mechanism;
   RobotFlight flight{.is_known = true, .by_end = true};
@@ -63,20 +91,22 @@ RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span) con
   View there = view_of(robot, flight.end);
   flight.velocities =
       flight.end.velocities - span.length * there.inverse_mass * there.gravity_forces;
+  if (load.size() > 0) {
+    flight.velocities += span.length * there.inverse_mass * load;
+  }
   const VectorXd origin =
       mechanism.moved(flight.end.positions, -span.length * flight.end.velocities);
   flight.drives = drives_by_end(robot.robot->laws, robot.state, origin, span);
   flight.predicted.assign(flight.drives.size(), 0.0);
   flight.inverse_mass = std::move(there.inverse_mass);
-  for (LinkPlace& link : there.links) {
-    flight.J.push_back(std::move(link.J));
-  }
+  take_links(there.links, flight);
   return flight;
 }
 
 /// The flight with all forces: those of drives are predicted from how things are at its begin.
 /// Drives of the contact problem change them.
-RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
+RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span,
+                                    const VectorXd& load) const {
   const Robot& robot = robots_[r];
   const Mechanism& mechanism = robot.robot->mechanism;
   const std::vector<JointLaw>& laws = robot.robot->laws;
@@ -87,7 +117,10 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
   const bool is_driven = robot.robot->is_driven();
   if (is_driven) {
     const VectorXd& v = robot.state.velocities;
-    const VectorXd u = v - h * robot.now.inverse_mass * robot.now.bias;
+    VectorXd u = v - h * robot.now.inverse_mass * robot.now.bias;
+    if (load.size() > 0) {
+      u += h * robot.now.inverse_mass * load;
+    }
     flight.rule.weights = position_weights(laws, robot.now.inverse_mass, h);
     const MechanismState ahead{mechanism.moved(robot.state.positions, 0.5 * h * (v + u)), u};
     first = drives_by_rule(laws, robot.state,
@@ -95,14 +128,16 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
     flight.predicted = predicted_impulses(robot.now.inverse_mass, u, first);
     drive = driven_by(first, flight.predicted, v, h);
   }
+  const VectorXd of_drives = drive.forces;
+  if (load.size() > 0) {
+    drive.forces = is_driven ? VectorXd(drive.forces + load) : load;
+  }
   MechanismMotion motion = mechanism.after_driven_motion(robot.state, model_.gravity, drive, h);
   flight.end = std::move(motion.end);
   View there = view_of(robot, flight.end);
   flight.velocities = flight.end.velocities;
   flight.inverse_mass = std::move(there.inverse_mass);
-  for (LinkPlace& link : there.links) {
-    flight.J.push_back(std::move(link.J));
-  }
+  take_links(there.links, flight);
   if (!is_driven) {
     return flight;
   }
@@ -120,7 +155,7 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
         leads = k;
       }
     }
-    rest += drive.forces[drive.driven[i]] * h;
+    rest += of_drives[drive.driven[i]] * h;
     for (std::size_t k = 0; k < first.size(); ++k) {
       if (static_cast<Eigen::Index>(first[k].coordinate) == drive.driven[i] && k != *leads) {
         rest -= flight.predicted[k];
@@ -139,12 +174,15 @@ RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span) const {
 }
 
 void IslandRobots::fly(double from, double span, const std::vector<bool>& by_end,
+                       const std::vector<VectorXd>& loads,
                        std::vector<RobotFlight>& flights) const {
   flights.resize(robots_.size());
+  const VectorXd none;
   for (std::size_t r = 0; r < robots_.size(); ++r) {
     const bool wanted = by_end[r] && robots_[r].robot->is_driven();
     if (!flights[r].is_known || flights[r].by_end != wanted) {
-      flights[r] = wanted ? flight_by_end(r, {from, span}) : flight_of(r, {from, span});
+      const VectorXd& load = loads.empty() ? none : loads[r];
+      flights[r] = wanted ? flight_by_end(r, {from, span}, load) : flight_of(r, {from, span}, load);
     }
   }
 }

@@ -73,6 +73,9 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
       force += share * timed.force;
       torque += share * timed.torque;
     }
+    if (!ties_.empty()) {
+      ties_.add_to(k, force, torque);
+    }
     flight.at_end[k].v += span_ * flight.at_end[k].inverse_inertia.mass.cwiseProduct(force);
     const FreeTurn turn = free_turn(body.inertia, state_.states[k], torque, span_);
     flight.at_end[k].w = turned_along(body.inertia, turn.w_WB, -turn.rotation_vector);
@@ -82,10 +85,15 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
 }
 
 IslandPlanner::IslandPlanner(IslandState& state, double span)
-    : state_(state), span_(span), bodies_(state.problem_bodies()), flight_(free_flight()) {
+    : state_(state),
+      span_(span),
+      bodies_(state.problem_bodies()),
+      ties_(state, span),
+      flight_(free_flight()) {
   for (const auto& [pair, manifold] : state_.manifolds) {
     state_.add_others(pair, bodies_);
   }
+  add_tied_bodies(state_, bodies_);
   set_bodies();
   by_end_ = is_heap(state_, count_touches(state_.manifolds));
   for (const auto& [pair, manifold] : state_.manifolds) {
@@ -106,6 +114,8 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   robots_by_end_.assign(state_.robots.size(), false);
   if (!state_.robots.empty()) {
     fly_robots();
+  } else if (!ties_.empty()) {
+    lay_ties();
   }
 }
 
@@ -147,8 +157,17 @@ bool IslandPlanner::is_link_body(std::size_t place) const {
 }
 
 void IslandPlanner::fly_robots() {
-  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, flights_);
+  const std::vector<Eigen::VectorXd> loads = ties_.loads(flights_);
+  if (!loads.empty()) {
+    for (RobotFlight& flight : flights_) {
+      flight.is_known = false;
+    }
+  }
+  state_.robots.fly(state_.start.time + state_.reached, span_, robots_by_end_, loads, flights_);
   state_.robots.set(flights_, problem_);
+  if (!ties_.empty()) {
+    lay_ties();
+  }
 }
 
 /// Flies robots anew where that has to be. Returns whether there were any.
@@ -280,6 +299,9 @@ void IslandPlanner::solve() {
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     problem_.contacts[k].guess = last_->velocities.impulses[k];
   }
+  for (std::size_t k = 0; k < problem_.ties.size(); ++k) {
+    problem_.ties[k].guess = last_->velocities.ties[k];
+  }
 }
 
 Plan IslandPlanner::plan() {
@@ -292,18 +314,26 @@ Plan IslandPlanner::plan() {
     solve();
     by_end_ = by_end_ || !mean_is_allowed();
   }
+  if (!ties_.empty()) {
+    follow_ties();
+  }
   const ContactSolution& solution = last_->velocities;
   Plan made{.at_end = solution.bodies, .residual = solution.residual};
   made.at_end.resize(state_.size());
   const std::vector<bool> by_end = led_by_end();
-  const bool by_chords =
-      by_end_ && state_.robots.empty() && !is_heap(state_, problem_.contacts.size()) && any_turns();
+  const bool by_chords = by_end_ && state_.robots.empty() && ties_.empty() &&
+                         !is_heap(state_, problem_.contacts.size()) && any_turns();
   set_moves(by_end, by_chords ? along_chords().bodies : solution.bodies, made);
-  const std::vector<OuterImpulse> outer =
+  std::vector<OuterImpulse> outer =
       outer_impulses(problem_, *last_, bodies_, state_.robots.size(), span_);
-  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, outer,
+  std::vector<OuterImpulse> changes = outer;
+  ties_.add_changes(solution.ties, changes);
+  ties_.add_all(solution.ties, outer);
+  made.ties = ties_.impulses(solution.ties);
+  made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes,
                                    state_.start.time + state_.reached, span_);
   push_apart(made);
+  settle_ties(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;

@@ -11,10 +11,12 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_robots.h>
 #include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/moving_contact.h>
+#include <firstcontact/simulation/detail/plan_ties.h>
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/move.h>
@@ -50,7 +52,8 @@ struct Plan {
   /// axes of now. So contacts do to its energy now what they do to it at the end.
   std::vector<ContactBody> at_end;
   std::vector<RobotPlan> robots = {};
-  double residual = 0.0;  ///< [m/s]
+  std::vector<TieTrackPiece> ties = {};  ///< Impulses over the plan.
+  double residual = 0.0;                 ///< [m/s]
 };
 
 /// Makes plans from where an island is now, each with more or tighter constraints than the one
@@ -87,6 +90,10 @@ class IslandPlanner {
   [[nodiscard]] bool is_link_body(std::size_t place) const;
   void choose_rules();
   void fly_robots();
+  void lay_ties();
+  void fly_with_ties();
+  void follow_ties();
+  void settle_ties(Plan& plan) const;
   [[nodiscard]] bool lead_robots_by_end(const std::vector<bool>& by_end);
   void set_bodies();
   [[nodiscard]] ActingContact acting(const ManifoldPoint& touch, double least) const;
@@ -111,11 +118,13 @@ class IslandPlanner {
   IslandState& state_;
   double span_;  // [s]
   ProblemBodies bodies_;
+  PlanTies ties_;
   FreeFlight flight_;
   ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
   std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
   std::vector<ActingContact> acting_;           // Those of touches of now.
   bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
+  bool laid_by_end_ = false;                    // They did when the rows of ties were made.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.
   std::multimap<BodyPair, std::size_t> ahead_;  // The others.
   std::vector<RobotFlight> flights_;            // Of the robots,

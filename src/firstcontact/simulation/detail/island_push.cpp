@@ -5,6 +5,7 @@
 #include <firstcontact/contact_solver/detail/re_solve.h>
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/island_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -98,7 +99,9 @@ ContactSolution IslandPlanner::find_push() const {
     mechanism.velocity.setZero();
   }
   state_.robots.add_stops(problem);
-  if (problem.mechanisms.empty()) {  // Most have room: only those around move.
+  problem.ties = rigid_rows(state_, bodies_);
+  if (problem.mechanisms.empty() &&
+      problem.ties.empty()) {  // Most have room: only those around move.
     ProjectionOptions around_options = options;
     around_options.sweeps = kPushSweepsAround;
     ContactSolution around =

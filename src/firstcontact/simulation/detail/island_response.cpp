@@ -82,7 +82,12 @@ bool is_isolated(const IslandState& state, const ContactProblem& problem) {
       return false;
     }
   }
-  return std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
+  const bool is_tied = std::ranges::any_of(problem.ties, [&](const TieRow& tie) {
+    return tie.sides.size() < 2 || std::ranges::any_of(tie.sides, [&](const TieSide& side) {
+             return side.body >= state.size();
+           });
+  });
+  return !is_tied && std::ranges::all_of(problem.contacts, [&](const ContactPoint& contact) {
     return contact.bodies[0] < state.size() && contact.bodies[1] < state.size();
   });
 }
@@ -189,7 +194,7 @@ void shorten_within(const IslandState& state, const ContactProblem& problem, dou
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
                   ContactSolution& solution) {
   const bool has_solution = is_solved(state, solution);
-  if (has_solution && state.robots.has_motors()) {
+  if (has_solution && (state.robots.has_motors() || !problem.ties.empty())) {
     return false;
   }
   const double before =
@@ -250,7 +255,7 @@ bool stands(const IslandState& state) {
 
 PlanSolution project_with(const IslandState& state, const ContactProblem& problem,
                           const ProjectionOptions& options) {
-  if (problem.contacts.empty() && problem.drives.empty()) {
+  if (problem.contacts.empty() && problem.drives.empty() && problem.ties.empty()) {
     return {unchanged(problem)};
   }
   PlanSolution plan{project_on_contacts(problem, options)};
@@ -322,7 +327,8 @@ std::optional<PlanSolution> project_plan_again(const IslandState& state,
                                                const ContactProblem& problem,
                                                const PlanSolution& before,
                                                const std::vector<std::size_t>& changed) {
-  if (!is_heap(state, problem.contacts.size()) || !state.robots.empty() || before.is_limited) {
+  if (!is_heap(state, problem.contacts.size()) || !state.robots.empty() || before.is_limited ||
+      !problem.ties.empty()) {
     return std::nullopt;
   }
   PlanSolution plan{

@@ -50,7 +50,8 @@ struct RobotFlight {
   MechanismState end = {};
   Eigen::VectorXd velocities = {};      ///< Without contacts and the changes of drives.
   Eigen::MatrixXd inverse_mass = {};    ///< At the end, as
-  std::vector<Jacobian> J = {};         ///< of each link body.
+  std::vector<Jacobian> J = {};         ///< of each link body, and
+  std::vector<Pose> X_WB = {};          ///< where it is.
   std::vector<JointDrive> drives = {};  ///< Of the changes of impulses.
   std::vector<double> predicted = {};   ///< [N m s or N s]  Impulses in the flight, of each drive.
   PositionRule rule = {};
@@ -63,6 +64,14 @@ struct OuterImpulse {
   bool acts = false;                                  ///< Any does.
   bool is_known = true;  ///< Of velocities that were limited they are not.
   bool touches = false;  ///< Contacts act, with what is not of it or between its own links.
+};
+
+/// A force and a moment on a link body, constant over a span.
+struct LinkLoad {
+  std::size_t member = 0;                            ///< Of the island.
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N]
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m]  About the origin of the world,
+                                                     ///< where the link is halfway.
 };
 
 /// Where a plan leads a robot, and how fast it is there.
@@ -114,12 +123,21 @@ class IslandRobots {
   /// The robot of a link body, here.
   [[nodiscard]] std::size_t robot_of(std::size_t member) const { return place_[member][0]; }
 
+  /// The number of a link body among those of its robot, as flights have them.
+  [[nodiscard]] std::size_t link_of(std::size_t member) const { return place_[member][1]; }
+
   /// Finds the flights over a span that are not known, or not of the kind that is wanted.
   ///
   /// @param from    [s]  since the simulation began
   /// @param by_end  of each robot: what drives its joints makes velocities at the end lead it
+  /// @param loads   (size)  [N m or N]  constant forces along its coordinates; empty: none
   void fly(double from, double span, const std::vector<bool>& by_end,
-           std::vector<RobotFlight>& flights) const;
+           const std::vector<Eigen::VectorXd>& loads, std::vector<RobotFlight>& flights) const;
+
+  /// [N m or N]  The forces along the coordinates of a robot that loads on its links are, halfway
+  /// through a flight; where that is not known, halfway on the way of now.
+  [[nodiscard]] Eigen::VectorXd forces_of(std::size_t robot, const std::vector<LinkLoad>& loads,
+                                          const RobotFlight& flight, double span) const;
 
   /// [rad or m]  How far the changes of velocities in a flight lead a coordinate, at most.
   [[nodiscard]] double change_of_way(std::size_t robot, const RobotFlight& flight,
@@ -218,8 +236,11 @@ class IslandRobots {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   [[nodiscard]] View view_of(const Robot& robot, const MechanismState& state) const;
-  [[nodiscard]] RobotFlight flight_of(std::size_t robot, const TimeSpan& span) const;
-  [[nodiscard]] RobotFlight flight_by_end(std::size_t robot, const TimeSpan& span) const;
+  [[nodiscard]] RobotFlight flight_of(std::size_t robot, const TimeSpan& span,
+                                      const Eigen::VectorXd& load) const;
+  [[nodiscard]] RobotFlight flight_by_end(std::size_t robot, const TimeSpan& span,
+                                          const Eigen::VectorXd& load) const;
+  static void take_links(std::vector<LinkPlace>& links, RobotFlight& flight);
   [[nodiscard]] std::vector<double> drives_of(std::size_t robot, const ContactProblem& problem,
                                               const ContactSolution& solution) const;
   [[nodiscard]] Eigen::VectorXd impulses_of(std::size_t robot, std::size_t motors,

@@ -1,6 +1,7 @@
 #include <firstcontact/simulation/detail/island_state.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <firstcontact/simulation/detail/seams.h>
@@ -31,7 +32,12 @@ IslandState::IslandState(const StepContext& step, std::vector<std::size_t> given
   for (std::size_t k = 0; k < size(); ++k) {
     place[members[k]] = k;
     states.push_back(start.states[members[k]]);
+    if (!model.ties.empty()) {
+      std::ranges::copy(model.ties_of[members[k]], std::back_inserter(ties));
+    }
   }
+  std::ranges::sort(ties);
+  ties.erase(std::unique(ties.begin(), ties.end()), ties.end());
 }
 
 const Pose& IslandState::pose_of(std::size_t body) {
@@ -43,6 +49,10 @@ const Pose& IslandState::pose_of(std::size_t body) {
     found->second = scripted_pose(model, start, body, reached / start.h);
   }
   return found->second;
+}
+
+Pose IslandState::tied_pose(std::size_t body) {
+  return model.bodies[body].link_body ? robots.state(place.at(body)).X_WB : pose_of(body);
 }
 
 ProblemBodies IslandState::problem_bodies() const {

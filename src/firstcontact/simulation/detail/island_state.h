@@ -51,6 +51,9 @@ struct IslandState {
   /// The members as they move now, and what they touch.
   [[nodiscard]] ProblemBodies problem_bodies() const;
 
+  /// Where a body is that is tied: links are where their joints have them.
+  [[nodiscard]] Pose tied_pose(std::size_t body);
+
   /// Adds those of the pair that are around the island.
   void add_others(const BodyPair& pair, ProblemBodies& bodies);
 
@@ -99,6 +102,8 @@ struct IslandState {
   std::map<BodyPair, Manifold> manifolds;
   double reached = 0.0;                                ///< [s]  Since the step began.
   std::unordered_map<std::size_t, Pose> poses_around;  ///< Of those asked for, now.
+  std::vector<std::size_t> ties = {};                  ///< Of the model, that have a member.
+  std::size_t taut = 0;                                ///< Cables that became taut in the step.
 };
 
 inline Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double by) {

@@ -44,6 +44,7 @@ class Islands {
 
   std::optional<std::vector<IslandTrack>> run() {
     join_links();
+    join_tied();
     join_near();
     if (!advance_bare_robots()) {
       return std::nullopt;
@@ -92,6 +93,17 @@ class Islands {
         std::size_t& one = first[link_body->robot];
         one = one == kNone ? b : one;
         join(one, b);
+      }
+    }
+  }
+
+  void join_tied() {
+    for (const SimTie& tie : model_.ties) {
+      const auto is_free = [&](const TieEnd& end) {
+        return end.body && model_.bodies[*end.body].kind == BodyKind::free;
+      };
+      if (is_free(tie.ends[0]) && is_free(tie.ends[1])) {
+        join(*tie.ends[0].body, *tie.ends[1].body);
       }
     }
   }

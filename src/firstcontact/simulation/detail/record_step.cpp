@@ -15,6 +15,7 @@
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
+#include <firstcontact/simulation_model/detail/sim_tie.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>
 
@@ -77,7 +78,9 @@ class StepRecorder {
     step.clearance = std::max(0.0, step.clearance - kRounding * size_of(step));
     add_mechanics(step);
     add_contacts(tracks, step);
+    add_ties(tracks, step);
     state_.contacts = step.contacts;
+    state_.ties = step.ties;
     state_.time = step.time;
     state_.count = step.index;
     return step;
@@ -160,6 +163,29 @@ class StepRecorder {
     }
     std::ranges::stable_sort(step.contacts, is_listed_before);
     step.contacts = without_idle(step.contacts);
+  }
+
+  /// The mean forces of ties; those of bodies that stay at rest are those of the step before.
+  void add_ties(const std::vector<IslandTrack>& tracks, RunStep& step) const {
+    step.ties.resize(model_.ties.size());
+    for (const IslandTrack& track : tracks) {
+      for (const TieTrackPiece& piece : track.ties) {
+        const double share = piece.to <= lasted_
+                                 ? 1.0
+                                 : std::max(0.0, lasted_ - piece.from) / (piece.to - piece.from);
+        if (share > 0.0) {
+          step.ties[piece.tie].force += share / lasted_ * piece.linear;
+          step.ties[piece.tie].torque += share / lasted_ * piece.angular;
+        }
+      }
+      for (std::size_t k = 0; k < track.members.size() && track.rests == Rest::goes_on &&
+                              state_.ties.size() == step.ties.size() && !step.ties.empty();
+           ++k) {
+        for (const std::size_t t : model_.ties_of[track.members[k]]) {
+          step.ties[t] = state_.ties[t];
+        }
+      }
+    }
   }
 
   /// The track of a body until the step ends, as a run has it. Moves the body's state there.
@@ -247,6 +273,10 @@ class StepRecorder {
       step.potential_energy += robot.potential_energy;
       step.linear_momentum += robot.linear_momentum;
       step.angular_momentum += robot.angular_momentum;
+    }
+    for (const SimTie& tie : model_.ties) {
+      step.potential_energy +=
+          elastic_energy(tie, place_of(tie, [&](std::size_t b) { return state_.states[b].X_WB; }));
     }
     for (std::size_t b = 0; b < state_.states.size(); ++b) {
       const SimBody& body = model_.bodies[b];

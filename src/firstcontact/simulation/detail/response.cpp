@@ -39,19 +39,28 @@ ContactSolution between(const ContactSolution& from, const ContactSolution& to, 
   for (std::size_t k = 0; k < mixed.drives.size(); ++k) {
     mixed.drives[k] = (1.0 - share) * from.drives[k] + share * to.drives[k];
   }
+  for (std::size_t k = 0; k < mixed.ties.size(); ++k) {
+    mixed.ties[k] = (1.0 - share) * from.ties[k] + share * to.ties[k];
+  }
   for (std::size_t k = 0; k < mixed.impulses.size(); ++k) {
     mixed.impulses[k] = (1.0 - share) * from.impulses[k] + share * to.impulses[k];
   }
   return mixed;
 }
 
+/// Or is tied to it.
 bool touches_scripted(const ContactProblem& problem, std::size_t members) {
-  return std::ranges::any_of(problem.contacts, [&](const ContactPoint& contact) {
-    return std::ranges::any_of(contact.bodies, [&](std::size_t place) {
-      const ContactBody& body = problem.bodies[place];
-      return place >= members && (body.v.any() || body.w.any());
-    });
-  });
+  const auto is_scripted = [&](std::size_t place) {
+    const ContactBody& body = problem.bodies[place];
+    return place >= members && (body.v.any() || body.w.any());
+  };
+  return std::ranges::any_of(problem.contacts,
+                             [&](const ContactPoint& contact) {
+                               return std::ranges::any_of(contact.bodies, is_scripted);
+                             }) ||
+         std::ranges::any_of(problem.ties, [&](const TieRow& tie) {
+           return std::ranges::any_of(tie.sides, is_scripted, &TieSide::body);
+         });
 }
 
 }  // namespace
@@ -133,7 +142,8 @@ ContactSolution unchanged(const ContactProblem& problem) {
   return {.bodies = problem.bodies,
           .mechanisms = velocities_of(problem.mechanisms),
           .impulses = std::vector<Vector3d>(problem.contacts.size(), Vector3d::Zero()),
-          .drives = std::vector<double>(problem.drives.size(), 0.0)};
+          .drives = std::vector<double>(problem.drives.size(), 0.0),
+          .ties = std::vector<double>(problem.ties.size(), 0.0)};
 }
 
 std::vector<Eigen::VectorXd> velocities_of(const std::vector<ContactMechanism>& mechanisms) {

@@ -42,7 +42,8 @@ class Sequence {
         problem_(std::move(problem)),
         pairs_(contacts_by_pair(pairs)),
         impulses_(problem_.contacts.size(), Vector3d::Zero()),
-        drives_(problem_.drives.size(), 0.0) {}
+        drives_(problem_.drives.size(), 0.0),
+        ties_(problem_.ties.size(), 0.0) {}
 
   ContactSolution run() {
     part_by_law();
@@ -95,6 +96,7 @@ class Sequence {
     alone.bodies = problem_.bodies;
     alone.mechanisms = problem_.mechanisms;
     alone.drives = problem_.drives;
+    alone.ties = problem_.ties;
     std::vector<std::size_t> contacts = pair.contacts;
     std::ranges::copy(held_, std::back_inserter(contacts));
     std::vector<double> restitution(contacts.size(), 0.0);
@@ -122,6 +124,9 @@ class Sequence {
     for (std::size_t k = 0; k < drives_.size(); ++k) {
       held.drives[k] += drives_[k];
     }
+    for (std::size_t k = 0; k < ties_.size(); ++k) {
+      held.ties[k] += ties_[k];
+    }
     return held;
   }
 
@@ -136,6 +141,9 @@ class Sequence {
     for (std::size_t k = 0; k < drives_.size(); ++k) {
       drives_[k] += solution.drives[k];
     }
+    for (std::size_t k = 0; k < ties_.size(); ++k) {
+      ties_[k] += solution.ties[k];
+    }
   }
 
   const IslandState& state_;
@@ -144,6 +152,7 @@ class Sequence {
   std::vector<std::size_t> held_;  // Contacts of all others.
   std::vector<Vector3d> impulses_;
   std::vector<double> drives_;
+  std::vector<double> ties_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct SimulationState {
   std::vector<MechanismState> robots = {};
   std::vector<bool> rests = {};           ///< Of each body: found at rest in the last step.
   std::vector<RunContact> contacts = {};  ///< Of the last step, sorted.
+  std::vector<RunTie> ties = {};          ///< Of the last step.
   double time = 0.0;                      ///< [s]
   std::size_t count = 0;                  ///< Of steps.
 };

@@ -7,6 +7,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/island_ties.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
@@ -24,9 +25,12 @@ double greatest_speed(const SimBody& body, const Vector3d& v, const Vector3d& w)
   return v.norm() + body.reach * w.norm();
 }
 
-/// Whether contacts press each member.
+/// Whether contacts press each member, or ties hold it.
 bool are_all_held(const IslandState& state, const std::vector<ManifoldPoint>& touches) {
   std::vector<bool> is_held(state.size(), false);
+  for (std::size_t k = 0; k < state.size() && !state.ties.empty(); ++k) {
+    is_held[k] = !state.model.ties_of[state.members[k]].empty();
+  }
   for (const ManifoldPoint& touch : touches) {
     for (const std::size_t b : touch.bodies) {
       const auto member = state.place.find(b);
@@ -63,9 +67,11 @@ bool is_disturbed(const SimulationModel& model, const StepStart& start, const Ob
 
 bool falls_asleep(const IslandState& state, const Plan& plan,
                   const std::vector<ManifoldPoint>& touches) {
-  const double seeming = std::min(kRestOfExactTolerance * exact_tolerance(state),
+  const double seeming = (state.ties.empty() ? 1.0 : kRestOfTied) *
+                         std::min(kRestOfExactTolerance * exact_tolerance(state),
                                   kRestOfGravity * state.model.gravity.norm() * state.start.h);
-  if (!state.robots.empty() || state.is_too_near() || !(plan.residual <= seeming)) {
+  if (is_pulled(state.model, state.start, state.members) || !state.robots.empty() ||
+      state.is_too_near() || !(plan.residual <= seeming)) {
     return false;
   }
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -81,12 +87,14 @@ bool falls_asleep(const IslandState& state, const Plan& plan,
 }
 
 bool stays_asleep(const StepContext& step, const std::vector<std::size_t>& members) {
-  return std::ranges::all_of(members, [&](std::size_t b) {
-    return step.start.rests[b] &&
-           std::ranges::none_of(step.model.bodies[b].forces,
-                                [&](const auto& force) { return changes(force, step.start); }) &&
-           !is_disturbed(step.model, step.start, step.around, b);
-  });
+  return !is_pulled(step.model, step.start, members) &&
+         std::ranges::all_of(members, [&](std::size_t b) {
+           return step.start.rests[b] &&
+                  std::ranges::none_of(
+                      step.model.bodies[b].forces,
+                      [&](const auto& force) { return changes(force, step.start); }) &&
+                  !is_disturbed(step.model, step.start, step.around, b);
+         });
 }
 
 IslandTrack track_asleep(const StepContext& step, std::vector<std::size_t> members) {

@@ -17,10 +17,10 @@ struct StepContext;
 
 /// Whether bodies that a plan moves over the whole step are held where they are.
 ///
-/// A contact presses each of them, and nothing scripted moves beside them. Before and after the
-/// plan none is faster than a little more than what exact solutions leave, 3e-5 of what gravity
-/// adds in a step at most. Bodies that gather speed more slowly than that are at rest, too; without
-/// gravity none are. Heaps, which are solved less exactly, rarely get there.
+/// A contact presses each of them or a tie holds it, and nothing scripted moves beside them. Before
+/// and after the plan none is faster than a little more than what exact solutions leave, 3e-5 of
+/// what gravity adds in a step at most. Bodies that gather speed more slowly than that are at rest,
+/// too; without gravity none are. Heaps, which are solved less exactly, rarely get there.
 [[nodiscard]] bool falls_asleep(const IslandState& state, const Plan& plan,
                                 const std::vector<ManifoldPoint>& touches);
 

@@ -170,9 +170,36 @@ inline constexpr double kAtLimit = 1e-9;
 /// yields as little has no solution together with it, and then neither law is kept.
 inline constexpr double kMostBeyondLimit = 1e-3;
 
+/// [rad]  Springs that swing on by more in a span are damped.
+inline constexpr double kGreatestPhase = 1.0;
+
 /// [-]  Motors may place a robot that touches something so far from where its velocities lead, by
 /// the contact distance. Beyond it velocities at the end of a plan lead the robot.
 inline constexpr double kUnseenPlacement = 0.1;
+
+// Ties.
+
+/// [-]  A cable within this part of the contact distance of its length is taut.
+inline constexpr double kTautOfDistance = 0.25;
+/// [-]  Joints of ties are together to this part of the contact distance at the end of a plan.
+inline constexpr double kApartOfDistance = 1e-5;
+/// [rounds]  Displacements without velocity bring joints of ties together in so many rounds.
+inline constexpr int kRoundsOfSettling = 4;
+/// [rounds]  Forces of ties act in the flights of a plan. So often flights are made again, at most,
+/// until [-] what changes is this part of the greatest impulse of a tie.
+inline constexpr int kMostRoundsOfTies = 8;
+inline constexpr double kChangeOfTies = 1e-9;
+/// [-]  Forces that still change by more after these rounds are not predicted at all.
+inline constexpr double kNearChangeOfTies = 1e-3;
+/// [-]  A displacement that closes a gap is at most so many times as long as the gap.
+inline constexpr double kFarthestOfGap = 20.0;
+/// [impacts]  After so many in a step, cables are taut at the end of a plan in place of within it.
+inline constexpr std::size_t kMostTautEvents = 20;
+/// [rad]  Bodies with ties turn no farther in a plan.
+inline constexpr double kMostTurnOfTied = 0.5;
+/// [-]  Islands with ties sleep at this part of the speed of others: a soft spring is slow where it
+/// turns back.
+inline constexpr double kRestOfTied = 0.1;
 
 // How exactly contact problems are solved, by what gravity adds in a step.
 

@@ -15,8 +15,6 @@ using Eigen::VectorXd;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// [rad]  Springs that swing on by more in a span are damped.
-constexpr double kGreatestPhase = 1.0;
 /// [-]  A motor takes the rate of its target where the mean of the velocities at both ends leads to
 /// it, to this part of their change: on smooth targets, and not where they have a kink.
 constexpr double kSmoothTarget = 0.25;
@@ -187,8 +185,6 @@ JointDrive motor_by_rule(const JointLaw& law, const Coordinate& c, const TimeSpa
   return drive;
 }
 
-double weight_of(double z) { return z < 1e-2 ? 0.5 + z / 12.0 : 1.0 / -std::expm1(-z) - 1.0 / z; }
-
 bool is_stop(const JointDrive& drive) {
   return (drive.least == 0.0) != (drive.greatest == 0.0) &&
          !(std::isfinite(drive.least) && std::isfinite(drive.greatest));
@@ -269,6 +265,10 @@ JointDrive on_coordinate_of(const JointLaw& law, JointDrive drive) {
 
 }  // namespace
 
+double fitted_weight(double z) {
+  return z < 1e-2 ? 0.5 + z / 12.0 : 1.0 / -std::expm1(-z) - 1.0 / z;
+}
+
 double greatest_impulse(const JointLaw& law, double span) {
   const double effort = law.motor->effort.value_or(law.limits.effort.value_or(kUnbounded));
   return effort * span;
@@ -289,7 +289,7 @@ VectorXd position_weights(const std::vector<JointLaw>& laws, const MatrixXd& inv
       const double phase = span * std::sqrt(*law.motor->stiffness * mobility);
       z += span * law.motor->damping * mobility + std::max(0.0, phase - kGreatestPhase);
     }
-    weights[law.velocity] = weight_of(z);
+    weights[law.velocity] = fitted_weight(z);
   }
   return weights;
 }

@@ -49,14 +49,20 @@ struct PositionRule {
 /// Whether a motor holds its joint against any force, impacts too.
 [[nodiscard]] bool is_rigid(const JointLaw& law);
 
+/// [-]  The weight of the end of a span that makes the decay of one damped coordinate exact,
+/// 1 / (1 - exp(-z)) - 1 / z.
+///
+/// This is the exponential fit of W. Liniger, R. A. Willoughby, "Efficient integration methods for
+/// stiff systems of ordinary differential equations", SIAM Journal on Numerical Analysis 7 (1970).
+/// It differs from 1/2 by z / 12, so that rules stay of second order.
+///
+/// @param z  span damping / mass
+[[nodiscard]] double fitted_weight(double z);
+
 /// The weights of the laws' coordinates.
 ///
-/// Undamped springs have 1/2, and keep their energy. Dampers have what makes the decay of one
-/// coordinate alone exact, 1 / (1 - exp(-z)) - 1 / z, with z = span damping / mass (the exponential
-/// fit of W. Liniger, R. A. Willoughby, "Efficient integration methods for stiff systems of
-/// ordinary differential equations", SIAM Journal on Numerical Analysis 7 (1970)). It differs from
-/// 1/2 by z / 12, so that the rule stays one of second order. Springs that swing by more than one
-/// radian of their phase in a span are damped, as steps cannot follow them.
+/// Undamped springs have 1/2, and keep their energy. Dampers have fitted_weight(). Springs that
+/// swing by more than one radian of their phase in a span are damped, as steps cannot follow them.
 ///
 /// @param inverse_mass  of the mechanism
 /// @param span          [s]

@@ -44,6 +44,19 @@ std::vector<std::shared_ptr<const RoundSide>> round_sides_of(const std::vector<S
   return all;
 }
 
+std::vector<std::vector<std::size_t>> ties_of_bodies(const std::vector<SimTie>& ties,
+                                                     std::size_t bodies) {
+  std::vector<std::vector<std::size_t>> of(ties.empty() ? 0 : bodies);
+  for (std::size_t k = 0; k < ties.size(); ++k) {
+    for (const TieEnd& end : ties[k].ends) {
+      if (end.body) {
+        of[*end.body].push_back(k);
+      }
+    }
+  }
+  return of;
+}
+
 }  // namespace
 
 SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies& linked)
@@ -55,7 +68,9 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       round_sides(round_sides_of(bodies, distances.tolerance)),
       gravity(loaded.scene.simulation->gravity),
       impacts(loaded.scene.simulation->impacts),
-      events(loaded.scene.simulation->events) {}
+      events(loaded.scene.simulation->events),
+      ties(make_sim_ties(linked.loaded, bodies, distances.least)),
+      ties_of(ties_of_bodies(ties, bodies.size())) {}
 
 double smaller_reach(const SimulationModel& model, const BodyPair& bodies) {
   return std::min(model.bodies[bodies[0]].reach, model.bodies[bodies[1]].reach);

@@ -10,11 +10,12 @@
 #include <Eigen/Core>
 
 #include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 #include <firstcontact/simulation_model/detail/round_side.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
-#include <firstcontact/query/detail/surface_neighbours.h>
+#include <firstcontact/simulation_model/detail/sim_tie.h>
 
 namespace firstcontact {
 struct LinksAsBodies;
@@ -36,6 +37,8 @@ struct SimulationModel {
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
   ImpactLaw impacts;
   std::size_t events;  ///< In a step, at most.
+  std::vector<SimTie> ties;
+  std::vector<std::vector<std::size_t>> ties_of;  ///< Of each body; empty without any ties.
 };
 
 /// [m]  Of two bodies, how far the smaller one reaches.

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/wrong_commands.h>
+#include <firstcontact/simulation_model/detail/wrong_commands.h>
 
 #include <cmath>
 #include <cstddef>

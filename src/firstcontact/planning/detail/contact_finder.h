@@ -1,0 +1,71 @@
+/// @file
+/// The contacts of a mover at a place.
+
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/planning/detail/tangent_space.h>
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/query/contact.h>
+#include <firstcontact/query/placed_shape.h>
+#include <firstcontact/query/workspace.h>
+
+namespace firstcontact::detail {
+
+/// Two points that are near each other.
+struct NearContact {
+  BodyPair members = {};
+  Eigen::Vector3d p_WP = Eigen::Vector3d::Zero();     ///< [m]  Between them.
+  Eigen::Vector3d n_AB_W = Eigen::Vector3d::UnitX();  ///< [-]
+  double gap = 0.0;  ///< [m]  To what a search of edges calls blocked.
+};
+
+/// The contacts at a place, with what moves there.
+struct ContactsAt {
+  std::vector<MovedMember> members;   ///< One for each member of the scene.
+  std::vector<NearContact> contacts;  ///< The nearest first; those that are much alike once.
+};
+
+/// Finds what is near a mover. For one thread; refers to the scene.
+///
+/// Where the mover has very many triangles, some of them stand for all: contacts only steer.
+class ContactFinder {
+ public:
+  /// @param kept  [m]  what edges keep beyond the margins
+  ContactFinder(const PlanScene& scene, const TangentSpace& tangents, double kept);
+
+  /// @param band  [m]  nothing that is farther is of interest
+  [[nodiscard]] ContactsAt near(const Configuration& q, double band);
+
+ private:
+  struct Pair {
+    BodyPair members = {};
+    double margin = 0.0;  // [m]  With what edges keep.
+  };
+
+  [[nodiscard]] std::vector<MovedMember> members_at(const Configuration& q);
+  void take(const Pair& pair, const ContactsAt& at, double band, std::vector<NearContact>& found);
+  [[nodiscard]] const PlacedShape& placed(std::size_t member, std::size_t geometry,
+                                          const MovedMember& at,
+                                          std::optional<PlacedShape>& moved) const;
+
+  const PlanScene& plan_;
+  const TangentSpace& tangents_;
+  std::vector<Pair> pairs_;
+  std::vector<bool> moves_;
+  std::vector<std::vector<Shape>> moved_;          // Of members that move; thinned out.
+  std::vector<std::vector<PlacedShape>> resting_;  // Of members that do not move.
+  std::optional<RobotScene> posed_;                // Of a robot with joints.
+  Workspace workspace_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,77 @@
+/// @file
+/// A tree of places that proven edges connect.
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/planning/configuration_space.h>
+
+namespace firstcontact::detail {
+
+/// Places, each with an edge from its parent that is proven. Refers to the space.
+class PlanTree {
+ public:
+  static constexpr std::size_t kNoParent = std::numeric_limits<std::size_t>::max();
+
+  explicit PlanTree(const ConfigurationSpace& space) : space_(&space) {}
+
+  /// Adds a place and returns its number.
+  ///
+  /// @param is_found  whether nearest() may give it; else it only leads on to others
+  std::size_t add(Configuration q, std::size_t parent, bool is_found = true) {
+    places_.push_back(std::move(q));
+    parents_.push_back(parent);
+    if (is_found) {
+      found_.push_back(places_.size() - 1);
+    }
+    return places_.size() - 1;
+  }
+
+  /// Lets nearest() give a place that it did not.
+  void show(std::size_t node) { found_.push_back(node); }
+
+  /// Marks a place as one from which to move in contact.
+  void mark(std::size_t node) { marked_.push_back(node); }
+
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  /// kNoParent of a root; else less than the node.
+  [[nodiscard]] std::size_t parent(std::size_t node) const { return parents_[node]; }
+  [[nodiscard]] const Configuration& operator[](std::size_t node) const { return places_[node]; }
+  /// In the order in which they were marked.
+  [[nodiscard]] const std::vector<std::size_t>& marked() const { return marked_; }
+
+  [[nodiscard]] std::size_t nearest(const Configuration& q) const {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t k : found_) {
+      const double distance = space_->distance(places_[k], q);
+      if (distance < least) {
+        least = distance;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  /// From a node to its root.
+  [[nodiscard]] std::vector<Configuration> to_root(std::size_t node) const {
+    std::vector<Configuration> places;
+    for (; node != kNoParent; node = parents_[node]) {
+      places.push_back(places_[node]);
+    }
+    return places;
+  }
+
+ private:
+  const ConfigurationSpace* space_;
+  std::vector<Configuration> places_;
+  std::vector<std::size_t> parents_;
+  std::vector<std::size_t> found_;
+  std::vector<std::size_t> marked_;
+};
+
+}  // namespace firstcontact::detail

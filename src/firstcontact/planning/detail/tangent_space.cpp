@@ -1,0 +1,166 @@
+#include <firstcontact/planning/detail/tangent_space.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/motion/rotation_forms.h>
+#include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact::detail {
+namespace {
+
+constexpr double kNearScrew = 0.05;  // [-]  What a motion may depart from a screw about an axis.
+
+Eigen::Vector3d place_of(const Configuration& q) { return {q[0], q[1], q[2]}; }
+
+Eigen::Quaterniond turn_of(const Configuration& q) {
+  return Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized();
+}
+
+Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& rotation) {
+  const double sine = rotation.vec().norm();
+  const double angle = 2.0 * std::atan2(sine, std::abs(rotation.w()));
+  const double factor = sine > 0.0 ? angle / sine : 2.0;
+  return (rotation.w() < 0.0 ? -factor : factor) * rotation.vec();
+}
+
+/// [m]  How far geometries of a robot are from its base, in the motion that the scene has.
+double reach_of_robot(const PlanScene& plan) {
+  const RobotScene& scene = plan.scene;
+  const Eigen::Vector3d base = scene.robot_motion(plan.robot).base().pose(0.0).position;
+  double reach = 0.0;
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    const auto link = scene.robot_link(member);
+    if (!link || link->robot != plan.robot) {
+      continue;
+    }
+    for (const MemberGeometry& geometry : scene.geometries(member)) {
+      const Hierarchy& hierarchy = geometry.shape.hierarchy();
+      reach = std::max(reach, (scene.pose(member, 0.0).position - base).norm() +
+                                  geometry.X_MG.position.norm() + hierarchy.centre.norm() +
+                                  hierarchy.radius);
+    }
+  }
+  return reach;
+}
+
+}  // namespace
+
+TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
+  if (space_.is_body()) {
+    const std::size_t member = scene.scene.first_member(scene.robot);
+    const Hierarchy& hierarchy = scene.scene.geometries(member)[0].shape.hierarchy();
+    p_BC_ = hierarchy.centre;
+    reach_ = hierarchy.radius;
+    inverse_metric_ = Eigen::VectorXd::Ones(6);
+    inverse_metric_.tail<3>().setConstant(1.0 / (reach_ * reach_));
+    return;
+  }
+  reach_ = std::max(reach_of_robot(scene), 1e-9);
+  inverse_metric_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(space_.size()));
+  for (std::size_t k = 0; k < space_.size(); ++k) {
+    if (!space_.coordinates()[k].slides) {
+      inverse_metric_[static_cast<Eigen::Index>(k)] = 1.0 / (reach_ * reach_);
+    }
+  }
+}
+
+double TangentSpace::product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+  return (a.array() * b.array() / inverse_metric_.array()).sum();
+}
+
+double TangentSpace::length(const Eigen::VectorXd& dq) const { return std::sqrt(product(dq, dq)); }
+
+Eigen::VectorXd TangentSpace::difference(const Configuration& from, const Configuration& to) const {
+  Eigen::VectorXd dq(size());
+  if (space_.is_body()) {
+    const Eigen::Quaterniond begin = turn_of(from);
+    const Eigen::Quaterniond end = turn_of(to);
+    dq.head<3>() = place_of(to) + end * p_BC_ - place_of(from) - begin * p_BC_;
+    dq.tail<3>() = rotation_vector_of(end * begin.conjugate());
+    return dq;
+  }
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    dq[static_cast<Eigen::Index>(k)] =
+        space_.coordinates()[k].turns_short ? shortest_way(from[k], to[k]) : to[k] - from[k];
+  }
+  return dq;
+}
+
+Configuration TangentSpace::moved(const Configuration& q, const Eigen::VectorXd& dq) const {
+  if (space_.is_body()) {
+    const Eigen::Quaterniond begin = turn_of(q);
+    const Eigen::Quaterniond end =
+        (rotation_from_vector(Eigen::Vector3d(dq.tail<3>())) * begin).normalized();
+    const Eigen::Vector3d place = place_of(q) + begin * p_BC_ + dq.head<3>() - end * p_BC_;
+    return {place.x(), place.y(), place.z(), end.w(), end.x(), end.y(), end.z()};
+  }
+  Configuration to = q;
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    const SpaceCoordinate& coordinate = space_.coordinates()[k];
+    to[k] += dq[static_cast<Eigen::Index>(k)];
+    if (coordinate.has_limits) {
+      to[k] = std::clamp(to[k], std::min(coordinate.lower, q[k]), std::max(coordinate.upper, q[k]));
+    }
+  }
+  return to;
+}
+
+Eigen::VectorXd TangentSpace::in_body(const Configuration& q, const Eigen::VectorXd& dq) const {
+  if (!space_.is_body()) {
+    return dq;
+  }
+  const Eigen::Quaterniond back = turn_of(q).conjugate();
+  Eigen::VectorXd turned(6);
+  turned << back * Eigen::Vector3d(dq.head<3>()), back * Eigen::Vector3d(dq.tail<3>());
+  return turned;
+}
+
+Eigen::VectorXd TangentSpace::in_world(const Configuration& q, const Eigen::VectorXd& dq) const {
+  if (!space_.is_body()) {
+    return dq;
+  }
+  const Eigen::Quaterniond there = turn_of(q);
+  Eigen::VectorXd turned(6);
+  turned << there * Eigen::Vector3d(dq.head<3>()), there * Eigen::Vector3d(dq.tail<3>());
+  return turned;
+}
+
+std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
+                                                   const Eigen::VectorXd& dq) const {
+  if (!space_.is_body()) {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd in_body_axes = in_body(q, dq);
+  const Eigen::Vector3d w = in_body_axes.tail<3>();
+  const Eigen::Vector3d v = in_body_axes.head<3>() - w.cross(p_BC_);  // Of the origin.
+  const bool turns = reach_ * w.norm() > kNearScrew * v.norm();
+  const Eigen::Vector3d& way = turns ? w : v;
+  Eigen::Index axis = 0;
+  const double along = way.cwiseAbs().maxCoeff(&axis);
+  const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis);
+  const Eigen::Vector3d beside = v - v[axis] * unit;
+  if (!(along > 0.0) || (way - way[axis] * unit).norm() > kNearScrew * along ||
+      (turns && beside.norm() > kNearScrew * reach_ * along)) {
+    return std::nullopt;
+  }
+  const Eigen::Quaterniond begin = turn_of(q);
+  const Eigen::Vector3d place = place_of(q) + begin * Eigen::Vector3d(v[axis] * unit);
+  const Eigen::Quaterniond end =
+      turns ? (begin * rotation_from_vector(Eigen::Vector3d(w[axis] * unit))).normalized() : begin;
+  return Configuration{place.x(), place.y(), place.z(), end.w(), end.x(), end.y(), end.z()};
+}
+
+MovedMember TangentSpace::moved_body(const Configuration& q) const {
+  MovedMember member;
+  member.X_WM = {place_of(q), turn_of(q)};
+  member.p_WR = member.X_WM.position + member.X_WM.rotation * p_BC_;
+  member.J = Eigen::Matrix<double, 6, 6>::Identity();
+  return member;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// [-]  Changes of forces that grow by more from one round to the next never become small.
+constexpr double kGrowthOfTies = 1.5;
+
+}  // namespace
+
+/// The rows of ties for where the bodies fly.
+void IslandPlanner::lay_ties() {
+  std::vector<Move> moves;
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    moves.push_back(
+        {0.5 * span_ * (bodies_.bodies()[k].v + flight_.at_end[k].v), flight_.rotation_vectors[k]});
+  }
+  ties_.lay(bodies_, {moves, flights_, led_by_end()}, problem_);
+  laid_by_end_ = by_end_;
+}
+
+/// Makes flights and rows anew, and solves.
+void IslandPlanner::fly_with_ties() {
+  flight_ = free_flight();
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    if (!state_.member(k).link_body) {
+      problem_.bodies[k] = flight_.at_end[k];
+    }
+  }
+  if (state_.robots.empty()) {
+    lay_ties();
+  } else {
+    fly_robots();
+  }
+  last_.reset();
+  solve();
+  by_end_ = by_end_ || !mean_is_allowed();
+}
+
+/// Lets the forces of ties act in the flights of bodies and robots, until they stay the same. Near
+/// positions in which a loop is singular they do not: there nothing is predicted, and velocities
+/// are projected where flights end, which adds no energy.
+void IslandPlanner::follow_ties() {
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostRoundsOfTies; ++round) {
+    const double change = ties_.greatest_change(last_->velocities.ties);
+    const bool is_near = change <= kNearChangeOfTies;
+    const bool is_done = change <= kChangeOfTies || (is_near && change > 0.5 * before);
+    if (is_done && laid_by_end_ == by_end_) {
+      return;
+    }
+    const bool is_last = round + 1 == kMostRoundsOfTies;
+    if (!is_near && (is_last || !(change <= kGrowthOfTies * before))) {
+      ties_.forget();
+      flights_.clear();
+      for (ContactPoint& contact : problem_.contacts) {
+        contact.guess.setZero();
+      }
+      fly_with_ties();
+      return;
+    }
+    before = change;
+    ties_.take(last_->velocities.ties);
+    fly_with_ties();
+  }
+}
+
+/// Adds displacements without velocity that bring joints of ties together, and cables back to their
+/// length, where the plan ends. Contacts come no nearer by them.
+void IslandPlanner::settle_ties(Plan& plan) const {
+  if (state_.ties.empty()) {
+    return;
+  }
+  ContactProblem resting{.bodies = problem_.bodies, .mechanisms = problem_.mechanisms};
+  for (ContactBody& body : resting.bodies) {
+    body.v.setZero();
+    body.w.setZero();
+  }
+  for (ContactMechanism& mechanism : resting.mechanisms) {
+    mechanism.velocity.setZero();
+  }
+  for (const ContactPoint& contact : problem_.contacts) {
+    resting.contacts.push_back({.bodies = contact.bodies,
+                                .arm_A = contact.arm_A,
+                                .arm_B = contact.arm_B,
+                                .frame = contact.frame});
+  }
+  const double tolerance = kApartOfDistance * state_.model.distances.least;
+  for (int round = 0; round < kRoundsOfSettling; ++round) {
+    state_.robots.set_moves(plan.robots, state_.states, span_, plan.moves);
+    std::vector<Pose> at_end;
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      at_end.push_back(motion_of(state_.member(k), state_.states[k].X_WB, plan.moves[k]).pose(1.0));
+    }
+    ContactProblem problem = resting;
+    const double off = ties_.add_settling(at_end, last_->velocities.ties, bodies_, problem);
+    if (!(off > tolerance)) {
+      return;
+    }
+    const ContactSolution way = project_on_contacts(problem, {.tolerance = 0.1 * tolerance});
+    if (!(way.residual < off)) {
+      return;
+    }
+    double farthest = 0.0;
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      farthest = std::max(farthest, way.bodies[k].v.norm());
+    }
+    if (!(farthest <= kFarthestOfGap * off)) {  // Near a singular position.
+      return;
+    }
+    for (std::size_t k = 0; k < state_.size(); ++k) {
+      plan.moves[k].translation += way.bodies[k].v;
+      plan.moves[k].rotation_vector += way.bodies[k].w;
+    }
+    state_.robots.displace(way.mechanisms, plan.robots);
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,188 @@
+#include <firstcontact/simulation/detail/island_ties.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_response.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The ends where bodies are now. Impulses of joints act in the middle of their two points.
+std::array<TiedSide, 2> sides_now(const SimTie& tie, const TiePlace& place,
+                                  const ProblemBodies& bodies) {
+  std::array<TiedSide, 2> sides;
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (tie.ends[s].body) {
+      sides[s].place = bodies.place(*tie.ends[s].body);
+      sides[s].centre = bodies.centre(*sides[s].place);
+    }
+    sides[s].point = tie.is_joint() ? place.middle() : place.X_WT[s].position;
+  }
+  return sides;
+}
+
+double velocity_of(const TieRow& row, const std::vector<ContactBody>& bodies) {
+  double u = 0.0;
+  for (const TieSide& side : row.sides) {
+    u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
+  }
+  return u;
+}
+
+/// [m]  A share of a plan ahead.
+double length_at(IslandState& state, const SimTie& tie, const Plan& plan, double span,
+                 double share) {
+  const TiePlace place = place_of(tie, [&](std::size_t body) {
+    const auto member = state.place.find(body);
+    if (member == state.place.end()) {
+      return scripted_pose(state.model, state.start, body,
+                           (state.reached + share * span) / state.start.h);
+    }
+    const std::size_t k = member->second;
+    return motion_of(state.member(k), state.states[k].X_WB, plan.moves[k]).pose(share);
+  });
+  return place.between().norm();
+}
+
+}  // namespace
+
+TieRow row_along(const TieDirection& direction, const std::array<TiedSide, 2>& sides) {
+  TieRow row;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const TiedSide& side = sides[s];
+    if (!side.place) {
+      continue;
+    }
+    const double sign = s == 0 ? -1.0 : 1.0;
+    Vector3d angular =
+        sign * ((side.point - side.centre).cross(direction.linear) + direction.angular);
+    if (side.inertia != nullptr) {
+      angular = turned_along(*side.inertia, angular, -side.turned);
+    }
+    TieSide made{.body = *side.place};
+    made.row << sign * direction.linear, angular;
+    row.sides.push_back(made);
+  }
+  return row;
+}
+
+bool is_taut(const IslandState& state, const SimTie& tie, const TiePlace& place) {
+  return place.between().norm() >= tie.length - kTautOfDistance * state.model.distances.least;
+}
+
+TiePlace place_now(IslandState& state, const SimTie& tie) {
+  return place_of(tie, [&](std::size_t body) { return state.tied_pose(body); });
+}
+
+void add_tied_bodies(IslandState& state, ProblemBodies& bodies) {
+  for (const std::size_t t : state.ties) {
+    for (const TieEnd& end : state.model.ties[t].ends) {
+      if (end.body) {
+        state.add_others({*end.body, *end.body}, bodies);
+      }
+    }
+  }
+}
+
+std::vector<TieRow> rigid_rows(IslandState& state, const ProblemBodies& bodies) {
+  std::vector<TieRow> rows;
+  for (const std::size_t t : state.ties) {
+    const SimTie& tie = state.model.ties[t];
+    const TiePlace place = place_now(state, tie);
+    const std::array<TiedSide, 2> sides = sides_now(tie, place, bodies);
+    if (tie.is_joint()) {
+      for (const TieDirection& direction : directions_of(tie, place)) {
+        rows.push_back(row_along(direction, sides));
+      }
+    } else if (tie.is_inextensible() && is_taut(state, tie, place)) {
+      rows.push_back(row_along({.linear = place.between().normalized()}, sides));
+      rows.back().greatest = 0.0;
+    }
+  }
+  return rows;
+}
+
+void add_outer_of_ties(const ContactProblem& problem, const ContactSolution& solution,
+                       const ProblemBodies& bodies, std::vector<OuterImpulse>& outer) {
+  for (std::size_t k = 0; k < problem.ties.size() && !outer.empty(); ++k) {
+    const std::vector<TieSide>& sides = problem.ties[k].sides;
+    const auto robot_of = [&](const TieSide& side) {
+      const auto& link = problem.bodies[side.body].link;
+      return link ? std::optional(link->mechanism) : std::nullopt;
+    };
+    const bool is_inner =
+        sides.size() == 2 && robot_of(sides[0]) && robot_of(sides[0]) == robot_of(sides[1]);
+    for (const TieSide& side : sides) {
+      if (is_inner || !robot_of(side) || solution.ties[k] == 0.0) {
+        continue;
+      }
+      OuterImpulse& sum = outer[*robot_of(side)];
+      const Vector3d linear = solution.ties[k] * side.row.head<3>();
+      sum.linear += linear;
+      sum.angular += bodies.centre(side.body).cross(linear) + solution.ties[k] * side.row.tail<3>();
+      sum.acts = true;
+    }
+  }
+}
+
+bool any_tie_is_hit(IslandState& state) {
+  if (state.ties.empty()) {
+    return false;
+  }
+  ProblemBodies bodies = state.problem_bodies();
+  add_tied_bodies(state, bodies);
+  const double slow = std::max(slowest_bounce(state), 100.0 * kLeastTolerance);
+  return std::ranges::any_of(rigid_rows(state, bodies), [&](const TieRow& row) {
+    const double u = velocity_of(row, bodies.bodies());
+    return u > slow || (row.greatest > 0.0 && u < -slow);
+  });
+}
+
+double share_within_cables(IslandState& state, const Plan& plan, double span) {
+  constexpr int kHalvings = 60;
+  double share = 1.0;
+  for (const std::size_t t : state.ties) {
+    const SimTie& tie = state.model.ties[t];
+    if (!tie.is_inextensible() || is_taut(state, tie, place_now(state, tie)) ||
+        !(length_at(state, tie, plan, span, share) > tie.length)) {
+      continue;
+    }
+    double low = 0.0;
+    double high = share;
+    for (int k = 0; k < kHalvings && low < high; ++k) {
+      const double middle = 0.5 * (low + high);
+      (length_at(state, tie, plan, span, middle) <= tie.length ? low : high) = middle;
+    }
+    share = low;
+  }
+  return share;
+}
+
+bool is_pulled(const SimulationModel& model, const StepStart& start,
+               const std::vector<std::size_t>& members) {
+  if (model.ties.empty()) {
+    return false;
+  }
+  const auto moves = [&](const TieEnd& end) {
+    return end.body && (start.scripted[*end.body].translation.any() ||
+                        start.scripted[*end.body].rotation_vector.any());
+  };
+  return std::ranges::any_of(members, [&](std::size_t member) {
+    return std::ranges::any_of(model.ties_of[member], [&](std::size_t t) {
+      return std::ranges::any_of(model.ties[t].ends, moves);
+    });
+  });
+}
+
+}  // namespace firstcontact::detail

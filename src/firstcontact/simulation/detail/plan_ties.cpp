@@ -1,0 +1,447 @@
+#include <firstcontact/simulation/detail/plan_ties.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+#include <firstcontact/simulation_model/detail/step_start.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// The vector between two points halfway through a plan, by the lengths at both ends: along it, the
+/// way between the points is the change of the length (O. Gonzalez, "Time integration and discrete
+/// Hamiltonian systems", Journal of Nonlinear Science 6 (1996)). Nearly a unit vector.
+Vector3d mean_direction(const Vector3d& now, const Vector3d& end) {
+  const Vector3d sum = now + end;
+  const double lengths = now.norm() + end.norm();
+  if (sum.norm() > 0.5 * lengths) {
+    return sum / lengths;
+  }
+  return now.norm() > 0.0 ? Vector3d(now.normalized()) : Vector3d(Vector3d::UnitZ());
+}
+
+/// [1/kg]  What an impulse along a row does to its velocity.
+double inverse_mass_along(const TieRow& row, const ContactProblem& problem) {
+  double sum = 0.0;
+  for (const TieSide& side : row.sides) {
+    const ContactBody& body = problem.bodies[side.body];
+    if (body.link) {
+      const VectorXd J = body.link->J.transpose() * side.row;
+      sum += J.dot(problem.mechanisms[body.link->mechanism].inverse_mass * J);
+    } else {
+      const Vector3d linear = side.row.head<3>();
+      const Vector3d angular = side.row.tail<3>();
+      sum += linear.dot(body.inverse_inertia.mass.cwiseProduct(linear)) +
+             angular.dot(body.inverse_inertia.rotation * angular);
+    }
+  }
+  return sum;
+}
+
+double speed_along(const TieRow& row, const std::vector<ContactBody>& bodies) {
+  double u = 0.0;
+  for (const TieSide& side : row.sides) {
+    u += side.row.head<3>().dot(bodies[side.body].v) + side.row.tail<3>().dot(bodies[side.body].w);
+  }
+  return u;
+}
+
+/// The impulses of a tie on its second body.
+struct TieImpulse {
+  Vector3d linear = Vector3d::Zero();
+  Vector3d angular = Vector3d::Zero();
+};
+
+TieImpulse sum_of(const std::vector<TieDirection>& directions,
+                  const std::vector<double>& impulses) {
+  TieImpulse sum;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    sum.linear += impulses[k] * directions[k].linear;
+    sum.angular += impulses[k] * directions[k].angular;
+  }
+  return sum;
+}
+
+}  // namespace
+
+PlanTies::PlanTies(IslandState& state, double span) : state_(state), span_(span) {
+  for (const std::size_t t : state.ties) {
+    const SimTie& tie = state.model.ties[t];
+    Acting acting{.tie = &tie, .index = t, .now = place_now(state, tie)};
+    if (tie.is_inextensible() && state.taut <= kMostTautEvents &&
+        !is_taut(state, tie, acting.now)) {
+      continue;
+    }
+    for (std::size_t s = 0; s < 2; ++s) {
+      acting.centres_now[s] = Vector3d::Zero();
+      if (tie.ends[s].body) {
+        const std::size_t b = *tie.ends[s].body;
+        acting.centres_now[s] = centre_of_mass(state.model.bodies[b].inertia, state.tied_pose(b));
+      }
+    }
+    const bool is_line = !tie.is_joint() && !tie.is_vector();
+    acting.predicted.assign(is_line ? 1 : directions_of(tie, acting.now).size(), 0.0);
+    acting_.push_back(std::move(acting));
+  }
+  find_link_forces();
+}
+
+void PlanTies::find_link_forces() {
+  const double from = state_.start.time + state_.reached;
+  for (std::size_t k = 0; k < state_.size() && !state_.robots.empty(); ++k) {
+    for (const TimedForce& timed : state_.member(k).forces) {
+      if (state_.member(k).link_body) {
+        const double share =
+            std::max(0.0, std::min(timed.to, from + span_) - std::max(timed.from, from)) / span_;
+        link_forces_.push_back({k, share * timed.force, share * timed.torque});
+      }
+    }
+  }
+}
+
+void PlanTies::add_to(std::size_t member, Vector3d& force, Vector3d& torque) const {
+  for (const Acting& acting : acting_) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      if (acting.halfway.empty() || acting.tie->ends[s].body != state_.members[member]) {
+        continue;
+      }
+      const TieImpulse impulse = sum_of(acting.halfway, acting.predicted);
+      const double sign = (s == 0 ? -1.0 : 1.0) / span_;
+      const Vector3d arm = acting.at[s] - 0.5 * (acting.centres_now[s] + acting.centres_end[s]);
+      force += sign * impulse.linear;
+      torque += sign * (arm.cross(impulse.linear) + impulse.angular);
+    }
+  }
+}
+
+LinkLoad PlanTies::load_of(const LinkForce& force, const RobotFlight& flight) const {
+  const RigidState now = state_.robots.state(force.member);
+  const Inertia& inertia = state_.member(force.member).inertia;
+  const Vector3d from = centre_of_mass(inertia, now.X_WB);
+  const Vector3d to =
+      flight.is_known ? centre_of_mass(inertia, flight.X_WB[state_.robots.link_of(force.member)])
+                      : Vector3d(from + span_ * now.v_WC);
+  return {force.member, force.force, force.torque + (0.5 * (from + to)).cross(force.force)};
+}
+
+std::vector<VectorXd> PlanTies::loads(const std::vector<RobotFlight>& flights) const {
+  if (state_.robots.empty() || empty()) {
+    return {};
+  }
+  const RobotFlight unknown;
+  const auto flight_of = [&](std::size_t r) -> const RobotFlight& {
+    return r < flights.size() ? flights[r] : unknown;
+  };
+  std::vector<LinkLoad> on_links;
+  for (const LinkForce& force : link_forces_) {
+    on_links.push_back(load_of(force, flight_of(state_.robots.robot_of(force.member))));
+  }
+  for (const Acting& acting : acting_) {
+    const TieImpulse impulse = sum_of(acting.halfway, acting.predicted);
+    for (std::size_t s = 0; s < 2 && !acting.halfway.empty(); ++s) {
+      const std::optional<std::size_t>& body = acting.tie->ends[s].body;
+      if (body && state_.model.bodies[*body].link_body) {
+        const double sign = (s == 0 ? -1.0 : 1.0) / span_;
+        on_links.push_back({state_.place.at(*body), sign * impulse.linear,
+                            sign * (acting.at[s].cross(impulse.linear) + impulse.angular)});
+      }
+    }
+  }
+  std::vector<VectorXd> forces;
+  for (std::size_t r = 0; r < state_.robots.size(); ++r) {
+    forces.push_back(state_.robots.forces_of(r, on_links, flight_of(r), span_));
+  }
+  return forces;
+}
+
+Pose PlanTies::pose_at_end(std::size_t body, const IslandFlight& flight) const {
+  const auto member = state_.place.find(body);
+  if (member == state_.place.end()) {
+    return scripted_pose(state_.model, state_.start, body,
+                         (state_.reached + span_) / state_.start.h);
+  }
+  const std::size_t k = member->second;
+  return state_.member(k).link_body
+             ? flight.robots[state_.robots.robot_of(k)].X_WB[state_.robots.link_of(k)]
+             : motion_of(state_.member(k), state_.states[k].X_WB, flight.moves[k]).pose(1.0);
+}
+
+void PlanTies::follow(Acting& acting, const IslandFlight& flight) const {
+  acting.end = place_of(*acting.tie, [&](std::size_t b) { return pose_at_end(b, flight); });
+  for (std::size_t s = 0; s < 2; ++s) {
+    acting.centres_end[s] = Vector3d::Zero();
+    if (const std::optional<std::size_t>& body = acting.tie->ends[s].body) {
+      acting.centres_end[s] =
+          centre_of_mass(state_.model.bodies[*body].inertia, pose_at_end(*body, flight));
+    }
+  }
+}
+
+void PlanTies::set_directions(Acting& acting) const {
+  const SimTie& tie = *acting.tie;
+  for (std::size_t s = 0; s < 2; ++s) {
+    acting.at[s] = 0.5 * (acting.now.X_WT[s].position + acting.end.X_WT[s].position);
+    acting.where[s] = acting.at[s];
+  }
+  if (tie.is_joint()) {
+    acting.halfway = directions_of(tie, acting.now);
+    acting.changing = directions_of(tie, acting.end);
+    for (std::size_t k = 0; k < acting.halfway.size(); ++k) {
+      TieDirection& halfway = acting.halfway[k];
+      halfway.angular = 0.5 * (halfway.angular + acting.changing[k].angular);
+    }
+    acting.at.fill(0.5 * (acting.now.middle() + acting.end.middle()));
+    acting.where.fill(acting.end.middle());
+    return;
+  }
+  if (tie.is_vector()) {
+    acting.halfway = directions_of(tie, acting.end);
+    acting.changing = acting.halfway;
+    return;
+  }
+  const Vector3d along = mean_direction(acting.now.between(), acting.end.between());
+  acting.halfway = {{.linear = tie.is_inextensible() ? Vector3d(along.normalized()) : along}};
+  acting.changing = acting.halfway;
+  if (tie.is_inextensible()) {
+    acting.changing[0].linear = acting.end.between().normalized();
+    acting.where = {acting.end.X_WT[0].position, acting.end.X_WT[1].position};
+  }
+}
+
+std::array<TiedSide, 2> PlanTies::sides_of(const Acting& acting, const ProblemBodies& now,
+                                           const IslandFlight& flight) const {
+  std::array<TiedSide, 2> sides;
+  const bool is_at_end = acting.tie->is_joint() || acting.tie->is_inextensible();
+  for (std::size_t s = 0; s < 2; ++s) {
+    sides[s].point = acting.where[s];
+    sides[s].centre = is_at_end ? acting.centres_end[s]
+                                : Vector3d(0.5 * (acting.centres_now[s] + acting.centres_end[s]));
+    const std::optional<std::size_t>& body = acting.tie->ends[s].body;
+    if (!body) {
+      continue;
+    }
+    sides[s].place = now.place(*body);
+    const std::size_t k = *sides[s].place;
+    if (k < state_.size() && !state_.member(k).link_body) {
+      sides[s].inertia = &state_.member(k).inertia;
+      sides[s].turned = flight.moves[k].rotation_vector;
+    }
+  }
+  return sides;
+}
+
+bool PlanTies::is_led_by_end(const Acting& acting, const ProblemBodies& now,
+                             const std::vector<bool>& by_end) const {
+  return std::ranges::any_of(acting.tie->ends, [&](const TieEnd& end) {
+    return end.body && now.place(*end.body) < by_end.size() && by_end[now.place(*end.body)];
+  });
+}
+
+void PlanTies::lay(const ProblemBodies& now, const IslandFlight& flight, ContactProblem& problem) {
+  problem.ties.clear();
+  for (Acting& acting : acting_) {
+    follow(acting, flight);
+    set_directions(acting);
+    acting.by_end = is_led_by_end(acting, now, flight.by_end);
+    acting.first_row = problem.ties.size();
+    add_rows(acting, now, flight, problem);
+  }
+}
+
+void PlanTies::add_rows(Acting& acting, const ProblemBodies& now, const IslandFlight& flight,
+                        ContactProblem& problem) const {
+  const SimTie& tie = *acting.tie;
+  const std::array<TiedSide, 2> sides = sides_of(acting, now, flight);
+  for (std::size_t k = 0; k < acting.changing.size(); ++k) {
+    problem.ties.push_back(row_along(acting.changing[k], sides));
+    if (tie.is_inextensible()) {
+      TieRow& row = problem.ties.back();
+      row.target = std::max(0.0, tie.length - acting.now.between().norm()) / span_;
+      row.greatest = -acting.predicted[0];
+    } else if (!tie.is_joint()) {
+      add_spring(acting, k, now, sides, problem);
+    }
+  }
+}
+
+/// Gives the last row the numbers of a spring.
+void PlanTies::add_spring(const Acting& acting, std::size_t k, const ProblemBodies& now,
+                          const std::array<TiedSide, 2>& sides, ContactProblem& problem) const {
+  const SimTie& tie = *acting.tie;
+  TieRow& row = problem.ties.back();
+  std::array<TiedSide, 2> as_they_are = sides;
+  for (TiedSide& side : as_they_are) {
+    side.inertia = nullptr;
+  }
+  const auto extension = [&](const TiePlace& place) {
+    return tie.is_vector() ? place.between()[static_cast<Eigen::Index>(k)]
+                           : place.between().norm() - tie.length;
+  };
+  SpringWay way;
+  way.begin = extension(acting.now);
+  way.flight = extension(acting.end);
+  way.speed_at_begin = speed_along(row_along(acting.changing[k], as_they_are), now.bodies());
+  way.speed_of_flight = speed_along(row, problem.bodies);
+  way.share = acting.by_end ? 1.0 : 0.5;
+  way.inverse_mass = inverse_mass_along(row, problem);
+  const SpringRow law = spring_row(tie, way, span_);
+  row.compliance = law.compliance;
+  row.target = law.target - law.compliance * acting.predicted[k];
+  if (tie.type == TieType::cable) {
+    row.greatest = -acting.predicted[k];
+  }
+}
+
+std::vector<double> PlanTies::part_of(const Acting& acting,
+                                      const std::vector<double>& changes) const {
+  const auto first = changes.begin() + static_cast<std::ptrdiff_t>(acting.first_row);
+  return {first, first + static_cast<std::ptrdiff_t>(acting.changing.size())};
+}
+
+double PlanTies::greatest_change(const std::vector<double>& changes) const {
+  double most = 0.0;
+  double greatest = 0.0;
+  for (const Acting& acting : acting_) {
+    for (std::size_t k = 0; k < acting.predicted.size(); ++k) {
+      const double change = changes[acting.first_row + k];
+      most = std::max(most, std::abs(change));
+      greatest = std::max(greatest, std::abs(acting.predicted[k] + change));
+    }
+  }
+  return most > 0.0 ? most / greatest : 0.0;
+}
+
+void PlanTies::take(const std::vector<double>& changes) {
+  for (Acting& acting : acting_) {
+    for (std::size_t k = 0; k < acting.predicted.size(); ++k) {
+      acting.predicted[k] += changes[acting.first_row + k];
+    }
+  }
+}
+
+void PlanTies::forget() {
+  for (Acting& acting : acting_) {
+    std::ranges::fill(acting.predicted, 0.0);
+    acting.halfway.clear();  // Flights may have led anywhere.
+  }
+}
+
+void PlanTies::add_outer(const Acting& acting, const std::vector<double>& impulses, bool predicted,
+                         std::vector<OuterImpulse>& outer) const {
+  const TieImpulse impulse = sum_of(predicted ? acting.halfway : acting.changing, impulses);
+  std::array<std::optional<std::size_t>, 2> robots;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::optional<std::size_t>& body = acting.tie->ends[s].body;
+    if (body && state_.model.bodies[*body].link_body) {
+      robots[s] = state_.robots.robot_of(state_.place.at(*body));
+    }
+  }
+  const bool is_inner = robots[0] && robots[0] == robots[1];
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (!robots[s]) {
+      continue;
+    }
+    OuterImpulse& sum = outer[*robots[s]];
+    sum.touches = true;
+    if (!is_inner) {
+      const double sign = s == 0 ? -1.0 : 1.0;
+      const Vector3d& point = predicted ? acting.at[s] : acting.where[s];
+      sum.linear += sign * impulse.linear;
+      sum.angular += sign * (point.cross(impulse.linear) + impulse.angular);
+      sum.acts = true;
+    }
+  }
+}
+
+void PlanTies::add_changes(const std::vector<double>& changes,
+                           std::vector<OuterImpulse>& outer) const {
+  for (const Acting& acting : acting_) {
+    add_outer(acting, part_of(acting, changes), false, outer);
+  }
+}
+
+void PlanTies::add_all(const std::vector<double>& changes, std::vector<OuterImpulse>& outer) const {
+  add_changes(changes, outer);
+  for (const LinkForce& force : link_forces_) {
+    OuterImpulse& sum = outer[state_.robots.robot_of(force.member)];
+    const Inertia& inertia = state_.member(force.member).inertia;
+    const RigidState now = state_.robots.state(force.member);
+    const Vector3d halfway = centre_of_mass(inertia, now.X_WB) + 0.5 * span_ * now.v_WC;
+    sum.linear += span_ * force.force;
+    sum.angular += span_ * (force.torque + halfway.cross(force.force));
+    sum.acts = true;
+  }
+  for (const Acting& acting : acting_) {
+    add_outer(acting, acting.predicted, true, outer);
+  }
+}
+
+std::vector<TieTrackPiece> PlanTies::impulses(const std::vector<double>& changes) const {
+  std::vector<TieTrackPiece> all;
+  for (const Acting& acting : acting_) {
+    const TieImpulse predicted = sum_of(acting.halfway, acting.predicted);
+    const TieImpulse change = sum_of(acting.changing, part_of(acting, changes));
+    all.push_back({.tie = acting.index,
+                   .linear = predicted.linear + change.linear,
+                   .angular = predicted.angular + change.angular});
+  }
+  return all;
+}
+
+double PlanTies::add_settling(const std::vector<Pose>& at_end, const std::vector<double>& changes,
+                              const ProblemBodies& now, ContactProblem& problem) const {
+  double farthest = 0.0;
+  const auto pose_there = [&](std::size_t body) {
+    const auto member = state_.place.find(body);
+    return member != state_.place.end() ? at_end[member->second]
+                                        : scripted_pose(state_.model, state_.start, body,
+                                                        (state_.reached + span_) / state_.start.h);
+  };
+  for (const Acting& acting : acting_) {
+    const SimTie& tie = *acting.tie;
+    if (!tie.is_joint() && !tie.is_inextensible()) {
+      continue;
+    }
+    const TiePlace place = place_of(tie, pose_there);
+    std::array<TiedSide, 2> sides;
+    for (std::size_t s = 0; s < 2; ++s) {
+      sides[s].point = tie.is_joint() ? place.middle() : place.X_WT[s].position;
+      if (const std::optional<std::size_t>& body = tie.ends[s].body) {
+        sides[s].place = now.place(*body);
+        sides[s].centre = centre_of_mass(state_.model.bodies[*body].inertia, pose_there(*body));
+      }
+    }
+    if (tie.is_joint()) {
+      const std::vector<TieDirection> directions = directions_of(tie, place);
+      const std::vector<double> off = displacements_of(tie, place);
+      for (std::size_t k = 0; k < directions.size(); ++k) {
+        problem.ties.push_back(row_along(directions[k], sides));
+        problem.ties.back().target = -off[k];
+        farthest = std::max(farthest, std::abs(off[k]));
+      }
+      continue;
+    }
+    const double over = place.between().norm() - tie.length;
+    const bool pulls = acting.predicted[0] + changes[acting.first_row] < 0.0;
+    problem.ties.push_back(row_along({.linear = place.between().normalized()}, sides));
+    problem.ties.back().target = -over;
+    if (!pulls) {
+      problem.ties.back().greatest = 0.0;
+    }
+    farthest = std::max(farthest, pulls ? std::abs(over) : over);
+  }
+  return farthest;
+}
+
+}  // namespace firstcontact::detail

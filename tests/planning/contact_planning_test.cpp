@@ -1,0 +1,280 @@
+// Motion in contact: projected as Gauss' principle has it, proven edge by edge, and through no
+// passage that is too narrow.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/planning/detail/contact_finder.h>
+#include <firstcontact/planning/detail/contact_motion.h>
+#include <firstcontact/planning/detail/contact_steering.h>
+#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/planning/detail/plan_work.h>
+#include <firstcontact/planning/detail/tangent_space.h>
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+
+#include "planning/plan_cases.h"
+#include "support/narrow_passages.h"
+#include "support/random.h"
+#include "support/rounds.h"
+
+namespace firstcontact::test {
+namespace {
+
+using detail::ContactFinder;
+using detail::ContactMotion;
+using detail::ContactsAt;
+using detail::ContactSteering;
+using detail::ContactWay;
+using detail::PlanWork;
+using detail::TangentSpace;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr ContactUse kUses[] = {ContactUse::none, ContactUse::sample, ContactUse::slide,
+                                ContactUse::both};
+
+Configuration any_place(Random& random) {
+  const Vector3d p = random.vector(0.0, 1.0);
+  const Eigen::Quaterniond r = random.rotation();
+  return {p.x(), p.y(), p.z(), r.w(), r.x(), r.y(), r.z()};
+}
+
+Configuration placed(const Vector3d& p, const Eigen::Quaterniond& r) {
+  return {p.x(), p.y(), p.z(), r.w(), r.x(), r.y(), r.z()};
+}
+
+/// A cube of 0.2 m above the floor z = 0.
+PlanScene cube_above_floor() {
+  RobotScene scene;
+  scene.add_body("floor", make_box({10.0, 10.0, 1.0}), resting_at({0.0, 0.0, -0.5}));
+  return with_bar(std::move(scene), {0.2, 0.2, 0.2});
+}
+
+void expect_proven_way(const PlanScene& scene, Configuration from, const ContactWay& way) {
+  const EdgeChecker fresh(scene, {.tolerance = 1e-7, .extra_clearance = 0.0});
+  for (std::size_t k = 0; k < way.places.size(); ++k) {
+    ASSERT_EQ(fresh.check(from, way.places[k]).verdict, EdgeVerdict::free) << k;
+    from = way.places[k];
+  }
+}
+
+/// The steering of a scene, with all that it works with.
+struct Steered {
+  explicit Steered(const PlanScene& scene, double range = 0.5)
+      : checker(scene, {.extra_clearance = 2e-6}),
+        work(checker, options, PlanWork::Clock::now(),
+             PlanWork::Clock::now() + std::chrono::seconds(100)),
+        steering(work, checker.scene(), range) {}
+
+  PlanOptions options;
+  EdgeChecker checker;
+  PlanWork work;
+  ContactSteering steering;
+};
+
+TEST(TangentSpace, LeadsFromOnePlaceToTheOther) {
+  const PlanScene scene = cube_above_floor();
+  const TangentSpace tangents(scene);
+  Random random(3);
+  for (int k = 0; k < 200; ++k) {
+    const Configuration from = any_place(random);
+    const Configuration to = any_place(random);
+    const Configuration reached = tangents.moved(from, tangents.difference(from, to));
+    EXPECT_LT(scene.space.distance(reached, to), 1e-12) << k;
+    const VectorXd dq = tangents.difference(from, to);
+    EXPECT_LT((tangents.in_world(from, tangents.in_body(from, dq)) - dq).norm(), 1e-12) << k;
+  }
+}
+
+// To first order a gap changes by J dq: what is found now tells the distance a little later.
+TEST(ContactFinder, TellsHowGapsChange) {
+  const PlanScene scene = cube_above_floor();
+  const TangentSpace tangents(scene);
+  ContactFinder finder(scene, tangents, 0.0);
+  const EdgeChecker checker(scene, {.extra_clearance = 0.0});
+  Random random(4);
+  for (int k = 0; k < 100; ++k) {
+    const Configuration q = placed({0.1, -0.2, 0.25}, random.rotation());
+    VectorXd dq(6);
+    dq.head<3>() = random.vector(0.0, 1e-4);
+    dq.tail<3>() = random.vector(0.0, 5e-4);
+    const ContactsAt at = finder.near(q, 0.3);
+    ASSERT_FALSE(at.contacts.empty());
+    double least = 1.0;
+    for (const detail::NearContact& contact : at.contacts) {
+      // A is the floor, B the cube.
+      const Eigen::Matrix<double, 6, 1> V = at.members[1].J * dq;
+      const Vector3d v = V.head<3>() + V.tail<3>().cross(contact.p_WP - at.members[1].p_WR);
+      least = std::min(least, contact.gap + contact.n_AB_W.dot(v));
+    }
+    const Configuration moved = tangents.moved(q, dq);
+    EXPECT_NEAR(checker.state(moved).clearance.value(), least, 3e-6) << k;
+  }
+}
+
+// The same for the joints of a robot, whose Jacobians are differences.
+TEST(ContactFinder, TellsHowGapsOfRobotsChange) {
+  const PlanScene scene = with_gantry(thin_wall(0.0));
+  const TangentSpace tangents(scene);
+  ContactFinder finder(scene, tangents, 0.0);
+  const ContactsAt at = finder.near({-0.12, 0.3, 0.1}, 0.1);
+  ASSERT_FALSE(at.contacts.empty());
+  EXPECT_NEAR(at.contacts.front().gap, 0.12 - 0.1 - 5e-6, 1e-9);
+  const std::size_t tool = scene.scene.first_member(scene.robot) + 3;
+  EXPECT_LT((at.members[tool].J.leftCols(3).topRows<3>() - Eigen::Matrix3d::Identity()).norm(),
+            1e-6);
+}
+
+// A closed form: what is wanted into the floor is left out, what is wanted along it is kept.
+TEST(ContactMotion, KeepsWhatLeadsAlongContacts) {
+  const PlanScene scene = cube_above_floor();
+  const TangentSpace tangents(scene);
+  ContactFinder finder(scene, tangents, 0.0);
+  const double gap = 0.001;
+  const Configuration q = placed({0.0, 0.0, 0.1 + gap}, Eigen::Quaterniond::Identity());
+  const ContactsAt at = finder.near(q, 0.01);
+  const VectorXd wanted = (VectorXd(6) << 0.02, 0.01, -0.05, 0.0, 0.0, 0.03).finished();
+  const ContactMotion motion = contact_motion(tangents, at, wanted, gap);
+  EXPECT_NEAR(motion.dq[0], 0.02, 1e-6);
+  EXPECT_NEAR(motion.dq[1], 0.01, 1e-6);
+  EXPECT_NEAR(motion.dq[5], 0.03, 1e-5);
+  // The gap is held by a weight of 100 against the wish.
+  EXPECT_NEAR(motion.dq[2], -0.05 / 101.0, 1e-4);
+  EXPECT_GT(motion.active, 0u);
+  EXPECT_GE(gap + motion.dq[2], motion.gap - 1e-6);
+  // A wish that leads away is kept whole.
+  const VectorXd away = (VectorXd(6) << 0.0, 0.0, 0.05, 0.0, 0.0, 0.0).finished();
+  EXPECT_LT((contact_motion(tangents, at, away, gap).dq - away).norm(), 1e-6);
+}
+
+TEST(ContactMotion, LeadsToTheMiddleOfANarrowPassage) {
+  RobotScene between;
+  between.add_body("left", make_box({1.0, 4.0, 4.0}), resting_at({-0.602, 0.0, 0.0}));
+  between.add_body("right", make_box({1.0, 4.0, 4.0}), resting_at({0.606, 0.0, 0.0}));
+  const PlanScene scene = with_bar(std::move(between), {0.2, 0.2, 0.2});
+  const TangentSpace tangents(scene);
+  ContactFinder finder(scene, tangents, 0.0);
+  const Configuration q = placed(Vector3d::Zero(), Eigen::Quaterniond::Identity());
+  const ContactMotion motion =
+      contact_motion(tangents, finder.near(q, 0.05), VectorXd::Zero(6), 0.02);
+  EXPECT_NEAR(motion.dq[0], 0.002, 3e-5);  // To the tolerance of the projection.
+  EXPECT_NEAR(motion.gap, 0.004, 3e-5);
+}
+
+TEST(ContactSteering, SlidesAlongAFloor) {
+  const PlanScene scene = cube_above_floor();
+  Steered steered(scene);
+  const Configuration from = placed({0.0, 0.0, 0.15}, Eigen::Quaterniond::Identity());
+  // The target lies in the floor: no way ends there, but one above it.
+  const Configuration target = placed({0.8, 0.3, -0.3}, Eigen::Quaterniond::Identity());
+  const ContactWay way = steered.steering.slide(from, target);
+  expect_proven_way(scene, from, way);
+  ASSERT_FALSE(way.places.empty());
+  EXPECT_FALSE(way.reaches_target);
+  EXPECT_TRUE(way.is_near);
+  EXPECT_NEAR(way.places.back()[0], 0.8, 0.05);
+  EXPECT_NEAR(way.places.back()[1], 0.3, 0.05);
+}
+
+// A push out of a hole of 0.2 mm leads far out of it, however it is directed, if only outwards.
+TEST(ContactSteering, GetsOutOfATightHole) {
+  RobotScene walls;
+  const double h = 0.1001;
+  walls.add_body("a", make_box({1.0, 1.0, 1.0}), resting_at({0.5 + h, 0.0, 0.0}));
+  walls.add_body("b", make_box({1.0, 1.0, 1.0}), resting_at({-0.5 - h, 0.0, 0.0}));
+  walls.add_body("c", make_box({1.0, 1.0, 1.0}), resting_at({0.0, 0.5 + h, 0.0}));
+  walls.add_body("d", make_box({1.0, 1.0, 1.0}), resting_at({0.0, -0.5 - h, 0.0}));
+  const PlanScene scene = with_bar(std::move(walls), {0.2, 0.2, 0.4});
+  Steered steered(scene);
+  const Configuration from = placed({0.0, 0.0, 0.2}, Eigen::Quaterniond::Identity());
+  const VectorXd up = (VectorXd(6) << 0.2, 0.1, 0.3, 0.5, 0.2, 0.3).finished();
+  const ContactWay way = steered.steering.push(from, up);
+  expect_proven_way(scene, from, way);
+  ASSERT_FALSE(way.places.empty());
+  EXPECT_GT(way.places.back()[2], 0.6);
+  EXPECT_LT(steered.work.counts().edges_checked, 200u);
+}
+
+TEST(NarrowPassages, AreSolvedInContact) {
+  for (const char* family : narrow_families()) {
+    const NarrowPassage passage = narrow_passage(family, 0.05);
+    const PlanResult result = plan_path(passage.scene, passage.start, {passage.goal},
+                                        {.contacts = ContactUse::both, .time = 30.0});
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << family;
+    EXPECT_EQ(result.path.front(), passage.start);
+    EXPECT_EQ(result.path.back(), passage.goal);
+    const EdgeChecker fresh(passage.scene);
+    for (std::size_t k = 0; k + 1 < result.path.size(); ++k) {
+      ASSERT_EQ(fresh.check(result.path[k], result.path[k + 1]).verdict, EdgeVerdict::free)
+          << family << ' ' << k;
+    }
+  }
+}
+
+// Through a gap of 10 um less than nothing there is no way, whatever is done in contact.
+TEST(NarrowPassages, HaveTwinsThatNothingGetsThrough) {
+  for (const char* family : narrow_families()) {
+    const NarrowPassage twin = narrow_passage(family, -1e-5);
+    for (const ContactUse use : kUses) {
+      const PlanResult result = plan_path(twin.scene, twin.start, {twin.goal},
+                                          {.contacts = use, .time = rounds(40, 20) * 1e-3});
+      EXPECT_EQ(result.verdict, PlanVerdict::none)
+          << family << ' ' << kContactUseWords.at(static_cast<std::size_t>(use));
+    }
+  }
+}
+
+TEST(NarrowPassages, HaveTheSamePathForASeed) {
+  const NarrowPassage passage = narrow_passage("dovetail", 0.002);
+  const auto planned = [&](std::uint64_t seed, int threads) {
+    return plan_path(
+        passage.scene, passage.start, {passage.goal},
+        {.contacts = ContactUse::both, .seed = seed, .time = 100.0, .threads = threads});
+  };
+  const PlanResult first = planned(3, 1);
+  const PlanResult second = planned(3, 2);
+  ASSERT_EQ(first.verdict, PlanVerdict::proven);
+  EXPECT_EQ(first.path, second.path);
+  EXPECT_EQ(first.statistics.edges_checked, second.statistics.edges_checked);
+  EXPECT_NE(planned(4, 1).path, first.path);
+}
+
+// An easy question is answered as it is without contacts, but for a few edges.
+TEST(NarrowPassages, CostLittleWhereTheWayIsWide) {
+  const PlanScene scene = with_bar(thin_wall(0.6), {0.1, 0.1, 0.1});
+  const Configuration start = placed({-0.8, 0.2, 0.1}, Eigen::Quaterniond::Identity());
+  const Configuration goal = placed({0.8, -0.9, 0.2}, Eigen::Quaterniond::Identity());
+  std::size_t without = 0;
+  std::size_t with = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto edges = [&](ContactUse use) {
+      const PlanResult result =
+          plan_path(scene, start, {goal}, {.contacts = use, .seed = seed, .shortcuts = 0});
+      EXPECT_EQ(result.verdict, PlanVerdict::proven);
+      return result.statistics.edges_checked;
+    };
+    without += edges(ContactUse::none);
+    with += edges(ContactUse::both);
+  }
+  EXPECT_LE(static_cast<double>(with), 1.25 * static_cast<double>(without));
+}
+
+TEST(NarrowPassages, AreForRrtConnectOnly) {
+  const NarrowPassage passage = narrow_passage("window", 0.05);
+  EXPECT_THROW((void)plan_path(passage.scene, passage.start, {passage.goal},
+                               {.planner = Planner::lazy_prm_star, .contacts = ContactUse::slide}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace firstcontact::test

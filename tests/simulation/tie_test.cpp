@@ -1,0 +1,578 @@
+// Springs, cables and joints between bodies: closed forms, orders in the step, energy and momenta.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/record/write_run.h>
+
+#include "simulation/simulated_run.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using test::body;
+using test::box;
+using test::numbers;
+using test::run;
+using test::simulator;
+
+constexpr double kGravity = 9.81;
+constexpr double kPi = std::numbers::pi;
+
+std::string number_text(double number) {
+  std::ostringstream out;
+  out.precision(17);
+  out << number;
+  return out.str();
+}
+
+/// A ball of 1 kg, 5 cm in radius.
+std::string mass_at(const std::string& name, const Vector3d& at, const Vector3d& v,
+                    double mass = 1.0) {
+  return body(name, test::ball("0.05"), numbers({at.x(), at.y(), at.z()}),
+              R"(, "dynamics": {"mass": )" + number_text(mass) + R"(, "linear_velocity": )" +
+                  numbers({v.x(), v.y(), v.z()}) + "}");
+}
+
+std::string with_ties(const std::string& ties, double step, bool has_gravity) {
+  return R"("duration": 100, "step": )" + number_text(step) + R"(, "contact_distance": 1e-4)" +
+         (has_gravity ? "" : R"(, "gravity": [0, 0, 0])") + R"(, "ties": [)" + ties + "]";
+}
+
+double energy_of(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
+
+/// The state of y' = f(y) after a time, by Runge and Kutta's rule in many steps.
+template <class Vector, class Rate>
+Vector followed(Vector y, double time, const Rate& f) {
+  constexpr int kSteps = 20000;
+  const double h = time / kSteps;
+  for (int k = 0; k < kSteps; ++k) {
+    const Vector a = f(y);
+    const Vector b = f(Vector(y + 0.5 * h * a));
+    const Vector c = f(Vector(y + 0.5 * h * b));
+    const Vector d = f(Vector(y + h * c));
+    y += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+  }
+  return y;
+}
+
+/// The errors after a time in steps of h, h / 2, h / 4 and h / 8 fall by at least so much each.
+void expect_order(double time, double h, const std::function<double(double)>& error_with,
+                  double factor = 3.5) {
+  double before = 0.0;
+  for (int halving = 0; halving < 4; ++halving) {
+    const double error = error_with(h);
+    if (halving > 0) {
+      EXPECT_GE(before, factor * error) << "in steps of " << h << " until " << time;
+    }
+    before = error;
+    h *= 0.5;
+  }
+}
+
+std::size_t steps_until(double time, double h) {
+  return static_cast<std::size_t>(std::lround(time / h));
+}
+
+const std::string kSpring =
+    R"({"type": "spring", "bodies": [null, "a"], "points": [[0, 0, 0], [0, 0, 0]], "length": 0.5,)";
+
+// 20 steps a period, 100 periods.
+TEST(Tie, SpringKeepsItsEnergy) {
+  const double k = 4.0 * kPi * kPi;
+  Simulator s =
+      simulator(mass_at("a", {0.6, 0, 0}, Vector3d::Zero()),
+                with_ties(kSpring + R"("stiffness": )" + number_text(k) + "}", 0.05, false));
+  for (int i = 0; i < 2000; ++i) {
+    const RunStep step = s.step().value();
+    ASSERT_NEAR(energy_of(step), 0.5 * k * 0.01, 1e-9) << i;
+    ASSERT_NEAR(step.bodies[0].X_WB.position.tail<2>().norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(Tie, SpringHasItsPeriod) {
+  const double k = 4.0 * kPi * kPi;
+  expect_order(1.28, 0.04, [&](double h) {
+    Simulator s =
+        simulator(mass_at("a", {0.6, 0, 0}, Vector3d::Zero()),
+                  with_ties(kSpring + R"("stiffness": )" + number_text(k) + "}", h, false));
+    run(s, steps_until(1.28, h));
+    return std::abs(s.states()[0].X_WB.position.x() - 0.5 - 0.1 * std::cos(2.0 * kPi * 1.28));
+  });
+}
+
+TEST(Tie, DampedSpringDecays) {
+  const double k = 40.0;
+  const double c = 2.0;
+  expect_order(1.28, 0.04, [&](double h) {
+    Simulator s = simulator(mass_at("a", {0.6, 0, 0}, Vector3d::Zero()),
+                            with_ties(kSpring + R"("stiffness": 40, "damping": 2})", h, false));
+    run(s, steps_until(1.28, h));
+    const double w = std::sqrt(k - 0.25 * c * c);
+    const double t = 1.28;
+    const double right =
+        0.1 * std::exp(-0.5 * c * t) * (std::cos(w * t) + 0.5 * c / w * std::sin(w * t));
+    return std::abs(s.states()[0].X_WB.position.x() - 0.5 - right);
+  });
+}
+
+// A damper alone: the decay of the velocity is exact at any step.
+TEST(Tie, DamperIsExact) {
+  Simulator s = simulator(
+      mass_at("a", {0.6, 0, 0}, {1, 0, 0}),
+      with_ties(R"({"type": "spring", "bodies": [null, "a"], "points": [[0, 0, 0], [0, 0, 0]],
+                    "damping": 7})",
+                0.1, false));
+  run(s, 10);
+  EXPECT_NEAR(s.states()[0].v_WC.x(), std::exp(-7.0), 1e-9);
+}
+
+// However stiff: it swings on, and gains nothing.
+TEST(Tie, StiffSpringIsStable) {
+  for (const double k : {1e4, 1e8, 1e12}) {
+    Simulator s =
+        simulator(mass_at("a", {0.5001, 0, 0}, {0, 0.2, 0}),
+                  with_ties(kSpring + R"("stiffness": )" + number_text(k) + "}", 0.01, true));
+    const double before = 0.02 + 0.5 * k * 1e-8;
+    for (int i = 0; i < 300; ++i) {
+      ASSERT_LE(energy_of(s.step().value()), before * (1.0 + 1e-6) + 1e-6) << k << " " << i;
+    }
+    EXPECT_NEAR(s.states()[0].X_WB.position.norm(), 0.5, 0.1);
+  }
+}
+
+/// Two masses of 1 kg and 3 kg on a spring, which turn about each other.
+Simulator orbiting(double h) {
+  return simulator(mass_at("a", {0.4, 0, 0}, {0, 1.2, 0.1}) + "," +
+                       mass_at("b", {-0.1, 0, 0}, {0.1, -0.3, 0}, 3.0),
+                   with_ties(R"({"type": "spring", "bodies": ["a", "b"],
+                       "points": [[0, 0, 0], [0, 0, 0]], "length": 0.4, "stiffness": 30})",
+                             h, false));
+}
+
+TEST(Tie, SpringOfTwoMassesKeepsMomentaAndEnergy) {
+  Simulator s = orbiting(0.05);
+  const RunStep first = s.step().value();
+  for (int i = 0; i < 1000; ++i) {
+    const RunStep step = s.step().value();
+    ASSERT_LE((step.linear_momentum - first.linear_momentum).norm(), 1e-12);
+    ASSERT_LE((step.angular_momentum - first.angular_momentum).norm(), 1e-9);
+    ASSERT_NEAR(energy_of(step), energy_of(first), 1e-7) << i;
+  }
+}
+
+TEST(Tie, SpringOfTwoMassesIsOfSecondOrder) {
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  Vector6d y;
+  y << 0.5, 0, 0, -0.1, 1.5, 0.1;
+  const Vector6d right = followed(y, 0.64, [](const Vector6d& state) {
+    Vector6d rate;
+    const Vector3d d = state.head<3>();
+    rate << state.tail<3>(), -30.0 * (d.norm() - 0.4) * (1.0 + 1.0 / 3.0) * d.normalized();
+    return rate;
+  });
+  expect_order(0.64, 0.04, [&](double h) {
+    Simulator s = orbiting(h);
+    run(s, steps_until(0.64, h));
+    const Vector3d d = s.states()[0].X_WB.position - s.states()[1].X_WB.position;
+    return (d - right.head<3>()).norm();
+  });
+}
+
+// A spring of length 0 passes through its point.
+TEST(Tie, SpringOfNoLengthIsHarmonic) {
+  const double k = 4.0 * kPi * kPi;
+  expect_order(1.28, 0.04, [&](double h) {
+    Simulator s = simulator(
+        mass_at("a", {0.3, 0, 0}, {0, 0.5, 0}),
+        with_ties(R"({"type": "spring", "bodies": [null, "a"], "points": [[0, 0, 0], [0, 0, 0]],
+                      "length": 0, "stiffness": )" +
+                      number_text(k) + "}",
+                  h, false));
+    run(s, steps_until(1.28, h));
+    const double t = 2.0 * kPi * 1.28;
+    const Vector3d right(0.3 * std::cos(t), 0.5 / (2.0 * kPi) * std::sin(t), 0.0);
+    return (s.states()[0].X_WB.position - right).norm();
+  });
+}
+
+// An anisotropic box that turns on a spring at its corner: bodies with arms, too.
+TEST(Tie, SpringAtACornerIsOfSecondOrder) {
+  const auto made = [](double h) {
+    return simulator(body("a", box("[0.3, 0.2, 0.1]"), "[0.4, 0, 0]",
+                          R"(, "dynamics": {"mass": 2, "angular_velocity": [1, -2, 1.5]})"),
+                     with_ties(R"({"type": "spring", "bodies": [null, "a"],
+                      "points": [[0, 0, 0], [-0.15, 0.1, 0.05]], "length": 0.2,
+                      "stiffness": 50})",
+                               h, true));
+  };
+  Simulator fine = made(0.000625);
+  run(fine, steps_until(0.64, 0.000625));
+  const Vector3d right = fine.states()[0].X_WB.position;
+  expect_order(
+      0.64, 0.02,
+      [&](double h) {
+        Simulator s = made(h);
+        run(s, steps_until(0.64, h));
+        return (s.states()[0].X_WB.position - right).norm();
+      },
+      3.4);
+}
+
+const std::string kCable =
+    R"({"type": "cable", "bodies": [null, "a"], "points": [[0, 0, 0], [0, 0, 0]], "length": 1})";
+
+// [rad]  The angle of a pendulum of 1 m from the vertical after a time.
+double pendulum_angle(double begin, double rate, double time) {
+  return followed(Vector2d(begin, rate), time,
+                  [](const Vector2d& y) { return Vector2d(y[1], -kGravity * std::sin(y[0])); })[0];
+}
+
+TEST(Tie, PendulumOnACableIsOfSecondOrder) {
+  const double right = pendulum_angle(0.5 * kPi, 0.0, 1.28);
+  expect_order(1.28, 0.02, [&](double h) {
+    Simulator s = simulator(mass_at("a", {1, 0, 0}, Vector3d::Zero()), with_ties(kCable, h, true));
+    run(s, steps_until(1.28, h));
+    const Vector3d p = s.states()[0].X_WB.position;
+    return std::abs(std::atan2(p.x(), -p.z()) - right);
+  });
+}
+
+TEST(Tie, PendulumOnACableKeepsItsEnergy) {
+  Simulator s = simulator(mass_at("a", {0.8, 0, -0.6}, {0, 0.5, 0}), with_ties(kCable, 0.01, true));
+  const double before = 0.125 - kGravity * 0.6;
+  std::vector<RunStep> steps = run(s, 1000);
+  double off = 0.0;
+  double farthest = 0.0;
+  for (const RunStep& step : steps) {
+    off = std::max(off, std::abs(energy_of(step) - before));
+    farthest = std::max(farthest, std::abs(step.bodies[0].X_WB.position.norm() - 1.0));
+  }
+  EXPECT_LE(off, 1e-3);
+  EXPECT_LE(farthest, 1e-7);
+  EXPECT_EQ(test::verify(s.header(), {steps.begin(), steps.begin() + 20}).verdict,
+            RunVerdict::proven);
+}
+
+// It falls freely until the cable is taut, and goes on along the circle.
+TEST(Tie, SlackCableTakesTheVelocityAlongIt) {
+  Simulator s =
+      simulator(mass_at("a", {0.6, 0, 0}, Vector3d::Zero()), with_ties(kCable, 0.01, true));
+  const double fall = std::sqrt(2.0 * 0.8 / kGravity);
+  const auto until = static_cast<std::size_t>(fall / 0.01);
+  const RunStep free = run(s, until).back();
+  EXPECT_NEAR(energy_of(free), 0.0, 1e-12);
+  const RunStep taut = run(s, 3).back();
+  const double along = kGravity * 0.8 * 0.6 * 0.6;  // Half the squared speed.
+  EXPECT_NEAR(energy_of(taut), along - kGravity * 0.8, 1e-3);
+  EXPECT_NEAR(s.states()[0].X_WB.position.norm(), 1.0, 1e-6);
+}
+
+TEST(Tie, BallGoesOverItsTop) {
+  Simulator s = simulator(mass_at("a", {0, 0, -1}, {std::sqrt(5.5 * kGravity), 0, 0}),
+                          with_ties(kCable, 0.005, true));
+  double highest = -1.0;
+  for (int i = 0; i < 200; ++i) {
+    const RunStep step = s.step().value();
+    ASSERT_NEAR(step.bodies[0].X_WB.position.norm(), 1.0, 1e-6) << i;
+    ASSERT_NEAR(energy_of(step), 1.75 * kGravity, 5e-3) << i;
+    highest = std::max(highest, step.bodies[0].X_WB.position.z());
+  }
+  EXPECT_NEAR(highest, 1.0, 1e-3);
+}
+
+// With less speed the cable becomes slack where v^2 = g z: at z = 2/3 for v^2 = 4 g at the bottom.
+TEST(Tie, BallThatIsTooSlowLeavesItsCircle) {
+  const double h = 0.001;
+  Simulator s = simulator(mass_at("a", {0, 0, -1}, {std::sqrt(4.0 * kGravity), 0, 0}),
+                          with_ties(kCable, h, true));
+  double left_at = 0.0;
+  for (int i = 0; i < 1500 && left_at == 0.0; ++i) {
+    const RunStep step = s.step().value();
+    if (step.bodies[0].X_WB.position.norm() < 1.0 - 1e-6) {
+      left_at = step.bodies[0].X_WB.position.z();
+    }
+  }
+  EXPECT_NEAR(left_at, 2.0 / 3.0, 0.02);
+}
+
+// An elastic cable pulls as a spring does, and does not push.
+TEST(Tie, ElasticCableOnlyPulls) {
+  const std::string cable = R"({"type": "cable", "bodies": [null, "a"],
+      "points": [[0, 0, 0], [0, 0, 0]], "length": 0.5, "stiffness": 40})";
+  Simulator inwards =
+      simulator(mass_at("a", {0.4, 0, 0}, {0.1, 0, 0}), with_ties(cable, 0.01, false));
+  run(inwards, 50);
+  EXPECT_NEAR(inwards.states()[0].X_WB.position.x(), 0.45, 1e-12);
+  // There and back: half a period on the cable, which keeps the speed.
+  const std::vector<RunStep> steps = run(inwards, 150);
+  EXPECT_NEAR(inwards.states()[0].v_WC.x(), -0.1, 1e-4);
+  EXPECT_NEAR(energy_of(steps.back()), 0.005, 1e-5);
+}
+
+// Five balls in touch, each on two cables: the last one flies off alone.
+TEST(Tie, CradleOnCables) {
+  std::string bodies;
+  std::string ties;
+  const double r = 0.05;
+  const double apart = 2.0 * r + 1.2e-4;
+  for (int k = 0; k < 5; ++k) {
+    const std::string name(1, static_cast<char>('a' + k));
+    const double x = apart * k;
+    const double angle = k == 0 ? 0.4 : 0.0;
+    bodies += (k > 0 ? "," : "") +
+              body(name, test::ball("0.05"), numbers({x - std::sin(angle), 0.0, -std::cos(angle)}),
+                   R"(, "dynamics": {"mass": 1, "restitution": 1, "friction": 0})");
+    for (const double y : {-0.5, 0.5}) {
+      ties += (ties.empty() ? "" : ",") + (R"({"type": "cable", "bodies": [null, ")" + name) +
+              R"("], "points": [)" + numbers({x, y, 0.0}) + ", [0, 0, 0]]}";
+    }
+  }
+  Simulator s = simulator(bodies, with_ties(ties, 0.01, true));
+  const double speed = std::sqrt(2.0 * kGravity * (1.0 - std::cos(0.4)));
+  std::optional<RunStep> hit;
+  for (int i = 0; i < 100 && !hit; ++i) {
+    RunStep step = s.step().value();
+    if (!step.impacts.empty()) {
+      hit = std::move(step);
+    }
+  }
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->bodies[4].linear_velocity.x(), speed, 0.05 * speed);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(hit->bodies[static_cast<std::size_t>(k)].linear_velocity.x(), 0.0, 0.02) << k;
+  }
+}
+
+// A box that hangs on a pin at its corner: as a physical pendulum, about an axis of its own.
+const std::string kPin = R"({"type": "pin", "bodies": [null, "a"], "points": [[0, 0, 0], null]})";
+
+Simulator physical_pendulum(double h, const std::string& tie) {
+  return simulator(body("a", box("[0.4, 0.1, 0.2]"), "[0.2, 0, 0]", R"(, "dynamics": {"mass": 3})"),
+                   with_ties(tie, h, true));
+}
+
+double physical_angle(double time) {
+  const double I = 3.0 / 12.0 * (0.16 + 0.04) + 3.0 * 0.04;
+  return followed(Vector2d(0.5 * kPi, 0.0), time, [I](const Vector2d& y) {
+    return Vector2d(y[1], -3.0 * kGravity * 0.2 / I * std::sin(y[0]));
+  })[0];
+}
+
+TEST(Tie, PhysicalPendulumOnAPinIsOfSecondOrder) {
+  const double right = physical_angle(1.28);
+  for (const std::string& tie : {kPin, std::string(R"({"type": "hinge", "bodies": [null, "a"],
+                              "points": [[0, 0, 0], null], "axis": [0, 1, 0]})")}) {
+    expect_order(1.28, 0.005, [&](double h) {
+      Simulator s = physical_pendulum(h, tie);
+      run(s, steps_until(1.28, h));
+      const Vector3d p = s.states()[0].X_WB.position;
+      return std::abs(std::atan2(p.x(), -p.z()) - right);
+    });
+  }
+}
+
+TEST(Tie, PinsStayTogetherAndKeepTheEnergy) {
+  // A chain of two boxes on the world, in space.
+  Simulator s = simulator(
+      body("a", box("[0.4, 0.1, 0.2]"), "[0.25, 0, 0]", R"(, "dynamics": {"mass": 3})") + "," +
+          body("b", box("[0.3, 0.1, 0.1]"), "[0.75, 0, 0]",
+               R"(, "dynamics": {"mass": 1, "linear_velocity": [0, 0, 0]})"),
+      with_ties(R"({"type": "pin", "bodies": [null, "a"], "points": [[0, 0, 0.1], null]},
+                   {"type": "pin", "bodies": ["a", "b"], "points": [[0.3, 0, 0.05], null]})",
+                0.01, true));
+  const double before = -0.0;
+  double off = 0.0;
+  double apart = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const RunStep step = s.step().value();
+    ASSERT_EQ(step.time_lost, 0.0) << i;
+    off = std::max(off, std::abs(energy_of(step) - before));
+    const auto point = [&](std::size_t b, const Vector3d& p) -> Vector3d {
+      return step.bodies[b].X_WB.position + step.bodies[b].X_WB.rotation * p;
+    };
+    apart = std::max({apart, (point(0, {-0.25, 0, 0.1}) - Vector3d(0, 0, 0.1)).norm(),
+                      (point(0, {0.3, 0, 0.05}) - point(1, {-0.2, 0, 0.05})).norm()});
+  }
+  EXPECT_LE(apart, 1e-7);
+  EXPECT_LE(off, 0.02);
+}
+
+// Two boxes that are welded tumble as one body.
+TEST(Tie, WeldMovesAsOneBody) {
+  const auto made = [](double h) {
+    return simulator(
+        body(
+            "a", box("[0.4, 0.1, 0.2]"), "[0, 0, 0]",
+            R"(, "dynamics": {"mass": 3, "linear_velocity": [0, -0.15, 0.1], "angular_velocity": [1, 0.2, 0.3]})") +
+            "," +
+            body(
+                "b", box("[0.1, 0.3, 0.1]"), "[0.5, 0, 0.1]",
+                R"(, "dynamics": {"mass": 1, "linear_velocity": [0.02, -0.1, 0.0], "angular_velocity": [1, 0.2, 0.3]})"),
+        with_ties(R"({"type": "weld", "bodies": ["a", "b"]})", h, false));
+  };
+  Simulator s = made(0.02);
+  const RunStep first = s.step().value();
+  for (int i = 0; i < 500; ++i) {
+    const RunStep step = s.step().value();
+    ASSERT_LE((step.linear_momentum - first.linear_momentum).norm(), 1e-10) << i;
+    ASSERT_LE((step.angular_momentum - first.angular_momentum).norm(), 1e-6) << i;
+    ASSERT_NEAR(energy_of(step), energy_of(first), 1e-4 * energy_of(first)) << i;
+    const Pose& A = step.bodies[0].X_WB;
+    const Pose& B = step.bodies[1].X_WB;
+    ASSERT_LE((A.rotation.conjugate() * (B.position - A.position) - Vector3d(0.5, 0, 0.1)).norm(),
+              1e-6);
+    ASSERT_LE((A.rotation.conjugate() * B.rotation).vec().norm(), 1e-6);
+  }
+}
+
+// A beam of two boxes that the world holds at one end carries its weight.
+TEST(Tie, WeldCarriesALoad) {
+  Simulator s = simulator(
+      body("a", box("[0.4, 0.1, 0.1]"), "[0.2, 0, 0]", R"(, "dynamics": {"mass": 3})") + "," +
+          body("b", box("[0.4, 0.1, 0.1]"), "[0.7, 0, 0]", R"(, "dynamics": {"mass": 5})"),
+      with_ties(
+          R"({"type": "weld", "bodies": [null, "a"]}, {"type": "weld", "bodies": ["a", "b"]})",
+          0.01, true));
+  const std::vector<RunStep> steps = run(s, 100);
+  EXPECT_LE((steps.back().bodies[1].X_WB.position - Vector3d(0.7, 0, 0)).norm(), 1e-8);
+  EXPECT_LE(steps.back().kinetic_energy, 1e-12);
+  EXPECT_TRUE(steps.back().bodies[1].rests);
+  // The first weld carries both: 8 kg, and their moment about its point, the middle of "a".
+  ASSERT_EQ(steps.back().ties.size(), 2u);
+  EXPECT_LE((steps.back().ties[0].force - Vector3d(0, 0, 8.0 * kGravity)).norm(), 1e-5);
+  EXPECT_LE((steps.back().ties[0].torque - Vector3d(0, -5.0 * 0.5 * kGravity, 0)).norm(), 1e-5);
+  EXPECT_LE((steps.back().ties[1].force - Vector3d(0, 0, 5.0 * kGravity)).norm(), 1e-5);
+}
+
+// What hangs still sleeps, and what swings does not.
+TEST(Tie, HangingBodiesSleepAtEquilibriumAlone) {
+  const double sag = kGravity / 100.0;
+  const std::string spring = kSpring + R"("stiffness": 100, "damping": 1})";
+  Simulator still =
+      simulator(mass_at("a", {0, 0, -0.5 - sag}, Vector3d::Zero()), with_ties(spring, 0.01, true));
+  EXPECT_TRUE(run(still, 20).back().bodies[0].rests);
+  still.apply_force(0, {1, 0, 0});
+  EXPECT_FALSE(still.step().value().bodies[0].rests);
+  Simulator moving = simulator(mass_at("a", {0, 0, -0.51 - sag}, Vector3d::Zero()),
+                               with_ties(kSpring + R"("stiffness": 100})", 0.01, true));
+  for (int i = 0; i < 400; ++i) {
+    ASSERT_FALSE(moving.step().value().bodies[0].rests) << i;
+  }
+}
+
+// A scripted body wakes what hangs on it, and lifts it.
+TEST(Tie, ScriptedBodiesPullCables) {
+  Simulator s = simulator(
+      mass_at("a", {0, 0, -1}, Vector3d::Zero()) + "," +
+          R"({"name": "hook", "shape": {"sphere": {"radius": 0.01}}, "motion": {"type": "waypoints",
+              "times": [0, 0.5, 1.5, 2], "poses": [{"position": [0, 0, 0]}, {"position": [0, 0, 0]},
+              {"position": [0, 0, 0.3]}, {"position": [0, 0, 0.3]}]}})",
+      R"("step": 0.01, "contact_distance": 1e-4, "ties": [{"type": "cable",
+          "bodies": ["hook", "a"], "points": [[0, 0, 0], [0, 0, 0]]}])");
+  EXPECT_TRUE(run(s, 45).back().bodies[0].rests);
+  EXPECT_FALSE(run(s, 55).back().bodies[0].rests);
+  run(s, 80);
+  EXPECT_NEAR(s.states()[0].X_WB.position.z(), -0.7, 1e-2);
+}
+
+// A run that is resumed goes on bit for bit.
+TEST(Tie, RunsAreResumed) {
+  const auto made = [] { return orbiting(0.02); };
+  Simulator whole = made();
+  const std::vector<RunStep> steps = run(whole, 20);
+  Simulator resumed = made();
+  resumed.resume(steps[9]);
+  const std::vector<RunStep> rest = run(resumed, 10);
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    for (std::size_t b = 0; b < 2; ++b) {
+      ASSERT_EQ(rest[k].bodies[b].X_WB.position, steps[10 + k].bodies[b].X_WB.position);
+      ASSERT_EQ(rest[k].bodies[b].angular_velocity, steps[10 + k].bodies[b].angular_velocity);
+    }
+  }
+}
+
+// A body on a cable that rests on the floor, and one that a spring presses on it.
+TEST(Tie, ContactsActBesideTies) {
+  Simulator s = simulator(
+      test::kFloor + "," +
+          body("a", box("[0.2, 0.2, 0.2]"), "[0, 0, 0.1002]", R"(, "dynamics": {"mass": 2})") +
+          "," +
+          body("b", box("[0.2, 0.2, 0.2]"), "[0.5, 0, 0.1002]",
+               R"(, "dynamics": {"mass": 2, "friction": 0, "linear_velocity": [1, 0, 0]})"),
+      R"("step": 0.01, "contact_distance": 1e-4, "friction": 0, "ties": [
+          {"type": "cable", "bodies": ["a", "b"], "points": [[0, 0, 0], [0, 0, 0]], "length": 0.6},
+          {"type": "spring", "bodies": [null, "a"], "points": [[0, 0, 1], [0, 0, 0]],
+           "length": 2, "stiffness": 10}])");
+  const std::vector<RunStep> steps = run(s, 100);
+  // The cable makes both go on together.
+  EXPECT_NEAR(steps.back().linear_momentum.y(), 0.0, 1e-6);
+  EXPECT_LE((s.states()[2].X_WB.position - s.states()[1].X_WB.position).norm(), 0.6 + 1e-6);
+  EXPECT_NEAR(s.states()[1].X_WB.position.z(), 0.1, 3e-4);
+  EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven);
+}
+
+void expect_refused(const std::string& bodies, const std::string& ties, const std::string& what) {
+  try {
+    (void)simulator(bodies, with_ties(ties, 0.01, true));
+    FAIL() << ties;
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
+  }
+}
+
+TEST(Tie, ErrorsNameTheTieAndTheMend) {
+  const std::string bodies =
+      mass_at("a", {1, 0, 0}, Vector3d::Zero()) + "," + body("wall", box("[1, 1, 1]"), "[0, 0, 5]");
+  expect_refused(bodies, R"({"type": "rope", "bodies": [null, "a"]})", "ties[0].type");
+  expect_refused(bodies, R"({"type": "weld", "bodies": [null, null]})", "the world twice");
+  expect_refused(bodies, R"({"type": "weld", "bodies": ["a", "a"]})", "got one twice");
+  expect_refused(bodies, R"({"type": "weld", "bodies": ["a", "c"]})", "ties[0].bodies[1]");
+  expect_refused(bodies, R"({"type": "pin", "bodies": [null, "a"]})", "\"points\"");
+  expect_refused(bodies, R"({"type": "pin", "bodies": [null, "a"], "length": 1})", "length");
+  expect_refused(bodies, R"({"type": "spring", "bodies": [null, "a"],
+                             "points": [[0, 0, 0], [0, 0, 0]]})",
+                 "stiffness");
+  expect_refused(bodies, R"({"type": "cable", "bodies": [null, "a"],
+                             "points": [[0, 0, 0], [0, 0, 0]], "damping": 1})",
+                 "stiffness");
+  expect_refused(bodies, R"({"type": "weld", "bodies": ["wall", null]})",
+                 "simulation.ties[0], a weld of \"wall\" and the world: neither is free");
+  expect_refused(bodies, R"({"type": "pin", "bodies": [null, "a"],
+                             "points": [[0, 0, 0], [0, 0, 0]]})",
+                 "its points are 1 m apart");
+  expect_refused(bodies, R"({"type": "cable", "bodies": [null, "a"], "length": 0.5,
+                             "points": [[0, 0, 0], [0, 0, 0]]})",
+                 "farther than its length of 0.5 m");
+  expect_refused(bodies, R"({"type": "spring", "bodies": [null, "a"], "length": 0.5,
+                             "points": [[1, 0, 0], [0, 0, 0]], "stiffness": 1})",
+                 "no direction");
+  expect_refused(bodies, R"({"type": "hinge", "bodies": [null, "a"], "axis": [0, 0, 0],
+                             "points": [[1, 0, 0], null]})",
+                 "axis");
+}
+
+TEST(Tie, StatesThatWouldTearOneAreRefused) {
+  Simulator s = simulator(mass_at("a", {1, 0, 0}, Vector3d::Zero()), with_ties(kCable, 0.01, true));
+  RigidState state = s.states()[0];
+  state.X_WB.position.x() = 1.1;
+  EXPECT_THROW(s.set_state(0, state), std::invalid_argument);
+  state.X_WB.position.x() = 0.9;
+  s.set_state(0, state);
+}
+
+}  // namespace
+}  // namespace firstcontact
