@@ -181,12 +181,14 @@ class HapticsRun {
   LoadedScene load() const {
     require_different(outputs_of(arguments_));
     require_no_input(outputs_of(arguments_), {arguments_.scene});
+    require_no_input(outputs_of(arguments_),
+                     {arguments_.devices.begin(), arguments_.devices.end()});
     Scene scene = arguments_.scene == kStdin
                       ? parse_scene(read_stdin(), std::filesystem::path(kStdinName))
                       : read_scene(arguments_.scene);
     require_no_input(outputs_of(arguments_), files_of(scene));
     try {
-      prepare_haptics(scene, named_.duration);
+      prepare_haptics(scene, named_.duration, arguments_.latency.value_or(0.0));
       ShapeCache cache;
       return load_scene(std::move(scene), cache);
     } catch (const std::invalid_argument& error) {
@@ -225,14 +227,15 @@ class HapticsRun {
   void begin_files() {
     const double distance = distance_of(setup_);
     record_.emplace(loaded_, setup_, distance);
-    if (!arguments_.run.empty()) {
-      run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
-    }
     if (!arguments_.page.empty()) {
       page_.emplace(record_->header());
     }
     ticks_.emplace(arguments_.ticks, haptic_tick_header());
     cycles_.emplace(arguments_.cycles, haptic_cycle_header());
+    // Last: what cannot be written elsewhere leaves no run behind.
+    if (!arguments_.run.empty()) {
+      run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
+    }
     for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
       god_objects_[k] = setup_.scene.tools[k].X_WB;
     }
@@ -381,7 +384,9 @@ class HapticsRun {
 
   void print() const {
     say(fmt::format("{}: {}\n", visible(arguments_.scene),
-                    is_stopped_ ? "stopped early" : "felt; no tool passed through anything"));
+                    is_stopped_          ? "stopped early"
+                    : tally_.cycles == 0 ? "no cycle: nothing was felt"
+                                         : "felt; no tool passed through anything"));
     line("ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", tally_.ticks,
                               tally_.cycles));
     line("apart", std::isfinite(tally_.clearance)

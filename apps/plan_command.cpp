@@ -112,6 +112,12 @@ class Plan {
     if (arguments_.margin) {
       question.margin = arguments_.margin;
     }
+    if (arguments_.seed) {
+      question.seed = arguments_.seed;
+    }
+    if (arguments_.time) {
+      question.time = arguments_.time;
+    }
     ShapeCache cache;
     return make_scene_plan(std::move(scene), question, cache);
   }

@@ -68,6 +68,22 @@ const JsonValue& only_goal(const JsonValue& request, const JsonReader& read) {
   return list.front();
 }
 
+/// Refuses constraints that nothing here would keep.
+void refuse_other_constraints(const JsonValue& request, const JsonValue& goal,
+                              const JsonReader& read) {
+  if (const JsonValue* visible = find_filled(goal, "visibility_constraints")) {
+    read.fail(*visible, "expected no constraints of visibility: they are not supported");
+  }
+  const JsonValue* along = find_filled(request, "path_constraints");
+  for (const char* key : {"joint_constraints", "position_constraints", "orientation_constraints",
+                          "visibility_constraints"}) {
+    const JsonValue* some = along == nullptr ? nullptr : find_filled(*along, key);
+    if (some != nullptr) {
+      read.fail(*some, "expected no constraints along the path: they are not supported");
+    }
+  }
+}
+
 bool is_of_link(const JsonValue& goal) {
   return find_filled(goal, "position_constraints") != nullptr ||
          find_filled(goal, "orientation_constraints") != nullptr;
@@ -116,6 +132,7 @@ PlanningRequest parse_planning_request(std::string_view text, const std::filesys
     }
   }
   const JsonValue& wanted = only_goal(request, read);
+  refuse_other_constraints(request, wanted, read);
   const JsonValue* constraints = find_filled(wanted, "joint_constraints");
   if ((constraints != nullptr) == is_of_link(wanted)) {
     read.fail(wanted,

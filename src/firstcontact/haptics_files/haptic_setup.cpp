@@ -75,9 +75,13 @@ HapticBody body_of(const LoadedScene& loaded, std::size_t number, double frictio
 
 }  // namespace
 
-void prepare_haptics(Scene& scene, double duration) {
+void prepare_haptics(Scene& scene, double duration, double latency) {
   const HapticQuestion& question = question_of(scene);
-  require_of_haptics(duration > 0.0 && std::isfinite(duration), "the duration must be > 0 s");
+  constexpr double kLongest = 1e9;     // [s]
+  constexpr double kMostLatency = 10;  // [s]
+  require_of_haptics(duration > 0.0 && duration <= kLongest,
+                     "the duration must be > 0 s and at most 1e9 s");
+  require_of_haptics(latency >= 0.0 && latency <= kMostLatency, "the latency must be 0 s to 10 s");
   require_of_haptics(scene.robots.empty(), "expected no robots in the scene");
   for (const Body& body : scene.bodies) {
     require_of_haptics(!body.free, "expected no \"dynamics\" of \"" + body.name + "\"");
@@ -93,7 +97,9 @@ void prepare_haptics(Scene& scene, double duration) {
   for (const HapticToolQuestion& tool : question.tools) {
     scene.bodies[tool.body].free.emplace().mass = 1.0;
   }
-  const detail::SessionPeriods periods = detail::session_periods(session_options(question));
+  HapticSessionOptions options = session_options(question);
+  options.contact_latency_ns = std::llround(1e9 * latency);
+  const detail::SessionPeriods periods = detail::session_periods(options);
   scene.simulation->step = 1e-9 * static_cast<double>(periods.cycle_ns);
   scene.simulation->gravity.setZero();
   scene.simulation->friction = question.friction;

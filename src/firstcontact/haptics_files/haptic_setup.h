@@ -27,9 +27,10 @@ struct HapticSetup {
 /// Its tools become free bodies; its simulation has the steps of the contact loop.
 ///
 /// @param duration  [s]  > 0; motions of other bodies go on as in set_simulation_duration()
+/// @param latency   [s]  >= 0  of the contact loop in virtual time: its steps are as long at least
 /// @throws std::invalid_argument if the scene has no "haptics", robots, bodies that other things
 ///         move (dynamics, vertices), margins; or the duration is not > 0
-FIRSTCONTACT_API void prepare_haptics(Scene& scene, double duration);
+FIRSTCONTACT_API void prepare_haptics(Scene& scene, double duration, double latency = 0.0);
 
 /// @param loaded  of a scene that was prepared
 /// @throws std::invalid_argument as ContactLoop

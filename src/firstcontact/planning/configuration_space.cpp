@@ -65,6 +65,32 @@ void take_limits(const Joint& joint, SpaceCoordinate& coordinate) {
   }
 }
 
+/// Narrows the limits of a coordinate to those that the joints which mimic it have.
+///
+/// @param multiplier, offset  of a joint that follows the coordinate: multiplier q + offset
+void narrow_by_mimics(const RobotModel& model, std::size_t joint, double multiplier, double offset,
+                      SpaceCoordinate& coordinate) {
+  for (std::size_t other = 0; other < model.joints().size(); ++other) {
+    const Joint& follower = model.joints()[other];
+    if (!follower.mimic || follower.mimic->joint != model.joints()[joint].name) {
+      continue;
+    }
+    const double factor = follower.mimic->multiplier * multiplier;
+    const double shift = follower.mimic->multiplier * offset + follower.mimic->offset;
+    SpaceCoordinate own;
+    take_limits(follower, own);
+    if (own.has_limits && factor != 0.0) {
+      const auto [low, high] =
+          std::minmax({(own.lower - shift) / factor, (own.upper - shift) / factor});
+      coordinate.lower = coordinate.has_limits ? std::max(coordinate.lower, low) : low;
+      coordinate.upper = coordinate.has_limits ? std::min(coordinate.upper, high) : high;
+      coordinate.has_limits = true;
+      coordinate.turns_short = false;
+    }
+    narrow_by_mimics(model, other, factor, shift, coordinate);
+  }
+}
+
 /// [m]  No point of the robot is farther from the root than this plus the ways of sliding joints.
 double length_of(const RobotModel& model) {
   double length = 0.0;
@@ -117,6 +143,7 @@ ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
       refuse_space("joint " + quoted + " is named twice");
     }
     take_limits(joint, coordinate);
+    narrow_by_mimics(space.model_, found.joint, 1.0, 0.0, coordinate);
     space.coordinates_.push_back(std::move(coordinate));
   }
   return space;
@@ -343,8 +370,13 @@ void ConfigurationSpace::set_limits(const std::string& name, double lower, doubl
     refuse_space("limits of joint " + detail::in_quotes(name) +
                  ": expected two finite numbers, the lower one first");
   }
-  found->lower = lower;
-  found->upper = upper;
+  if (found->has_limits && (lower > found->upper || upper < found->lower)) {
+    refuse_space("limits of joint " + detail::in_quotes(name) +
+                 ": expected some that overlap with its own, " + detail::write_json(found->lower) +
+                 " to " + detail::write_json(found->upper));
+  }
+  found->lower = found->has_limits ? std::max(found->lower, lower) : lower;
+  found->upper = found->has_limits ? std::min(found->upper, upper) : upper;
   found->has_limits = true;
   found->turns_short = false;  // The short way might lead past the limits.
 }

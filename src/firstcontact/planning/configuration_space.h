@@ -125,7 +125,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// Widens what is sampled of joints without limits, so that it holds a configuration.
   void include(const Configuration& q);
 
-  /// Sets the limits of a coordinate of joints, in place of its own.
+  /// Sets the limits of a coordinate of joints, within its own where it has some.
   ///
   /// @param name  of the coordinate
   /// @throws std::invalid_argument if the space has no such coordinate, or lower > upper, or one of

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -35,11 +36,33 @@ void require_options(const EdgeCheckOptions& options) {
   require_option(options.effort >= 1, "effort must be at least 1");
 }
 
+bool is_zero(const DoubleDouble& number) { return number.hi == 0.0 && number.lo == 0.0; }
+
+bool is_constant(const CoordinatePath& path) {
+  const DoubleDouble& first = path.segments().front().a[0];
+  return std::ranges::all_of(path.segments(), [&](const CoordinateSegment& segment) {
+    return std::all_of(segment.a.begin() + 1, segment.a.end(), is_zero) &&
+           is_zero(segment.a[0] - first);
+  });
+}
+
+bool is_constant(const JointMotion& motion) {
+  if (const auto* path = std::get_if<CoordinatePath>(&motion)) {
+    return is_constant(*path);
+  }
+  const auto* paths = std::get_if<PlanarPath>(&motion);
+  return paths != nullptr &&
+         std::ranges::all_of(*paths, [](const CoordinatePath& path) { return is_constant(path); });
+}
+
 bool rests(const RobotMotion& motion) {
-  bool all = motion.breaks().size() == 2 && motion.base_path(0.5).rest() != nullptr;
+  bool all = motion.base_path(0.5).rest() != nullptr;
   for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
     const JointPath* path = motion.joint_path(joint, 0.5);
-    all = all && (path == nullptr || path->rest() != nullptr);
+    const std::optional<JointMotion> given = motion.given(joint);
+    // A joint that mimics rests with the one that it mimics.
+    all = all && (path == nullptr || path->rest() != nullptr ||
+                  (given ? is_constant(*given) : motion.model().joints()[joint].mimic.has_value()));
   }
   return all;
 }

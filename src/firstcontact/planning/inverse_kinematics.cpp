@@ -202,7 +202,8 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
   std::vector<ReachedPose> found;
   std::optional<ReachedPose> nearest;
   for (std::size_t k = 0; k < options.tries && found.size() < options.places; ++k) {
-    if (options.stop.stop_requested()) {
+    if (options.stop.stop_requested() ||
+        (options.deadline && std::chrono::steady_clock::now() >= *options.deadline)) {
       break;
     }
     ReachedPose place = search.run(k == 0 ? start : space.sample(random));

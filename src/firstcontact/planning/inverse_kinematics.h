@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -34,7 +36,9 @@ struct ReachOptions {
   std::size_t places = 8;   ///< At most so many are found.
   std::size_t tries = 100;  ///< Places from which the search begins: the start, then random ones.
   std::uint64_t seed = 1;
-  std::stop_token stop = {};  ///< Ends with what was found.
+  std::optional<std::chrono::steady_clock::time_point> deadline =
+      {};                     ///< Ends with what was found.
+  std::stop_token stop = {};  ///< So, too.
 };
 
 /// Finds places that bring a link to a pose, within all limits; those nearest to the start first.
@@ -46,8 +50,9 @@ struct ReachOptions {
 /// that is found says nothing: there may be one.
 ///
 /// @param start  a configuration of the space
-/// @returns  places with both errors within the tolerances, no two closer than 1e-3 of the space's
-///           length; where there is none, the one place that came nearest, whose errors are larger
+/// @returns  places with both errors within the tolerances, no two closer than 1e-3 by the space's
+///           length; where there is none, the one place that came nearest, whose errors are larger;
+///           empty where the time was over before the first
 /// @throws std::invalid_argument if the space is that of a body, the model has no such link, or a
 ///         number of the goal makes no sense
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(

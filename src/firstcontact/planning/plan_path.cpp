@@ -253,6 +253,10 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
     widened.space.include(goal);
   }
   if (widened.times) {
+    require_plan(options.planner == Planner::rrt_connect && options.contacts == ContactUse::none &&
+                     !options.approximate,
+                 "something else moves: there only the planner rrt_connect plans, with contacts "
+                 "\"none\" and without an approximate answer");
     const double range = options.range > 0.0 ? options.range : default_range(widened.space);
     return detail::plan_in_time(widened, start, goals, range, options);
   }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,8 +18,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/planning/detail/blocked_place.h>
-#include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
@@ -67,6 +69,18 @@ void require_all_the_time(const Scene& scene, const SceneRobot& robot) {
                   "the time");
     }
   }
+}
+
+/// What forces would move in a simulation.
+std::vector<std::string> frozen_by_plan(const Scene& scene, const PlanQuestion& question) {
+  std::vector<std::string> frozen;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    if (scene.bodies[k].free && question.body != k) {
+      frozen.push_back("body " + in_quotes(scene.bodies[k].name) +
+                       " has \"dynamics\": here it rests where it is");
+    }
+  }
+  return frozen;
 }
 
 /// The scene with the mover at rest at its start, all else at rest or moving by itself, and the
@@ -136,54 +150,6 @@ double start_of(const SceneRobot& robot, const std::string& name, const Joint& j
   return found != robot.state.end() ? found->second : default_position(joint);
 }
 
-std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal) {
-  const std::optional<std::size_t> link = model.find_link(goal.link);
-  if (!link) {
-    refuse_plan("expected a goal of a link of the robot, got " + in_quotes(goal.link));
-  }
-  return *link;
-}
-
-/// Adds the joints that move a link and have one coordinate; what they mimic in place of others.
-void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
-  for (auto joint = model.parent_joint(link); joint;
-       joint = model.parent_joint(model.parent_link(*joint))) {
-    std::size_t mover = *joint;
-    while (model.joints()[mover].mimic) {
-      mover = model.find_joint(model.joints()[mover].mimic->joint).value();
-    }
-    const JointType type = model.joints()[mover].type;
-    if (type == JointType::revolute || type == JointType::continuous ||
-        type == JointType::prismatic || type == JointType::screw) {
-      named.insert(find_coordinate(model, model.joints()[mover].name));
-    }
-  }
-}
-
-/// What is asked for by name, or named by a goal; without joints that mimic others.
-std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuestion& question) {
-  if (!question.joints.empty()) {
-    return question.joints;
-  }
-  std::set<JointCoordinate> named;
-  for (const JointPositions& goal : question.goals) {
-    for (const auto& [name, position] : goal) {
-      const JointCoordinate coordinate = find_coordinate(model, name);
-      if (!model.joints()[coordinate.joint].mimic) {
-        named.insert(coordinate);
-      }
-    }
-  }
-  for (const LinkGoal& goal : question.link_goals) {
-    add_joints_below(model, link_of_goal(model, goal), named);
-  }
-  std::vector<std::string> joints;
-  for (const JointCoordinate& coordinate : named) {
-    joints.push_back(coordinate_name(model, coordinate));
-  }
-  return joints;
-}
-
 std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
   std::map<std::string, JointMotion> held;
   for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
@@ -192,25 +158,6 @@ std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
     }
   }
   return held;
-}
-
-Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
-                      const JointPositions& positions, const Configuration& start) {
-  Configuration goal = start;
-  for (const auto& [name, position] : positions) {
-    const JointCoordinate coordinate = find_coordinate(model, name);
-    const auto coordinates = space.coordinates();
-    const auto found =
-        std::find_if(coordinates.begin(), coordinates.end(), [&](const SpaceCoordinate& one) {
-          return one.joint == coordinate.joint && one.index == coordinate.index;
-        });
-    if (found != coordinates.end()) {
-      goal[static_cast<std::size_t>(found - coordinates.begin())] = position;
-    } else if (!model.joints()[coordinate.joint].mimic) {
-      refuse_plan("a goal names joint " + in_quotes(name) + ", which is not among those planned");
-    }
-  }
-  return goal;
 }
 
 /// [rad/s or m/s]  How fast each coordinate may move, or a body.
@@ -243,48 +190,12 @@ void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& pla
   }
 }
 
-/// Adds free places of the joints at which a link is at its pose.
-void add_places_of(const PlanScene& plan, const LinkGoal& wanted, const Configuration& start,
-                   std::uint64_t seed, std::vector<Configuration>& goals) {
-  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(), wanted),
-                          .X_LT = wanted.X_LT,
-                          .X_WT = wanted.X_WT,
-                          .position_tolerance = wanted.position_tolerance,
-                          .rotation_tolerance = wanted.rotation_tolerance};
-  const std::vector<ReachedPose> places = reach_pose(plan.space, goal, start, {.seed = seed});
-  const std::string name = "the pose of link " + in_quotes(wanted.link);
-  if (!reaches(places.front(), goal)) {
-    const ReachedPose& nearest = places.front();
-    refuse_plan(name + ": no place of the joints was found at which it is there; the nearest is " +
-                detail::write_json(nearest.position_error) + " m and " +
-                detail::write_json(nearest.rotation_error) + " rad off");
-  }
-  if (plan.times) {
-    // Whether they are free depends on the time: the search finds out.
-    std::transform(places.begin(), places.end(), std::back_inserter(goals),
-                   [](const ReachedPose& place) { return place.q; });
-    return;
-  }
-  const EdgeChecker checker(plan);
-  const std::size_t before = goals.size();
-  for (const ReachedPose& place : places) {
-    if (checker.is_free(place.q)) {
-      goals.push_back(place.q);
-    }
-  }
-  if (goals.size() == before) {
-    refuse_plan(detail::describe_blocked(checker, places.front().q,
-                                         name + " (all " + std::to_string(places.size()) +
-                                             " places of the joints that were found)"));
-  }
-}
-
 ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
   const std::size_t robot = *question.robot;
   const SceneRobot& described = loaded.scene.robots[robot];
   const RobotMotion& motion = loaded.robots->robot_motion(robot);
   const RobotModel& model = motion.model();
-  const std::vector<std::string> joints = planned_joints(model, question);
+  const std::vector<std::string> joints = detail::planned_joints(model, question);
   if (joints.empty()) {
     refuse_plan("robot " + in_quotes(described.name) + ": no goal names a joint that moves");
   }
@@ -299,13 +210,11 @@ ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
   }
   std::vector<Configuration> goals;
   for (const JointPositions& goal : question.goals) {
-    goals.push_back(goal_of(model, space, goal, start));
+    goals.push_back(detail::goal_of(model, space, goal, start));
   }
   PlanScene plan{.scene = *loaded.robots, .robot = robot, .space = std::move(space)};
   take_times(loaded.scene, question, plan);
-  for (const LinkGoal& goal : question.link_goals) {
-    add_places_of(plan, goal, start, question.seed.value_or(PlanOptions{}.seed), goals);
-  }
+  detail::add_link_goals(plan, question, start, loaded, goals);
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
 }
 
@@ -405,11 +314,13 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
       (question.robot && scene.robots.empty()) || (question.body && scene.bodies.empty())) {
     refuse_plan("expected a scene with something to move, it has no such robot or body");
   }
+  const std::vector<std::string> frozen = frozen_by_plan(scene, question);
   Scene resting = resting_scene(std::move(scene), question);
   LoadedScene loaded = load_scene(resting, cache);
   if (loaded.robots && freeze_held(loaded, resting)) {
     loaded = load_scene(std::move(resting), cache);
   }
+  loaded.warnings.insert(loaded.warnings.end(), frozen.begin(), frozen.end());
   ScenePlan made = question.robot ? plan_of_robot(std::move(loaded), question)
                                   : plan_of_body(std::move(loaded), question);
   const PlanOptions defaults;
@@ -486,6 +397,7 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
          blocking.count});
   }
   path.scene = resting;
+  detail::ignore_what_rests(scene.plan, path.scene);
   path.scene.options.tolerance = options.tolerance;
   path.version = version();
   path.input_digest = scene.loaded.input_digest;

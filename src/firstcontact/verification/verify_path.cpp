@@ -48,14 +48,22 @@ void require_turning(const RobotModel& model, const std::string& name, Turning t
   }
 }
 
-/// Straight edges keep the limits that their ends keep.
-void require_limits(const RobotModel& model, const JointCoordinate& which, double position,
-                    const std::string& name) {
-  const JointLimits& limits = model.joints()[which.joint].limits;
-  if (position < limits.lower.value_or(position) - kLimitTolerance ||
-      position > limits.upper.value_or(position) + kLimitTolerance) {
-    throw BrokenPath("A waypoint has joint " + detail::in_quotes(name) + " at " +
+/// Straight edges keep the limits that their ends keep, and so do joints that mimic.
+void require_limits(const RobotModel& model, std::size_t joint, double position) {
+  const Joint& moved = model.joints()[joint];
+  const bool has_limits = moved.type == JointType::revolute || moved.type == JointType::prismatic ||
+                          moved.type == JointType::screw;
+  const double slack = kLimitTolerance * (1.0 + std::abs(position));
+  if (has_limits && (position < moved.limits.lower.value_or(position) - slack ||
+                     position > moved.limits.upper.value_or(position) + slack)) {
+    throw BrokenPath("A waypoint has joint " + detail::in_quotes(moved.name) + " at " +
                      detail::write_json(position) + ", outside of its limits.");
+  }
+  for (std::size_t other = 0; other < model.joints().size(); ++other) {
+    const std::optional<Mimic>& mimic = model.joints()[other].mimic;
+    if (mimic && mimic->joint == moved.name) {
+      require_limits(model, other, mimic->multiplier * position + mimic->offset);
+    }
   }
 }
 
@@ -90,6 +98,9 @@ class MovingScene {
   [[nodiscard]] const std::map<std::size_t, detail::Turnings>& turnings() const {
     return turnings_;
   }
+
+  /// The body that moves; none where a robot does.
+  [[nodiscard]] std::optional<std::size_t> body() const { return body_; }
 
   /// Whether a member moves along edges.
   [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
@@ -137,6 +148,13 @@ class MovingScene {
     const std::vector<double>& times = path_.times;
     const bool increase =
         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+    // What is proven divides by the duration: quotients that are one leave an edge of no length.
+    const double duration = loaded_.scene.duration;
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+      if (!(times[k] / duration < times[k + 1] / duration)) {
+        throw BrokenPath("The times of the path are so close that doubles do not tell them apart.");
+      }
+    }
     if (times.size() != path_.waypoints.size() || times.size() < 2 || !increase ||
         times.front() != 0.0 || times.back() != loaded_.scene.duration) {
       throw BrokenPath("The times of the path do not run from 0 to the duration of its scene.");
@@ -159,7 +177,7 @@ class MovingScene {
     }
     SceneRobot& robot = *found;
     require_own_rest(
-        std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.points.size() <= 1,
+        std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.joint_names.empty(),
         robot.name);
     const auto number = static_cast<std::size_t>(found - scene.robots.begin());
     robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
@@ -174,7 +192,7 @@ class MovingScene {
                          detail::in_quotes(path_.joints[k]) + ".");
       }
       for (const std::vector<double>& waypoint : path_.waypoints) {
-        require_limits(robot.model, which, waypoint.at(k), path_.joints[k]);
+        require_limits(robot.model, which.joint, waypoint.at(k));
       }
       turnings_[number][path_.joints[k]] = path_.turnings.at(k);
     }
@@ -245,6 +263,7 @@ class MovingScene {
     }
     moves_.assign(members, false);
     moves_[number] = true;
+    body_ = number;
   }
 
   void require_begin(const Pose& pose) const {
@@ -262,6 +281,7 @@ class MovingScene {
   LoadedScene loaded_;
   std::map<std::size_t, detail::Turnings> turnings_;
   std::vector<bool> moves_;  // Of each member.
+  std::optional<std::size_t> body_ = {};
 };
 
 class PathProof {
@@ -269,7 +289,7 @@ class PathProof {
   PathProof(const PlannedPath& path, const VerifyResultOptions& options)
       : path_(path),
         moving_(path),
-        courses_(moving_.loaded(), moving_.turnings()),
+        courses_(moving_.loaded(), moving_.turnings(), moving_.body()),
         proof_(courses_, {options.work, options.threads, options.stop, options.progress}) {}
 
   PathVerification run() {

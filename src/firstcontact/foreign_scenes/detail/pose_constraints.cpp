@@ -76,12 +76,18 @@ double inner_radius(const JsonValue& primitive, const JsonReader& read) {
 
 void take_position(const JsonValue& constraint, const RobotModel& robot, const Pose& X_WR,
                    const JsonReader& read, LinkGoal& goal) {
+  (void)read.object(
+      constraint, {{"header", "link_name", "target_point_offset", "constraint_region", "weight"}});
   goal.link = link_of(constraint, robot, read);
   if (const JsonValue* offset = find_filled(constraint, "target_point_offset")) {
     JsonObject pose{{"position", *offset}};
     goal.X_LT.position = read_message_pose({.value = std::move(pose)}, read).pose.position;
   }
   const JsonValue& region = read.member(constraint, "constraint_region");
+  (void)read.object(region, {{"primitives", "primitive_poses", "meshes", "mesh_poses"}});
+  if (const JsonValue* meshes = find_filled(region, "meshes")) {
+    read.fail(*meshes, "expected a region of one primitive, got a mesh");
+  }
   const JsonValue& primitive = only_one(region, "primitives", read);
   const JsonValue& pose = only_one(region, "primitive_poses", read);
   goal.position_tolerance = std::max(inner_radius(primitive, read), kLeast);
@@ -91,16 +97,21 @@ void take_position(const JsonValue& constraint, const RobotModel& robot, const P
 
 void take_orientation(const JsonValue& constraint, const RobotModel& robot, const Pose& X_WR,
                       const JsonReader& read, LinkGoal& goal) {
+  (void)read.object(constraint, {{"header", "orientation", "link_name", "absolute_x_axis_tolerance",
+                                  "absolute_y_axis_tolerance", "absolute_z_axis_tolerance",
+                                  "parameterization", "weight"}});
   const JsonValue& link = read.member(constraint, "link_name");
   if (link_of(constraint, robot, read) != goal.link) {
     read.fail(link, "expected the link of the position, " + in_quotes(goal.link));
   }
-  const Pose turned =
-      read_message_pose(
-          {.value = JsonObject{{"orientation", read.member(constraint, "orientation")}}}, read)
-          .pose;
+  const JsonValue& orientation = read.member(constraint, "orientation");
+  const MessagePose turned =
+      read_message_pose({.value = JsonObject{{"orientation", orientation}}}, read);
+  if (turned.has_zero_quaternion) {
+    read.fail(orientation, "expected a quaternion x, y, z, w of length 1, got zeros");
+  }
   goal.X_WT.rotation =
-      (frame_of(constraint, robot, X_WR, read).rotation * turned.rotation).normalized();
+      (frame_of(constraint, robot, X_WR, read).rotation * turned.pose.rotation).normalized();
   double least = kAnyTurn;
   for (const char* key :
        {"absolute_x_axis_tolerance", "absolute_y_axis_tolerance", "absolute_z_axis_tolerance"}) {

@@ -81,8 +81,7 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object, d
   faults_ = faults_of(device);
   if (faults_ != 0) {
     // A lost device keeps its references: where it is means the same when it comes back.
-    is_rebased_ = is_rebased_ ||
-                  (faults_ == static_cast<std::uint32_t>(ForceFault::disengaged) && has_begun_);
+    is_rebased_ = is_rebased_ || faults_ == static_cast<std::uint32_t>(ForceFault::disengaged);
     is_engaged_ = false;
     target_ = god_object;
     return;
@@ -105,6 +104,12 @@ void TargetFollower::follow(const DeviceState& device, const Pose& god_object, d
     drive(device, god_object, seconds);
   } else {
     target_ = mapped(device.X_DH);
+  }
+  if (!target_.position.allFinite() || !(target_.rotation.squaredNorm() > 0.0)) {
+    // Scale and place may be finite and their product not.
+    faults_ = static_cast<std::uint32_t>(ForceFault::not_finite);
+    is_engaged_ = false;
+    target_ = god_object;
   }
 }
 

@@ -29,6 +29,8 @@ bool is_moved(const PlanScene& plan, std::size_t link) {
   return moves;
 }
 
+}  // namespace
+
 std::vector<bool> moved_members(const PlanScene& plan) {
   std::vector<bool> moved(plan.scene.size(), false);
   for (std::size_t member = 0; member < moved.size(); ++member) {
@@ -42,8 +44,6 @@ std::vector<bool> moved_members(const PlanScene& plan) {
   }
   return moved;
 }
-
-}  // namespace
 
 RobotScene scene_of_edges(const PlanScene& plan, double extra) {
   RobotScene scene = plan.scene;

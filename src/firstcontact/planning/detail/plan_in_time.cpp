@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -47,6 +48,7 @@ class PlanInTime {
   PlanResult run(const Configuration& start, const std::vector<Configuration>& goals,
                  double range) {
     PlanResult result;
+    require_time(start, goals);
     if (require_free(start, goals)) {
       PlanRandom random(options_.seed);
       const auto is_over = [this] { return report_and_ask(); };
@@ -73,6 +75,19 @@ class PlanInTime {
       options_.progress({seconds(), edges_.counts().nodes, std::nullopt});
     }
     return options_.stop.stop_requested() || seconds() > options_.time;
+  }
+
+  /// A goal has to be near enough for the speeds.
+  void require_time(const Configuration& start, const std::vector<Configuration>& goals) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Configuration& goal : goals) {
+      least = std::min(least, edges_.travel_time(start, goal));
+    }
+    if (least > edges_.duration()) {
+      throw std::invalid_argument("the speeds are too low: the straight way to a goal takes " +
+                                  write_json(least) + " s, and the scene lasts " +
+                                  write_json(edges_.duration()) + " s");
+    }
   }
 
   /// False where the search was stopped.

@@ -35,7 +35,9 @@ EdgeFound TimedEdges::ask(const TimedPlace& from, const TimedPlace& to) {
 }
 
 bool TimedEdges::is_free(const TimedPlace& from, const TimedPlace& to) {
-  return travel_time(from.q, to.q) <= (to.t - from.t) * (1.0 + kRounding) &&
+  // Where the quotients are one, only a place would be asked for.
+  const bool has_length = from.t / duration() < to.t / duration();
+  return has_length && travel_time(from.q, to.q) <= (to.t - from.t) * (1.0 + kRounding) &&
          ask(from, to).verdict == Verdict::free;
 }
 

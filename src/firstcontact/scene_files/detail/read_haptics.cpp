@@ -48,8 +48,12 @@ class HapticsReader {
 
  private:
   void require_rates(const JsonValue& value, const HapticQuestion& haptics) const {
-    if (!(haptics.force_rate <= 1e6)) {
-      read_.fail_expected("at most 1e6 Hz", read_.member(value, "force_rate"));
+    constexpr double kLeastRate = 1.0;  // [Hz]
+    if (!(haptics.force_rate <= 1e6 && haptics.force_rate >= kLeastRate)) {
+      read_.fail_expected("1 Hz to 1e6 Hz", read_.member(value, "force_rate"));
+    }
+    if (!(haptics.contact_rate >= kLeastRate)) {
+      read_.fail_expected("1 Hz or more", read_.member(value, "contact_rate"));
     }
     if (!(haptics.contact_rate <= haptics.force_rate)) {
       read_.fail(value, "expected a \"contact_rate\" that is at most the \"force_rate\"");

@@ -107,7 +107,7 @@ class PlanReader {
     }
     if (const JsonValue* speeds = find(object, "speeds")) {
       for (const auto& [name, speed] : members_of(*speeds, "speeds by joint")) {
-        plan.speeds[known_joint(speed, name, robot)] = read_.positive(speed);
+        plan.speeds[known_joint(speed, name, robot)] = speed_of(speed);
       }
     }
     if (const JsonValue* bounds = find(object, "bounds")) {
@@ -121,6 +121,15 @@ class PlanReader {
                                                          read_.number(two[1])};
       }
     }
+  }
+
+  double speed_of(const JsonValue& value) const {
+    constexpr double kMostSpeed = 1e8;
+    const double speed = read_.positive(value);
+    if (speed > kMostSpeed) {
+      read_.fail_expected("a speed of at most 1e8", value);
+    }
+    return speed;
   }
 
   const JsonObject& members_of(const JsonValue& value, const std::string& expected) const {
@@ -143,7 +152,7 @@ class PlanReader {
     if (const JsonValue* speeds = find(object, "speeds")) {
       (void)read_.object(*speeds, {{"linear", "angular"}});
       for (const char* key : {"linear", "angular"}) {
-        plan.speeds[key] = read_.positive(read_.member(*speeds, key));
+        plan.speeds[key] = speed_of(read_.member(*speeds, key));
       }
     }
     if (const JsonValue* box = find(object, "box")) {

@@ -64,7 +64,8 @@ Pose frozen_at(const LoadedScene& loaded, std::size_t body, double t, bool in_li
 }  // namespace
 
 SceneCourses::SceneCourses(const LoadedScene& loaded,
-                           const std::map<std::size_t, Turnings>& turnings)
+                           const std::map<std::size_t, Turnings>& turnings,
+                           std::optional<std::size_t> mover)
     : loaded_(loaded) {
   const Scene& scene = loaded.scene;
   for (const Body& body : scene.bodies) {
@@ -80,6 +81,9 @@ SceneCourses::SceneCourses(const LoadedScene& loaded,
     const CoveredMotions& motions = stretches.front().motions;
     const auto* only = dynamic_cast<const RigidMotion*>(motions.front().get());
     rests.push_back(motions.size() == 1 && only != nullptr && only->rests());
+  }
+  if (mover) {
+    rests[*mover] = false;
   }
   pairs_ = std::make_unique<const TestedPairs>(scene, rests);
   add_robots(turnings);

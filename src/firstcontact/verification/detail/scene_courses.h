@@ -36,8 +36,10 @@ class SceneCourses {
   /// @throws UncertainMotion; std::invalid_argument where the scene is not one of rigid bodies
   ///
   /// @param turnings  of robots, by their number
+  /// @param mover     a body that counts as one that moves, wherever it rests
   explicit SceneCourses(const LoadedScene& loaded,
-                        const std::map<std::size_t, Turnings>& turnings = {});
+                        const std::map<std::size_t, Turnings>& turnings = {},
+                        std::optional<std::size_t> mover = {});
 
   [[nodiscard]] std::span<const CourseGeometry> geometries() const { return geometries_; }
   /// The geometries of a member.

@@ -1,0 +1,210 @@
+#include <firstcontact/planning/detail/plan_goals.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/edge_question.h>
+#include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+[[noreturn]] void refuse_goal(const std::string& what) { throw std::invalid_argument(what); }
+
+std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal) {
+  const std::optional<std::size_t> link = model.find_link(goal.link);
+  if (!link) {
+    refuse_goal("expected a goal of a link of the robot, got " + in_quotes(goal.link));
+  }
+  return *link;
+}
+
+/// Adds the joints that move a link and have one coordinate; what they mimic in place of others.
+void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointCoordinate>& named) {
+  for (auto joint = model.parent_joint(link); joint;
+       joint = model.parent_joint(model.parent_link(*joint))) {
+    std::size_t mover = *joint;
+    while (model.joints()[mover].mimic) {
+      mover = model.find_joint(model.joints()[mover].mimic->joint).value();
+    }
+    const JointType type = model.joints()[mover].type;
+    if (type == JointType::revolute || type == JointType::continuous ||
+        type == JointType::prismatic || type == JointType::screw) {
+      named.insert(find_coordinate(model, model.joints()[mover].name));
+    }
+  }
+}
+
+/// Refuses a position of a joint that mimics a planned one where it contradicts that one's.
+void require_mimicked(const RobotModel& model, const ConfigurationSpace& space,
+                      const Configuration& goal, std::size_t joint, double position) {
+  constexpr double kSame = 1e-6;
+  double factor = 1.0;
+  double shift = 0.0;
+  std::size_t source = joint;
+  while (const std::optional<Mimic>& mimic = model.joints()[source].mimic) {
+    shift += factor * mimic->offset;
+    factor *= mimic->multiplier;
+    source = model.find_joint(mimic->joint).value();
+  }
+  const auto coordinates = space.coordinates();
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const double follows = factor * goal[k] + shift;
+    if (coordinates[k].joint == source && std::abs(follows - position) > kSame) {
+      refuse_goal("a goal has joint " + in_quotes(model.joints()[joint].name) + " at " +
+                  write_json(position) + ", but it mimics " +
+                  in_quotes(model.joints()[source].name) + " and is at " + write_json(follows) +
+                  " there");
+    }
+  }
+}
+
+/// Adds free places of the joints at which a link is at its pose.
+///
+/// @returns  one sentence where there is none
+std::optional<std::string> add_places_of(const PlanScene& plan, const LinkGoal& wanted,
+                                         const Configuration& start, const ReachOptions& options,
+                                         double tolerance, std::vector<Configuration>& goals) {
+  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(), wanted),
+                          .X_LT = wanted.X_LT,
+                          .X_WT = wanted.X_WT,
+                          .position_tolerance = wanted.position_tolerance,
+                          .rotation_tolerance = wanted.rotation_tolerance};
+  const std::vector<ReachedPose> places = reach_pose(plan.space, goal, start, options);
+  const std::string name = "the pose of link " + in_quotes(wanted.link);
+  if (places.empty()) {
+    return name + ": no time was left to look for places of the joints";
+  }
+  if (!reaches(places.front(), goal)) {
+    const ReachedPose& nearest = places.front();
+    return name + ": no place of the joints was found at which it is there; the nearest is " +
+           write_json(nearest.position_error) + " m and " + write_json(nearest.rotation_error) +
+           " rad off";
+  }
+  if (plan.times) {
+    // Whether they are free depends on the time: the search finds out.
+    std::transform(places.begin(), places.end(), std::back_inserter(goals),
+                   [](const ReachedPose& place) { return place.q; });
+    return std::nullopt;
+  }
+  const EdgeCheckOptions defaults;
+  const EdgeChecker checker(
+      plan, {.tolerance = tolerance,
+             .extra_clearance = defaults.extra_clearance + 2.0 * tolerance});  // As the search.
+  const std::size_t before = goals.size();
+  for (const ReachedPose& place : places) {
+    if (checker.is_free(place.q)) {
+      goals.push_back(place.q);
+    }
+  }
+  if (goals.size() > before) {
+    return std::nullopt;
+  }
+  return describe_blocked(
+      checker, places.front().q,
+      name + " (all " + std::to_string(places.size()) + " places of the joints that were found)");
+}
+
+}  // namespace
+
+std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuestion& question) {
+  if (!question.joints.empty()) {
+    return question.joints;
+  }
+  std::set<JointCoordinate> named;
+  for (const JointPositions& goal : question.goals) {
+    for (const auto& [name, position] : goal) {
+      const JointCoordinate coordinate = find_coordinate(model, name);
+      if (!model.joints()[coordinate.joint].mimic) {
+        named.insert(coordinate);
+      }
+    }
+  }
+  for (const LinkGoal& goal : question.link_goals) {
+    add_joints_below(model, link_of_goal(model, goal), named);
+  }
+  std::vector<std::string> joints;
+  for (const JointCoordinate& coordinate : named) {
+    joints.push_back(coordinate_name(model, coordinate));
+  }
+  return joints;
+}
+
+Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
+                      const JointPositions& positions, const Configuration& start) {
+  Configuration goal = start;
+  std::vector<std::pair<std::size_t, double>> mimics;  // Joints and their positions.
+  for (const auto& [name, position] : positions) {
+    const JointCoordinate coordinate = find_coordinate(model, name);
+    const auto coordinates = space.coordinates();
+    const auto found =
+        std::find_if(coordinates.begin(), coordinates.end(), [&](const SpaceCoordinate& one) {
+          return one.joint == coordinate.joint && one.index == coordinate.index;
+        });
+    if (found != coordinates.end()) {
+      goal[static_cast<std::size_t>(found - coordinates.begin())] = position;
+    } else if (model.joints()[coordinate.joint].mimic) {
+      mimics.emplace_back(coordinate.joint, position);
+    } else {
+      refuse_goal("a goal names joint " + in_quotes(name) + ", which is not among those planned");
+    }
+  }
+  for (const auto& [joint, position] : mimics) {
+    require_mimicked(model, space, goal, joint, position);
+  }
+  return goal;
+}
+
+void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const Configuration& start,
+                    LoadedScene& loaded, std::vector<Configuration>& goals) {
+  const PlanOptions defaults;
+  const double seconds = std::min(question.time.value_or(defaults.time), 1e9);
+  ReachOptions options{.seed = question.seed.value_or(defaults.seed)};
+  options.deadline = std::chrono::steady_clock::now() +
+                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                         std::chrono::duration<double>(seconds));
+  std::vector<std::string> problems;
+  for (const LinkGoal& goal : question.link_goals) {
+    if (auto problem =
+            add_places_of(plan, goal, start, options, loaded.scene.options.tolerance, goals)) {
+      problems.push_back(std::move(*problem));
+    }
+  }
+  if (goals.empty() && !problems.empty()) {
+    refuse_goal(problems.front());
+  }
+  loaded.warnings.insert(loaded.warnings.end(), problems.begin(), problems.end());
+}
+
+void ignore_what_rests(const PlanScene& plan, Scene& scene) {
+  const std::vector<bool> moved = moved_members(plan);
+  BodyGroup group{.name = "what no edge moves", .bodies = {}};
+  const auto is_taken = [&](const auto& named) { return named.name == group.name; };
+  while (std::any_of(scene.groups.begin(), scene.groups.end(), is_taken) ||
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), is_taken) ||
+         std::any_of(scene.robots.begin(), scene.robots.end(), is_taken)) {
+    group.name += " here";
+  }
+  // A body that is planned is a robot of its own in the plan, with one link.
+  for (std::size_t member = 0; member < moved.size(); ++member) {
+    if (!moved[member]) {
+      group.bodies.push_back(member);
+    }
+  }
+  if (group.bodies.size() > 1) {
+    scene.groups.push_back(std::move(group));
+    const std::size_t number = scene.groups.size() - 1;
+    scene.ignored_groups.push_back({number, number});
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,37 @@
+/// @file
+/// The goals of a plan of a robot, and what its path leaves out.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/plan_question.h>
+
+namespace firstcontact::detail {
+
+/// What is asked for by name, or named by a goal; without joints that mimic others.
+[[nodiscard]] std::vector<std::string> planned_joints(const RobotModel& model,
+                                                      const PlanQuestion& question);
+
+/// The configuration of a goal: coordinates that it does not name keep their start.
+///
+/// @throws std::invalid_argument  names a joint that is not planned, or that mimics another one and
+///         contradicts it
+[[nodiscard]] Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
+                                    const JointPositions& positions, const Configuration& start);
+
+/// Adds the goals that are poses of links. One that is out of reach is a warning where others are
+/// left.
+///
+/// @throws std::invalid_argument if no goal is left
+void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const Configuration& start,
+                    LoadedScene& loaded, std::vector<Configuration>& goals);
+
+/// Leaves out the pairs that no edge moves, so that every check of the path's scene does.
+void ignore_what_rests(const PlanScene& plan, Scene& scene);
+
+}  // namespace firstcontact::detail
