@@ -120,7 +120,8 @@ void write_motion_page(const std::string& file, const std::string& viewer, Scene
   if (stop.stop_requested()) {
     return;
   }
-  const std::string result = write_result(answer.loaded, answer.result, {.all_pairs = true, .line = {}, .sampling = {}});
+  const std::string result =
+      write_result(answer.loaded, answer.result, {.all_pairs = true, .line = {}, .sampling = {}});
   const auto bound = gap_lower_bound(answer.loaded, answer.result, answer.curve);
   write_file(file, write_page(viewer, answer.loaded, result, {answer.curve, bound}));
 }

@@ -197,9 +197,8 @@ py::object plan(const HeldScene& scene, const std::optional<std::string>& planne
   return tuple_of_planning("PlanAnswer")(
       kPlanVerdictWords.at(static_cast<std::size_t>(result.verdict)),
       rows_from(result.path, asked.plan.space.size()), owning(std::vector<double>(result.times)),
-      owning(std::move(clearances)), result.cost,
-      result.goal, result.distance_to_goal, py::tuple(blocked),
-      py::tuple(py::cast(result.warnings)),
+      owning(std::move(clearances)), result.cost, result.goal, result.distance_to_goal,
+      py::tuple(blocked), py::tuple(py::cast(result.warnings)),
       has_path ? py::object(py::str(write_planned_path(planned_path(asked, options, result))))
                : py::none());
 }
