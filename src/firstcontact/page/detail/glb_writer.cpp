@@ -83,7 +83,9 @@ std::string GlbWriter::write(nlohmann::ordered_json document) const {
   document["bufferViews"] = views_;
   document["accessors"] = accessors_;
   std::string chunks;
-  append_chunk(chunks, document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), "JSON", ' ');
+  append_chunk(chunks,
+               document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace),
+               "JSON", ' ');
   append_chunk(chunks, bytes_, std::string_view("BIN\0", 4), '\0');
   if (chunks.size() > std::numeric_limits<std::uint32_t>::max() - 12) {
     throw std::invalid_argument("the animation is larger than the 4 GiB that a .glb may have");
