@@ -20,6 +20,7 @@
 #include <firstcontact/robot_check/check_robots.h>
 
 #include "planning/plan_cases.h"
+#include "robot/planar_arm.h"
 #include "support/random.h"
 #include "support/rounds.h"
 
@@ -302,6 +303,16 @@ TEST(EdgeChecker, AnswersManyAsOneByOne) {
   }
   to.pop_back();
   EXPECT_THROW((void)checker.check(from, to), std::invalid_argument);
+}
+
+TEST(EdgeChecker, TakesRobotsAtRestWithJoints) {
+  RobotScene scene;
+  scene.add_robot("other",
+                  planar_motion({ramp(0.3, 0.3), ramp(-1.0, -1.0)}, resting_at({50.0, 0.0, 0.0})));
+  PlanScene plan = with_gantry(std::move(scene));
+  plan.robot = 1;
+  const EdgeChecker checker(plan);
+  EXPECT_EQ(checker.check({-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}).verdict, EdgeVerdict::free);
 }
 
 TEST(EdgeChecker, RefusesWhatMovesByItself) {

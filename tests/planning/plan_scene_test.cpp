@@ -231,6 +231,39 @@ TEST_F(GantryFile, PlansToThePoseOfALink) {
             std::string::npos);
 }
 
+TEST_F(GantryFile, KeepsTheLimitsOfJointsThatMimic) {
+  std::ofstream(folder_ / "gantry.urdf") << R"(<robot name="gantry">
+      <link name="base"/><link name="slide"/>
+      <link name="tool"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
+      <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/>
+        <axis xyz="1 0 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+      <joint name="z" type="prismatic"><parent link="slide"/><child link="tool"/>
+        <axis xyz="0 0 1"/><limit lower="-2" upper="0.5" effort="1" velocity="1"/>
+        <mimic joint="x" multiplier="-1" offset="-1"/></joint>
+    </robot>)";
+  ShapeCache cache;
+  const auto message_of = [&](const std::string& plan) {
+    try {
+      const Scene asked = parse_scene(R"({"firstcontact": 1,
+        "robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1}}], "plan": )" +
+                                          plan + "}",
+                                      folder_ / "scene.json", 1, {});
+      const ScenePlan made = make_scene_plan(asked, *asked.plan, cache);
+      const PlanResult found = plan_path(made.plan, made.start, made.goals, made.options);
+      return std::string(found.verdict == PlanVerdict::proven ? "proven" : "none");
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(message_of(R"({"goal": {"x": 0.9}})"), "proven");
+  EXPECT_NE(message_of(R"({"goal": {"x": -1.6}})").find("outside of its limits -1.5 to 1"),
+            std::string::npos);
+  EXPECT_NE(message_of(R"({"goal": {"x": 0.5, "z": 0.3}})").find("mimics \"x\""),
+            std::string::npos);
+  EXPECT_NE(message_of(R"({"goal": {"x": 0.5}, "bounds": {"x": [3, 4]}})").find("overlap"),
+            std::string::npos);
+}
+
 TEST_F(GantryFile, RefusesGoalsThatAreNone) {
   EXPECT_THROW((void)scene(R"({"goal": {"y": 1}})"), ParseError);
   EXPECT_THROW((void)scene(R"({"goal": "home"})"), ParseError);

@@ -204,6 +204,30 @@ TEST(VerifyPath, ProvesAPathInTime) {
   EXPECT_EQ(verify_path(path).problem, "The body \"door\" moves by itself.");
 }
 
+// Times with one quotient by the duration left an edge of no length, along which nothing was
+// tested.
+TEST(VerifyPath, RefusesTimesThatDoublesDoNotTellApart) {
+  PlannedPath path = path_through_a_door();
+  set_waypoints(path, {{0, 0, 0, 1, 0, 0, 0}, {2, 0, 0, 1, 0, 0, 0}, {2, 0, 0, 1, 0, 0, 0}});
+  path.times = {0.0, 5e-324, 8.0};
+  EXPECT_EQ(verify_path(path).problem,
+            "The times of the path are so close that doubles do not tell them apart.");
+}
+
+// A body that rests beside a robot counted as one whose pairs are not tested.
+TEST(VerifyPath, RefutesAPlaceInAnotherBodyBesideARobot) {
+  const test::ArmFolder folder;
+  PlannedPath path = path_in(R"({"firstcontact": 1, "bodies": [
+    {"name": "post", "shape": {"box": {"size": [0.1, 0.1, 2]}}, "pose": {"position": [0, 1.4, 0]}},
+    {"name": "ball", "shape": {"sphere": {"radius": 0.2}}, "pose": {"position": [0, 1.4, 0]}}],
+    "robots": [{"name": "arm", "urdf": "arm.urdf", "srdf": "arm.srdf"}]})",
+                             folder.path() / "scene.json");
+  path.body = "ball";
+  set_waypoints(path, {{0, 1.4, 0, 1, 0, 0, 0}});
+  path.clearance = 0.0;
+  EXPECT_EQ(verify_path(path).verdict, ProofVerdict::refuted);
+}
+
 TEST(VerifyPath, RefusesAFileThatHasChanged) {
   PlannedPath path = ball_path();
   path.input_digest.back() = path.input_digest.back() == '0' ? '1' : '0';
