@@ -127,6 +127,15 @@ TEST(Reduction, KeepsAllOfFew) {
   EXPECT_EQ(reduced.angle, 0.0);
 }
 
+// The friction of one contact keeps nothing apart: it does not stand for the normal of another one.
+TEST(Reduction, KeepsANormalThatOnlyFrictionSpans) {
+  std::vector<HapticContact> contacts(2);
+  contacts[0].friction = 1.0;
+  contacts[1].normal = Vector3d(0.5, 0.0, std::sqrt(0.75));  // 30 degrees off.
+  contacts[1].gap = 1e-6;
+  EXPECT_EQ(reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 32).kept.size(), 2U);
+}
+
 TEST(Reduction, ClaimsALargerAngleWhereFewAreAllowed) {
   const auto contacts = thread_contacts(2000, 0.3, true);
   const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 8);

@@ -18,10 +18,12 @@ constexpr int kPivotsOfRow = 60;
 /// [-]  Of a row of unit length.
 constexpr double kToleranceOfRow = 1e-12;
 
-/// The unit rows that count of a contact: that of its normal, or the four edges of its cone.
+/// The unit rows that count of a contact: that of its normal, and with friction the four edges of
+/// its cone.
 struct ContactRows {
-  std::array<Coordinates, 4> rows = {};
-  std::size_t count = 0;
+  Coordinates normal = {};
+  std::array<Coordinates, 4> edges = {};
+  std::size_t count = 0;  ///< Of edges: 0 or 4.
 };
 
 double product(const Coordinates& a, const Coordinates& b, std::size_t n) {
@@ -39,9 +41,8 @@ Coordinates unit(Coordinates row, std::size_t n) {
 ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std::size_t n) {
   const ConeContact cone = cone_contact(contact, frames, 0.0);
   ContactRows rows;
+  rows.normal = unit(cone.rows[0], n);
   if (cone.friction == 0.0) {
-    rows.rows[0] = unit(cone.rows[0], n);
-    rows.count = 1;
     return rows;
   }
   for (std::size_t edge = 0; edge < 4; ++edge) {
@@ -50,7 +51,7 @@ ContactRows rows_of(const HapticContact& contact, const ToolFrames& frames, std:
     for (std::size_t k = 0; k < n; ++k) {
       row[k] += mu * cone.rows[1 + edge / 2][k];
     }
-    rows.rows[edge] = unit(row, n);
+    rows.edges[edge] = unit(row, n);
   }
   rows.count = 4;
   return rows;
@@ -63,11 +64,16 @@ class Reduction {
       : n_(coordinates),
         cosine_of_half_(std::cos(0.5 * angle * kRoom)),
         sine_of_half_(std::sin(0.5 * angle * kRoom)),
-        cone_(coordinates, 4 * most) {}
+        normals_(coordinates, most),
+        edges_(coordinates, 4 * most) {}
 
+  /// Normals by normals: friction keeps nothing apart. Edges by edges.
   [[nodiscard]] bool spans(const ContactRows& contact) {
+    if (!spans(normals_, contact.normal)) {
+      return false;
+    }
     for (std::size_t k = 0; k < contact.count; ++k) {
-      if (!spans(contact.rows[k])) {
+      if (!spans(edges_, contact.edges[k])) {
         return false;
       }
     }
@@ -77,11 +83,12 @@ class Reduction {
   /// Whether each row is within half of the angle of one row that was seen.
   [[nodiscard]] bool is_like_another(const ContactRows& contact) const {
     return std::ranges::any_of(seen_, [&](const ContactRows& other) {
-      if (other.count != contact.count) {
+      if (other.count != contact.count ||
+          !(product(other.normal, contact.normal, n_) >= cosine_of_half_)) {
         return false;
       }
       for (std::size_t k = 0; k < contact.count; ++k) {
-        if (!(product(other.rows[k], contact.rows[k], n_) >= cosine_of_half_)) {
+        if (!(product(other.edges[k], contact.edges[k], n_) >= cosine_of_half_)) {
           return false;
         }
       }
@@ -92,8 +99,9 @@ class Reduction {
   void see(const ContactRows& contact) { seen_.push_back(contact); }
 
   void keep(const ContactRows& contact) {
+    normals_.add({.rows = {contact.normal, {}, {}}});
     for (std::size_t k = 0; k < contact.count; ++k) {
-      cone_.add({.rows = {contact.rows[k], {}, {}}});
+      edges_.add({.rows = {contact.edges[k], {}, {}}});
     }
   }
 
@@ -101,19 +109,20 @@ class Reduction {
   /// So that both halves are within the angle: 2 sin(a / 4) + sin(a / 2) is a little above sin(a).
   static constexpr double kRoom = 0.98;
 
-  bool spans(const Coordinates& row) {
+  bool spans(ConeProjection& cone, const Coordinates& row) {
     Coordinates against{};
     for (std::size_t k = 0; k < n_; ++k) {
       against[k] = -row[k];
     }
-    const ConeProjectionResult rest = cone_.project(against, kToleranceOfRow, kPivotsOfRow);
+    const ConeProjectionResult rest = cone.project(against, kToleranceOfRow, kPivotsOfRow);
     return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= sine_of_half_;
   }
 
   std::size_t n_;
   double cosine_of_half_;
   double sine_of_half_;
-  ConeProjection cone_;
+  ConeProjection normals_;
+  ConeProjection edges_;
   std::vector<ContactRows> seen_;
 };
 

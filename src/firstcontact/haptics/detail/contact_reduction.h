@@ -25,8 +25,8 @@ struct ReducedContacts {
 /// others could give are near those that the chosen ones give. Gaps do not count: what is listed
 /// lies within a band that is small by itself.
 ///
-/// Derivation: a contact is dropped if each of its rows is within the angle of the cone that the
-/// rows of those kept span: row = sum of shares row_k + rest, with shares >= 0 and |rest| <=
+/// Derivation: a contact is dropped if its normal is within the angle of the cone that the normals
+/// of those kept span, and each edge of that of their edges: row = sum of shares row_k + rest, with shares >= 0 and |rest| <=
 /// sin(angle) |row|. So row . x >= rest . x. The rest is that of a projection on the cone
 /// (ConeProjection), after contacts within half the angle of one kept were dropped.
 ///
