@@ -96,12 +96,16 @@ TEST(PlanInTime, WaitsUntilTheDoorIsOpen) {
   }
 }
 
-TEST(PlanInTime, HasNoAnswerWhereTheDoorStaysShut) {
+TEST(PlanInTime, HasNoAnswerWhereTheDoorIsShutAgain) {
   ScenePlan plan = plan_of(door_scene(2.0));
-  // So slow that the door is shut again.
-  plan.plan.times->speeds[0] = 0.2;
+  // The ball is at the door after 4.4 s, and needs another second; the door is open until 4.7 s.
+  plan.start[0] = -0.9;
+  plan.plan.times->speeds[0] = 0.38;
   plan.options.time = 0.3;
   EXPECT_EQ(plan_path(plan.plan, plan.start, plan.goals, plan.options).verdict, PlanVerdict::none);
+  plan.plan.times->speeds[0] = 0.36;  // Not even without the door.
+  EXPECT_THROW((void)plan_path(plan.plan, plan.start, plan.goals, plan.options),
+               std::invalid_argument);
 }
 
 TEST(PlanInTime, IsTheSameForASeed) {
