@@ -13,6 +13,7 @@
 #include <firstcontact/foreign_scenes/planning_scene.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
+#include <firstcontact/text/parse_error.h>
 #include <firstcontact/trajectory_files/read_trajectory.h>
 
 #include "arrays.h"
