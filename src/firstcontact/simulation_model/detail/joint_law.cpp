@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <firstcontact/simulation_model/detail/constants.h>
+
 namespace firstcontact::detail {
 namespace {
 
