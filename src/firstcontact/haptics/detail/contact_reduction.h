@@ -26,9 +26,10 @@ struct ReducedContacts {
 /// lies within a band that is small by itself.
 ///
 /// Derivation: a contact is dropped if its normal is within the angle of the cone that the normals
-/// of those kept span, and each edge of that of their edges: row = sum of shares row_k + rest, with shares >= 0 and |rest| <=
-/// sin(angle) |row|. So row . x >= rest . x. The rest is that of a projection on the cone
-/// (ConeProjection), after contacts within half the angle of one kept were dropped.
+/// of those kept span, and each edge of that of their edges: row = sum of shares row_k + rest, with
+/// shares >= 0 and |rest| <= sin(angle) |row|. So row . x >= rest . x. The rest is that of a
+/// projection on the cone (ConeProjection), after contacts within half the angle of one kept were
+/// dropped.
 ///
 /// @param angle  [rad]  > 0; it is doubled until no more than `most` are kept
 /// @param most   1 to kMostHapticContacts
