@@ -136,6 +136,82 @@ TEST(Reduction, KeepsANormalThatOnlyFrictionSpans) {
   EXPECT_EQ(reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 32).kept.size(), 2U);
 }
 
+/// The unit rows of contacts: normals alone, or the edges of those with friction alone.
+std::vector<Vector6d> unit_rows(const std::vector<HapticContact>& contacts, bool edges) {
+  std::vector<Vector6d> found;
+  for (const HapticContact& contact : contacts) {
+    const ConeContact cone = cone_contact(contact, bolt_frames(), 0.0);
+    const auto row_of = [&](std::size_t k) -> Vector6d {
+      return Eigen::Map<const Vector6d>(cone.rows[k].data());
+    };
+    if (!edges) {
+      found.push_back(row_of(0).normalized());
+    }
+    for (const double mu : {cone.friction, -cone.friction}) {
+      for (const std::size_t way : {1, 2}) {
+        if (edges && mu != 0.0) {
+          found.push_back((row_of(0) + mu * row_of(way)).normalized());
+        }
+      }
+    }
+  }
+  return found;
+}
+
+/// [-]  How far the motions that `few` allow leave the half space of `row`: no less than the sine.
+///
+/// The sine is the distance of the row from the cone of the few (Moreau's decomposition). Whatever
+/// shares >= 0 are found, the rest that they leave is no less.
+double leave(const std::vector<Vector6d>& few, const Vector6d& row) {
+  Vector6d rest = row;
+  std::vector<double> shares(few.size(), 0.0);
+  double moved = 1.0;
+  for (int sweep = 0; sweep < 20000 && moved > 1e-10; ++sweep) {
+    moved = 0.0;
+    for (std::size_t k = 0; k < few.size(); ++k) {
+      const double share = std::max(0.0, shares[k] + few[k].dot(rest));
+      rest -= (share - shares[k]) * few[k];
+      moved = std::max(moved, std::abs(share - shares[k]));
+      shares[k] = share;
+    }
+  }
+  return rest.norm();
+}
+
+// Contacts with and without friction, and angles so large that sines are far from straight.
+TEST(Reduction, KeepsItsAngleWithAndWithoutFriction) {
+  std::mt19937 rng(6);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> friction(0.1, 0.9);
+  double tightest = 0.0;
+  for (const double angle : {0.0175, 0.3, 0.7, 1.2, 1.5}) {
+    for (int trial = 0; trial < 4; ++trial) {
+      std::vector<HapticContact> contacts(60);
+      for (HapticContact& contact : contacts) {
+        contact.point = 0.02 * Vector3d(normal(rng), normal(rng), normal(rng));
+        contact.normal = Vector3d(normal(rng), normal(rng), 2.0 + normal(rng)).normalized();
+        contact.gap = 1e-6 * std::abs(normal(rng));
+        contact.friction = trial % 2 == 0 || normal(rng) < 0.0 ? 0.0 : friction(rng);
+      }
+      const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, angle, 60);
+      ASSERT_LE(reduced.angle, angle);
+      std::vector<HapticContact> kept;
+      for (const std::size_t k : reduced.kept) {
+        kept.push_back(contacts[k]);
+      }
+      for (const bool edges : {false, true}) {
+        const std::vector<Vector6d> few = unit_rows(kept, edges);
+        for (const Vector6d& row : unit_rows(contacts, edges)) {
+          const double sine = leave(few, row);
+          EXPECT_LE(sine, std::sin(reduced.angle) + 1e-6) << angle << ' ' << trial << ' ' << edges;
+          tightest = std::max(tightest, sine / std::sin(angle));
+        }
+      }
+    }
+  }
+  EXPECT_GT(tightest, 0.4);  // The bound is less than 2.5 times what happens.
+}
+
 TEST(Reduction, ClaimsALargerAngleWhereFewAreAllowed) {
   const auto contacts = thread_contacts(2000, 0.3, true);
   const ReducedContacts reduced = reduce_contacts(contacts, bolt_frames(), 1, 0.0175, 8);

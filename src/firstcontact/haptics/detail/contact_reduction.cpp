@@ -62,8 +62,7 @@ class Reduction {
  public:
   Reduction(std::size_t coordinates, double angle, std::size_t most)
       : n_(coordinates),
-        cosine_of_half_(std::cos(0.5 * angle * kRoom)),
-        sine_of_half_(std::sin(0.5 * angle * kRoom)),
+        most_apart_(kShare * std::sin(angle)),
         normals_(coordinates, most),
         edges_(coordinates, 4 * most) {}
 
@@ -80,15 +79,14 @@ class Reduction {
     return true;
   }
 
-  /// Whether each row is within half of the angle of one row that was seen.
+  /// Whether each row is near that of one contact that was seen.
   [[nodiscard]] bool is_like_another(const ContactRows& contact) const {
     return std::ranges::any_of(seen_, [&](const ContactRows& other) {
-      if (other.count != contact.count ||
-          !(product(other.normal, contact.normal, n_) >= cosine_of_half_)) {
+      if (other.count != contact.count || !are_near(other.normal, contact.normal)) {
         return false;
       }
       for (std::size_t k = 0; k < contact.count; ++k) {
-        if (!(product(other.edges[k], contact.edges[k], n_) >= cosine_of_half_)) {
+        if (!are_near(other.edges[k], contact.edges[k])) {
           return false;
         }
       }
@@ -106,8 +104,14 @@ class Reduction {
   }
 
  private:
-  /// So that both halves are within the angle: 2 sin(a / 4) + sin(a / 2) is a little above sin(a).
-  static constexpr double kRoom = 0.98;
+  /// [-]  Of the sine, for each of two: the way to a row that was seen, and the rest of that row.
+  /// Both together stay below the sine, rounding included.
+  static constexpr double kShare = 0.499;
+
+  /// For unit rows: |a - b|^2 = 2 - 2 a . b.
+  [[nodiscard]] bool are_near(const Coordinates& a, const Coordinates& b) const {
+    return 2.0 - 2.0 * product(a, b, n_) <= most_apart_ * most_apart_;
+  }
 
   bool spans(ConeProjection& cone, const Coordinates& row) {
     Coordinates against{};
@@ -115,12 +119,11 @@ class Reduction {
       against[k] = -row[k];
     }
     const ConeProjectionResult rest = cone.project(against, kToleranceOfRow, kPivotsOfRow);
-    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= sine_of_half_;
+    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= most_apart_;
   }
 
   std::size_t n_;
-  double cosine_of_half_;
-  double sine_of_half_;
+  double most_apart_;
   ConeProjection normals_;
   ConeProjection edges_;
   std::vector<ContactRows> seen_;
