@@ -62,7 +62,8 @@ class Reduction {
  public:
   Reduction(std::size_t coordinates, double angle, std::size_t most)
       : n_(coordinates),
-        most_apart_(kShare * std::sin(angle)),
+        cosine_(std::cos(kShare * angle)),
+        sine_(std::sin(kShare * angle)),
         normals_(coordinates, most),
         edges_(coordinates, 4 * most) {}
 
@@ -104,13 +105,12 @@ class Reduction {
   }
 
  private:
-  /// [-]  Of the sine, for each of two: the way to a row that was seen, and the rest of that row.
-  /// Both together stay below the sine, rounding included.
+  /// [-]  Of the angle, for each of two: from a row to one that was seen, and from that to the
+  /// cone. Both together stay below the angle, rounding included.
   static constexpr double kShare = 0.499;
 
-  /// For unit rows: |a - b|^2 = 2 - 2 a . b.
   [[nodiscard]] bool are_near(const Coordinates& a, const Coordinates& b) const {
-    return 2.0 - 2.0 * product(a, b, n_) <= most_apart_ * most_apart_;
+    return product(a, b, n_) >= cosine_;
   }
 
   bool spans(ConeProjection& cone, const Coordinates& row) {
@@ -119,11 +119,12 @@ class Reduction {
       against[k] = -row[k];
     }
     const ConeProjectionResult rest = cone.project(against, kToleranceOfRow, kPivotsOfRow);
-    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= most_apart_;
+    return rest.is_solved && std::sqrt(product(rest.x, rest.x, n_)) <= sine_;
   }
 
   std::size_t n_;
-  double most_apart_;
+  double cosine_;
+  double sine_;
   ConeProjection normals_;
   ConeProjection edges_;
   std::vector<ContactRows> seen_;

@@ -25,11 +25,12 @@ struct ReducedContacts {
 /// others could give are near those that the chosen ones give. Gaps do not count: what is listed
 /// lies within a band that is small by itself.
 ///
-/// Derivation, for rows of unit length and s = sin(angle) / 2. The rows of a contact that is
-/// dropped are within s of those of one that was seen, or are seen themselves. Those are in the
-/// cone of the rows of contacts that were kept, up to a rest: row = sum of shares row_k + rest,
-/// with shares >= 0 and |rest| <= s. So row . x >= -2 s |x|. Normals are in the cone of normals,
-/// edges in that of edges. The rest is that of a projection on the cone (ConeProjection).
+/// Derivation. The rows of a contact that is dropped are within half the angle of those of one that
+/// was seen, or are seen themselves. What was seen is within half the angle of the cone of the rows
+/// of contacts that were kept: normals of the cone of normals, edges of that of edges. Angles to a
+/// convex cone add up as those between directions. So row = sum of shares row_k + rest, with shares
+/// >= 0 and |rest| <= sin(angle) |row|, and row . x >= rest . x. The rest is that of a projection
+/// on the cone (ConeProjection).
 ///
 /// @param angle  [rad]  > 0; it is doubled until no more than `most` are kept
 /// @param most   1 to kMostHapticContacts
