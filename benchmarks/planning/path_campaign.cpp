@@ -22,7 +22,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/retiming/joint_limits.h>
@@ -208,9 +208,9 @@ class Problem {
 
   /// A plate at a vertex of the last link with geometry, somewhere on the path.
   void put_a_wall_across(PlannedPath path, std::uint64_t seed) {
-    detail::PlanRandom random(seed + 1'000'003);
+    RandomNumbers random(seed + 1'000'003);
     const std::size_t edge = random.below(path.waypoints.size() - 1);
-    const double share = random.unit();
+    const double share = random.uniform();
     std::vector<double> q = path.waypoints[edge];
     for (std::size_t k = 0; k < q.size(); ++k) {
       q[k] += share * (path.waypoints[edge + 1][k] - q[k]);
@@ -238,9 +238,9 @@ class Problem {
     }
   }
 
-  static Eigen::Quaterniond random_rotation(detail::PlanRandom& random) {
-    return Eigen::Quaterniond(random.unit() + 0.1, random.unit() - 0.5, random.unit() - 0.5,
-                              random.unit() - 0.5)
+  static Eigen::Quaterniond random_rotation(RandomNumbers& random) {
+    return Eigen::Quaterniond{random.uniform() + 0.1, random.uniform() - 0.5,
+                              random.uniform() - 0.5, random.uniform() - 0.5}
         .normalized();
   }
 

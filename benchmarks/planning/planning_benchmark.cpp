@@ -20,7 +20,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
@@ -185,7 +185,7 @@ json edges(const Settings& settings) {
     for (const std::string family : kPandaFamilies) {
       for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
         const EdgeChecker checker(scene.plan);
-        detail::PlanRandom random(static_cast<std::uint64_t>(problem));
+        RandomNumbers random(static_cast<std::uint64_t>(problem));
         const ConfigurationSpace& space = scene.plan.space;
         for (int k = 0; k < kEdgesOfProblem; ++k) {
           const Configuration& from = k % 2 == 0 ? scene.start : scene.goals.front();

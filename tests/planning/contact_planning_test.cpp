@@ -13,10 +13,10 @@
 #include <vector>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/contact_finder.h>
 #include <firstcontact/planning/detail/contact_motion.h>
 #include <firstcontact/planning/detail/contact_steering.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 #include <firstcontact/planning/edge_checker.h>

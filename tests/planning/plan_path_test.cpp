@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 

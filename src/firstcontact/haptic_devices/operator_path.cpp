@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <firstcontact/haptic_devices/detail/random_numbers.h>
 #include <firstcontact/haptic_devices/detail/rotation_vector.h>
+#include <firstcontact/math/random_numbers.h>
 
 namespace firstcontact {
 namespace {
@@ -92,7 +92,7 @@ std::vector<ViaPoint> random_via_points(const RandomPathOptions& options) {
   require(options.most_turn_rate > 0.0, "most_turn_rate must be > 0");
   require(options.longest_rest >= 0.0 && std::isfinite(options.longest_rest),
           "longest_rest must be >= 0");
-  detail::RandomNumbers random(options.seed);
+  RandomNumbers random(options.seed);
   std::vector<ViaPoint> points{{0.0, options.centre}};
   double time = 0.0;
   for (std::size_t i = 1; i < options.count; ++i) {

@@ -8,9 +8,9 @@
 
 #include <firstcontact/haptic_devices/detail/handle_dynamics.h>
 #include <firstcontact/haptic_devices/detail/quiet_state.h>
-#include <firstcontact/haptic_devices/detail/random_numbers.h>
 #include <firstcontact/haptic_devices/detail/rotation_vector.h>
 #include <firstcontact/haptic_devices/detail/tremor.h>
+#include <firstcontact/math/random_numbers.h>
 
 namespace firstcontact {
 namespace {
@@ -124,7 +124,7 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorOptions& options)
       capabilities_(operator_capabilities(options)),
       path_(options.path),
       random_(options.seed == 0 ? 1 : options.seed) {
-  detail::RandomNumbers random(options.seed);
+  RandomNumbers random(options.seed);
   const HandOptions& hand = options.hand;
   for (std::size_t axis = 0; axis < tremor_.size(); ++axis) {
     // n sines of amplitude a have the root mean square a sqrt(n / 2).

@@ -12,7 +12,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/text/write_json.h>
 
@@ -325,7 +325,7 @@ double ConfigurationSpace::travel_time(const Configuration& from, const Configur
   return time;
 }
 
-Configuration ConfigurationSpace::sample(detail::PlanRandom& random) const {
+Configuration ConfigurationSpace::sample(RandomNumbers& random) const {
   if (!is_body_) {
     Configuration q;
     q.reserve(coordinates_.size());
@@ -339,7 +339,7 @@ Configuration ConfigurationSpace::sample(detail::PlanRandom& random) const {
     pose.position[k] = random.uniform(low_[k], high_[k]);
   }
   // K. Shoemake, "Uniform random rotations", Graphics Gems III (1992).
-  const double u = random.unit();
+  const double u = random.uniform();
   const double a = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double b = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double r = std::sqrt(1.0 - u);

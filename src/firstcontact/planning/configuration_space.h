@@ -19,9 +19,7 @@
 
 namespace firstcontact {
 
-namespace detail {
-class PlanRandom;
-}
+class RandomNumbers;
 
 /// A point of a space: one number for each coordinate of joints [rad or m].
 ///
@@ -117,7 +115,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
                                    std::span<const double> speeds) const;
 
   /// A place drawn evenly: within the limits; of poses within the box, turned in any way.
-  [[nodiscard]] Configuration sample(detail::PlanRandom& random) const;
+  [[nodiscard]] Configuration sample(RandomNumbers& random) const;
 
   /// Whether the place of a body is in the box in which it is sampled; true of joints.
   [[nodiscard]] bool is_in_box(const Configuration& q) const;

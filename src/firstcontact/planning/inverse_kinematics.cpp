@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 
 namespace firstcontact {
 namespace {
@@ -198,7 +198,7 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
   require_goal(goal.position_tolerance > 0.0 && goal.rotation_tolerance > 0.0,
                "expected tolerances > 0");
   PoseSearch search(space, goal);
-  detail::PlanRandom random(options.seed);
+  RandomNumbers random(options.seed);
   std::vector<ReachedPose> found;
   std::optional<ReachedPose> nearest;
   for (std::size_t k = 0; k < options.tries && found.size() < options.places; ++k) {

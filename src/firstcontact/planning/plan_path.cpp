@@ -8,11 +8,11 @@
 #include <utility>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/lazy_prm.h>
 #include <firstcontact/planning/detail/plan_in_time.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/rrt_connect.h>
 #include <firstcontact/planning/detail/shorten_path.h>
@@ -22,7 +22,6 @@ namespace firstcontact {
 namespace {
 
 using detail::FoundPath;
-using detail::PlanRandom;
 using detail::PlanWork;
 
 constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
@@ -65,7 +64,7 @@ void require_places(const ConfigurationSpace& space, const Configuration& start,
 }
 
 double default_range(const ConfigurationSpace& space) {
-  PlanRandom random(0);
+  RandomNumbers random(0);
   double sum = 0.0;
   for (int k = 0; k < kSamplesOfRange; ++k) {
     const Configuration from = space.sample(random);
@@ -105,7 +104,7 @@ class PlanSearch {
       none.statistics.seconds = work_.seconds();
       return none;
     }
-    PlanRandom random(options_.seed);
+    RandomNumbers random(options_.seed);
     FoundPath found = search(start, random);
     PlanResult result;
     result.warnings = warnings_;
@@ -160,7 +159,7 @@ class PlanSearch {
     }
   }
 
-  FoundPath search(const Configuration& start, PlanRandom& random) {
+  FoundPath search(const Configuration& start, RandomNumbers& random) {
     if (std::find(goals_.begin(), goals_.end(), start) != goals_.end()) {
       return {{start}, true};
     }

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/hierarchy.h>
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/text/quantity.h>
@@ -99,13 +99,14 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members)
 
 std::optional<Configuration> free_place_near(const EdgeChecker& checker, const Configuration& q) {
   const ConfigurationSpace& space = checker.space();
-  PlanRandom random(1);
+  RandomNumbers random(1);
   double share = kFirstRing;
   for (std::size_t ring = 0; ring < kRings; ++ring, share = std::min(1.0, 2.0 * share)) {
     std::optional<Configuration> best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < kPlacesOfRing; ++k) {
-      const Configuration place = space.interpolate(q, space.sample(random), share * random.unit());
+      const Configuration towards = space.sample(random);
+      const Configuration place = space.interpolate(q, towards, share * random.uniform());
       const double distance = space.distance(q, place);
       if (distance < least && checker.is_free(place)) {
         least = distance;

@@ -31,7 +31,7 @@ ContactGrowth::ContactGrowth(PlanWork& work, ContactUse use, double range)
   }
 }
 
-void ContactGrowth::next(bool is_stuck, PlanRandom& random) {
+void ContactGrowth::next(bool is_stuck, RandomNumbers& random) {
   is_stuck_ = is_stuck;
   if (use_ == ContactUse::none || use_ == ContactUse::slide) {
     return;
@@ -125,7 +125,7 @@ std::optional<ContactGrowth::Followed> ContactGrowth::go(PlanTree& tree, std::si
   });
 }
 
-std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, PlanRandom& random) {
+std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& random) {
   if (turn_ != Turn::pushes || tree.marked().empty() || !is_due()) {
     return std::nullopt;
   }
@@ -139,7 +139,7 @@ std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, PlanRandom& rando
   });
 }
 
-void ContactGrowth::find_passage(PlanRandom& random) {
+void ContactGrowth::find_passage(RandomNumbers& random) {
   ++draws_;
   const std::optional<GapSampler::Place> place = gaps_->draw(random);
   const ConfigurationSpace& space = work_.space();
@@ -163,7 +163,7 @@ void ContactGrowth::find_passage(PlanRandom& random) {
 
 std::optional<PassageTrees::Node> ContactGrowth::passage(std::size_t tree,
                                                          const Configuration& near,
-                                                         PlanRandom& random) {
+                                                         RandomNumbers& random) {
   if (turn_ != Turn::passages || !is_due()) {
     return std::nullopt;
   }

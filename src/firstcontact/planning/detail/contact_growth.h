@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <optional>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/contact_steering.h>
 #include <firstcontact/planning/detail/gap_sampler.h>
 #include <firstcontact/planning/detail/passage_trees.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/plan_path.h>
@@ -34,7 +34,7 @@ class ContactGrowth {
   /// Draws whose turn it is: blocked edges, pushes, or passages.
   ///
   /// @param is_stuck  no edge has led away from where the tree begins: contacts are not rationed
-  void next(bool is_stuck, PlanRandom& random);
+  void next(bool is_stuck, RandomNumbers& random);
 
   /// Follows a blocked edge from a node as far as contacts let it; none where that leads nowhere,
   /// or is not this edge's turn.
@@ -42,12 +42,12 @@ class ContactGrowth {
 
   /// Moves from a marked place in a random direction. The node at the end; none where that leads
   /// nowhere, or it is not its turn.
-  std::optional<std::size_t> push(PlanTree& tree, PlanRandom& random);
+  std::optional<std::size_t> push(PlanTree& tree, RandomNumbers& random);
 
   /// A node of a passage for a tree to go to, 0 or 1; none where it is not its turn. Now and then a
   /// new passage is found first.
   std::optional<PassageTrees::Node> passage(std::size_t tree, const Configuration& near,
-                                            PlanRandom& random);
+                                            RandomNumbers& random);
 
   [[nodiscard]] PassageTrees& passages() { return passages_; }
 
@@ -59,7 +59,7 @@ class ContactGrowth {
   [[nodiscard]] bool is_due() const;
   std::optional<std::size_t> take(PlanTree& tree, std::size_t from, const ContactWay& way);
 
-  void find_passage(PlanRandom& random);
+  void find_passage(RandomNumbers& random);
   std::optional<Followed> go(PlanTree& tree, std::size_t from, const Configuration& target);
 
   template <class Work>

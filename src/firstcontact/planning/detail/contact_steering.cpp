@@ -376,22 +376,15 @@ ContactWay ContactSteering::lift(const Configuration& from) {
   return way;
 }
 
-Eigen::VectorXd ContactSteering::direction(PlanRandom& random) const {
-  const auto unit = [&] {
-    Eigen::Vector3d v;
-    do {
-      v = {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-    } while (!(v.squaredNorm() <= 1.0 && v.squaredNorm() > 1e-4));
-    return v.normalized();
-  };
+Eigen::VectorXd ContactSteering::direction(RandomNumbers& random) const {
   Eigen::VectorXd dq = Eigen::VectorXd::Zero(tangents_.size());
   if (work_.space().is_body()) {
     const std::size_t kind = random.below(3);
     if (kind != 1) {
-      dq.head<3>() = unit();
+      dq.head<3>() = random.direction();
     }
     if (kind != 0) {
-      dq.tail<3>() = unit() / tangents_.reach();
+      dq.tail<3>() = random.direction() / tangents_.reach();
     }
   } else {
     for (Eigen::Index k = 0; k < dq.size(); ++k) {

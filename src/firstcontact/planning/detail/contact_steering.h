@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/contact_finder.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 
@@ -50,7 +50,7 @@ class ContactSteering {
   [[nodiscard]] ContactWay lift(const Configuration& from);
 
   /// A direction for push(): along, about, or both, of the length of the range.
-  [[nodiscard]] Eigen::VectorXd direction(PlanRandom& random) const;
+  [[nodiscard]] Eigen::VectorXd direction(RandomNumbers& random) const;
 
  private:
   /// What a way wants: a target, or a direction.

@@ -23,7 +23,7 @@ constexpr int kDrawsOfParts = 200;  // Rays for them.
 constexpr double kThinnest = 0.25;  // [-]  Of a gap: thinner parts do not say where to be in it.
 constexpr double kSnug = 1e-9;      // [-]  A part may be as wide as its gap, but for this.
 
-Eigen::Vector3d any_across(const Eigen::Vector3d& n, PlanRandom& random) {
+Eigen::Vector3d any_across(const Eigen::Vector3d& n, RandomNumbers& random) {
   const Eigen::Vector3d t = n.unitOrthogonal();
   const double angle = random.uniform(0.0, 6.283185307179586);
   return std::cos(angle) * t + std::sin(angle) * n.cross(t);
@@ -94,12 +94,12 @@ std::optional<RayTarget::Hit> RayTarget::cast(const Eigen::Vector3d& from,
   return hit == nullptr ? std::nullopt : std::optional(Hit{least, hit->normal});
 }
 
-std::size_t RayTarget::draw(PlanRandom& random) const {
+std::size_t RayTarget::draw(RandomNumbers& random) const {
   // By area, or each as often: narrow gaps have small sides.
   if (random.below(2) == 0) {
     return random.below(triangles_.size());
   }
-  const double area = random.unit() * areas_.back();
+  const double area = random.uniform() * areas_.back();
   const auto found = std::upper_bound(areas_.begin(), areas_.end(), area);
   return std::min(static_cast<std::size_t>(found - areas_.begin()), triangles_.size() - 1);
 }
@@ -115,10 +115,10 @@ std::optional<double> RayTarget::centre(Eigen::Vector3d& point,
   return ahead->distance + behind->distance;
 }
 
-std::optional<GapFrame> RayTarget::gap(double side, double most, PlanRandom& random) const {
+std::optional<GapFrame> RayTarget::gap(double side, double most, RandomNumbers& random) const {
   const Triangle& from = triangles_[draw(random)];
-  double u = random.unit();
-  double v = random.unit();
+  double u = random.uniform();
+  double v = random.uniform();
   if (u + v > 1.0) {
     u = 1.0 - u;
     v = 1.0 - v;
@@ -174,7 +174,7 @@ GapSampler::GapSampler(const PlanScene& scene) : space_(scene.space) {
   }
 }
 
-std::optional<GapSampler::Place> GapSampler::draw(PlanRandom& random) {
+std::optional<GapSampler::Place> GapSampler::draw(RandomNumbers& random) {
   for (int k = 0; parts_.size() < kParts && k < kDrawsOfParts; ++k) {
     if (const std::optional<GapFrame> part = moved_.gap(-1.0, most_, random)) {
       parts_.push_back(*part);

@@ -10,8 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/edge_checker.h>
 
 namespace firstcontact::detail {
@@ -42,7 +42,7 @@ class RayTarget {
   ///
   /// @param side  1 outside of the surface, -1 inside
   /// @param most  [m]  wider ones are of no interest
-  [[nodiscard]] std::optional<GapFrame> gap(double side, double most, PlanRandom& random) const;
+  [[nodiscard]] std::optional<GapFrame> gap(double side, double most, RandomNumbers& random) const;
 
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
 
@@ -53,7 +53,7 @@ class RayTarget {
     Eigen::Vector3d ac;
     Eigen::Vector3d normal;
   };
-  [[nodiscard]] std::size_t draw(PlanRandom& random) const;
+  [[nodiscard]] std::size_t draw(RandomNumbers& random) const;
   /// Moves a point to the middle between what is hit along both senses; the width.
   std::optional<double> centre(Eigen::Vector3d& point, const Eigen::Vector3d& along) const;
 
@@ -81,7 +81,7 @@ class GapSampler {
     Eigen::Vector3d open = Eigen::Vector3d::UnitX();
   };
   /// None where the tries found no gap that a part fits.
-  [[nodiscard]] std::optional<Place> draw(PlanRandom& random);
+  [[nodiscard]] std::optional<Place> draw(RandomNumbers& random);
 
  private:
   const ConfigurationSpace& space_;

@@ -25,7 +25,7 @@ class Roadmap {
     }
   }
 
-  FoundPath run(PlanRandom& random) {
+  FoundPath run(RandomNumbers& random) {
     std::size_t enough = std::numeric_limits<std::size_t>::max();
     while (!work_.is_over() && places_.size() < enough) {
       ++work_.counts().iterations;
@@ -81,7 +81,7 @@ class Roadmap {
     }
   }
 
-  void grow(PlanRandom& random) {
+  void grow(RandomNumbers& random) {
     const std::size_t end = places_.size() + std::max(kFirstBatch, places_.size() / 2);
     while (places_.size() < end && !work_.is_over()) {
       Configuration q = work_.space().sample(random);
@@ -219,7 +219,7 @@ class Roadmap {
 }  // namespace
 
 FoundPath lazy_prm_star(PlanWork& work, const Configuration& start,
-                        const std::vector<Configuration>& goals, PlanRandom& random) {
+                        const std::vector<Configuration>& goals, RandomNumbers& random) {
   return Roadmap(work, start, goals).run(random);
 }
 

@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/found_path.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 
 namespace firstcontact::detail {
@@ -17,6 +17,7 @@ namespace firstcontact::detail {
 /// Each place knows e (1 + 1/d) ln n nearest ones. An edge is checked only once it lies on the
 /// shortest path that is left. Start and goals are free.
 [[nodiscard]] FoundPath lazy_prm_star(PlanWork& work, const Configuration& start,
-                                      const std::vector<Configuration>& goals, PlanRandom& random);
+                                      const std::vector<Configuration>& goals,
+                                      RandomNumbers& random);
 
 }  // namespace firstcontact::detail

@@ -15,7 +15,7 @@ double PassageTrees::distance(const ConfigurationSpace& space, const Configurati
 
 std::optional<PassageTrees::Node> PassageTrees::draw(const ConfigurationSpace& space,
                                                      std::size_t tree, const Configuration& near,
-                                                     PlanRandom& random) const {
+                                                     RandomNumbers& random) const {
   std::vector<std::size_t> open;
   for (std::size_t k = 0; k < passages_.size(); ++k) {
     if (passages_[k].owner != tree) {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 
 namespace firstcontact::detail {
@@ -45,7 +45,7 @@ class PassageTrees {
   /// A node for a tree to go to, of a passage that it does not have: of a random passage, or the
   /// nearest to a place.
   [[nodiscard]] std::optional<Node> draw(const ConfigurationSpace& space, std::size_t tree,
-                                         const Configuration& near, PlanRandom& random) const;
+                                         const Configuration& near, RandomNumbers& random) const;
 
   /// Lets a tree take over the passage of a node that it has reached.
   ///

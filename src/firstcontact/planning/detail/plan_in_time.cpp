@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/edge_question.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/timed_connect.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 #include <firstcontact/robot_check/check_robots.h>
@@ -50,7 +50,7 @@ class PlanInTime {
     PlanResult result;
     require_time(start, goals);
     if (require_free(start, goals)) {
-      PlanRandom random(options_.seed);
+      RandomNumbers random(options_.seed);
       const auto is_over = [this] { return report_and_ask(); };
       std::vector<TimedPlace> path = timed_connect(edges_, start, goals, range, random, is_over);
       if (!path.empty()) {

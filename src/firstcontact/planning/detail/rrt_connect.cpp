@@ -25,7 +25,7 @@ class Connect {
         contact_(work, work.options().contacts, range) {}
 
   FoundPath run(const Configuration& start, const std::vector<Configuration>& goals,
-                PlanRandom& random) {
+                RandomNumbers& random) {
     trees_[0].mark(trees_[0].add(start, PlanTree::kNoParent));
     for (const Configuration& goal : goals) {
       trees_[1].mark(trees_[1].add(goal, PlanTree::kNoParent));
@@ -83,13 +83,13 @@ class Connect {
   }
 
   /// Moves in contact in a random direction, then extends the other tree towards the end.
-  std::optional<Meeting> push(std::size_t grows, PlanRandom& random) {
+  std::optional<Meeting> push(std::size_t grows, RandomNumbers& random) {
     const std::optional<std::size_t> end = contact_.push(trees_[grows], random);
     return end ? meet(grows, *end) : std::nullopt;
   }
 
   /// Extends a tree to a passage, and takes it over; meets the other tree if that has it already.
-  std::optional<Meeting> reach_passage(std::size_t grows, PlanRandom& random) {
+  std::optional<Meeting> reach_passage(std::size_t grows, RandomNumbers& random) {
     PlanTree& tree = trees_[grows];
     const auto passage = contact_.passage(grows, tree[tree.size() - 1], random);
     if (!passage) {
@@ -183,7 +183,8 @@ class Connect {
 }  // namespace
 
 FoundPath rrt_connect(PlanWork& work, const Configuration& start,
-                      const std::vector<Configuration>& goals, double range, PlanRandom& random) {
+                      const std::vector<Configuration>& goals, double range,
+                      RandomNumbers& random) {
   Connect connect(work, range);
   FoundPath found = connect.run(start, goals, random);
   work.counts().nodes = connect.size();

@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/found_path.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 
 namespace firstcontact::detail {
@@ -17,6 +17,6 @@ namespace firstcontact::detail {
 /// Start and goals are free.
 [[nodiscard]] FoundPath rrt_connect(PlanWork& work, const Configuration& start,
                                     const std::vector<Configuration>& goals, double range,
-                                    PlanRandom& random);
+                                    RandomNumbers& random);
 
 }  // namespace firstcontact::detail

@@ -15,7 +15,7 @@ class Shortcuts {
   Shortcuts(PlanWork& work, std::vector<Configuration>& path, std::size_t tries)
       : work_(work), path_(path), left_(tries) {}
 
-  void run(PlanRandom& random) {
+  void run(RandomNumbers& random) {
     skip_places();
     std::size_t waited = 0;
     while (path_.size() > 2 && may_try() && waited < kLongestWait) {
@@ -66,9 +66,9 @@ class Shortcuts {
   static std::ptrdiff_t at(std::size_t k) { return static_cast<std::ptrdiff_t>(k); }
 
   /// Two places on different edges, the earlier one first; evenly along the path.
-  bool draw(PlanRandom& random, OnPath& first, OnPath& second) const {
-    double a = random.unit();
-    double b = random.unit();
+  bool draw(RandomNumbers& random, OnPath& first, OnPath& second) const {
+    double a = random.uniform();
+    double b = random.uniform();
     if (b < a) {
       std::swap(a, b);
     }
@@ -116,7 +116,7 @@ class Shortcuts {
     return true;
   }
 
-  bool cut(PlanRandom& random) {
+  bool cut(RandomNumbers& random) {
     OnPath first;
     OnPath second;
     if (!draw(random, first, second)) {
@@ -129,7 +129,7 @@ class Shortcuts {
   }
 
   /// Leads one coordinate straight from one place to another; the others stay as they are.
-  bool cut_coordinate(PlanRandom& random) {
+  bool cut_coordinate(RandomNumbers& random) {
     OnPath first;
     OnPath second;
     const std::size_t coordinate = random.below(work_.space().size());
@@ -164,7 +164,7 @@ class Shortcuts {
 }  // namespace
 
 void shorten_path(PlanWork& work, std::vector<Configuration>& path, std::size_t tries,
-                  PlanRandom& random) {
+                  RandomNumbers& random) {
   if (path.size() > 2) {
     Shortcuts(work, path, tries).run(random);
   }

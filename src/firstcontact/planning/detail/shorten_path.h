@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/detail/plan_random.h>
 #include <firstcontact/planning/detail/plan_work.h>
 
 namespace firstcontact::detail {
@@ -22,6 +22,6 @@ namespace firstcontact::detail {
 ///
 /// @param tries  at most so many edges are tried in place of others
 void shorten_path(PlanWork& work, std::vector<Configuration>& path, std::size_t tries,
-                  PlanRandom& random);
+                  RandomNumbers& random);
 
 }  // namespace firstcontact::detail

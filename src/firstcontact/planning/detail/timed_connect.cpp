@@ -93,7 +93,7 @@ class TimedConnect {
       : edges_(edges), range_(range), trees_{TimedTree(edges, true), TimedTree(edges, false)} {}
 
   std::vector<TimedPlace> run(const Configuration& start, const std::vector<Configuration>& goals,
-                              PlanRandom& random, const std::function<bool()>& is_over) {
+                              RandomNumbers& random, const std::function<bool()>& is_over) {
     trees_[0].add({start, 0.0}, kNoParent);
     for (const Configuration& goal : goals) {
       add_rests(goal);
@@ -104,7 +104,7 @@ class TimedConnect {
     std::optional<std::array<std::size_t, 2>> met = meet_at_once();
     for (std::size_t grows = 0; !met && !is_over(); grows = 1 - grows) {
       ++edges_.counts().iterations;
-      met = grow(grows, {edges_.space().sample(random), edges_.duration() * random.unit()});
+      met = grow(grows, {edges_.space().sample(random), edges_.duration() * random.uniform()});
     }
     edges_.counts().nodes = trees_[0].size() + trees_[1].size();
     return met ? joined(*met) : std::vector<TimedPlace>{};
@@ -212,7 +212,7 @@ class TimedConnect {
 
 std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
                                       const std::vector<Configuration>& goals, double range,
-                                      PlanRandom& random, const std::function<bool()>& is_over) {
+                                      RandomNumbers& random, const std::function<bool()>& is_over) {
   return TimedConnect(edges, range).run(start, goals, random, is_over);
 }
 

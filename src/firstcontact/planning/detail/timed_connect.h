@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include <firstcontact/planning/detail/plan_random.h>
+#include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/timed_place.h>
 
 namespace firstcontact::detail {
@@ -24,7 +24,7 @@ class TimedEdges;
 /// @returns  places with times from 0 to the duration; empty where none was found
 [[nodiscard]] std::vector<TimedPlace> timed_connect(TimedEdges& edges, const Configuration& start,
                                                     const std::vector<Configuration>& goals,
-                                                    double range, PlanRandom& random,
+                                                    double range, RandomNumbers& random,
                                                     const std::function<bool()>& is_over);
 
 /// Leaves out places that an edge can pass by, and arrives as early as the rest allows.

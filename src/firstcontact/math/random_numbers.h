@@ -1,17 +1,20 @@
 /// @file
-/// Random numbers that are the same with every standard library.
+/// Random numbers that are the same for a seed with every standard library.
 
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 
 #include <Eigen/Core>
 
-namespace firstcontact::detail {
+namespace firstcontact {
 
-/// Random numbers from one seed. The distributions of the standard are not fixed, so these are own.
+/// The standard fixes the bits of its engines, not those of its distributions. So these are own.
+///
+/// An expression that draws twice has no fixed order, but for one in braces.
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
@@ -19,7 +22,13 @@ class RandomNumbers {
   /// In [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  double uniform(double from, double to) { return from + (to - from) * uniform(); }
+  /// From the first number to the second.
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+
+  /// In [0, count).
+  ///
+  /// @param count  >= 1
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
 
   /// In the ball of radius 1. Rejection from the cube takes 1.9 tries on average.
   Eigen::Vector3d in_ball() {
@@ -32,7 +41,7 @@ class RandomNumbers {
     return point;
   }
 
-  /// Of length 1.
+  /// A vector of length 1.
   Eigen::Vector3d direction() {
     Eigen::Vector3d point;
     do {
@@ -45,4 +54,4 @@ class RandomNumbers {
   std::mt19937_64 engine_;
 };
 
-}  // namespace firstcontact::detail
+}  // namespace firstcontact
