@@ -6,12 +6,11 @@
 import csv
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-TOOL = ""
+import tool_test
+
 
 PLATE = {"name": "plate", "shape": {"box": {"size": [0.2, 0.2, 0.0001]}}}
 PEG = {"name": "peg", "shape": {"box": {"size": [0.02, 0.02, 0.04]}}, "pose": {"position": [0, 0, 0.04]}}
@@ -21,38 +20,20 @@ def scene(tools=({"body": "peg"},), bodies=(PLATE, PEG), **more):
     return {"firstcontact": 1, "bodies": list(bodies), "haptics": {"tools": list(tools), **more}}
 
 
-class Haptics(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, name, content):
-        text = content if isinstance(content, str) else json.dumps(content)
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return name
-
-    def tool(self, *arguments):
-        return subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, check=False)
-
-    def assert_refused(self, result, *words):
-        self.assertEqual(result.returncode, 2, result)
-        self.assertEqual(result.stdout, "")
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
+class Haptics(tool_test.ToolTest):
+    def assert_writes_nothing(self, result, *words):
+        self.assert_refused_with(result, *words)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name != "scene.json"
                           and path.suffix != ".csv"], [])
 
     def test_is_felt_recorded_and_proven(self):
-        self.write("scene.json", scene(friction=0.3))
-        result = self.tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.5", "--speed", "5",
+        self.file("scene.json", scene(friction=0.3))
+        result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.5", "--speed", "5",
                            "-o", "run.jsonl", "--ticks", "ticks.csv", "--cycles", "cycles.csv", "--plot", "plot.svg")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("no tool passed through anything", result.stdout)
         self.assertIn("2000 of the force loop, 500 cycles", result.stdout)
-        proof = self.tool("verify", "run.jsonl", "--json")
+        proof = self.run_tool("verify", "run.jsonl", "--json")
         self.assertEqual(proof.returncode, 0, proof)
         self.assertEqual(json.loads(proof.stdout)["verdict"], "proven")
         with open(self.folder / "ticks.csv", encoding="utf-8") as file:
@@ -64,40 +45,40 @@ class Haptics(unittest.TestCase):
         self.assertTrue((self.folder / "plot.svg").read_text().startswith("<svg"))
 
     def test_is_the_same_on_every_run(self):
-        self.write("scene.json", scene())
+        self.file("scene.json", scene())
         for name in ("a", "b"):
-            result = self.tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1",
+            result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1",
                                "-o", f"{name}.jsonl", "--ticks", f"{name}.csv")
             self.assertEqual(result.returncode, 0, result)
         for end in (".jsonl", ".csv"):
             self.assertEqual((self.folder / f"a{end}").read_bytes(), (self.folder / f"b{end}").read_bytes())
 
     def test_runs_on_the_wall(self):
-        self.write("scene.json", scene())
-        result = self.tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1", "--wall",
+        self.file("scene.json", scene())
+        result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1", "--wall",
                            "-o", "run.jsonl", "--timing", "timing.csv")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("SCHED_FIFO", result.stdout)
         self.assertIn("empty loop", result.stdout)
         self.assertIn("tick_cpu", (self.folder / "timing.csv").read_text())
-        self.assertEqual(self.tool("verify", "run.jsonl").returncode, 0)
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
 
     def test_names_what_is_wrong(self):
-        self.write("scene.json", {"firstcontact": 1, "bodies": [PLATE, PEG]})
+        self.file("scene.json", {"firstcontact": 1, "bodies": [PLATE, PEG]})
         device = ("--device", "simulated")
-        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), "scene.json", '"haptics"')
-        self.write("scene.json", scene(tools=[{"body": "pin"}]))
-        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"plate", "peg"')
-        self.write("scene.json", scene(bodies=[PLATE, {**PEG, "pose": {"position": [0, 0, 0.01]}}]))
-        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"peg" and "plate" meet')
-        self.write("scene.json", scene())
-        self.assert_refused(self.tool("haptics", "scene.json", *device, *device, "-o", "run.jsonl"), "--device", "1 of them; got 2")
-        self.assert_refused(self.tool("haptics", "scene.json", "--device", "none.csv", "-o", "run.jsonl"), "none.csv")
-        self.assert_refused(self.tool("haptics", "scene.json", *device, "-o", "scene.json"), "scene.json")
-        self.write("broken.csv", "no recording\n")
-        self.assert_refused(self.tool("haptics", "scene.json", "--device", "broken.csv", "-o", "run.jsonl"), "broken.csv")
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), "scene.json", '"haptics"')
+        self.file("scene.json", scene(tools=[{"body": "pin"}]))
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"plate", "peg"')
+        self.file("scene.json", scene(bodies=[PLATE, {**PEG, "pose": {"position": [0, 0, 0.01]}}]))
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"peg" and "plate" meet')
+        self.file("scene.json", scene())
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, *device, "-o", "run.jsonl"), "--device", "1 of them; got 2")
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", "--device", "none.csv", "-o", "run.jsonl"), "none.csv")
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "scene.json"), "scene.json")
+        self.file("broken.csv", "no recording\n")
+        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", "--device", "broken.csv", "-o", "run.jsonl"), "broken.csv")
 
 
 if __name__ == "__main__":
-    TOOL = sys.argv.pop(1)
+    tool_test.TOOL = str(pathlib.Path(sys.argv.pop(1)).resolve())
     unittest.main()

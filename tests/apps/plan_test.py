@@ -6,12 +6,11 @@
 import json
 import pathlib
 import signal
-import subprocess
 import sys
-import tempfile
 import unittest
 
-TOOL = ""
+import tool_test
+
 SOURCE = pathlib.Path()
 
 WALL = {"name": "wall", "shape": {"box": {"size": [1e-5, 1, 1]}}}
@@ -36,31 +35,16 @@ def scene(plan, bodies=(WALL, PEG), **more):
     return found
 
 
-class Plan(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, name, content):
-        text = content if isinstance(content, str) else json.dumps(content)
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return name
-
+class Plan(tool_test.ToolTest):
     def plan(self, *arguments):
-        return subprocess.run([TOOL, "plan", *arguments], cwd=self.folder, capture_output=True, text=True,
-                              timeout=120, check=False)
+        return self.run_tool("plan", *arguments)
 
-    def assert_refused(self, result, *words):
-        self.assertEqual(result.returncode, 2, result)
-        self.assertEqual(result.stdout, "")
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
+    def assert_writes_nothing(self, result, *words):
+        self.assert_refused_with(result, *words)
         self.assertFalse((self.folder / "path.json").exists())
 
     def test_finds_a_path_and_writes_it(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "margin": 0.01}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "margin": 0.01}))
         result = self.plan("scene.json", "-o", "path.json")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("proven edge by edge", result.stdout)
@@ -89,38 +73,36 @@ class Plan(unittest.TestCase):
                            "poses": [{"position": [0, y, 0]} for y in (0, 4, 0, 0)]}}
         question = {"body": "peg", "goal": {"position": [0.5, 0, 0]}, "speeds": {"linear": 1, "angular": 1},
                     "box": [[-1, -0.1, -0.1], [1, 0.1, 0.1]]}
-        self.write("scene.json", scene(question, (door, PEG)))
+        self.file("scene.json", scene(question, (door, PEG)))
         result = self.plan("scene.json", "-o", "path.json")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("and rests until 8 s", result.stdout)
         path = json.loads((self.folder / "path.json").read_text())
         self.assertEqual((path["times"][0], path["times"][-1]), (0, 8))
-        verified = subprocess.run([TOOL, "verify", "path.json"], cwd=self.folder, capture_output=True, text=True,
-                                  timeout=60, check=False)
+        verified = self.run_tool("verify", "path.json")
         self.assertEqual(verified.returncode, 0, verified)
         # The same places, but before the door is open.
         path["times"] = [0, *(0.1 * k for k in range(1, len(path["times"]) - 1)), 8]
-        self.write("early.json", path)
-        verified = subprocess.run([TOOL, "verify", "early.json"], cwd=self.folder, capture_output=True, text=True,
-                                  timeout=60, check=False)
+        self.file("early.json", path)
+        verified = self.run_tool("verify", "early.json")
         self.assertEqual(verified.returncode, 1, verified)
         (self.folder / "path.json").unlink()
         del question["speeds"]
-        self.write("scene.json", scene(question, (door, PEG)))
-        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "speeds")
+        self.file("scene.json", scene(question, (door, PEG)))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "speeds")
 
     def test_makes_a_page_that_plays_the_path(self):
-        if not (pathlib.Path(TOOL).resolve().parent.parent / "share/firstcontact/viewer.html").exists():
+        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
             self.skipTest("built without the viewer")
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         result = self.plan("scene.json", "--html", "page.html")
         self.assertEqual(result.returncode, 0, result)
         page = (self.folder / "page.html").read_text(encoding="utf-8")
         self.assertIn('"verdict": "free"', page.replace('"verdict":"free"', '"verdict": "free"'))
-        self.assert_refused(self.plan("scene.json", "--html", "scene.json"), "scene.json")
+        self.assert_writes_nothing(self.plan("scene.json", "--html", "scene.json"), "scene.json")
 
     def test_is_the_same_for_a_seed_and_any_number_of_threads(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         paths = [json.loads(self.plan("scene.json", "--json", "--seed", "5", "--threads", threads).stdout)
                  for threads in ("1", "2")]
         for path in paths:
@@ -128,7 +110,7 @@ class Plan(unittest.TestCase):
         self.assertEqual(paths[0], paths[1])
 
     def test_plans_lazily(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
         path = json.loads(self.plan("scene.json", "--json").stdout)
         self.assertEqual((path["verdict"], path["planner"]["name"]), ("proven", "lazy_prm_star"))
 
@@ -140,21 +122,20 @@ class Plan(unittest.TestCase):
             self.assertIn("ends in contact", result.stdout)
             path = json.loads((self.folder / "path.json").read_text())
             self.assertEqual(path["planner"]["contacts"], "both")
-            proof = subprocess.run([TOOL, "verify", "path.json"], cwd=self.folder, capture_output=True, text=True,
-                                   check=False)
+            proof = self.run_tool("verify", "path.json")
             self.assertEqual(proof.returncode, 0, proof)
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "planner": "lazy_prm_star"}))
         (self.folder / "path.json").unlink()
-        self.assert_refused(self.plan("scene.json", "-o", "path.json", "--contacts", "slide"), "contacts",
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json", "--contacts", "slide"), "contacts",
                             "rrt_connect")
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "contacts": "roll"}))
-        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "contacts", '"slide"')
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "contacts": "roll"}))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "contacts", '"slide"')
         path = json.loads(self.plan("scene.json", "--json", "--contacts", "slide").stdout or "{}")
         self.assertEqual(path, {})
 
     def test_plans_a_robot_between_states(self):
-        self.write("gantry.urdf", URDF)
-        self.write("room.json", scene(None, [WALL]))
+        self.file("gantry.urdf", URDF)
+        self.file("room.json", scene(None, [WALL]))
         result = self.plan("--robot", "gantry.urdf", "--environment", "room.json", "--start", "x=-1", "--goal",
                            "x=1", "--goal", "z=0.2", "--json")
         self.assertEqual(result.returncode, 0, result)
@@ -164,7 +145,7 @@ class Plan(unittest.TestCase):
         self.assertEqual(path["waypoints"][-1], [1, 0.2])
 
     def test_says_that_there_is_none(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "box": [[-1, -1, -1], [1, 1, 1]]}, [CLOSED, PEG]))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "box": [[-1, -1, -1], [1, 1, 1]]}, [CLOSED, PEG]))
         result = self.plan("scene.json", "-o", "path.json", "--time", "0.2")
         self.assertEqual(result.returncode, 1, result)
         self.assertIn("no path was found", result.stdout)
@@ -177,12 +158,12 @@ class Plan(unittest.TestCase):
         self.assertGreater(path["distance_to_goal"], 0)
 
     def test_is_one_place_where_the_start_is_the_goal(self):
-        self.write("scene.json", scene({"body": "peg", "goal": PEG["pose"]}))
+        self.file("scene.json", scene({"body": "peg", "goal": PEG["pose"]}))
         path = json.loads(self.plan("scene.json", "--json").stdout)
         self.assertEqual((path["verdict"], len(path["waypoints"]), path["edges"]), ("proven", 1, []))
 
     def test_names_what_is_wrong(self):
-        self.write("gantry.urdf", URDF)
+        self.file("gantry.urdf", URDF)
         of_robot = {"robots": [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -1}}]}
         cases = [
             (scene({"body": "peg", "goal": {"position": [0, 0, 0]}}), ["the goal", '"wall"', '"peg"', "deep"]),
@@ -199,26 +180,24 @@ class Plan(unittest.TestCase):
                 "type": "constant_velocity", "from": {}, "translation": [0, 0, 1]}}]), ['"wall"', "moves"]),
         ]
         for content, words in cases:
-            self.write("scene.json", content)
+            self.file("scene.json", content)
             with self.subTest(words=words):
-                self.assert_refused(self.plan("scene.json", "-o", "path.json"), *words)
-        self.write("scene.json", json.dumps(scene({"body": "peg", "goal": GOAL})).replace("0.25", "NaN"))
-        self.assert_refused(self.plan("scene.json", "-o", "path.json"), "scene.json")
-        self.assert_refused(self.plan("scene.json", "--time", "0"), "--time")
-        self.assert_refused(self.plan(), "expected a SCENE, or --robot")
-        self.assert_refused(self.plan("--robot", "gantry.urdf", "--start", "x=1", "--goal", "w=1"), '"w"')
+                self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), *words)
+        self.file("scene.json", json.dumps(scene({"body": "peg", "goal": GOAL})).replace("0.25", "NaN"))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "scene.json")
+        self.assert_writes_nothing(self.plan("scene.json", "--time", "0"), "--time")
+        self.assert_writes_nothing(self.plan(), "expected a SCENE, or --robot")
+        self.assert_writes_nothing(self.plan("--robot", "gantry.urdf", "--start", "x=1", "--goal", "w=1"), '"w"')
 
     def test_never_writes_over_its_question(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL}))
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()
         self.assertEqual(self.plan("scene.json", "-o", "scene.json").returncode, 2)
         self.assertEqual((self.folder / "scene.json").read_text(), before)
 
     def test_ends_when_it_is_interrupted(self):
-        self.write("scene.json", scene({"body": "peg", "goal": GOAL, "time": 100}, [CLOSED, PEG]))
-        process = subprocess.Popen([TOOL, "plan", "scene.json", "-o", "path.json"], cwd=self.folder, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(process.kill)
+        self.file("scene.json", scene({"body": "peg", "goal": GOAL, "time": 100}, [CLOSED, PEG]))
+        process = self.start("plan", "scene.json", "-o", "path.json")
         process.send_signal(signal.SIGINT)  # Before the tool is ready for it, the signal ends it at once.
         process.communicate(timeout=60)
         self.assertIn(process.returncode, (1, -signal.SIGINT))
@@ -226,6 +205,6 @@ class Plan(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    TOOL = sys.argv.pop(1)
-    SOURCE = pathlib.Path(sys.argv.pop(1))
+    tool_test.TOOL = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -32,7 +32,9 @@ class ToolTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def file(self, name: str, content) -> str:
-        """Writes a file; returns its name, relative to where the tool runs."""
+        """Writes bytes, a text or else JSON; returns the file's name, relative to where the tool runs."""
+        if not isinstance(content, (bytes, str)):
+            content = json.dumps(content)
         path = self.folder / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return name
@@ -57,6 +59,14 @@ class ToolTest(unittest.TestCase):
         self.assertEqual(result.returncode, 2, result)
         self.assertEqual(result.stdout, "")
         self.assertEqual(result.stderr, f"firstcontact: {message}\n")
+
+    def assert_refused_with(self, result: subprocess.CompletedProcess, *words: str):
+        """Status 2, nothing on stdout, and one line that has these words."""
+        self.assertEqual(result.returncode, 2, result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
 
 
 class CommandLine(ToolTest):
