@@ -21,6 +21,9 @@ def scene(tools=({"body": "peg"},), bodies=(PLATE, PEG), **more):
 
 
 class Haptics(tool_test.ToolTest):
+    def haptics(self, *arguments, out="run.jsonl"):
+        return self.run_tool("haptics", "scene.json", *arguments, "-o", out)
+
     def assert_writes_nothing(self, result, *words):
         self.assert_refused_with(result, *words)
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name != "scene.json"
@@ -48,7 +51,7 @@ class Haptics(tool_test.ToolTest):
         self.file("scene.json", scene())
         for name in ("a", "b"):
             result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1",
-                               "-o", f"{name}.jsonl", "--ticks", f"{name}.csv")
+                                   "-o", f"{name}.jsonl", "--ticks", f"{name}.csv")
             self.assertEqual(result.returncode, 0, result)
         for end in (".jsonl", ".csv"):
             self.assertEqual((self.folder / f"a{end}").read_bytes(), (self.folder / f"b{end}").read_bytes())
@@ -56,7 +59,7 @@ class Haptics(tool_test.ToolTest):
     def test_runs_on_the_wall(self):
         self.file("scene.json", scene())
         result = self.run_tool("haptics", "scene.json", "--device", "simulated", "--duration", "0.1", "--wall",
-                           "-o", "run.jsonl", "--timing", "timing.csv")
+                               "-o", "run.jsonl", "--timing", "timing.csv")
         self.assertEqual(result.returncode, 0, result)
         self.assertIn("SCHED_FIFO", result.stdout)
         self.assertIn("empty loop", result.stdout)
@@ -66,17 +69,17 @@ class Haptics(tool_test.ToolTest):
     def test_names_what_is_wrong(self):
         self.file("scene.json", {"firstcontact": 1, "bodies": [PLATE, PEG]})
         device = ("--device", "simulated")
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), "scene.json", '"haptics"')
+        self.assert_writes_nothing(self.haptics(*device), "scene.json", '"haptics"')
         self.file("scene.json", scene(tools=[{"body": "pin"}]))
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"plate", "peg"')
+        self.assert_writes_nothing(self.haptics(*device), '"plate", "peg"')
         self.file("scene.json", scene(bodies=[PLATE, {**PEG, "pose": {"position": [0, 0, 0.01]}}]))
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "run.jsonl"), '"peg" and "plate" meet')
+        self.assert_writes_nothing(self.haptics(*device), '"peg" and "plate" meet')
         self.file("scene.json", scene())
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, *device, "-o", "run.jsonl"), "--device", "1 of them; got 2")
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", "--device", "none.csv", "-o", "run.jsonl"), "none.csv")
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", *device, "-o", "scene.json"), "scene.json")
+        self.assert_writes_nothing(self.haptics(*device, *device), "--device", "1 of them; got 2")
+        self.assert_writes_nothing(self.haptics("--device", "none.csv"), "none.csv")
+        self.assert_writes_nothing(self.haptics(*device, out="scene.json"), "scene.json")
         self.file("broken.csv", "no recording\n")
-        self.assert_writes_nothing(self.run_tool("haptics", "scene.json", "--device", "broken.csv", "-o", "run.jsonl"), "broken.csv")
+        self.assert_writes_nothing(self.haptics("--device", "broken.csv"), "broken.csv")
 
 
 if __name__ == "__main__":

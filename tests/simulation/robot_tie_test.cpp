@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,12 +13,18 @@
 #include <Eigen/Geometry>
 
 #include "simulation/simulated_run.h"
+#include "simulation/tie_laws.h"
 
 namespace firstcontact {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using test::energy_of;
+using test::expect_order;
+using test::followed;
+using test::steps_until;
+using test::tie_settings;
 
 /// A folder with the URDF file of a test.
 class RobotTie : public testing::Test {
@@ -69,47 +74,6 @@ std::string joint_text(const std::string& name, const std::string& type, const s
          "</joint>";
 }
 
-std::string settings_of(double h, const std::string& ties, bool has_gravity = true) {
-  std::ostringstream out;
-  out.precision(17);
-  out << R"("duration": 100, "step": )" << h << R"(, "contact_distance": 1e-4)"
-      << (has_gravity ? "" : R"(, "gravity": [0, 0, 0])") << R"(, "ties": [)" << ties << "]";
-  return out.str();
-}
-
-double energy_at(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
-
-std::size_t count_of(double time, double h) {
-  return static_cast<std::size_t>(std::lround(time / h));
-}
-
-template <class Rate>
-Vector2d followed_by_rk4(Vector2d y, double time, const Rate& f) {
-  constexpr int kSteps = 20000;
-  const double h = time / kSteps;
-  for (int k = 0; k < kSteps; ++k) {
-    const Vector2d a = f(y);
-    const Vector2d b = f(Vector2d(y + 0.5 * h * a));
-    const Vector2d c = f(Vector2d(y + 0.5 * h * b));
-    const Vector2d d = f(Vector2d(y + h * c));
-    y += h / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-  }
-  return y;
-}
-
-void expect_second_order(const std::function<double(double)>& error_with) {
-  double before = 0.0;
-  double h = 0.01;
-  for (int halving = 0; halving < 4; ++halving) {
-    const double error = error_with(h);
-    if (halving > 0) {
-      EXPECT_GE(before, 3.5 * error) << "in steps of " << h << ", error " << error;
-    }
-    before = error;
-    h *= 0.5;
-  }
-}
-
 /// A parallelogram: two cranks of 0.3 m and a coupler of 0.5 m.
 const std::string kFourBar =
     "<link name=\"base\"/>" + link_text("left", 0.5, "0 0 -0.15", 0.004) +
@@ -125,22 +89,22 @@ const std::string kClosing =
 /// Its angle after a time: both cranks and the coupler turn and move by one angle.
 double four_bar_angle(double time) {
   const double moment = 2.0 * (0.004 + 0.5 * 0.0225) + 1.5 * 0.09;
-  return followed_by_rk4(Vector2d(1.0, 0.0), time, [moment](const Vector2d& y) {
+  return followed(Vector2d(1.0, 0.0), time, [moment](const Vector2d& y) {
     return Vector2d(y[1], -(0.5 + 1.5) * 9.81 * 0.3 / moment * std::sin(y[0]));
   })[0];
 }
 
 TEST_F(RobotTie, FourBarIsOfSecondOrder) {
   const double right = four_bar_angle(0.64);
-  expect_second_order([&](double h) {
-    Simulator s = made(kFourBar, kFourBarState, settings_of(h, kClosing));
-    test::run(s, count_of(0.64, h));
+  expect_order(0.01, [&](double h) {
+    Simulator s = made(kFourBar, kFourBarState, tie_settings(h, kClosing));
+    test::run(s, steps_until(0.64, h));
     return std::abs(s.robot_states()[0].positions[0] - right);
   });
 }
 
 TEST_F(RobotTie, FourBarStaysClosedAndKeepsItsEnergy) {
-  Simulator s = made(kFourBar, kFourBarState, settings_of(0.01, kClosing));
+  Simulator s = made(kFourBar, kFourBarState, tie_settings(0.01, kClosing));
   const double before = -(0.5 + 1.5) * 9.81 * 0.3 * std::cos(1.0);
   double apart = 0.0;
   double off = 0.0;
@@ -152,7 +116,7 @@ TEST_F(RobotTie, FourBarStaysClosedAndKeepsItsEnergy) {
                        -0.3 * std::cos(q[0]) - 0.5 * std::sin(q[0] + q[1]));
     const Vector2d right(0.5 - 0.3 * std::sin(q[2]), -0.3 * std::cos(q[2]));
     apart = std::max(apart, (end - right).norm());
-    off = std::max(off, std::abs(energy_at(step) - before));
+    off = std::max(off, std::abs(energy_of(step) - before));
   }
   EXPECT_LE(apart, 1e-7);
   EXPECT_LE(off, 5e-3);
@@ -170,13 +134,13 @@ TEST_F(RobotTie, FloatingLoopKeepsItsMomenta) {
                      R"("state": {"j1": 0.3, "j2": -0.3, "j3": 0.3}, "dynamics": {"base": "free",
                         "angular_velocity": [0.3, -0.5, 0.4], "linear_velocity": [0.2, 0, 0],
                         "velocities": {"j1": 1, "j2": -1, "j3": 1}})",
-                     settings_of(0.01, kClosing, false));
+                     tie_settings(0.01, kClosing, false));
   const RunStep first = s.step().value();
   for (int i = 0; i < 100; ++i) {
     const RunStep step = s.step().value();
     ASSERT_LE((step.linear_momentum - first.linear_momentum).norm(), 1e-10) << i;
     ASSERT_LE((step.angular_momentum - first.angular_momentum).norm(), 1e-10) << i;
-    ASSERT_NEAR(energy_at(step), energy_at(first), 1e-3 * energy_at(first)) << i;
+    ASSERT_NEAR(energy_of(step), energy_of(first), 1e-3 * energy_of(first)) << i;
   }
 }
 
@@ -186,10 +150,10 @@ TEST_F(RobotTie, LoopGainsNothingWhereItIsSingular) {
     Simulator s = made(kFourBar,
                        R"("state": {"j1": 1, "j2": -1, "j3": 1}, "dynamics": {"base": "fixed",
                           "velocities": {"j1": 3, "j2": -3, "j3": 3}})",
-                       settings_of(h, kClosing, false));
-    const double before = energy_at(s.step().value());
-    for (std::size_t i = 0; i < count_of(5.0, h); ++i) {
-      ASSERT_LE(energy_at(s.step().value()), before * 1.02) << h << " " << i;
+                       tie_settings(h, kClosing, false));
+    const double before = energy_of(s.step().value());
+    for (std::size_t i = 0; i < steps_until(5.0, h); ++i) {
+      ASSERT_LE(energy_of(s.step().value()), before * 1.02) << h << " " << i;
     }
   }
 }
@@ -199,11 +163,11 @@ const std::string kSlider = "<link name=\"base\"/>" + link_text("block", 2.0, "0
 
 TEST_F(RobotTie, SpringAtASliderKeepsItsEnergy) {
   Simulator s = made(kSlider, R"("state": {"slide": 0.1}, "dynamics": {"base": "fixed"})",
-                     settings_of(0.05, R"({"type": "spring", "bodies": [null, "r/block"],
+                     tie_settings(0.05, R"({"type": "spring", "bodies": [null, "r/block"],
                          "points": [[-0.5, 0, 0], [0, 0, 0]], "length": 0.5,
                          "stiffness": 78.95683520871486})"));
   for (int i = 0; i < 2000; ++i) {
-    ASSERT_NEAR(energy_at(s.step().value()), 0.5 * 78.95683520871486 * 0.01, 1e-7) << i;
+    ASSERT_NEAR(energy_of(s.step().value()), 0.5 * 78.95683520871486 * 0.01, 1e-7) << i;
   }
 }
 
@@ -212,18 +176,18 @@ TEST_F(RobotTie, SpringAtAnArmIsOfSecondOrder) {
   const std::string urdf = "<link name=\"base\"/>" + link_text("arm", 1.0, "0 0 -0.5", 0.01) +
                            joint_text("hinge", "continuous", "base", "arm", "0 1 0", "0 0 0");
   const double moment = 0.01 + 0.25;
-  const double right = followed_by_rk4(Vector2d(0.8, 0.0), 0.64, [moment](const Vector2d& y) {
+  const double right = followed(Vector2d(0.8, 0.0), 0.64, [moment](const Vector2d& y) {
     const Vector2d p(-0.5 * std::sin(y[0]), -0.5 * std::cos(y[0]));
     const Vector2d d = p - Vector2d(1.0, 0.0);
     const Vector2d force = -20.0 * (d.norm() - 0.7) * d.normalized() - Vector2d(0.0, 9.81);
     const Vector2d way(-0.5 * std::cos(y[0]), 0.5 * std::sin(y[0]));
     return Vector2d(y[1], force.dot(way) / moment);
   })[0];
-  expect_second_order([&](double h) {
+  expect_order(0.01, [&](double h) {
     Simulator s = made(urdf, R"("state": {"hinge": 0.8}, "dynamics": {"base": "fixed"})",
-                       settings_of(h, R"({"type": "spring", "bodies": [null, "r/arm"],
+                       tie_settings(h, R"({"type": "spring", "bodies": [null, "r/arm"],
                            "points": [[1, 0, 0], [0, 0, -0.5]], "length": 0.7, "stiffness": 20})"));
-    test::run(s, count_of(0.64, h));
+    test::run(s, steps_until(0.64, h));
     return std::abs(s.robot_states()[0].positions[0] - right);
   });
 }
@@ -233,7 +197,7 @@ TEST_F(RobotTie, CableHoldsAnArm) {
   const std::string urdf = "<link name=\"base\"/>" + link_text("arm", 1.0, "0 0 -0.5", 0.01) +
                            joint_text("hinge", "continuous", "base", "arm", "0 1 0", "0 0 0");
   Simulator s = made(urdf, R"("state": {"hinge": -1.5}, "dynamics": {"base": "fixed"})",
-                     settings_of(0.01, R"({"type": "cable", "bodies": [null, "r/arm"],
+                     tie_settings(0.01, R"({"type": "cable", "bodies": [null, "r/arm"],
                          "points": [[0.5, 0, 0], [0, 0, -0.5]], "length": 0.4})"));
   test::run(s, 300);
   const double q = s.robot_states()[0].positions[0];
@@ -250,9 +214,9 @@ TEST_F(RobotTie, BodyHangsOnAFloatingRobot) {
   Simulator s = made(
       urdf,
       R"("state": {"hinge": 0.4}, "dynamics": {"base": "free", "angular_velocity": [0.5, 0.3, 0]})",
-      settings_of(0.01, R"({"type": "pin", "bodies": ["r/arm", "b"],
+      tie_settings(0.01, R"({"type": "pin", "bodies": ["r/arm", "b"],
           "points": [[0, 0, -0.7], null]})",
-                  false),
+                   false),
       "",
       test::body("b", test::box("[0.1, 0.1, 0.3]"), "[-0.3, 0, -0.85]",
                  R"(, "dynamics": {"mass": 0.7, "linear_velocity": [0, 0.4, 0]})"));
@@ -261,12 +225,12 @@ TEST_F(RobotTie, BodyHangsOnAFloatingRobot) {
     const RunStep step = s.step().value();
     ASSERT_LE((step.linear_momentum - first.linear_momentum).norm(), 1e-9) << i;
     ASSERT_LE((step.angular_momentum - first.angular_momentum).norm(), 1e-5) << i;
-    ASSERT_NEAR(energy_at(step), energy_at(first), 1e-3 * energy_at(first)) << i;
+    ASSERT_NEAR(energy_of(step), energy_of(first), 1e-3 * energy_of(first)) << i;
   }
 }
 
 TEST_F(RobotTie, ForcesActOnLinks) {
-  Simulator slider = made(kSlider, R"("dynamics": {"base": "fixed"})", settings_of(0.01, ""));
+  Simulator slider = made(kSlider, R"("dynamics": {"base": "fixed"})", tie_settings(0.01, ""));
   for (int i = 0; i < 10; ++i) {
     slider.apply_force(0, {3, 5, 0});
     (void)slider.step();
@@ -275,7 +239,7 @@ TEST_F(RobotTie, ForcesActOnLinks) {
   EXPECT_NEAR(slider.robot_states()[0].velocities[0], 3.0 * 0.1 / 2.0, 1e-12);
   const std::string urdf = "<link name=\"base\"/>" + link_text("arm", 1.0, "0 0 0", 0.01) +
                            joint_text("hinge", "continuous", "base", "arm", "0 1 0", "0 0 0");
-  Simulator arm = made(urdf, R"("dynamics": {"base": "fixed"})", settings_of(0.01, ""));
+  Simulator arm = made(urdf, R"("dynamics": {"base": "fixed"})", tie_settings(0.01, ""));
   arm.apply_force(0, Vector3d::Zero(), {0, 0.2, 0});
   (void)arm.step();
   EXPECT_NEAR(arm.robot_states()[0].velocities[0], 0.2 * 0.01 / 0.01, 1e-10);
@@ -289,7 +253,7 @@ TEST_F(RobotTie, ForcesOnLinksOfFloatingRobotsGiveMomentum) {
                            link_text("arm", 1.0, "0 0 -0.5", 0.01) +
                            joint_text("hinge", "continuous", "base", "arm", "0 1 0", "0 0 0");
   Simulator s = made(urdf, R"("state": {"hinge": 0.4}, "dynamics": {"base": "free"})",
-                     settings_of(0.01, "", false));
+                     tie_settings(0.01, "", false));
   RunStep last;
   for (int i = 0; i < 50; ++i) {
     s.apply_force(1, {1, 2, 0});
@@ -301,7 +265,7 @@ TEST_F(RobotTie, ForcesOnLinksOfFloatingRobotsGiveMomentum) {
 TEST_F(RobotTie, LinksWithoutGeometryAreRefused) {
   try {
     (void)made(kSlider, R"("dynamics": {"base": "fixed"})",
-               settings_of(0.01, R"({"type": "weld", "bodies": ["r/base", "r/block"]})"));
+               tie_settings(0.01, R"({"type": "weld", "bodies": ["r/base", "r/block"]})"));
     FAIL();
   } catch (const std::exception& error) {
     EXPECT_NE(std::string(error.what()).find("link \"r/base\" has no geometry"), std::string::npos)
