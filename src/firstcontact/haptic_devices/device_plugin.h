@@ -69,7 +69,7 @@ struct firstcontact_device_abilities {
 /** One sample. All is 0 before the plug-in fills it in. */
 struct firstcontact_device_sample {
   double position[3];        /**< [m]     Of H's origin in D. */
-  double quaternion_wxyz[4]; /**< [-]     Of length 1. Turns axes of H to those of D. */
+  double quaternion_wxyz[4]; /**< [-]     Unit quaternion: turns axes of H to those of D. */
   double linear_rate[3];     /**< [m/s]   Of a rate device; or measured, or 0. */
   double angular_rate[3];    /**< [rad/s] */
   int64_t time_ns;           /**< When the sample was taken, on the clock of now_ns. */

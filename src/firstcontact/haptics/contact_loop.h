@@ -95,15 +95,15 @@ class FIRSTCONTACT_API ContactLoop {
 
   [[nodiscard]] const HapticScene& scene() const;
   [[nodiscard]] double contact_distance() const;  ///< [m]
-  [[nodiscard]] double time() const;              ///< [s]  Of the courses.
+  [[nodiscard]] double time() const;              ///< [s]  For which the surroundings moved.
   [[nodiscard]] const Pose& pose(std::size_t member) const;
 
   /// Runs a cycle. The result holds until the next one.
   ///
   /// @param targets   X_WB of each tool, finite
-  /// @param dt        [s]  > 0; so far the courses go on
-  /// @param stamp_ns  of the contact set that the cycle ends with
-  /// @param deadline  after it no round begins, and a search ends with what is proven
+  /// @param dt        [s]  > 0; the surroundings move for so long
+  /// @param stamp_ns  [ns]  goes into the contact set of this cycle
+  /// @param deadline  no round begins after it; a search that runs then stops with what is proven
   /// @throws std::invalid_argument if an argument is outside its range
   const HapticCycle& advance(std::span<const Pose> targets, double dt, std::int64_t stamp_ns,
                              const std::optional<Deadline>& deadline = {});

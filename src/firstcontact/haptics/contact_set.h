@@ -36,7 +36,7 @@ struct HapticContact {
 
 /// The set that the contact loop publishes: where the god-objects are, and what holds them.
 ///
-/// Of a fixed size, so that it is copied without an allocation.
+/// The size is fixed, so a copy allocates nothing.
 struct HapticContactSet {
   std::uint64_t sequence = 0;  ///< Counts the sets; 0 where nothing is published yet.
   std::int64_t stamp_ns = 0;   ///< [ns]  When the device poses were read that led here.

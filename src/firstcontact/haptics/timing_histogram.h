@@ -13,7 +13,7 @@ namespace firstcontact {
 
 /// Counts durations in buckets of an eighth of an octave, from 16 ns on.
 ///
-/// Of a fixed size: adding allocates nothing.
+/// The number of buckets is fixed, so adding allocates nothing.
 class FIRSTCONTACT_API TimingHistogram {
  public:
   static constexpr std::size_t kBuckets =

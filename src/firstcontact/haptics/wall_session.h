@@ -55,7 +55,7 @@ struct WallSessionReport {
 /// loop from going on. A contact loop that is slow makes no tick late: the force loop goes on with
 /// the newest contacts there are, as HapticLimits say.
 ///
-/// @param options   its latency is not used
+/// @param options   as HapticSession, but without the latency: it is that of the machine
 /// @param devices   one for each tool
 /// @param on_tick   called with each tick, in order
 /// @param on_cycle  called with each cycle, in order, and the time [ns] of its targets

@@ -50,11 +50,11 @@ struct ReachOptions {
 /// that is found says nothing: there may be one.
 ///
 /// @param start  a configuration of the space
-/// @returns  places with both errors within the tolerances, no two closer than 1e-3 by the space's
-///           length; where there is none, the one place that came nearest, whose errors are larger;
-///           empty where the time was over before the first
-/// @throws std::invalid_argument if the space is that of a body, the model has no such link, or a
-///         number of the goal makes no sense
+/// @returns  places with both errors within the tolerances. No two are closer than 1e-3 by the
+///           space's length. Without such a place: the nearest one, whose errors are larger. Empty
+///           where the time was over before the first.
+/// @throws std::invalid_argument for the space of a body, an unknown link, a start of another size,
+///         a pose that is not finite, or a tolerance that is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::vector<ReachedPose> reach_pose(
     const ConfigurationSpace& space, const LinkPoseGoal& goal, const Configuration& start,
     const ReachOptions& options = {});

@@ -13,8 +13,8 @@ namespace firstcontact::detail {
 /// most one of the second for the same link.
 ///
 /// The region of the position is a sphere, a box or a cylinder; what is asked for is the ball in
-/// it around its middle. Of three tolerances about axes half of the least bounds the rotation, for
-/// either parameterization.
+/// it around its middle. A constraint has three tolerances about axes. Half of the least one bounds
+/// the rotation, whichever parameterization the message names.
 ///
 /// @param X_WR  of the root link, whose name is a frame, too
 /// @throws ParseError

@@ -34,7 +34,7 @@ struct HandleEnergy {
 /// D = displacement = (old rate + new rate) h / 2 the change of kinetic energy is exactly
 /// command . D + hand . D - dissipated.
 ///
-/// @param deviation    from the place in mid-step to the target [m], [rad]
+/// @param deviation    [m], [rad]  target less the place in the middle of the step
 /// @param target_rate  [m/s], [rad/s]
 /// @param command      [N], [N m]
 /// @param h            [s]  > 0

@@ -25,7 +25,7 @@ enum class GlbLook { free, scripted, resting };
 struct GlbKey {
   float time = 0.0F;                                         ///< [s]
   Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< [m]
-  Eigen::Quaterniond R_WB = Eigen::Quaterniond(1, 0, 0, 0);  ///< Of length 1.
+  Eigen::Quaterniond R_WB = Eigen::Quaterniond(1, 0, 0, 0);  ///< A unit quaternion.
 };
 
 /// A body of the scene and its motion.

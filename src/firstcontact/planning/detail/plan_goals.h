@@ -13,7 +13,7 @@
 
 namespace firstcontact::detail {
 
-/// What is asked for by name, or named by a goal; without joints that mimic others.
+/// The joints that the question or a goal names, without those that mimic others.
 [[nodiscard]] std::vector<std::string> planned_joints(const RobotModel& model,
                                                       const PlanQuestion& question);
 

@@ -101,18 +101,18 @@ struct SpringRow {
 /// @param span  [s]
 [[nodiscard]] SpringRow spring_row(const SimTie& tie, const SpringWay& way, double span);
 
-/// What is wrong with the places of ties: the points of a joint are apart, or a cable is too long.
-/// Empty if nothing is.
+/// An error where the points of a joint are apart, or a cable is longer than its length; else
+/// empty.
 ///
-/// @param slack  [m]  by which they may be
+/// @param slack  [m]  distance or excess length that is allowed
 [[nodiscard]] std::string wrong_ties(const std::vector<SimTie>& ties,
                                      const std::function<Pose(std::size_t)>& pose_of, double slack,
                                      const std::function<std::string(std::size_t)>& name_of);
 
 /// The ties of a scene.
 ///
-/// @param linked    the scene with links as bodies
-/// @param slack     [m]  by which points may be apart at the start
+/// @param linked  a scene in which each link is a body
+/// @param slack   [m]  distance of a joint's points that is allowed at the start
 /// @throws std::invalid_argument  names the tie, its bodies and the mend
 [[nodiscard]] std::vector<SimTie> make_sim_ties(const LoadedScene& linked,
                                                 const std::vector<SimBody>& bodies, double slack);
