@@ -1,9 +1,8 @@
 #include "haptics_command.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -30,10 +29,10 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "haptic_plot.h"
+#include "haptic_report.h"
 #include "interrupt.h"
 #include "output_files.h"
 #include "progress.h"
-#include "quantity_text.h"
 #include "run_file.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
@@ -133,19 +132,6 @@ class GrowingFile {
   std::optional<AtomicFile> file_;
 };
 
-struct SessionTally {
-  std::uint64_t ticks = 0;
-  std::uint64_t cycles = 0;
-  double force = 0.0;                                          // [N]
-  double torque = 0.0;                                         // [N m]
-  double clearance = std::numeric_limits<double>::infinity();  // [m]
-  double time_lost = 0.0;                                      // [s]
-  std::size_t contacts = 0;
-  std::uint64_t touching = 0;    // Cycles that ended with contacts.
-  std::uint64_t unfinished = 0;  // Cycles that could have gained more.
-  std::uint32_t faults = 0;
-};
-
 class HapticsRun {
  public:
   explicit HapticsRun(const Arguments& arguments)
@@ -174,7 +160,7 @@ class HapticsRun {
     }
     end_files();
     print();
-    return is_stopped_ || tally_.time_lost > 0.0 ? ExitStatus::undecided : ExitStatus::free;
+    return is_stopped_ || report_.time_lost() > 0.0 ? ExitStatus::undecided : ExitStatus::free;
   }
 
  private:
@@ -242,14 +228,8 @@ class HapticsRun {
   }
 
   void take(const ForceTick& tick) {
-    begin_ns_ = tally_.ticks == 0 ? tick.time_ns : begin_ns_;
-    ++tally_.ticks;
-    for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
-      const ToolTick& tool = tick.tools[k];
-      tally_.force = std::max(tally_.force, tool.command.force_D.norm());
-      tally_.torque = std::max(tally_.torque, tool.command.torque_D.norm());
-      tally_.faults |= tool.faults;
-    }
+    begin_ns_ = report_.ticks() == 0 ? tick.time_ns : begin_ns_;
+    report_.add(tick, setup_.scene.tools.size());
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size()));
     }
@@ -259,12 +239,7 @@ class HapticsRun {
   }
 
   void take(const HapticCycle& cycle, std::int64_t time_ns) {
-    ++tally_.cycles;
-    tally_.clearance = std::min(tally_.clearance, cycle.clearance);
-    tally_.time_lost += cycle.asked - cycle.lasted;
-    tally_.contacts = std::max(tally_.contacts, cycle.contacts);
-    tally_.touching += cycle.contacts > 0 ? 1U : 0U;
-    tally_.unfinished += cycle.is_converged ? 0U : 1U;
+    report_.add(cycle);
     for (const HapticMemberMotion& motion : cycle.members) {
       if (motion.member < setup_.scene.tools.size()) {
         god_objects_[motion.member] = motion.X_WB;
@@ -326,7 +301,7 @@ class HapticsRun {
       write_file(arguments_.plot, plot_.draw(arguments_.scene));
     }
     if (!arguments_.timing.empty() && wall_) {
-      write_file(arguments_.timing, timing_text());
+      write_file(arguments_.timing, haptic_timing_csv(*wall_));
     }
     if (page_ && page_->time() > 0.0) {
       ShapeCache cache;
@@ -335,83 +310,13 @@ class HapticsRun {
     }
   }
 
-  [[nodiscard]] std::string timing_text() const {
-    std::string text = "what,from_ns,count\n";
-    const auto add = [&](const char* what, const TimingHistogram& histogram) {
-      for (std::size_t k = 0; k < TimingHistogram::kBuckets; ++k) {
-        if (histogram.count_of(k) > 0) {
-          text +=
-              fmt::format("{},{},{}\n", what, TimingHistogram::begin_of(k), histogram.count_of(k));
-        }
-      }
-    };
-    add("tick_cpu", wall_->tick_cpu);
-    add("tick_wall", wall_->tick_wall);
-    add("tick_delay", wall_->tick_delay);
-    add("empty_delay", wall_->empty_delay);
-    add("cycle_wall", wall_->cycle_wall);
-    add("cycle_cpu", wall_->cycle_cpu);
-    return text;
-  }
-
-  static void line(const char* label, const std::string& value) {
-    say(fmt::format("  {:<10} {}\n", label, visible(value)));
-  }
-
-  static std::string quantiles(const TimingHistogram& histogram) {
-    const auto seconds = [](std::int64_t ns) { return time_text(1e-9 * static_cast<double>(ns)); };
-    return fmt::format("median {}, p99 {}, p99.9 {}, greatest {}",
-                       seconds(histogram.quantile_ns(0.5)), seconds(histogram.quantile_ns(0.99)),
-                       seconds(histogram.quantile_ns(0.999)), seconds(histogram.greatest_ns()));
-  }
-
-  void print_wall() const {
-    const RealTimeGrant& granted = wall_->granted;
-    const auto word = [](bool is) { return is ? "yes" : "no"; };
-    line("real time",
-         fmt::format("force loop SCHED_FIFO {}, contact loop {}; own processors {} and {}; memory "
-                     "locked {}",
-                     word(granted.force_fifo), word(granted.contact_fifo),
-                     word(granted.force_processor), word(granted.contact_processor),
-                     word(granted.locked_memory)));
-    line("tick CPU", quantiles(wall_->tick_cpu));
-    line("tick late", quantiles(wall_->tick_delay));
-    line("empty loop", "late by " + quantiles(wall_->empty_delay));
-    line("cycle", quantiles(wall_->cycle_wall));
-    line("missed", fmt::format("{} ticks began more than a period late, {} were skipped",
-                               wall_->late_ticks, wall_->skipped_ticks));
-  }
-
   void print() const {
-    say(fmt::format("{}: {}\n", visible(arguments_.scene),
-                    is_stopped_          ? "stopped early"
-                    : tally_.cycles == 0 ? "no cycle: nothing was felt"
-                                         : "felt; no tool passed through anything"));
-    line("ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", tally_.ticks,
-                              tally_.cycles));
-    line("apart", std::isfinite(tally_.clearance)
-                      ? length_text(tally_.clearance) + " or more, proven"
-                      : "no pair to keep apart");
-    line("contacts", fmt::format("in {} cycles, at most {}", tally_.touching, tally_.contacts));
-    line("force", fmt::format("at most {:.4g} N and {:.4g} N m", tally_.force, tally_.torque));
-    if (tally_.faults != 0) {
-      line("at times", fault_words(tally_.faults));
-    }
-    if (tally_.unfinished > 0) {
-      line("unfinished",
-           fmt::format("{} cycles ended before the tool was where it could be", tally_.unfinished));
-    }
-    line("time lost", tally_.time_lost > 0.0
-                          ? time_text(tally_.time_lost) + ": bodies waited for a tool"
-                          : "none");
-    if (wall_) {
-      print_wall();
-    }
+    say(report_.text(arguments_.scene, is_stopped_, wall_));
     for (const std::string& warning : loaded_.warnings) {
-      line("warning", warning);
+      say(report_line("warning", warning));
     }
     if (run_file_) {
-      line("run", arguments_.run + "; `firstcontact verify` proves it again");
+      say(report_line("run", arguments_.run + "; `firstcontact verify` proves it again"));
     }
     flush_stdout();
   }
@@ -433,7 +338,7 @@ class HapticsRun {
   HapticPlot plot_;
   std::array<Pose, kMostTools> god_objects_ = {};
   std::int64_t begin_ns_ = 0;
-  SessionTally tally_;
+  HapticReport report_;
   std::optional<WallSessionReport> wall_;
   bool is_stopped_ = false;
 };

@@ -127,9 +127,11 @@ TEST(HapticLog, HasAValueForEachColumn) {
   EXPECT_EQ(commas(haptic_tick_header()), commas(first));
   EXPECT_NE(first.find("not_finite|slewed"), std::string::npos);
   EXPECT_EQ(commas(haptic_cycle_header()), commas(haptic_cycle_line({}, 5)));
-  TimingHistogram histogram;
-  histogram.add(1000);
-  EXPECT_EQ(histogram_csv(histogram), "from_ns,count\n960,1\n");
+  WallSessionReport report;
+  report.tick_cpu.add(1000);
+  report.cycle_wall.add(1000);
+  report.cycle_wall.add(1001);
+  EXPECT_EQ(haptic_timing_csv(report), "what,from_ns,count\ntick_cpu,960,1\ncycle_wall,960,2\n");
 }
 
 }  // namespace

@@ -105,13 +105,23 @@ std::string haptic_cycle_line(const HapticCycle& cycle, std::int64_t time_ns) {
   return line.take();
 }
 
-std::string histogram_csv(const TimingHistogram& histogram) {
-  std::string text = "from_ns,count\n";
-  for (std::size_t k = 0; k < TimingHistogram::kBuckets; ++k) {
-    if (histogram.count_of(k) > 0) {
-      text += CsvLine().add(TimingHistogram::begin_of(k)).add(histogram.count_of(k)).take();
+std::string haptic_timing_csv(const WallSessionReport& report) {
+  std::string text = "what,from_ns,count\n";
+  const auto add = [&](std::string_view what, const TimingHistogram& histogram) {
+    for (std::size_t k = 0; k < TimingHistogram::kBuckets; ++k) {
+      if (histogram.count_of(k) > 0) {
+        CsvLine line;
+        line.add(what).add(TimingHistogram::begin_of(k)).add(histogram.count_of(k));
+        text += line.take();
+      }
     }
-  }
+  };
+  add("tick_cpu", report.tick_cpu);
+  add("tick_wall", report.tick_wall);
+  add("tick_delay", report.tick_delay);
+  add("empty_delay", report.empty_delay);
+  add("cycle_wall", report.cycle_wall);
+  add("cycle_cpu", report.cycle_cpu);
   return text;
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Logs of a haptic session as CSV: ticks of the force loop, cycles of the contact loop.
+/// Logs of a haptic session as CSV: ticks of the force loop, cycles of the contact loop, timing.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
-#include <firstcontact/haptics/timing_histogram.h>
+#include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/math/export.h>
 
 namespace firstcontact {
@@ -27,8 +27,8 @@ namespace firstcontact {
 [[nodiscard]] FIRSTCONTACT_API std::string haptic_cycle_line(const HapticCycle& cycle,
                                                              std::int64_t time_ns);
 
-/// A histogram as CSV: from_ns,count for each bucket with a count.
-[[nodiscard]] FIRSTCONTACT_API std::string histogram_csv(const TimingHistogram& histogram);
+/// The histograms of a session on the wall as CSV: what,from_ns,count for each bucket with a count.
+[[nodiscard]] FIRSTCONTACT_API std::string haptic_timing_csv(const WallSessionReport& report);
 
 /// The words of the faults of a tick, joined by a bar; empty without one.
 [[nodiscard]] FIRSTCONTACT_API std::string fault_words(std::uint32_t faults);

@@ -1,0 +1,93 @@
+#include "haptic_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include <firstcontact/haptics_files/haptic_log.h>
+
+#include "quantity_text.h"
+#include "terminal_text.h"
+
+namespace firstcontact::app {
+namespace {
+
+std::string quantiles(const TimingHistogram& histogram) {
+  const auto seconds = [](std::int64_t ns) { return time_text(1e-9 * static_cast<double>(ns)); };
+  return fmt::format("median {}, p99 {}, p99.9 {}, greatest {}",
+                     seconds(histogram.quantile_ns(0.5)), seconds(histogram.quantile_ns(0.99)),
+                     seconds(histogram.quantile_ns(0.999)), seconds(histogram.greatest_ns()));
+}
+
+std::string wall_text(const WallSessionReport& wall) {
+  const RealTimeGrant& granted = wall.granted;
+  const auto word = [](bool is) { return is ? "yes" : "no"; };
+  return report_line("real time",
+                     fmt::format("force loop SCHED_FIFO {}, contact loop {}; own processors {} "
+                                 "and {}; memory locked {}",
+                                 word(granted.force_fifo), word(granted.contact_fifo),
+                                 word(granted.force_processor), word(granted.contact_processor),
+                                 word(granted.locked_memory))) +
+         report_line("tick CPU", quantiles(wall.tick_cpu)) +
+         report_line("tick late", quantiles(wall.tick_delay)) +
+         report_line("empty loop", "late by " + quantiles(wall.empty_delay)) +
+         report_line("cycle", quantiles(wall.cycle_wall)) +
+         report_line("missed",
+                     fmt::format("{} ticks began more than a period late, {} were skipped",
+                                 wall.late_ticks, wall.skipped_ticks));
+}
+
+}  // namespace
+
+std::string report_line(const char* label, const std::string& value) {
+  return fmt::format("  {:<10} {}\n", label, visible(value));
+}
+
+void HapticReport::add(const ForceTick& tick, std::size_t tools) {
+  ++ticks_;
+  for (std::size_t k = 0; k < tools; ++k) {
+    const ToolTick& tool = tick.tools[k];
+    force_ = std::max(force_, tool.command.force_D.norm());
+    torque_ = std::max(torque_, tool.command.torque_D.norm());
+    faults_ |= tool.faults;
+  }
+}
+
+void HapticReport::add(const HapticCycle& cycle) {
+  ++cycles_;
+  clearance_ = std::min(clearance_, cycle.clearance);
+  time_lost_ += cycle.asked - cycle.lasted;
+  contacts_ = std::max(contacts_, cycle.contacts);
+  touching_ += cycle.contacts > 0 ? 1U : 0U;
+  unfinished_ += cycle.is_converged ? 0U : 1U;
+}
+
+std::string HapticReport::text(const std::string& scene, bool is_stopped,
+                               const std::optional<WallSessionReport>& wall) const {
+  std::string text = fmt::format("{}: {}\n", visible(scene),
+                                 is_stopped     ? "stopped early"
+                                 : cycles_ == 0 ? "no cycle: nothing was felt"
+                                                : "felt; no tool passed through anything");
+  text += report_line(
+      "ticks", fmt::format("{} of the force loop, {} cycles of the contact loop", ticks_, cycles_));
+  text +=
+      report_line("apart", std::isfinite(clearance_) ? length_text(clearance_) + " or more, proven"
+                                                     : "no pair to keep apart");
+  text += report_line("contacts", fmt::format("in {} cycles, at most {}", touching_, contacts_));
+  text += report_line("force", fmt::format("at most {:.4g} N and {:.4g} N m", force_, torque_));
+  if (faults_ != 0) {
+    text += report_line("at times", fault_words(faults_));
+  }
+  if (unfinished_ > 0) {
+    text += report_line(
+        "unfinished",
+        fmt::format("{} cycles ended before the tool was where it could be", unfinished_));
+  }
+  text +=
+      report_line("time lost",
+                  time_lost_ > 0.0 ? time_text(time_lost_) + ": bodies waited for a tool" : "none");
+  return wall ? text + wall_text(*wall) : text;
+}
+
+}  // namespace firstcontact::app

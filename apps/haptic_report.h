@@ -1,0 +1,49 @@
+/// @file
+/// What a haptic session did, in words.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics/wall_session.h>
+
+namespace firstcontact::app {
+
+/// Counts ticks and cycles, and keeps the greatest and least of their numbers.
+class HapticReport {
+ public:
+  void add(const ForceTick& tick, std::size_t tools);
+  void add(const HapticCycle& cycle);
+
+  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
+  [[nodiscard]] double time_lost() const { return time_lost_; }  ///< [s]
+
+  /// The lines for the standard output.
+  ///
+  /// @param wall  none in virtual time
+  [[nodiscard]] std::string text(const std::string& scene, bool is_stopped,
+                                 const std::optional<WallSessionReport>& wall) const;
+
+ private:
+  std::uint64_t ticks_ = 0;
+  std::uint64_t cycles_ = 0;
+  double force_ = 0.0;                                          // [N]
+  double torque_ = 0.0;                                         // [N m]
+  double clearance_ = std::numeric_limits<double>::infinity();  // [m]
+  double time_lost_ = 0.0;                                      // [s]
+  std::size_t contacts_ = 0;
+  std::uint64_t touching_ = 0;    // Cycles that ended with contacts.
+  std::uint64_t unfinished_ = 0;  // Cycles that could have gained more.
+  std::uint32_t faults_ = 0;
+};
+
+/// A line of a report: its label in a column, then its value.
+[[nodiscard]] std::string report_line(const char* label, const std::string& value);
+
+}  // namespace firstcontact::app
