@@ -96,10 +96,10 @@ class Glb {
     const auto [same, turns] = track(node, "rotation");
     EXPECT_EQ(times, same);
     EXPECT_TRUE(std::is_sorted(times.begin(), times.end(), std::less_equal<>()));
-    const auto place = [&](std::size_t k) {
+    const auto place = [&places = places](std::size_t k) {
       return Vector3d(places[3 * k], places[3 * k + 1], places[3 * k + 2]);
     };
-    const auto turn = [&](std::size_t k) {
+    const auto turn = [&turns = turns](std::size_t k) {
       return Eigen::Quaterniond(turns[4 * k + 3], turns[4 * k], turns[4 * k + 1], turns[4 * k + 2]);
     };
     std::size_t k = 0;
