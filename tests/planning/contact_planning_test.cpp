@@ -14,9 +14,9 @@
 
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/contact_finder.h>
 #include <firstcontact/planning/detail/contact_motion.h>
 #include <firstcontact/planning/detail/contact_steering.h>
+#include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 #include <firstcontact/planning/edge_checker.h>
@@ -30,11 +30,11 @@
 namespace firstcontact::test {
 namespace {
 
-using detail::ContactFinder;
 using detail::ContactMotion;
 using detail::ContactsAt;
 using detail::ContactSteering;
 using detail::ContactWay;
+using detail::MoverContactFinder;
 using detail::PlanWork;
 using detail::TangentSpace;
 using Eigen::Vector3d;
@@ -97,10 +97,10 @@ TEST(TangentSpace, LeadsFromOnePlaceToTheOther) {
 }
 
 // To first order a gap changes by J dq: what is found now tells the distance a little later.
-TEST(ContactFinder, TellsHowGapsChange) {
+TEST(MoverContactFinder, TellsHowGapsChange) {
   const PlanScene scene = cube_above_floor();
   const TangentSpace tangents(scene);
-  ContactFinder finder(scene, tangents, 0.0);
+  MoverContactFinder finder(scene, tangents, 0.0);
   const EdgeChecker checker(scene, {.extra_clearance = 0.0});
   Random random(4);
   for (int k = 0; k < 100; ++k) {
@@ -123,10 +123,10 @@ TEST(ContactFinder, TellsHowGapsChange) {
 }
 
 // The same for the joints of a robot, whose Jacobians are differences.
-TEST(ContactFinder, TellsHowGapsOfRobotsChange) {
+TEST(MoverContactFinder, TellsHowGapsOfRobotsChange) {
   const PlanScene scene = with_gantry(thin_wall(0.0));
   const TangentSpace tangents(scene);
-  ContactFinder finder(scene, tangents, 0.0);
+  MoverContactFinder finder(scene, tangents, 0.0);
   const ContactsAt at = finder.near({-0.12, 0.3, 0.1}, 0.1);
   ASSERT_FALSE(at.contacts.empty());
   EXPECT_NEAR(at.contacts.front().gap, 0.12 - 0.1 - 5e-6, 1e-9);
@@ -139,7 +139,7 @@ TEST(ContactFinder, TellsHowGapsOfRobotsChange) {
 TEST(ContactMotion, KeepsWhatLeadsAlongContacts) {
   const PlanScene scene = cube_above_floor();
   const TangentSpace tangents(scene);
-  ContactFinder finder(scene, tangents, 0.0);
+  MoverContactFinder finder(scene, tangents, 0.0);
   const double gap = 0.001;
   const Configuration q = placed({0.0, 0.0, 0.1 + gap}, Eigen::Quaterniond::Identity());
   const ContactsAt at = finder.near(q, 0.01);
@@ -163,7 +163,7 @@ TEST(ContactMotion, LeadsToTheMiddleOfANarrowPassage) {
   between.add_body("right", make_box({1.0, 4.0, 4.0}), resting_at({0.606, 0.0, 0.0}));
   const PlanScene scene = with_bar(std::move(between), {0.2, 0.2, 0.2});
   const TangentSpace tangents(scene);
-  ContactFinder finder(scene, tangents, 0.0);
+  MoverContactFinder finder(scene, tangents, 0.0);
   const Configuration q = placed(Vector3d::Zero(), Eigen::Quaterniond::Identity());
   const ContactMotion motion =
       contact_motion(tangents, finder.near(q, 0.05), VectorXd::Zero(6), 0.02);

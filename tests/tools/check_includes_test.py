@@ -57,6 +57,24 @@ class Map(unittest.TestCase):
         self.assertEqual({name for name in folders - rooms if includes.files_of(ROOMS / name)}, set())
 
 
+class Names(unittest.TestCase):
+    def complaints(self, *texts) -> list:
+        with tempfile.TemporaryDirectory() as folder:
+            for number, text in enumerate(texts):
+                pathlib.Path(folder, f"{number}.h").write_text(text, encoding="utf-8")
+            return list(includes.complaints_of_names(pathlib.Path(folder)))
+
+    def test_are_those_of_one_header_each(self):
+        self.assertEqual(
+            self.complaints("namespace a {\nclass Found : public B {\n};\n}\n", "namespace a {\nstruct Found {\n};\n}\n"),
+            ["1.h: a::Found is a name of 0.h, too"])
+
+    def test_may_be_declared_again_and_be_those_of_another_namespace(self):
+        self.assertEqual(
+            self.complaints("namespace a {\nclass Found {\n};\n}\n", "namespace a {\nclass Found;\n}\n",
+                            "namespace b {\nclass Found {\n};\n}\n"), [])
+
+
 class Changes(unittest.TestCase):
     def setUp(self):
         self.rows = {row[0]: row[1:] for row in rows_below("| change | room | begin in | tests |")}

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <firstcontact/planning/detail/contact_finder.h>
+#include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 
 namespace firstcontact::detail {

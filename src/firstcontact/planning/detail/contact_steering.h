@@ -11,7 +11,7 @@
 
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/detail/contact_finder.h>
+#include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
 
@@ -63,7 +63,7 @@ class ContactSteering {
 
   PlanWork& work_;
   TangentSpace tangents_;
-  ContactFinder finder_;
+  MoverContactFinder finder_;
   double range_;
   double hover_;
 };

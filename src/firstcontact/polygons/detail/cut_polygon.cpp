@@ -200,10 +200,10 @@ PolygonCut cut_polygon(Vertices vertices, const PolygonRings& polygon) {
   }
   cut.is_fan = false;
   const std::optional<Drawing> drawing = draw(positions, points, polygon, view.depth());
-  auto triangles =
-      drawing ? triangulate_rings(drawing->points, drawing->edges,
-                                  has_holes ? Inside::positive_winding : Inside::any_winding)
-              : std::nullopt;
+  auto triangles = drawing ? triangulate_rings(drawing->points, drawing->edges,
+                                               has_holes ? WindingRule::positive_winding
+                                                         : WindingRule::any_winding)
+                           : std::nullopt;
   cut.crosses = !triangles;
   if (triangles) {
     for (auto& triangle : *triangles) {

@@ -42,9 +42,9 @@ struct Edge {
 
 class Sweep {
  public:
-  Sweep(std::span<const PlanePoint> points, std::span<const RingEdge> edges, Inside inside)
+  Sweep(std::span<const PlanePoint> points, std::span<const RingEdge> edges, WindingRule rule)
       : points_(points),
-        inside_(inside),
+        rule_(rule),
         starting_at_(points.size(), kNone),
         status_(Order{this}, &memory_) {
     edges_.reserve(edges.size());
@@ -109,7 +109,7 @@ class Sweep {
   }
 
   [[nodiscard]] bool is_inside(std::int64_t winding) const {
-    return inside_ == Inside::any_winding ? winding != 0 : winding > 0;
+    return rule_ == WindingRule::any_winding ? winding != 0 : winding > 0;
   }
 
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::int64_t winding) {
@@ -277,7 +277,7 @@ class Sweep {
     for (const std::uint32_t e : starting) {
       Edge& edge = edges_[e];
       edge.winding = winding + edge.weight;
-      failed_ = failed_ || (inside_ == Inside::positive_winding && edge.winding < 0);
+      failed_ = failed_ || (rule_ == WindingRule::positive_winding && edge.winding < 0);
       if (!is_inside(winding) && !is_inside(edge.winding)) {
         triangles_.push_back({edge.left, edge.right, edge.right});
       }
@@ -314,7 +314,7 @@ class Sweep {
   }
 
   std::span<const PlanePoint> points_;
-  Inside inside_;
+  WindingRule rule_;
   std::vector<Edge> edges_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> starting_at_;  ///< The first edge with this left end.
@@ -328,8 +328,8 @@ class Sweep {
 }  // namespace
 
 std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_rings(
-    std::span<const PlanePoint> points, std::span<const RingEdge> edges, Inside inside) {
-  return Sweep(points, edges, inside).run();
+    std::span<const PlanePoint> points, std::span<const RingEdge> edges, WindingRule rule) {
+  return Sweep(points, edges, rule).run();
 }
 
 }  // namespace firstcontact::detail

@@ -21,7 +21,7 @@ struct RingEdge {
 };
 
 /// Which windings are inside: all but 0, or those above 0, which leave holes open.
-enum class Inside { any_winding, positive_winding };
+enum class WindingRule { any_winding, positive_winding };
 
 /// Triangles inside closed rings, counter-clockwise where the winding number is positive.
 ///
@@ -39,8 +39,8 @@ enum class Inside { any_winding, positive_winding };
 /// @param points  distinct, in ascending order
 /// @param edges   closed rings; no edge from a point to itself
 /// @returns       nothing where edges cross each other between their ends, or where a winding
-///                below 0 is met with Inside::positive_winding
+///                below 0 is met with WindingRule::positive_winding
 [[nodiscard]] std::optional<std::vector<std::array<std::uint32_t, 3>>> triangulate_rings(
-    std::span<const PlanePoint> points, std::span<const RingEdge> edges, Inside inside);
+    std::span<const PlanePoint> points, std::span<const RingEdge> edges, WindingRule rule);
 
 }  // namespace firstcontact::detail

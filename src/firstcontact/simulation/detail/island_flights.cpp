@@ -82,7 +82,7 @@ VectorXd IslandRobots::forces_of(std::size_t r, const std::vector<LinkLoad>& loa
 ///
 /// Inertia carries what is driven as it moves by itself, or a fast turn would gain energy. It does
 /// not fall: the forces of gravity are those where it gets.
-RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span,
+RobotFlight IslandRobots::flight_by_end(std::size_t r, const PlanSpan& span,
                                         const VectorXd& load) const {
   const Robot& robot = robots_[r];
   const Mechanism& mechanism = robot.robot->mechanism;
@@ -105,7 +105,7 @@ RobotFlight IslandRobots::flight_by_end(std::size_t r, const TimeSpan& span,
 
 /// The flight with all forces: those of drives are predicted from how things are at its begin.
 /// Drives of the contact problem change them.
-RobotFlight IslandRobots::flight_of(std::size_t r, const TimeSpan& span,
+RobotFlight IslandRobots::flight_of(std::size_t r, const PlanSpan& span,
                                     const VectorXd& load) const {
   const Robot& robot = robots_[r];
   const Mechanism& mechanism = robot.robot->mechanism;

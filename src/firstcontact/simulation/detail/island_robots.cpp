@@ -212,7 +212,7 @@ VectorXd IslandRobots::mean_positions(std::size_t r, const RobotFlight& flight, 
 /// do, the least one in the kinetic metric, as impulses would make it.
 VectorXd IslandRobots::placement(std::size_t r, const RobotFlight& flight,
                                  const std::vector<double>& drives, const VectorXd& v,
-                                 const VectorXd& positions, const TimeSpan& span) const {
+                                 const VectorXd& positions, const PlanSpan& span) const {
   const std::vector<PlacedCoordinate> placed = placed_coordinates(
       robots_[r].robot->laws, flight.drives, drives, robots_[r].state, flight.rule, span, v);
   std::vector<Eigen::Index> at;

@@ -236,9 +236,9 @@ class IslandRobots {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
   [[nodiscard]] View view_of(const Robot& robot, const MechanismState& state) const;
-  [[nodiscard]] RobotFlight flight_of(std::size_t robot, const TimeSpan& span,
+  [[nodiscard]] RobotFlight flight_of(std::size_t robot, const PlanSpan& span,
                                       const Eigen::VectorXd& load) const;
-  [[nodiscard]] RobotFlight flight_by_end(std::size_t robot, const TimeSpan& span,
+  [[nodiscard]] RobotFlight flight_by_end(std::size_t robot, const PlanSpan& span,
                                           const Eigen::VectorXd& load) const;
   static void take_links(std::vector<LinkPlace>& links, RobotFlight& flight);
   [[nodiscard]] std::vector<double> drives_of(std::size_t robot, const ContactProblem& problem,
@@ -254,7 +254,7 @@ class IslandRobots {
                                           const std::vector<double>& drives,
                                           const Eigen::VectorXd& v,
                                           const Eigen::VectorXd& positions,
-                                          const TimeSpan& span) const;
+                                          const PlanSpan& span) const;
   [[nodiscard]] const LinkPlace& place_of(std::size_t member) const;
 
   const SimulationModel& model_;

@@ -80,14 +80,14 @@ double within_limits(const JointLaw& law, double velocity, double q, double span
   return std::min(std::max(velocity, least), greatest);
 }
 
-JointDrive torque_drive(const JointLaw& law, const TimeSpan& span) {
+JointDrive torque_drive(const JointLaw& law, const PlanSpan& span) {
   const double bound = greatest_impulse(law, span.length);
   const double torque = number_at(law.motor->target, span.from + 0.5 * span.length);
   const double impulse = std::clamp(torque * span.length, -bound, bound);
   return {.least = impulse, .greatest = impulse};
 }
 
-JointDrive motor_by_end(const JointLaw& law, double q, const TimeSpan& span) {
+JointDrive motor_by_end(const JointLaw& law, double q, const PlanSpan& span) {
   const JointMotor& motor = *law.motor;
   const double bound = greatest_impulse(law, span.length);
   JointDrive drive{.least = -bound, .greatest = bound};
@@ -130,7 +130,7 @@ Coordinate coordinate_of(const JointLaw& law, const MechanismState& state,
 }
 
 /// [rad or m]  Where a motor without spring leads in a span.
-double goal(const JointLaw& law, double q, const TimeSpan& span) {
+double goal(const JointLaw& law, double q, const PlanSpan& span) {
   if (law.motor->kind == JointMotor::Kind::position) {
     return within(law.limits, target_at(law, span.to()).number);
   }
@@ -141,7 +141,7 @@ double goal(const JointLaw& law, double q, const TimeSpan& span) {
 }
 
 /// [rad/s or m/s]  The velocity of a motor without spring when it is at its goal.
-double speed_at_goal(const JointLaw& law, const Coordinate& c, const TimeSpan& span) {
+double speed_at_goal(const JointLaw& law, const Coordinate& c, const PlanSpan& span) {
   const double to = goal(law, c.q, span);
   const double mean = (to - c.q) / span.length;
   if (law.motor->kind == JointMotor::Kind::velocity) {
@@ -159,7 +159,7 @@ double speed_at_goal(const JointLaw& law, const Coordinate& c, const TimeSpan& s
 }
 
 /// r = span (k (missing - q') + d (rate - u')), with the weighted means q' and u' of both ends.
-JointDrive spring_by_rule(const JointLaw& law, const Coordinate& c, const TimeSpan& span,
+JointDrive spring_by_rule(const JointLaw& law, const Coordinate& c, const PlanSpan& span,
                           JointDrive drive) {
   const double k = *law.motor->stiffness;
   const double d = law.motor->damping;
@@ -174,7 +174,7 @@ JointDrive spring_by_rule(const JointLaw& law, const Coordinate& c, const TimeSp
   return drive;
 }
 
-JointDrive motor_by_rule(const JointLaw& law, const Coordinate& c, const TimeSpan& span) {
+JointDrive motor_by_rule(const JointLaw& law, const Coordinate& c, const PlanSpan& span) {
   if (law.motor->kind == JointMotor::Kind::torque) {
     return torque_drive(law, span);
   }
@@ -298,7 +298,7 @@ VectorXd position_weights(const std::vector<JointLaw>& laws, const MatrixXd& inv
 
 std::vector<JointDrive> drives_by_rule(const std::vector<JointLaw>& laws,
                                        const MechanismState& state, const PositionRule& rule,
-                                       const TimeSpan& span) {
+                                       const PlanSpan& span) {
   std::vector<JointDrive> drives;
   const auto add = [&](const JointLaw& law, const JointDrive& drive) {
     drives.push_back(on_coordinate_of(law, drive));
@@ -332,7 +332,7 @@ std::vector<JointDrive> drives_by_rule(const std::vector<JointLaw>& laws,
 
 std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
                                       const MechanismState& state, const VectorXd& origin,
-                                      const TimeSpan& span) {
+                                      const PlanSpan& span) {
   std::vector<JointDrive> drives;
   const auto add = [&](const JointLaw& law, const JointDrive& drive) {
     drives.push_back(on_coordinate_of(law, drive));
@@ -370,7 +370,7 @@ std::vector<PlacedCoordinate> placed_coordinates(const std::vector<JointLaw>& la
                                                  const std::vector<JointDrive>& drives,
                                                  const std::vector<double>& impulses,
                                                  const MechanismState& state,
-                                                 const PositionRule& rule, const TimeSpan& span,
+                                                 const PositionRule& rule, const PlanSpan& span,
                                                  const VectorXd& u) {
   std::vector<PlacedCoordinate> placed;
   std::size_t motor = 0;

@@ -30,7 +30,7 @@ struct JointLaw {
 };
 
 /// A span of time of a plan.
-struct TimeSpan {
+struct PlanSpan {
   double from = 0.0;    ///< [s]  Since the simulation began.
   double length = 0.0;  ///< [s]  > 0
   [[nodiscard]] double to() const { return from + length; }
@@ -75,7 +75,7 @@ struct PositionRule {
 [[nodiscard]] std::vector<JointDrive> drives_by_rule(const std::vector<JointLaw>& laws,
                                                      const MechanismState& state,
                                                      const PositionRule& rule,
-                                                     const TimeSpan& span);
+                                                     const PlanSpan& span);
 
 /// The drives of a span by Euler's implicit rule, in the same order: the end of the span decides
 /// how far springs reach, how fast dampers move, and where limits stop.
@@ -84,7 +84,7 @@ struct PositionRule {
 [[nodiscard]] std::vector<JointDrive> drives_by_end(const std::vector<JointLaw>& laws,
                                                     const MechanismState& state,
                                                     const Eigen::VectorXd& origin,
-                                                    const TimeSpan& span);
+                                                    const PlanSpan& span);
 
 /// A coordinate and its position at the end of a span.
 struct PlacedCoordinate {
@@ -103,7 +103,7 @@ struct PlacedCoordinate {
 [[nodiscard]] std::vector<PlacedCoordinate> placed_coordinates(
     const std::vector<JointLaw>& laws, const std::vector<JointDrive>& drives,
     const std::vector<double>& impulses, const MechanismState& state, const PositionRule& rule,
-    const TimeSpan& span, const Eigen::VectorXd& u);
+    const PlanSpan& span, const Eigen::VectorXd& u);
 
 /// Whether a drive asks for a velocity, and its impulse is within its bounds: it has that velocity.
 [[nodiscard]] bool reaches_target(const JointDrive& drive, double impulse);

@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/contact_finder.h>
+#include <firstcontact/planning/detail/mover_contact_finder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,7 +87,8 @@ void keep_different(std::vector<NearContact>& contacts, const Eigen::Vector3d& c
 
 }  // namespace
 
-ContactFinder::ContactFinder(const PlanScene& scene, const TangentSpace& tangents, double kept)
+MoverContactFinder::MoverContactFinder(const PlanScene& scene, const TangentSpace& tangents,
+                                       double kept)
     : plan_(scene), tangents_(tangents) {
   const RobotScene& all = scene.scene;
   moves_.resize(all.size());
@@ -123,7 +124,7 @@ ContactFinder::ContactFinder(const PlanScene& scene, const TangentSpace& tangent
   }
 }
 
-std::vector<MovedMember> ContactFinder::members_at(const Configuration& q) {
+std::vector<MovedMember> MoverContactFinder::members_at(const Configuration& q) {
   std::vector<MovedMember> members(moves_.size());
   if (plan_.space.is_body()) {
     members[plan_.scene.first_member(plan_.robot)] = tangents_.moved_body(q);
@@ -155,9 +156,9 @@ std::vector<MovedMember> ContactFinder::members_at(const Configuration& q) {
   return members;
 }
 
-const PlacedShape& ContactFinder::placed(std::size_t member, std::size_t geometry,
-                                         const MovedMember& at,
-                                         std::optional<PlacedShape>& moved) const {
+const PlacedShape& MoverContactFinder::placed(std::size_t member, std::size_t geometry,
+                                              const MovedMember& at,
+                                              std::optional<PlacedShape>& moved) const {
   if (!moves_[member]) {
     return resting_[member][geometry];
   }
@@ -165,8 +166,8 @@ const PlacedShape& ContactFinder::placed(std::size_t member, std::size_t geometr
   return moved.emplace(moved_[member][geometry], pose_of_geometry(at.X_WM, of.X_MG));
 }
 
-void ContactFinder::take(const Pair& pair, const ContactsAt& at, double band,
-                         std::vector<NearContact>& found) {
+void MoverContactFinder::take(const Pair& pair, const ContactsAt& at, double band,
+                              std::vector<NearContact>& found) {
   const auto [a, b] = pair.members;
   for (std::size_t i = 0; i < plan_.scene.geometries(a).size(); ++i) {
     for (std::size_t k = 0; k < plan_.scene.geometries(b).size(); ++k) {
@@ -189,7 +190,7 @@ void ContactFinder::take(const Pair& pair, const ContactsAt& at, double band,
   }
 }
 
-ContactsAt ContactFinder::near(const Configuration& q, double band) {
+ContactsAt MoverContactFinder::near(const Configuration& q, double band) {
   ContactsAt at{members_at(q), {}};
   for (const Pair& pair : pairs_) {
     take(pair, at, band, at.contacts);

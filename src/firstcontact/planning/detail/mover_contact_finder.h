@@ -37,10 +37,10 @@ struct ContactsAt {
 /// Finds what is near a mover. For one thread; refers to the scene.
 ///
 /// Where the mover has very many triangles, some of them stand for all: contacts only steer.
-class ContactFinder {
+class MoverContactFinder {
  public:
   /// @param kept  [m]  what edges keep beyond the margins
-  ContactFinder(const PlanScene& scene, const TangentSpace& tangents, double kept);
+  MoverContactFinder(const PlanScene& scene, const TangentSpace& tangents, double kept);
 
   /// @param band  [m]  nothing that is farther is of interest
   [[nodiscard]] ContactsAt near(const Configuration& q, double band);
