@@ -83,7 +83,8 @@ void bind_verify_run(py::module_& m) {
       R"(Proves of a recorded run, with other code than the simulation's, that no free body interpenetrates.
 
 As the tool's `firstcontact verify`. path: of the file that simulate or the tool recorded.
-scripted_tolerance: [m] so far a scripted body may be from where its motion in the scene puts it.
+scripted_tolerance: [m] so far a scripted body may be from where its motion in the scene puts it at
+the end of a step; within steps the contact distance is added.
 work: tests of two boxes or triangles for one pair and one step. threads: at most; 0 for one on each
 core; the answer does not depend on it. progress: called with the time that is proven, in s. stop:
 ends it `not_proven`, with what is proven so far. Ctrl-C raises KeyboardInterrupt. ParseError where

@@ -10,6 +10,7 @@
 
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/distance.h>
+#include <firstcontact/record/detail/joined_steps.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
@@ -17,6 +18,7 @@
 #include <firstcontact/simulation/detail/islands.h>
 #include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
+#include <firstcontact/simulation_model/detail/script.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
@@ -68,7 +70,8 @@ class Simulator::Implementation {
   explicit Implementation(const LoadedScene& loaded)
       : linked_((require_simulation(loaded), links_as_bodies(loaded))),
         loaded_(linked_.loaded),
-        model_(loaded, linked_) {
+        model_(loaded, linked_),
+        script_(loaded_, model_) {
     const Scene& scene = loaded_.scene;
     header_ = {.scene = loaded.scene, .version = version(), .input_digest = loaded.input_digest};
     header_.scene.simulation->contact_distance = model_.distances.least;
@@ -253,15 +256,27 @@ class Simulator::Implementation {
   }
 
   std::optional<RunStep> step(const std::stop_token& stop) {
-    const StepStart start = step_start();
-    std::optional<std::vector<IslandTrack>> tracks =
-        detail::advance_islands(model_, start, guesses(), workspace_, stop);
-    if (!tracks) {
-      return std::nullopt;
+    detail::SimulationState before = state_;
+    std::optional<RunStep> whole;
+    double left = loaded_.scene.simulation->step;
+    for (const double length : script_.parts(state_.time)) {
+      std::optional<RunStep> part = advance(length, stop);
+      if (!part) {
+        state_ = std::move(before);
+        return std::nullopt;
+      }
+      left -= length;
+      whole = whole ? detail::joined(std::move(*whole), std::move(*part)) : std::move(part);
+      if (whole->time_lost > 0.0) {
+        whole->time_lost += std::max(0.0, left);
+        break;
+      }
     }
-    RunStep done = detail::record_step(model_, start, *tracks, state_);
-    end_forces(done);
-    return done;
+    state_.count = whole->index;
+    state_.contacts = whole->contacts;
+    state_.ties = whole->ties;
+    end_forces(*whole);
+    return whole;
   }
 
  private:
@@ -413,30 +428,26 @@ class Simulator::Implementation {
     }
   }
 
-  [[nodiscard]] StepStart step_start() {
-    const Simulation& simulation = *loaded_.scene.simulation;
-    StepStart start{.time = state_.time,
-                    .h = simulation.step,
-                    .states = state_.states,
-                    .robots = state_.robots,
-                    .rests = state_.rests};
-    start.scripted.resize(state_.states.size());
-    for (std::size_t b = 0; b < state_.states.size(); ++b) {
-      if (model_.bodies[b].kind != BodyKind::scripted) {
-        continue;
-      }
-      const Motion& motion = loaded_.bodies.motion(b);
-      const double from = std::min(1.0, state_.time / loaded_.scene.duration);
-      const double to = std::min(1.0, (state_.time + start.h) / loaded_.scene.duration);
-      start.scripted[b] = {motion.pose(to).position - state_.states[b].X_WB.position,
-                           detail::rotation_between(motion, from, to)};
+  /// A part of a step, in which scripted bodies move straight.
+  std::optional<RunStep> advance(double length, const std::stop_token& stop) {
+    const StepStart start{.time = state_.time,
+                          .h = length,
+                          .states = state_.states,
+                          .scripted = script_.moves(state_.states, state_.time, length),
+                          .robots = state_.robots,
+                          .rests = state_.rests};
+    std::optional<std::vector<IslandTrack>> tracks =
+        detail::advance_islands(model_, start, guesses(), workspace_, stop);
+    if (!tracks) {
+      return std::nullopt;
     }
-    return start;
+    return detail::record_step(model_, start, *tracks, state_);
   }
 
   LinksAsBodies linked_;
   const LoadedScene& loaded_;  // With links as bodies.
   SimulationModel model_;
+  detail::Script script_;
   RunHeader header_;
   detail::SimulationState state_;
   std::vector<std::size_t> applied_;  // Bodies whose last forces are for the next step alone.

@@ -24,6 +24,7 @@
 #include <firstcontact/verification/detail/pair_cover.h>
 #include <firstcontact/verification/detail/piece_motion.h>
 #include <firstcontact/verification/detail/run_follower.h>
+#include <firstcontact/verification/detail/script_deviation.h>
 
 namespace firstcontact {
 namespace {
@@ -51,6 +52,18 @@ void require_plain(const Scene& scene) {
   }
 }
 
+/// Gives a member the script of its body.
+void add_script(const Body& body, double duration, RunMember& member) {
+  if (member.is_free) {
+    return;
+  }
+  try {
+    member.script = detail::script_of(body.motion, duration, member.p_BC);
+  } catch (const detail::UncertainMotion& error) {
+    member.uncertain = error.what();
+  }
+}
+
 std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& loaded) {
   std::vector<RunMember> members;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
@@ -64,8 +77,8 @@ std::vector<RunMember> make_members(const RunHeader& header, const LoadedScene& 
                        .p_BC = p_BC,
                        .tree = detail::build_box_tree(shape.mesh(), p_BC),
                        .is_free = body.free.has_value(),
-                       .scripted = motion,
                        .start = fixed != nullptr ? fixed->pose : motion.pose(0.0)});
+    add_script(body, loaded.scene.duration, members.back());
   }
   return members;
 }
@@ -229,6 +242,7 @@ class Verification {
   bool take_chunk(const std::function<std::optional<RunStep>()>& next) {
     std::vector<FollowedStep> chunk;
     std::optional<std::string> broken;
+    std::optional<std::string> unproven;
     bool more = true;
     // Alone, the first step finds how close bodies come, and spares the others the search.
     const std::size_t size = result_.steps == 0 ? 1 : kChunk;
@@ -244,11 +258,16 @@ class Verification {
       } catch (const BrokenRun& error) {
         broken = "Step " + std::to_string(step->index) + ": " + error.what() + ".";
         break;
+      } catch (const detail::UncertainMotion& error) {
+        unproven = "Step " + std::to_string(step->index) + ": " + error.what() + ".";
+        break;
       }
     }
     prove(chunk);
     if (going() && broken) {
       stop(RunVerdict::broken, *broken);
+    } else if (going() && unproven) {
+      stop(RunVerdict::not_proven, *unproven);
     } else if (going() && options_.stop.stop_requested()) {
       stop(RunVerdict::not_proven, "Stopped before the end of the run.");
       ended_ = true;

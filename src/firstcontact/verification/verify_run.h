@@ -33,8 +33,8 @@ inline constexpr std::array<const char*, 4> kRunVerdictWords{"proven", "closer",
                                                              "not_proven"};
 
 struct VerifyRunOptions {
-  /// [m]  > 0  The distance that a scripted body may be from where its motion in the scene puts
-  /// it.
+  /// [m]  > 0  The distance that a scripted body may be from where its motion in the scene puts it
+  /// at the end of a step. Within steps, and where one ended early, the contact distance is added.
   double scripted_tolerance = 1e-6;
   std::size_t work = 20'000'000;  ///< Tests of two boxes or triangles for one pair and one step.
   int threads = 0;                ///< At most; 0 for one on each core. The answer is the same.

@@ -61,15 +61,15 @@ int exact_orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint
 }  // namespace
 
 int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
-  // Shewchuk's bound for orient2d, (3 + 16 u) u with u = 2^-53; products below kLeast may have
+  // Shewchuk's bound for orient2d, (3 + 16 u) u with u = 2^-53; products below kLeastSize may have
   // lost bits to underflow.
   constexpr double kError = 3.3306690738754716e-16;
-  constexpr double kLeast = 1e-290;
+  constexpr double kLeastSize = 1e-290;
   const double left = (a.x - c.x) * (b.y - c.y);
   const double right = (a.y - c.y) * (b.x - c.x);
   const double size = std::abs(left) + std::abs(right);
   const double difference = left - right;
-  if (size > kLeast && std::abs(difference) > kError * size) {
+  if (size > kLeastSize && std::abs(difference) > kError * size) {
     return sign(difference);
   }
   const bool left_is_zero = a.x == c.x || b.y == c.y;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/verification/detail/script_deviation.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -23,18 +24,17 @@ std::string number(double x) {
   return text;
 }
 
-IntervalTransform at_rest(const Pose& X_WB, const Eigen::Vector3d& p_BC,
-                          const Eigen::Vector3d& origin) {
-  return PieceMotion(X_WB, 0.0, 0.0, p_BC).enclosure(0.0, origin);
-}
-
 }  // namespace
 
 RunFollower::RunFollower(const std::vector<RunMember>& members, const Scene& scene,
                          double scripted_tolerance)
-    : members_(members), duration_(scene.duration), scripted_tolerance_(scripted_tolerance) {
+    : members_(members),
+      duration_(scene.duration),
+      scripted_tolerance_(scripted_tolerance),
+      bend_tolerance_(scripted_tolerance) {
   if (scene.simulation) {
     step_length_ = scene.simulation->step;
+    bend_tolerance_ += scene.simulation->contact_distance.value_or(0.0);
   }
   for (const RunMember& member : members) {
     poses_.push_back(member.start);
@@ -57,8 +57,8 @@ FollowedStep RunFollower::follow(const RunStep& step) {
     std::vector<PieceMotion>& pieces = followed.bodies[b].pieces;
     if (pieces.empty()) {
       pieces.emplace_back(poses_[b], 0.0, step.lasted, members_[b].p_BC);
+      require_scripted(b, pieces.back(), step);
     }
-    require_scripted(b, pieces.back(), step);
   }
   ++step_;
   time_ = step.time;
@@ -138,24 +138,27 @@ double RunFollower::jump(std::size_t body, const PieceMotion& from, double from_
   return deviation;
 }
 
-/// A step that ends early leaves a script on the chord of what it had meant to do.
+/// At its end a step is where the script is; before, and where it ended early, within what lies
+/// between a script and straight pieces.
 void RunFollower::require_scripted(std::size_t body, const PieceMotion& piece,
                                    const RunStep& step) {
   const RunMember& member = members_[body];
   if (member.is_free) {
     return;
   }
-  const double time = time_ + piece.to();
-  const Pose X_WB = member.scripted.pose(time / duration_);
-  const Eigen::Vector3d& origin = X_WB.position;
-  const double deviation =
-      deviation_bound(piece.enclosure(piece.to(), origin), at_rest(X_WB, member.p_BC, origin),
-                      member.tree.nodes[0].reach);
-  if (!(deviation <= scripted_tolerance_) && !(step.time_lost > 0.0)) {
-    throw BrokenRun("\"" + member.name + "\" is " + number(deviation) +
-                    " m from where its motion in the scene puts it at " + number(time) + " s");
+  if (!member.uncertain.empty()) {
+    throw UncertainMotion("the script of \"" + member.name + "\": " + member.uncertain);
   }
-  scripted_deviation_ = std::max(scripted_deviation_, deviation);
+  const double reach = member.tree.nodes[0].reach;
+  const ScriptDeviation deviation = script_deviation(piece, time_, member.script, duration_, reach);
+  const bool ends_the_step = piece.to() == step.lasted && !(step.time_lost > 0.0);
+  if (!(deviation.at_end <= (ends_the_step ? scripted_tolerance_ : bend_tolerance_)) ||
+      !(deviation.within <= bend_tolerance_)) {
+    throw BrokenRun("\"" + member.name + "\" is up to " + number(deviation.within) +
+                    " m from where its motion in the scene puts it until " +
+                    number(time_ + piece.to()) + " s");
+  }
+  scripted_deviation_ = std::max(scripted_deviation_, deviation.within);
 }
 
 }  // namespace firstcontact::detail

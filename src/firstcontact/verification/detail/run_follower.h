@@ -10,11 +10,11 @@
 #include <vector>
 
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/motion/motion.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/verification/detail/box_tree.h>
 #include <firstcontact/verification/detail/piece_motion.h>
+#include <firstcontact/verification/detail/rigid_motion.h>
 
 namespace firstcontact {
 struct Scene;
@@ -29,7 +29,9 @@ struct RunMember {
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< [m]  The pivot.
   BoxTree tree;
   bool is_free = false;
-  Motion scripted;  ///< t = time / duration of the scene; of a body that is not free.
+  std::vector<RigidMotion> script = {};  ///< As script_of; of a body that is not free.
+  /// Why the script cannot be told; empty where it can.
+  std::string uncertain = {};
   Pose start;
 };
 
@@ -57,10 +59,10 @@ class BrokenRun : public std::runtime_error {
 class RunFollower {
  public:
   /// @param members             outlive the follower
-  /// @param scripted_tolerance  [m]
+  /// @param scripted_tolerance  [m]  within steps the contact distance comes on top
   RunFollower(const std::vector<RunMember>& members, const Scene& scene, double scripted_tolerance);
 
-  /// @throws BrokenRun
+  /// @throws BrokenRun, UncertainMotion
   [[nodiscard]] FollowedStep follow(const RunStep& step);
 
   [[nodiscard]] double time() const { return time_; }                    ///< [s]
@@ -78,6 +80,7 @@ class RunFollower {
   double duration_;                         // [s]  Of the scene.
   std::optional<double> step_length_ = {};  // [s]  Of a scene with a simulation.
   double scripted_tolerance_;
+  double bend_tolerance_;    // [m]  Of scripts within steps.
   std::vector<Pose> poses_;  // As last recorded.
   std::size_t step_ = 0;
   double time_ = 0.0;

@@ -1,0 +1,142 @@
+#include <firstcontact/simulation_model/detail/script_parts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/simulation_model/detail/step_start.h>
+
+namespace firstcontact::detail {
+
+using Eigen::AngleAxisd;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr std::size_t kMostParts = 10'000;
+
+/// [-]  Of a part: no division leaves less of it, as forces over no time are no forces.
+constexpr double kLeastShare = 0.01;
+
+Quaterniond turned(const Vector3d& rotation_vector, const Quaterniond& rotation) {
+  const double angle = rotation_vector.norm();
+  return angle > 0.0 ? Quaterniond(AngleAxisd(angle, rotation_vector / angle)) * rotation
+                     : rotation;
+}
+
+/// The straight piece, and how far a motion is from it.
+class Chord {
+ public:
+  Chord(const Motion& motion, double from, double to)
+      : motion_(motion),
+        from_(from),
+        length_(to - from),
+        begin_(motion.pose(from)),
+        travel_(motion.pose(to).position - begin_.position),
+        turn_(rotation_between(motion, from, to)) {}
+
+  struct Distance {
+    double place = 0.0;  ///< [m]  Between the origins.
+    double angle = 0.0;  ///< [rad]
+  };
+  [[nodiscard]] Distance distance(double t) const {
+    const double share = (t - from_) / length_;
+    const Pose there = motion_.pose(t);
+    return {(there.position - begin_.position - share * travel_).norm(),
+            there.rotation.angularDistance(turned(share * turn_, begin_.rotation))};
+  }
+
+  /// [rad per step]  The difference of the two rates in a piece of the motion.
+  [[nodiscard]] double spin_difference(const ConstantRatePath& path) const {
+    return (path.axis() * path.rate() - turn_ / length_).norm();
+  }
+
+ private:
+  const Motion& motion_;
+  double from_;
+  double length_;
+  Pose begin_;
+  Vector3d travel_;
+  Vector3d turn_;
+};
+
+/// The script that bends most over a part.
+struct Bend {
+  double bound = 0.0;  ///< [m]
+  std::size_t script = 0;
+};
+
+Bend greatest_bend(const std::vector<ScriptedMotion>& scripts, double from, double to) {
+  Bend greatest;
+  for (std::size_t k = 0; k < scripts.size(); ++k) {
+    const double bound = bend_bound(scripts[k], from, to);
+    if (!(bound <= greatest.bound)) {
+      greatest = {bound, k};
+    }
+  }
+  return greatest;
+}
+
+/// The break of a motion that is nearest to the middle of a part, or the middle.
+double dividing_time(const Motion& motion, double from, double to) {
+  const double middle = 0.5 * (from + to);
+  const auto breaks = motion.breaks();
+  const auto above = std::ranges::lower_bound(breaks, middle);
+  double best = to;
+  for (auto near = above == breaks.begin() ? above : above - 1;
+       near != breaks.end() && near <= above; ++near) {
+    best = std::abs(*near - middle) < std::abs(best - middle) ? *near : best;
+  }
+  const double least = kLeastShare * (to - from);
+  return best > from + least && best < to - least ? best : middle;
+}
+
+}  // namespace
+
+double bend_bound(const ScriptedMotion& script, double from, double to) {
+  const auto breaks = script.motion.breaks();
+  const auto first = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from) - 1;
+  const Chord chord(script.motion, from, to);
+  double place = 0.0;
+  double angle = 0.0;
+  Chord::Distance begin = chord.distance(from);
+  for (auto piece = first; piece + 1 != breaks.end() && *piece < to; ++piece) {
+    const double u = std::max(from, *piece);
+    const double v = std::min(to, *(piece + 1));
+    const ConstantRatePath path =
+        script.motion.path(static_cast<std::size_t>(piece - breaks.begin()), Vector3d::Zero());
+    const Chord::Distance end = chord.distance(v);
+    const double sagitta = path.rate() * path.rate() * path.lever_length() * (v - u) * (v - u) / 8;
+    place = std::max(place, std::max(begin.place, end.place) + sagitta);
+    angle = std::max(
+        angle, std::max(begin.angle, end.angle) + 0.5 * chord.spin_difference(path) * (v - u));
+    begin = end;
+  }
+  return place + script.reach * angle;
+}
+
+std::vector<double> straight_parts(const std::vector<ScriptedMotion>& scripts, double from,
+                                   double to, double tolerance) {
+  std::vector<double> ends;
+  std::vector<double> open{to};
+  double begin = from;
+  while (!open.empty()) {
+    const double end = open.back();
+    const Bend bend = greatest_bend(scripts, begin, end);
+    if (bend.bound <= tolerance) {
+      ends.push_back(end);
+      begin = end;
+      open.pop_back();
+    } else if (ends.size() + open.size() >= kMostParts) {
+      return {};
+    } else {
+      open.push_back(dividing_time(scripts[bend.script].motion, begin, end));
+    }
+  }
+  return ends;
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,41 @@
+/// @file
+/// How far a recorded piece is from the motion that the scene gives a body.
+
+#pragma once
+
+#include <vector>
+
+#include <firstcontact/verification/detail/piece_motion.h>
+#include <firstcontact/verification/detail/rigid_motion.h>
+
+namespace firstcontact::detail {
+
+/// [m]  How far at most any point of a body is from where a script has it.
+struct ScriptDeviation {
+  double within = 0.0;  ///< At any time of a piece.
+  double at_end = 0.0;  ///< When the piece ends.
+};
+
+/// How far a piece is from a script.
+///
+/// Between two times both move at constant rates. The distance of the pivots has a second
+/// derivative of at most the sum of rate^2 lever of both. The distance of the rotations changes no
+/// faster than by the difference of the spins. Only the rounding of times is not charged.
+///
+/// @param begin     [s]  when the step of the piece begins
+/// @param script    one after another from 0, where 1 is the duration; the last one is the body at
+///                  rest after it
+/// @param duration  [s]
+/// @param reach     [m]  no point is farther from the pivot
+[[nodiscard]] ScriptDeviation script_deviation(const PieceMotion& piece, double begin,
+                                               const std::vector<RigidMotion>& script,
+                                               double duration, double reach);
+
+/// The motion of a body over a scene, and its rest after it.
+///
+/// @param p_BC  [m]
+/// @throws UncertainMotion
+[[nodiscard]] std::vector<RigidMotion> script_of(const BodyMotion& motion, double duration,
+                                                 const Eigen::Vector3d& p_BC);
+
+}  // namespace firstcontact::detail

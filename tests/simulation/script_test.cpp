@@ -1,0 +1,184 @@
+// Scripted bodies whose motion bends within a step.
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/simulation_model/detail/script_parts.h>
+
+#include "simulation/simulated_run.h"
+#include "support/random.h"
+
+namespace firstcontact {
+namespace {
+
+using Eigen::Vector3d;
+using test::ball;
+using test::body;
+using test::box;
+
+constexpr double kDistance = 1e-4;  // [m]  Contact distance.
+
+std::string hammer(const std::string& motion) {
+  return R"({"name": "hammer", "shape": {"box": {"size": [0.1, 0.1, 0.1]}}, "motion": )" + motion +
+         "}";
+}
+
+/// Goes 0.2 m down and comes back, both within the step from 0.02 s to 0.03 s.
+const std::string kBlow = hammer(R"({"type": "waypoints", "times": [0.022, 0.025, 0.028], "poses": [
+    {"position": [0, 0, 1]}, {"position": [0, 0, 0.8]}, {"position": [0, 0, 1]}]})");
+
+std::string laws(const std::string& more = "") {
+  return R"("step": 0.01, "duration": 0.1, "gravity": [0, 0, 0], "contact_distance": 1e-4)" + more;
+}
+
+// The blow ends where it began, so a straight piece of the step would leave the ball alone.
+TEST(Script, BlowWithinAStepIsFelt) {
+  Simulator simulator = test::simulator(
+      kBlow + ", " + body("ball", ball("0.05"), "[0, 0, 0.85]", R"(, "dynamics": {"mass": 1})"),
+      laws());
+  const std::vector<RunStep> steps = test::run(simulator, 10);
+  // An inelastic ball takes the speed of the hammer: 0.2 m in 3 ms.
+  const double speed = 0.2 / 0.003;
+  for (const RunBody& moved : steps[2].bodies) {
+    if (moved.body == 1) {
+      EXPECT_NEAR(moved.linear_velocity.z(), -speed, 1e-9 * speed);
+    }
+  }
+  const RunVerification proof = test::verify(simulator.header(), steps);
+  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_LE(proof.scripted_deviation, kDistance);
+  EXPECT_EQ(proof.time_lost, 0.0);
+}
+
+TEST(Script, PartsOfAStepAreOneStep) {
+  Simulator simulator = test::simulator(
+      kBlow + ", " + body("ball", ball("0.05"), "[0, 0, 0.85]", R"(, "dynamics": {"mass": 1})"),
+      laws());
+  const std::vector<RunStep> steps = test::run(simulator, 4);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    EXPECT_EQ(steps[k].index, k + 1);
+    EXPECT_NEAR(steps[k].time, 0.01 * static_cast<double>(k + 1), 1e-15);
+    EXPECT_NEAR(steps[k].lasted, 0.01, 1e-16);
+    for (const RunBody& moved : steps[k].bodies) {
+      EXPECT_EQ(moved.pieces.back().to, steps[k].lasted);
+    }
+  }
+  // Where nothing bends, a step is one piece.
+  EXPECT_EQ(steps[0].bodies[0].pieces.size(), 1);
+  EXPECT_EQ(steps[2].bodies[0].pieces.size(), 4);
+  ASSERT_EQ(steps[2].impacts.size(), 1);
+  // It meets the ball after 0.05 m of way, but for the contact distance.
+  EXPECT_NEAR(steps[2].impacts[0].at, 0.002 + 0.003 * 0.05 / 0.2, 1e-5);
+}
+
+TEST(Script, RunThatIsResumedGoesOnAlike) {
+  const std::string bodies =
+      kBlow + ", " + body("ball", ball("0.05"), "[0, 0, 0.85]", R"(, "dynamics": {"mass": 1})");
+  Simulator whole = test::simulator(bodies, laws());
+  const std::vector<RunStep> steps = test::run(whole, 6);
+  Simulator resumed = test::simulator(bodies, laws());
+  resumed.resume(steps[2]);
+  const RunStep next = resumed.step().value();
+  ASSERT_EQ(next.bodies.size(), steps[3].bodies.size());
+  for (std::size_t b = 0; b < next.bodies.size(); ++b) {
+    EXPECT_EQ(next.bodies[b].X_WB.position, steps[3].bodies[b].X_WB.position);
+    EXPECT_EQ(next.bodies[b].linear_velocity, steps[3].bodies[b].linear_velocity);
+  }
+}
+
+// A quarter turn a step on a circle of 1 m: the chord is 0.29 m inside of it.
+TEST(Script, CirclesAreFollowed) {
+  const std::string arm = hammer(
+      R"({"type": "screw", "from": {"position": [1, 0, 0]}, "axis_point": [0, 0, 0],
+          "axis_direction": [0, 0, 1], "angle": 15.707963267948966, "translation": 0})");
+  // Between the chord and the arc of the first step.
+  Simulator simulator = test::simulator(
+      arm + ", " +
+          body("ball", ball("0.01"), "[0.68, 0.68, 0]", R"(, "dynamics": {"mass": 0.001})"),
+      laws());
+  const std::vector<RunStep> steps = test::run(simulator, 2);
+  EXPECT_FALSE(steps[0].impacts.empty());
+  const RunVerification proof = test::verify(simulator.header(), steps);
+  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_LE(proof.scripted_deviation, kDistance);
+}
+
+// Crushed halfway through a step that bends, the press waits where it was, and goes on from there.
+TEST(Script, CrushedStepsAreProvenToo) {
+  const std::string press = hammer(
+      R"({"type": "screw", "from": {"position": [0, 0, 0.2]}, "axis_point": [1, 0, 0.2],
+          "axis_direction": [0, 1, 0], "angle": -0.8, "translation": 0})");
+  Simulator simulator = test::simulator(
+      test::kFloor + ", " + press + ", " +
+          body("block", box("[0.1, 0.1, 0.1]"), "[0, 0, 0.06]", R"(, "dynamics": {"mass": 1})"),
+      laws());
+  const std::vector<RunStep> steps = test::run(simulator, 10);
+  const RunVerification proof = test::verify(simulator.header(), steps);
+  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+  EXPECT_LE(proof.scripted_deviation, kDistance);
+  EXPECT_GT(proof.time_lost, 0.0);
+}
+
+TEST(Script, TooWildForItsStepIsRefused) {
+  const std::string wild = hammer(
+      R"({"type": "screw", "from": {"position": [1, 0, 0]}, "axis_point": [0, 0, 0],
+          "axis_direction": [0, 0, 1], "angle": 1e8, "translation": 0})");
+  Simulator simulator = test::simulator(
+      wild + ", " + body("ball", ball("0.01"), "[0, 0, 0]", R"(, "dynamics": {"mass": 1})"),
+      laws());
+  EXPECT_THROW((void)simulator.step(), std::invalid_argument);
+}
+
+/// [m]  The greatest distance of the corners of a cube from where straight pieces have them.
+double sampled_bend(const detail::ScriptedMotion& script, const Motion& straight, double from,
+                    double to) {
+  double greatest = 0.0;
+  for (int k = 0; k <= 1000; ++k) {
+    const double s = k / 1000.0;
+    const Pose a = script.motion.pose(from + s * (to - from));
+    const Pose b = straight.pose(s);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d p = script.reach / std::sqrt(3.0) *
+                         Vector3d((corner & 1) - 0.5, (corner & 2) / 2 - 0.5, corner / 4 - 0.5) *
+                         2.0;
+      greatest =
+          std::max(greatest, (a.position + a.rotation * p - b.position - b.rotation * p).norm());
+    }
+  }
+  return greatest;
+}
+
+TEST(Script, BendIsBounded) {
+  test::Random random(3);
+  int tight = 0;
+  for (int n = 0; n < 300; ++n) {
+    std::vector<double> times;
+    std::vector<Pose> poses;
+    for (int k = 0; k < 5; ++k) {
+      times.push_back(0.25 * k);
+      poses.push_back({random.vector(0.0, 1.0), random.rotation()});
+    }
+    const detail::ScriptedMotion script{
+        Motion::waypoints(times, poses, n % 2 == 0 ? Between::screw : Between::constant_velocity),
+        random.uniform(0.1, 1.0)};
+    const double from = random.uniform(0.0, 0.9);
+    const double to = from + random.uniform(0.001, n % 3 == 0 ? 0.01 : 0.1);
+    const Pose begin = script.motion.pose(from);
+    const Eigen::AngleAxisd turn(script.motion.pose(to).rotation * begin.rotation.conjugate());
+    const Motion straight = Motion::constant_velocity(
+        begin, script.motion.pose(to).position - begin.position, turn.angle() * turn.axis());
+    const double bend = sampled_bend(script, straight, from, to);
+    const double bound = detail::bend_bound(script, from, to);
+    EXPECT_LE(bend, bound + 1e-12) << n;
+    tight += bound <= 1.3 * bend + 1e-12 ? 1 : 0;
+  }
+  EXPECT_GE(tight, 150);
+}
+
+}  // namespace
+}  // namespace firstcontact
