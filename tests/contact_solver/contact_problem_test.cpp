@@ -11,6 +11,7 @@
 #include <firstcontact/contact_solver/contact_problem.h>
 
 #include "contact_solver/wall_problem.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -265,7 +266,7 @@ ContactProblem in_a_bowl(std::mt19937& rng, double friction) {
 TEST(ProjectOnContacts, SolvesThousandsOfContactsByTheFewThatDecide) {
   std::mt19937 rng(11);
   for (const double friction : {0.0, 0.1, 0.6}) {
-    for (int trial = 0; trial < 10; ++trial) {
+    for (int trial = 0; trial < test::rounds(10, 2); ++trial) {
       const ContactProblem problem = in_a_bowl(rng, friction);
       const ContactSolution solution = solve(problem, ProjectionSpace::automatic);
       // With friction the few themselves are not solved nearer in some, nor are all in motion

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -265,12 +266,14 @@ TEST(TieRow, IsThatOfTheDenseReference) {
          {ProjectionSpace::automatic, ProjectionSpace::contact, ProjectionSpace::motion}) {
       const ContactSolution solution = project_on_contacts(
           problem, {.tolerance = kTieTolerance, .space = space, .sweeps = 100000});
-      ASSERT_LE(solution.residual, kTieTolerance) << i;
-      ASSERT_LE(contact_residual(problem, solution), 2.0 * kTieTolerance) << i;
+      SCOPED_TRACE("problem " + std::to_string(i) + ", space " +
+                   std::to_string(static_cast<int>(space)));
+      ASSERT_LE(solution.residual, kTieTolerance);
+      ASSERT_LE(contact_residual(problem, solution), 2.0 * kTieTolerance);
       ASSERT_EQ(solution.ties.size(), problem.ties.size());
       ASSERT_TRUE(solution.drives.empty());
       const VectorXd V = velocities_of_solution(problem, solution, reference.V.size());
-      ASSERT_LE((V - *right).cwiseAbs().maxCoeff(), 1e-8) << i << " " << static_cast<int>(space);
+      ASSERT_LE((V - *right).cwiseAbs().maxCoeff(), 1e-8);
     }
   }
 }

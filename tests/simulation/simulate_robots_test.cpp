@@ -286,7 +286,8 @@ TEST_F(SimulateRobots, LimitsDoNotGiveWayToAPress) {
         "motion": {"type": "waypoints", "times": [0, 1], "poses": [
           {"position": [)" + std::string(from_left ? "-0.2" : "0.2") +
                               R"(, 0, 0]}, {"position": [)" + sign + R"(0.8, 0, 0]}]}})";
-    Simulator s = simulator(scene(urdf, R"("dynamics": {})", press, R"("step": 0.01)"));
+    Simulator s =
+        simulator(scene(urdf, R"("dynamics": {})", press, R"("step": 0.01, "events": 100)"));
     const auto steps = run(s, 40);
     double lost = 0.0;
     for (const RunStep& step : steps) {

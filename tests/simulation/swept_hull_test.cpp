@@ -17,6 +17,7 @@
 #include <firstcontact/simulation_model/detail/swept_hull.h>
 
 #include "simulation/random_body.h"
+#include "support/rounds.h"
 
 namespace firstcontact::detail {
 namespace {
@@ -89,7 +90,7 @@ struct Moving {
 
 TEST(SweptHull, NeverTellsMoreThanTheLeastDistance) {
   std::mt19937 rng(1);
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < test::rounds(3000, 500); ++trial) {
     const Moving c(rng);
     const double least = c.least_distance(60);
     ASSERT_FALSE(c.stay_apart(least * (1.0 + 1e-9) + 1e-12)) << trial;
@@ -99,7 +100,7 @@ TEST(SweptHull, NeverTellsMoreThanTheLeastDistance) {
 // With round bodies, far from the origin, and where only one of them turns.
 TEST(SweptHull, NeverTellsMoreThanTheLeastDistanceOfRoundBodiesAnywhere) {
   std::mt19937 rng(4);
-  for (int trial = 0; trial < 1500; ++trial) {
+  for (int trial = 0; trial < test::rounds(1500, 300); ++trial) {
     Moving c(rng);
     const double far = trial % 3 == 0 ? 1e6 : 0.0;
     c.X_WA.position.x() += far;

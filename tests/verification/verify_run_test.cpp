@@ -14,6 +14,7 @@
 
 #include "record/recorded_run.h"
 #include "support/random.h"
+#include "support/rounds.h"
 
 namespace firstcontact {
 namespace {
@@ -223,7 +224,7 @@ TEST(VerifyRun, AgreesWithManySamples) {
   test::Random random(5);
   int apart = 0;
   int met = 0;
-  for (int n = 0; n < 100; ++n) {
+  for (int n = 0; n < test::rounds(100, 60); ++n) {
     const std::string first = random_soup(random);
     RecordedRun run(scene(first, random_soup(random)), {0, 1});
     const auto leg = [&](double lasts) {
@@ -374,7 +375,7 @@ TEST(VerifyRun, ProvesBodiesThatSpinHundredsOfTimesInAStep) {
   RecordedRun run(R"({"firstcontact": 1, "bodies": [
     {"name": "rod", "shape": {"box": {"size": [1, 0.1, 0.01]}}},
     {"name": "wall", "shape": {"box": {"size": [1, 9, 9]}}, "pose": {"position": [3, 0, 0]}}]})");
-  for (int k = 0; k < 5; ++k) {
+  for (int k = 0; k < test::rounds(5, 1); ++k) {
     run.add({{0, {{.lasts = 1.0, .angular_velocity = {400.0, 3000.0, -900.0}}}}}, 1e-6);
   }
   const RunVerification found = run.verify();

@@ -60,10 +60,8 @@ struct RunVerification {
   std::optional<RunMoment> closest;     ///< Where bodies come about as close as that.
   std::optional<RunMoment> problem_at;  ///< Of the two last verdicts but a broken record.
   double greatest_jump = 0.0;           ///< [m]  From the end of a piece to the begin of the next.
-  /// [m]  The greatest deviation of a scripted body from its motion in the scene at the end of a
-  /// piece.
-  ///
-  /// Steps that lost time count, but may be off by more than the tolerance.
+  /// [m]  No point of a scripted body is farther from where its motion in the scene has it, at any
+  /// time.
   double scripted_deviation = 0.0;
   /// The pairs that the proof is about: those of which one is free, links of robots counted as
   /// such.
