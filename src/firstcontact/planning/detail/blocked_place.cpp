@@ -125,17 +125,12 @@ std::optional<Configuration> free_place_near(const EdgeChecker& checker, const C
   return std::nullopt;
 }
 
-std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
-                             const std::string& what) {
-  const EdgeAnswer answer = checker.check(q, q);
-  std::string text = what + " is not free";
-  if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
-    return text + ": it was not decided with the effort that is allowed";
-  }
+std::string describe_pair(const EdgeChecker& checker, const Configuration& q, const BodyPair& pair,
+                          const std::string& what) {
   const PlanScene& scene = checker.scene();
-  const BodyPair& pair = *answer.pair;
   const RobotScene placed = placed_scene(checker, q);
-  text += ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
+  std::string text =
+      what + ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
   const std::optional<double> depth = depth_of(placed, pair);
   if (depth && *depth > 0.0) {
     text += " touch, up to " + quantity(*depth, "m") + " deep";
@@ -148,6 +143,16 @@ std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
     text += "; no free place was found near it";
   }
   return text;
+}
+
+std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
+                             const std::string& what) {
+  const EdgeAnswer answer = checker.check(q, q);
+  const std::string text = what + " is not free";
+  if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
+    return text + ": it was not decided with the effort that is allowed";
+  }
+  return describe_pair(checker, q, *answer.pair, text);
 }
 
 }  // namespace firstcontact::detail

@@ -18,7 +18,13 @@ namespace firstcontact::detail {
 [[nodiscard]] std::optional<Configuration> free_place_near(const EdgeChecker& checker,
                                                            const Configuration& q);
 
-/// One sentence: the pair, how deep it is, and the nearest free place that was found.
+/// One sentence: a pair, how deep it is, and the nearest free place that was found.
+///
+/// @param what  "the start is not free"
+[[nodiscard]] std::string describe_pair(const EdgeChecker& checker, const Configuration& q,
+                                        const BodyPair& pair, const std::string& what);
+
+/// The same of the pair that blocks a place.
 ///
 /// @param what  "the start"
 [[nodiscard]] std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
