@@ -4,12 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <random>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
@@ -159,8 +162,9 @@ TEST(ContactPairs, KeepTheirMarginWhereTheyAreNotInContact) {
 TEST(ContactPairs, SayWhatIsNotFreeAndWhereItWouldBe) {
   const std::string touching =
       refusal_of(table_scene("0.0995", kGoalAbove + pair_with("may_stay")));
-  for (const char* part : {"the start is not free", "\"table\" and \"box\" touch", "0.0005 m",
-                           "nearest free place", "a distance of 0 leaves nothing to hold"}) {
+  for (const char* part :
+       {"the start is not free", "\"table\" and \"box\" touch", "0.0005 m", "nearest free place",
+        "a distance of 0 leaves nothing to hold", "by 1e-06 m in the place that was found"}) {
     EXPECT_NE(touching.find(part), std::string::npos) << touching;
   }
   const std::string exactly = refusal_of(table_scene("0.1", kGoalAbove + pair_with("must_open")));
@@ -173,10 +177,32 @@ TEST(ContactPairs, SayWhatIsNotFreeAndWhereItWouldBe) {
   // A goal that is deeper than the start is none.
   const std::string deeper = refusal_of(table_scene(
       "0.101", R"("goal": {"position": [0.6, 0, 0.1008]}, )" + pair_with("not_deeper")));
-  EXPECT_NE(deeper.find("the goal is not free"), std::string::npos) << deeper;
+  EXPECT_NE(
+      deeper.find("the goal is not free: \"table\" and \"box\" are no farther apart than 0.0009"),
+      std::string::npos)
+      << deeper;
   // must_open is about the end that it names.
   const std::string both = refusal_of(table_scene("0.101", kGoalOnTable + pair_with("must_open")));
   EXPECT_NE(both.find("the goal is not free"), std::string::npos) << both;
+}
+
+// The place that is named for a pair that touches can be the start: it lifts the box by no more
+// than it takes.
+TEST(ContactPairs, TellTheNearestPlaceThatIsApart) {
+  const std::string touching = refusal_of(table_scene("0.1", kGoalAbove + pair_with("must_open")));
+  const std::string before = "is at ";
+  const std::size_t at = touching.find(before);
+  ASSERT_NE(at, std::string::npos) << touching;
+  std::istringstream numbers(touching.substr(at + before.size()));
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  numbers >> x >> y >> z;
+  EXPECT_NEAR(x, -0.6, 1e-5);
+  EXPECT_NEAR(y, 0.0, 1e-5);
+  EXPECT_GT(z, 0.1 + 1e-6);
+  EXPECT_LT(z, 0.1 + 4e-6);
+  proven_path(table_scene(std::to_string(z + 1e-6), kGoalAbove + pair_with("must_open")));
 }
 
 TEST(ContactPairs, AreRefusedWhereNothingCanBeProven) {
@@ -213,6 +239,32 @@ TEST(ContactPairs, AreReadStrictly) {
             std::string::npos);
   EXPECT_NE(problem(R"([{"pair": ["box"], "policy": "may_stay"}])").find("pair of names"),
             std::string::npos);
+}
+
+// Any box on the table, turned about the vertical and tilted by less than its gap allows.
+TEST(ContactPairs, AreProvenForRandomStarts) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int k = 0; k < 12; ++k) {
+    Scene scene = parse_scene(
+        table_scene("0.101", kGoalOnTable + pair_with(k % 2 == 0 ? "may_stay" : "not_deeper")),
+        "s");
+    PlanQuestion question = scene.plan.value();
+    const auto place = [&](double x, double height) {
+      const Eigen::AngleAxisd turn(3.0 * unit(random), Eigen::Vector3d::UnitZ());
+      const Eigen::AngleAxisd tilt(0.001 * unit(random), Eigen::Vector3d::UnitX());
+      return Pose{{x, 0.5 * unit(random), height}, Eigen::Quaterniond(turn * tilt)};
+    };
+    question.start_pose = place(-0.6, 0.1005);
+    question.goal_poses = {place(0.6, 0.101)};
+    question.seed = 1 + k;
+    ShapeCache cache;
+    const ScenePlan made = make_scene_plan(scene, question, cache);
+    const PlanResult result = plan_path(made.plan, made.start, made.goals, made.options);
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << k;
+    const PathVerification proof = verify_path(planned_path(made, made.options, result));
+    EXPECT_EQ(proof.verdict, ProofVerdict::proven) << k << ": " << proof.problem;
+  }
 }
 
 /// A path of the box, as a file would have it.

@@ -7,13 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/straight_ways.h>
 #include <firstcontact/query/detail/pair_query.h>
 #include <firstcontact/robot_check/detail/geometry_search.h>
 #include <firstcontact/robot_check/detail/pair_holds.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
+#include <firstcontact/text/quantity.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
@@ -21,8 +23,6 @@ namespace {
 
 constexpr double kToleranceShare = 0.125;  // [-]  Of what lies between the hold and the distance.
 constexpr double kSearchTolerances = 2.0;  // That a search is held to beyond the proof.
-constexpr std::size_t kRandomDirections = 24;
-constexpr int kDoublings = 24;
 
 std::string names_of(const PlanScene& plan, const BodyPair& members) {
   return in_quotes(plan.name(members[0])) + " and " + in_quotes(plan.name(members[1]));
@@ -58,48 +58,6 @@ StartGap gap_at(const PlanScene& plan, const Configuration& q, const BodyPair& m
 
 bool is_apart(const StartGap& gap) { return gap.apart > 16.0 * gap.error; }
 
-/// The numbers of an end and of a sample mixed, so that nothing turns but what a direction has.
-Configuration moved(const ConfigurationSpace& space, const Configuration& q,
-                    const Eigen::VectorXd& direction, double way) {
-  Configuration place = q;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(direction.size()); ++k) {
-    place[k] += way * direction[static_cast<Eigen::Index>(k)];
-  }
-  return space.is_body() && !space.is_in_box(place) ? q : place;
-}
-
-/// Unit vectors: of a body along the axes of the world and its own, of joints along each of them;
-/// then some in random directions.
-std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space, const Configuration& q,
-                                           RandomNumbers& random) {
-  const auto size = static_cast<Eigen::Index>(space.is_body() ? 3 : space.size());
-  std::vector<Eigen::VectorXd> all;
-  const auto add = [&](const Eigen::VectorXd& v) {
-    all.push_back(v);
-    all.emplace_back(-v);
-  };
-  for (Eigen::Index k = 0; k < size; ++k) {
-    add(Eigen::VectorXd::Unit(size, k));
-  }
-  if (space.is_body()) {
-    const Eigen::Matrix3d R =
-        Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix();
-    for (int k = 0; k < 3; ++k) {
-      add(R.col(k));
-    }
-  }
-  while (all.size() < kRandomDirections + static_cast<std::size_t>(4 * size)) {
-    Eigen::VectorXd v(size);
-    for (Eigen::Index k = 0; k < size; ++k) {
-      v[k] = 2.0 * random.uniform() - 1.0;
-    }
-    if (v.norm() > 0.1 && v.norm() <= std::sqrt(static_cast<double>(size))) {
-      all.emplace_back(v.normalized());
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
 ContactEnds::ContactEnds(const PlanScene& plan, const Configuration& start,
@@ -129,11 +87,16 @@ void ContactEnds::measure(const PlanScene& plan, const ContactPair& pair,
   }
   const std::string end = pair.at == PathEnd::start ? "the start" : "the goal";
   if (touching.size() == places.size()) {
-    const EdgeChecker checker(plan, {.tolerance = tolerance, .extra_clearance = kept});
+    std::vector<HeldPair> barely;
+    for (const ContactPair& one : plan.contact_pairs) {
+      barely.push_back({one.members, tolerance, kToleranceShare * tolerance});
+    }
+    const EdgeChecker checker(
+        plan, {.tolerance = tolerance, .extra_clearance = kept, .held = std::move(barely)});
     throw std::invalid_argument(
         describe_pair(checker, *touching.front(), pair.members, end + " is not free") +
-        "; a contact pair has to be apart there, by more than rounding: a distance of 0 leaves "
-        "nothing to hold");
+        "; a contact pair has to be apart, as a distance of 0 leaves nothing to hold: by " +
+        quantity(tolerance, "m") + " in the place that was found");
   }
   if (!std::isfinite(least)) {
     warnings_.push_back("contact_pairs: " + names_of(plan, pair.members) +
@@ -175,12 +138,12 @@ std::optional<Configuration> find_opening(const OpeningQuestion& question, Rando
   const ConfigurationSpace& space = question.strict.space();
   const std::vector<Eigen::VectorXd> directions = directions_at(space, question.end, random);
   double way = question.first_step;
-  for (int k = 0; k < kDoublings; ++k, way *= 2.0) {
+  for (int k = 0; k < kWayDoublings; ++k, way *= 2.0) {
     for (const Eigen::VectorXd& direction : directions) {
       if (is_over()) {
         return std::nullopt;
       }
-      Configuration place = moved(space, question.end, direction, way);
+      Configuration place = behind_way(space, question.end, direction, way);
       const bool leaves = question.at == PathEnd::start;
       if (!space.defect(place) && question.strict.is_free(place) &&
           question.held.check_quickly(leaves ? question.end : place, leaves ? place : question.end)
