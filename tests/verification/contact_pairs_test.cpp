@@ -398,15 +398,19 @@ TEST(ContactPairsProof, NamesWhatContradictsItself) {
             "The contact pair \"table\" and \"box\" is at a goal that is not reached.");
 }
 
-// A robot whose tool is 0.5 mm from a part that it begins at; the other links keep their margins.
-TEST(ContactPairs, OpenForALinkOfARobot) {
-  const test::ArmFolder folder;
+void write_gantry(const test::ArmFolder& folder) {
   folder.write("gantry.urdf", R"(<robot name="gantry"><link name="base"/><link name="slide"/>
     <link name="tool"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
     <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
       <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
     <joint name="z" type="prismatic"><parent link="slide"/><child link="tool"/><axis xyz="0 0 1"/>
       <limit lower="-2" upper="2" effort="1" velocity="1"/></joint></robot>)");
+}
+
+// A robot whose tool is 0.5 mm from a part that it begins at; the other links keep their margins.
+TEST(ContactPairs, OpenForALinkOfARobot) {
+  const test::ArmFolder folder;
+  write_gantry(folder);
   const auto scene = [](const std::string& policy) {
     return R"({"firstcontact": 1, "options": {"margin": 0.005}, "bodies": [
       {"name": "part", "shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "pose": {"position": [0, 0, -0.2]}}],
@@ -419,6 +423,32 @@ TEST(ContactPairs, OpenForALinkOfARobot) {
     const PlannedPath path = proven_path(scene(policy), folder.path() / "scene.json");
     ASSERT_EQ(path.contact_pairs.size(), 1u);
     EXPECT_EQ(path.contact_pairs.front().pair[1], "g/tool");
+  }
+}
+
+// What a robot holds stands 0.2 mm above a table; the link that holds it is not tested against it.
+TEST(ContactPairs, LiftWhatARobotHolds) {
+  const test::ArmFolder folder;
+  write_gantry(folder);
+  const auto scene = [](const std::string& pair) {
+    return R"({"firstcontact": 1, "options": {"margin": 0.002}, "bodies": [
+      {"name": "table", "shape": {"box": {"size": [4, 4, 1]}}, "pose": {"position": [0, 0, -0.7502]}},
+      {"name": "post", "shape": {"box": {"size": [0.2, 0.2, 0.6]}}, "pose": {"position": [0.5, 0, 0]}},
+      {"name": "object", "shape": {"cylinder": {"radius": 0.04, "length": 0.1}}}],
+      "robots": [{"name": "g", "urdf": "gantry.urdf",
+        "attached": [{"body": "object", "link": "tool", "pose": {"position": [0, 0, -0.2]}}]}],
+      "plan": {"goal": {"x": 1, "z": 0.3}, "time": 20,
+               "contact_pairs": [{"pair": [)" +
+           pair + R"(], "policy": "must_open"}]}})";
+  };
+  const PlannedPath path = proven_path(scene(R"("object", "table")"), folder.path() / "scene.json");
+  ASSERT_EQ(path.contact_pairs.size(), 1u);
+  EXPECT_NEAR(path.contact_pairs.front().distance, 1.875e-4, 1e-6);
+  try {
+    (void)plan(scene(R"("object", "g/tool")"), folder.path() / "scene.json");
+    ADD_FAILURE() << "expected an error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("not tested against each other"), std::string::npos);
   }
 }
 
