@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -65,10 +67,37 @@ void append(std::vector<double>& times, std::vector<Place>& places, double time,
   }
 }
 
+/// [-]  Of the distance of a contact pair: no farther beyond it is in contact.
+constexpr double kToleranceOfContactPairs = 0.01;
+
+/// Gives contact pairs the distances that they are held to, in place of their margins.
+void hold_contact_pairs(const PlannedPath& path, Scene& scene) {
+  std::map<std::string, std::size_t> members;
+  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+    members[scene.bodies[k].name] = k;
+  }
+  for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
+    const std::size_t first = first_member(scene, robot);
+    for (std::size_t link = 0; link < scene.robots[robot].model.links().size(); ++link) {
+      members[member_name(scene, first + link)] = first + link;
+    }
+  }
+  for (const NamedContactPair& one : path.contact_pairs) {
+    const std::size_t a = members.at(one.pair[0]);
+    const std::size_t b = members.at(one.pair[1]);
+    const BodyPair pair = {std::min(a, b), std::max(a, b)};
+    std::erase_if(scene.pair_margins, [&](const PairMargin& own) { return own.bodies == pair; });
+    scene.pair_margins.push_back({pair, one.distance});
+    scene.options.tolerance =
+        std::min(scene.options.tolerance, kToleranceOfContactPairs * one.distance);
+  }
+}
+
 }  // namespace
 
 Scene scene_in_motion(const PlannedPath& path) {
   Scene scene = path.scene;
+  hold_contact_pairs(path, scene);
   std::vector<double> times;
   if (!path.body.empty()) {
     WaypointMotion motion;

@@ -1,5 +1,6 @@
 #include "path_proof.h"
 
+#include <cstddef>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -55,7 +56,14 @@ std::string describe_path(const std::string& file, const PlannedPath& path,
   line("margin",
        fmt::format("{} and {} more", length_text(path.margin), length_text(path.extra_clearance)));
   if (found.verdict == ProofVerdict::proven && path.clearance) {
-    line("clearance", lower_bound_text(*path.clearance));
+    line("clearance", lower_bound_text(*path.clearance) +
+                          (path.contact_pairs.empty() ? "" : ", but for contact pairs"));
+  }
+  for (const NamedContactPair& one : path.contact_pairs) {
+    line("contact", fmt::format("{} and {} at the {} ({}): {}", one.pair[0], one.pair[1],
+                                kPathEndWords.at(static_cast<std::size_t>(one.at)),
+                                kContactPolicyWords.at(static_cast<std::size_t>(one.policy)),
+                                lower_bound_text(one.distance)));
   }
   line("tested", found.tested == 1 ? "1 pair" : fmt::format("{} pairs", found.tested));
   for (const std::string& warning : found.warnings) {

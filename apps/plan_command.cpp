@@ -211,6 +211,14 @@ class Plan {
     return text.empty() ? "nothing" : text;
   }
 
+  /// A pair that is in contact at an end, and what is proven of it.
+  [[nodiscard]] static std::string contact_text(const NamedContactPair& one) {
+    return fmt::format("{} and {} at the {} ({}): apart by {} or more (proven)", one.pair[0],
+                       one.pair[1], kPathEndWords.at(static_cast<std::size_t>(one.at)),
+                       kContactPolicyWords.at(static_cast<std::size_t>(one.policy)),
+                       lower_bound_text(one.distance));
+  }
+
   [[nodiscard]] std::string describe_failure(const ScenePlan& scene, const PlanOptions& options,
                                              const PlanResult& result) const {
     return fmt::format("{}: no path was found in {}{}; most in the way: {}", source_,
@@ -243,8 +251,14 @@ class Plan {
                                     time_text(path->times.back())));
       }
       line("clearance", path->clearance
-                            ? lower_bound_text(*path->clearance) + " or more everywhere (proven)"
-                            : "no pair is tested");
+                            ? lower_bound_text(*path->clearance) + " or more everywhere" +
+                                  (path->contact_pairs.empty() ? "" : " but for contact pairs") +
+                                  " (proven)"
+                        : path->contact_pairs.empty() ? "no pair is tested"
+                                                      : "no other pair is tested");
+      for (const NamedContactPair& one : path->contact_pairs) {
+        line("contact", contact_text(one));
+      }
       if (!path->is_proven) {
         line("to goal", fmt::format("{:.6g} left", path->distance_to_goal));
       }

@@ -121,6 +121,7 @@ set(supporting_headers
   firstcontact/scene/gap_bound.h
   firstcontact/scene/pair_counts.h
   firstcontact/scene/haptic_question.h
+  firstcontact/scene/contact_pair.h
   firstcontact/scene/plan_question.h
   firstcontact/scene/planned_path.h
   firstcontact/scene/scene_robot.h

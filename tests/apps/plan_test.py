@@ -189,6 +189,47 @@ class Plan(tool_test.ToolTest):
         self.assert_writes_nothing(self.plan(), "expected a SCENE, or --robot")
         self.assert_writes_nothing(self.plan("--robot", "gantry.urdf", "--start", "x=1", "--goal", "w=1"), '"w"')
 
+    def test_takes_a_box_off_a_table(self):
+        table = {"name": "table", "shape": {"box": {"size": [4, 4, 1]}}, "pose": {"position": [0, 0, -0.5]}}
+        box = {"name": "box", "shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "pose": {"position": [0, 0, 0.101]}}
+        question = {"body": "box", "margin": 0.01, "goal": {"position": [1, 0, 0.5]}}
+        self.file("scene.json", scene(question, (table, box)))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "the start is not free", '"table"',
+                                   '"box"', "0.01 m", "nearest free place")
+        question["contact_pairs"] = [{"pair": ["box", "table"], "policy": "must_open"}]
+        self.file("scene.json", scene(question, (table, box)))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("table and box at the start (must_open): apart by", result.stdout)
+        path = json.loads((self.folder / "path.json").read_text())
+        claim = path["contact_pairs"][0]
+        self.assertEqual((claim["pair"], claim["policy"], claim["at"]), (["table", "box"], "must_open", "start"))
+        self.assertAlmostEqual(claim["distance"], 0.001 * 15 / 16, places=6)
+        verified = self.run_tool("verify", "path.json")
+        self.assertEqual(verified.returncode, 0, verified)
+        self.assertIn("must_open", verified.stdout)
+        # A claim that holds less, and one that is left out: its edge has no other pair.
+        self.file("edited.json", {**path, "contact_pairs": [{**claim, "distance": 0.5 * claim["distance"]}]})
+        verified = self.run_tool("verify", "edited.json")
+        self.assertEqual(verified.returncode, 1, verified)
+        self.assertIn("less than its policy allows", verified.stdout)
+        path.pop("contact_pairs")
+        self.file("edited.json", path)
+        self.assert_refused_with(self.run_tool("verify", "edited.json"), "Edge 0 has no clearance")
+        claim["distance"] = 0
+        self.file("edited.json", {**path, "contact_pairs": [claim]})
+        self.assert_refused_with(self.run_tool("verify", "edited.json"), "edited.json", "> 0")
+
+    def test_refuses_to_retime_what_is_in_contact(self):
+        self.file("gantry.urdf", URDF)
+        part = {"name": "part", "shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "pose": {"position": [0, 0, -0.2005]}}
+        self.file("scene.json", scene({"goal": {"x": 1}, "margin": 0.001, "contact_pairs": [
+            {"pair": ["g/tool", "part"], "policy": "may_stay"}]}, [part], robots=[{"name": "g", "urdf": "gantry.urdf"}]))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        retimed = self.run_tool("retime", "path.json", "-o", "trajectory.json")
+        self.assert_refused_with(retimed, "path.json", '"part"', '"g/tool"', "contact pair")
+
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()

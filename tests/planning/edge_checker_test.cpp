@@ -172,6 +172,64 @@ Shape slot() {
   return Shape(std::move(slot));
 }
 
+/// The tool, a cube of 0.2 m, begins 1 mm above a plate; a post stands 0.5 m along x.
+PlanScene above_a_plate() {
+  RobotScene scene(PairRules(0.01));
+  scene.add_body("plate", make_box({4.0, 4.0, 1.0}), resting_at({0.0, 0.0, -0.601}));
+  scene.add_body("post", make_box({0.2, 0.2, 1.0}), resting_at({0.5, 0.0, 0.4}));
+  return with_gantry(std::move(scene));
+}
+
+// Held is the pair alone that is named: neither does it come nearer, nor is another one hidden.
+TEST(EdgeChecker, HoldsAPairToItsOwnDistance) {
+  const PlanScene scene = above_a_plate();
+  const std::size_t tool = scene.scene.find_member("gantry/tool").value();
+  const EdgeChecker strict(scene);
+  const EdgeChecker held(scene, {.held = {{{0, tool}, 5e-4, 1e-5}}});
+  const Configuration start = {0.0, 0.0, 0.0};
+  EXPECT_EQ(strict.check(start, start).verdict, EdgeVerdict::blocked);
+  const Configuration away = {-1.0, 1.0, 0.0};
+  for (const EdgeAnswer& answer : {held.check(start, away), held.check_quickly(start, away),
+                                   held.check_closely(start, away)}) {
+    EXPECT_EQ(answer.verdict, EdgeVerdict::free);
+    EXPECT_GE(answer.clearance.value(), 0.01);  // Of the post.
+  }
+  EXPECT_NEAR(held.check_closely(start, away).clearance.value(), 0.3, 1e-3);
+  EXPECT_EQ(held.check(start, {-1.0, 1.0, -0.00048}).verdict, EdgeVerdict::free);
+  const EdgeAnswer dives = held.check(start, {-1.0, 1.0, -0.001});
+  EXPECT_EQ(dives.verdict, EdgeVerdict::blocked);
+  EXPECT_EQ(dives.pair, (BodyPair{0, tool}));
+  EXPECT_NEAR(dives.fraction, 0.5, 0.03);
+  EXPECT_EQ(held.check_quickly(start, {-1.0, 1.0, -0.001}).verdict, EdgeVerdict::blocked);
+  EXPECT_EQ(held.check_closely(start, {-1.0, 1.0, -0.001}).verdict, EdgeVerdict::blocked);
+  const EdgeAnswer hits = held.check(start, {1.0, 0.0, 0.0});
+  EXPECT_EQ(hits.verdict, EdgeVerdict::blocked);
+  EXPECT_EQ(hits.pair, (BodyPair{1, tool}));
+  EXPECT_NEAR(hits.fraction, 0.29, 1e-3);
+}
+
+TEST(EdgeChecker, RefusesHeldPairsOfWhichNothingWouldBeProven) {
+  const PlanScene scene = above_a_plate();
+  const std::size_t tool = scene.scene.find_member("gantry/tool").value();
+  const auto problem = [](const PlanScene& plan, const HeldPair& pair) {
+    try {
+      const EdgeChecker checker(plan, {.held = {pair}});
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(problem(scene, {{0, 1}, 5e-4, 1e-5}).find("not tested"), std::string::npos);
+  EXPECT_NE(problem(scene, {{0, tool}, 0.0, 1e-5}).find("distances"), std::string::npos);
+  EXPECT_NE(problem(scene, {{0, tool}, 5e-4, 0.0}).find("tolerances"), std::string::npos);
+  PlanScene ignored = scene;
+  ignored.scene.rules().ignore({0, tool});
+  EXPECT_NE(problem(ignored, {{0, tool}, 5e-4, 1e-5}).find("not tested"), std::string::npos);
+  PlanScene inexact = scene;
+  inexact.scene.set_tracking_error(inexact.robot, "z", {.distance = 1e-4});
+  EXPECT_NE(problem(inexact, {{0, tool}, 5e-4, 1e-5}).find("tracking errors"), std::string::npos);
+}
+
 TEST(EdgeChecker, IsUndecidedBeyondTheEffort) {
   RobotScene scene;
   scene.add_body("slot", slot());

@@ -17,6 +17,7 @@
 #include <firstcontact/robot/limit_report.h>
 #include <firstcontact/robot/robot_description.h>
 #include <firstcontact/robot_files/read_urdf.h>
+#include <firstcontact/scene/contact_pair.h>
 #include <firstcontact/scene/pair_counts.h>
 #include <firstcontact/verification/verify_run.h>
 
@@ -33,6 +34,7 @@ struct WordTable {
 };
 
 const std::string kSceneSchema = "src/firstcontact/scene_files/schema/scene.json";
+const std::string kPathSchema = "src/firstcontact/scene_files/schema/path.json";
 const std::string kResultSchema = "src/firstcontact/scene_files/schema/result.json";
 const std::string kRunSchema = "src/firstcontact/record/schema/run.json";
 
@@ -53,6 +55,8 @@ std::vector<WordTable> word_tables() {
       {"Turning", kTurningWords, {kSceneSchema, kResultSchema}},
       {"RunVerdict", kRunVerdictWords},
       {"RobotSurface", kRobotSurfaceWords, {kSceneSchema}, {}, false},
+      {"ContactPolicy", kContactPolicyWords, {kSceneSchema, kPathSchema}, {}, false},
+      {"PathEnd", kPathEndWords, {kSceneSchema, kPathSchema}, {}, false},
       {"WhyUntested", kWhyUntestedWords, {kResultSchema}, {"viewer/src/data/reports.ts"}, false},
   };
 }

@@ -211,8 +211,8 @@ void bind_planning(py::module_& m) {
                         R"(Edges and places of a planner, proven to be free.
 
 scene: with "plan", whose mover and start and goals it takes. extra_clearance: [m] what edges keep
-beyond the margins. effort: steps of the search for each two geometries; more is undecided. From
-many threads at a time.)")
+beyond the margins. effort: steps of the search for each two geometries; more is undecided. Pairs
+that "plan" has in "contact_pairs" keep their margins here. From many threads at a time.)")
       .def(py::init([](const HeldScene& scene, double extra_clearance, std::uint64_t effort) {
              ScenePlan asked = plan_of(scene);
              const double tolerance = asked.options.tolerance;

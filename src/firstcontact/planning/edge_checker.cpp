@@ -17,6 +17,7 @@
 #include <firstcontact/planning/detail/edge_question.h>
 #include <firstcontact/planning/detail/edge_search.h>
 #include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -34,6 +35,12 @@ void require_options(const EdgeCheckOptions& options) {
   require_option(options.extra_clearance >= 0.0 && std::isfinite(options.extra_clearance),
                  "extra_clearance must be finite and >= 0");
   require_option(options.effort >= 1, "effort must be at least 1");
+  for (const HeldPair& pair : options.held) {
+    require_option(pair.distance > 0.0 && std::isfinite(pair.distance),
+                   "held: distances must be finite and > 0");
+    require_option(pair.tolerance > 0.0 && std::isfinite(pair.tolerance),
+                   "held: tolerances must be finite and > 0");
+  }
 }
 
 bool is_zero(const DoubleDouble& number) { return number.hi == 0.0 && number.lo == 0.0; }
@@ -99,6 +106,42 @@ void require_at_rest(const PlanScene& plan) {
   }
 }
 
+/// Refuses held pairs of which nothing would be proven.
+///
+/// @param held_scene  as scene_of_held()
+void require_held(const PlanScene& plan, const std::vector<HeldPair>& held,
+                  const RobotScene& held_scene) {
+  const detail::RobotTimeline timeline(held_scene);
+  const std::vector<bool> moved = detail::moved_members(plan);
+  for (const HeldPair& pair : held) {
+    const std::string names = detail::in_quotes(plan.name(pair.members[0])) + " and " +
+                              detail::in_quotes(plan.name(pair.members[1]));
+    const auto found =
+        std::ranges::find(timeline.pairs(), pair.members, &detail::TestedPair::members);
+    if (found == timeline.pairs().end() || !timeline.is_tested(*found, 0)) {
+      throw std::invalid_argument("contact pairs: " + names + " are not tested");
+    }
+    if (!moved[pair.members[0]] && !moved[pair.members[1]]) {
+      throw std::invalid_argument("contact pairs: no edge moves " + names);
+    }
+  }
+  if (!held.empty() && timeline.has_tracking_errors()) {
+    throw std::invalid_argument(
+        "contact pairs: a robot has tracking errors; within them a pair in contact may touch");
+  }
+}
+
+/// What comes first; of the same time a contact rather than what is not known.
+const detail::EdgeFound& earlier(const detail::EdgeFound& one, const detail::EdgeFound& other) {
+  if (one.verdict == Verdict::free || other.verdict == Verdict::free) {
+    return one.verdict == Verdict::free ? other : one;
+  }
+  if (one.t != other.t) {
+    return one.t < other.t ? one : other;
+  }
+  return is_contact(one.verdict) ? one : other;
+}
+
 /// [m]  How far what robots hold reaches from the links that hold it.
 double carried_reach(const RobotScene& scene) {
   double reach = 0.0;
@@ -122,31 +165,62 @@ std::optional<double> finite_clearance(double clearance) {
 struct EdgeChecker::Data {
   /// What one thread works with.
   struct ThreadWork {
-    ThreadWork(const RobotScene& scene, const RobotCheckOptions& options)
-        : search(scene, options) {}
+    explicit ThreadWork(const Data& data)
+        : search(data.padded, detail::question_of_edges(data.options)) {
+      if (data.held) {
+        search_of_held = std::make_unique<detail::EdgeSearch>(
+            *data.held, detail::question_of_held(data.options));
+      }
+    }
 
     detail::EdgeSearch search;
-    std::optional<RobotChecker> closest;  // Made where it is needed.
+    std::unique_ptr<detail::EdgeSearch> search_of_held;  // Null where no pair is held.
+    std::optional<RobotChecker> closest;                 // Made where it is needed.
   };
 
   Data(PlanScene given, const EdgeCheckOptions& asked)
       : plan(std::move(given)),
         options(asked),
         carried(carried_reach(plan.scene)),
-        padded(detail::scene_of_edges(plan, options.extra_clearance)),
-        works([this] { return std::make_unique<ThreadWork>(padded, question()); }) {}
+        rounding(options.extra_clearance),
+        padded(detail::scene_of_edges(plan, options.extra_clearance, options.held)),
+        works([this] { return std::make_unique<ThreadWork>(*this); }) {
+    if (options.held.empty()) {
+      return;
+    }
+    held = detail::scene_of_held(plan, options.extra_clearance, options.held);
+    require_held(plan, options.held, *held);
+    for (const HeldPair& pair : options.held) {
+      rounding = std::min(rounding, pair.tolerance);
+    }
+  }
 
-  [[nodiscard]] RobotCheckOptions question() const { return detail::question_of_edges(options); }
+  /// What `ask` finds along an edge, of held pairs as well.
+  template <class Ask>
+  [[nodiscard]] EdgeAnswer ask_along(const Configuration& from, const Configuration& to,
+                                     const Ask& ask) {
+    ThreadWork& work = *works.local();
+    work.search.set_motion(plan.robot, plan.space.motion(from, to));
+    const detail::EdgeFound found = ask(work.search);
+    return answer(from, to, with_held(work, from, to, found, ask), work.search.least_margin());
+  }
 
-  detail::EdgeSearch& search_along(const Configuration& from, const Configuration& to) {
-    detail::EdgeSearch& search = works.local()->search;
-    search.set_motion(plan.robot, plan.space.motion(from, to));
-    return search;
+  /// A finding, or what `ask` finds of held pairs where that comes earlier.
+  template <class Ask>
+  [[nodiscard]] detail::EdgeFound with_held(ThreadWork& work, const Configuration& from,
+                                            const Configuration& to, const detail::EdgeFound& found,
+                                            const Ask& ask) {
+    if (!work.search_of_held) {
+      return found;
+    }
+    work.search_of_held->set_motion(plan.robot, plan.space.motion(from, to));
+    return earlier(found, ask(*work.search_of_held));
   }
 
   /// The answer that a search has found.
   ///
-  /// Before t all is free, with the extra; a piece to a rounded place departs by far less.
+  /// Before t all is free, with the extra; a piece to a rounded place departs by far less. Held
+  /// pairs have their tolerance in place of the extra, where that is less.
   [[nodiscard]] EdgeAnswer answer(const Configuration& from, const Configuration& to,
                                   const detail::EdgeFound& found, double least_margin) const {
     EdgeAnswer answer;
@@ -159,7 +233,7 @@ struct EdgeChecker::Data {
       return answer;
     }
     answer.verdict = is_contact(found.verdict) ? EdgeVerdict::blocked : EdgeVerdict::undecided;
-    const bool inherits = plan.space.rounding_bound(from, to, carried) <= options.extra_clearance;
+    const bool inherits = plan.space.rounding_bound(from, to, carried) <= rounding;
     answer.fraction = inherits ? found.t : 0.0;
     if (found.t == 0.0) {
       answer.clearance = 0.0;
@@ -169,8 +243,10 @@ struct EdgeChecker::Data {
 
   PlanScene plan;
   EdgeCheckOptions options;
-  double carried;     // [m]
-  RobotScene padded;  // With the extra clearance; each thread has a copy.
+  double carried;                  // [m]
+  double rounding;                 // [m]  That pieces of edges may depart by.
+  RobotScene padded;               // With the extra clearance; each thread has a copy.
+  std::optional<RobotScene> held;  // Likewise, where pairs are held.
   tbb::enumerable_thread_specific<std::unique_ptr<ThreadWork>> works;
 };
 
@@ -193,24 +269,25 @@ const EdgeCheckOptions& EdgeChecker::options() const { return data_->options; }
 
 EdgeAnswer EdgeChecker::check(const Configuration& from, const Configuration& to) const {
   const FloatEnvironmentGuard guard;
-  detail::EdgeSearch& search = data_->search_along(from, to);
-  return data_->answer(from, to, search.first_contact(), search.least_margin());
+  return data_->ask_along(from, to,
+                          [](detail::EdgeSearch& search) { return search.first_contact(); });
 }
 
 EdgeAnswer EdgeChecker::check_quickly(const Configuration& from, const Configuration& to) const {
   const FloatEnvironmentGuard guard;
-  detail::EdgeSearch& search = data_->search_along(from, to);
-  return data_->answer(from, to, search.any_contact(), search.least_margin());
+  return data_->ask_along(from, to,
+                          [](detail::EdgeSearch& search) { return search.any_contact(); });
 }
 
 EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configuration& to) const {
   const FloatEnvironmentGuard guard;
-  std::optional<RobotChecker>& closest = data_->works.local()->closest;
+  Data::ThreadWork& work = *data_->works.local();
+  std::optional<RobotChecker>& closest = work.closest;
   if (!closest) {
     closest.emplace(data_->padded);
   }
   closest->set_motion(data_->plan.robot, space().motion(from, to));
-  RobotCheckOptions question = data_->question();
+  RobotCheckOptions question = detail::question_of_edges(data_->options);
   question.closest = true;
   const SceneResult found = closest->check(question);
   detail::EdgeFound first{found.verdict, found.t, {}, found.reason};
@@ -219,6 +296,8 @@ EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configura
   } else if (found.closest) {
     first.pair = found.pairs[*found.closest].members;
   }
+  first = data_->with_held(work, from, to, first,
+                           [](detail::EdgeSearch& search) { return search.first_contact(); });
   return data_->answer(from, to, first, found.clearance);
 }
 

@@ -18,6 +18,7 @@
 #include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/query/outcome.h>
 #include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/contact_pair.h>
 
 namespace firstcontact {
 
@@ -34,10 +35,19 @@ struct PlanScene {
   ConfigurationSpace space;             ///< Its model is that of the robot.
   std::vector<std::string> names = {};  ///< Of members, in messages; else those of the scene.
   std::optional<PlanTimes> times = {};  ///< Where the surroundings move; see plan_path().
+  /// For plan_path(), each pair once. An EdgeChecker holds those of its options alone.
+  std::vector<ContactPair> contact_pairs = {};
 
   [[nodiscard]] const std::string& name(std::size_t member) const {
     return names.empty() ? scene.name(member) : names[member];
   }
+};
+
+/// A pair that is held to a distance of its own in place of its margin and paddings.
+struct HeldPair {
+  BodyPair members = {};
+  double distance = 0.0;   ///< [m]  Free edges keep it strictly; > 0.
+  double tolerance = 0.0;  ///< [m]  Nothing that is farther by twice of this is blocked; > 0.
 };
 
 struct EdgeCheckOptions {
@@ -49,10 +59,12 @@ struct EdgeCheckOptions {
   std::uint64_t effort = 100'000;
   std::optional<std::chrono::steady_clock::time_point> deadline = {};
   std::stop_token stop = {};
+  std::vector<HeldPair> held = {};  ///< Each pair once.
 };
 
 enum class EdgeVerdict {
-  free,       ///< Proven: every tested pair is farther apart than its margin and the extra.
+  free,       ///< Proven: every tested pair is farther apart than its margin and the extra; a
+              ///< held one than its distance.
   blocked,    ///< A pair is no farther apart than its margin, the extra and the tolerance.
   undecided,  ///< The effort was spent, or the check was ended.
 };
@@ -63,8 +75,8 @@ struct EdgeAnswer {
   /// [-]  Proven: the edge from its start to the rounded interpolation at this share keeps the
   /// margins. 1 when free; 0 also where nothing of it is known to be free.
   double fraction = 0.0;
-  /// [m]  Proven lower bound of the distance of every tested pair until there; 0 where the start
-  /// is not free. None where no pair is tested.
+  /// [m]  Proven lower bound of the distance of every tested pair that is not held, until there; 0
+  /// where the start is not free. None where there is no such pair.
   std::optional<double> clearance = 0.0;
   std::optional<BodyPair> pair = {};  ///< Members that block it, or are undecided.
   UndecidedReason reason = UndecidedReason::none;
@@ -73,8 +85,8 @@ struct EdgeAnswer {
 /// The answer about a place.
 struct StateAnswer {
   EdgeVerdict verdict = EdgeVerdict::undecided;
-  /// [m]  Proven lower bound of the distance of every tested pair; 0 unless the place is free. None
-  /// where no pair is tested. Never infinite.
+  /// [m]  Proven lower bound of the distance of every tested pair that is not held; 0 unless the
+  /// place is free. None where there is no such pair. Never infinite.
   std::optional<double> clearance = 0.0;
   std::optional<BodyPair> pair = {};  ///< Of members: what blocks, else what is nearest.
 };
@@ -88,7 +100,8 @@ struct StateAnswer {
 class FIRSTCONTACT_API EdgeChecker {
  public:
   /// @throws std::invalid_argument if an option is out of its range; if a body or another robot
-  ///         moves, or is held for a part of the time only; names it
+  ///         moves, or is held for a part of the time only; if a held pair is not tested, or has
+  ///         tracking errors; names it
   explicit EdgeChecker(PlanScene scene, const EdgeCheckOptions& options = {});
   ~EdgeChecker();
   EdgeChecker(EdgeChecker&&) noexcept;

@@ -11,6 +11,7 @@
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/parallel/parallel_for.h>
 #include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/lazy_prm.h>
 #include <firstcontact/planning/detail/plan_in_time.h>
 #include <firstcontact/planning/detail/plan_work.h>
@@ -21,6 +22,7 @@
 namespace firstcontact {
 namespace {
 
+using detail::EdgePlace;
 using detail::FoundPath;
 using detail::PlanWork;
 
@@ -80,20 +82,30 @@ std::uint64_t effort_of_search(const PlanOptions& options) {
              : std::max<std::uint64_t>(options.effort / kLessEffort, 1);
 }
 
+/// [m]  What a search keeps beyond the margins.
+double kept_by_search(const PlanOptions& options) {
+  return options.extra_clearance + 2.0 * options.tolerance;
+}
+
 /// One question, from the start to the proof.
 class PlanSearch {
  public:
-  PlanSearch(const PlanScene& scene, const PlanOptions& options)
+  PlanSearch(const PlanScene& scene, const PlanOptions& options, detail::ContactEnds contacts)
       : scene_(scene),
         options_(options),
         begin_(PlanWork::Clock::now()),
         end_(begin_ + std::chrono::duration_cast<PlanWork::Clock::duration>(
                           std::chrono::duration<double>(std::min(options.time, 1e9)))),
-        checker_(scene, {.tolerance = options.tolerance,
-                         .extra_clearance = options.extra_clearance + 2.0 * options.tolerance,
-                         .effort = effort_of_search(options),
-                         .stop = options.stop}),
-        work_(checker_, options_, begin_, end_) {}
+        contacts_(std::move(contacts)),
+        checker_(scene, options_of_search(EdgePlace::inner)),
+        work_(checker_, options_, begin_, end_) {
+    for (const PathEnd at : {PathEnd::start, PathEnd::goal}) {
+      if (contacts_.opens(at)) {
+        at_end(at).emplace(scene, options_of_search(at == PathEnd::start ? EdgePlace::at_start
+                                                                         : EdgePlace::at_goal));
+      }
+    }
+  }
 
   PlanResult run(const Configuration& start, const std::vector<Configuration>& goals) {
     try {
@@ -105,16 +117,19 @@ class PlanSearch {
       return none;
     }
     RandomNumbers random(options_.seed);
-    FoundPath found = search(start, random);
+    const std::optional<Configuration> from = open_ends(start, random);
+    FoundPath found = from ? search(*from, random) : FoundPath{{start}, false};
     PlanResult result;
-    result.warnings = warnings_;
+    result.warnings = contacts_.warnings();
+    result.warnings.insert(result.warnings.end(), warnings_.begin(), warnings_.end());
     if (found.reaches_goal) {
       work_.counts().first_path_seconds = work_.seconds();
       work_.counts().first_cost = detail::cost_of(scene_.space, found.places);
       work_.report(work_.counts().nodes, work_.counts().first_cost);
       detail::shorten_path(work_, found.places, options_.shortcuts, random);
     }
-    if (found.reaches_goal || options_.approximate) {
+    if (from && (found.reaches_goal || options_.approximate)) {
+      add_ends(start, found);
       prove(std::move(found), goals, result);
     }
     result.statistics = work_.statistics();
@@ -136,9 +151,10 @@ class PlanSearch {
   /// Leaves out goals that are not free, as long as one is.
   void require_free(const Configuration& start, const std::vector<Configuration>& goals) {
     const auto refuse_if_blocked = [&](const Configuration& q, const std::string& what) {
-      if (!work_.is_free(q)) {
+      const PathEnd at = &q == &start ? PathEnd::start : PathEnd::goal;
+      if (!is_free(q, at)) {
         require_going_on();
-        throw std::invalid_argument(detail::describe_blocked(checker_, q, what));
+        throw std::invalid_argument(detail::describe_blocked(checker_at(at), q, what));
       }
     };
     refuse_if_blocked(start, "the start");
@@ -146,12 +162,12 @@ class PlanSearch {
       if (goals.size() == 1) {
         refuse_if_blocked(goals[k], "the goal");
         goals_.push_back(goals[k]);
-      } else if (work_.is_free(goals[k])) {
+      } else if (is_free(goals[k], PathEnd::goal)) {
         goals_.push_back(goals[k]);
       } else {
         require_going_on();
-        warnings_.push_back(
-            detail::describe_blocked(checker_, goals[k], "goal " + std::to_string(k)));
+        warnings_.push_back(detail::describe_blocked(checker_at(PathEnd::goal), goals[k],
+                                                     "goal " + std::to_string(k)));
       }
     }
     if (goals_.empty()) {
@@ -159,15 +175,95 @@ class PlanSearch {
     }
   }
 
+  [[nodiscard]] EdgeCheckOptions options_of_search(EdgePlace place) const {
+    return {.tolerance = options_.tolerance,
+            .extra_clearance = kept_by_search(options_),
+            .effort = effort_of_search(options_),
+            .stop = options_.stop,
+            .held = contacts_.held_in_search(place)};
+  }
+
+  std::optional<EdgeChecker>& at_end(PathEnd at) {
+    return at == PathEnd::start ? at_start_ : at_goal_;
+  }
+
+  const EdgeChecker& checker_at(PathEnd at) { return at_end(at) ? *at_end(at) : checker_; }
+
+  bool is_free(const Configuration& q, PathEnd at) {
+    if (!at_end(at)) {
+      return work_.is_free(q);
+    }
+    ++work_.counts().states_checked;
+    return at_end(at)->is_free(q);
+  }
+
+  /// Finds the edges on which pairs open: where the search begins, and its targets. None where
+  /// there is no such edge.
+  std::optional<Configuration> open_ends(const Configuration& start, RandomNumbers& random) {
+    const auto opening = [&](const Configuration& end, PathEnd at) {
+      return at_end(at) ? detail::find_opening({*at_end(at), checker_, end, at, first_step()},
+                                               random, [this] { return work_.is_over(); })
+                        : std::optional(end);
+    };
+    std::optional<Configuration> from = opening(start, PathEnd::start);
+    for (const Configuration& goal : goals_) {
+      if (std::optional<Configuration> target = opening(goal, PathEnd::goal)) {
+        targets_.push_back(std::move(*target));
+        goal_of_target_.push_back(goal);
+      }
+    }
+    if (!from || targets_.empty()) {
+      warnings_.push_back(std::string("contact_pairs: no straight edge was found on which the "
+                                      "pairs open at ") +
+                          (from ? "the goal" : "the start"));
+      from.reset();
+    }
+    return from;
+  }
+
+  /// [m]  No way that is shorter leads out of contact.
+  [[nodiscard]] double first_step() const { return options_.extra_clearance + options_.tolerance; }
+
+  /// Adds the edges on which pairs open. Another edge remains, if only one of no length: along it
+  /// the pairs keep their margins.
+  void add_ends(const Configuration& start, FoundPath& found) {
+    if (found.places.size() == 1 && (at_start_ || at_goal_)) {
+      found.places.push_back(found.places.front());
+    }
+    if (at_end(PathEnd::goal) && found.reaches_goal) {
+      const auto target = std::find(targets_.begin(), targets_.end(), found.places.back());
+      found.places.push_back(goal_of_target_[static_cast<std::size_t>(target - targets_.begin())]);
+    }
+    if (at_end(PathEnd::start)) {
+      found.places.insert(found.places.begin(), start);
+    }
+  }
+
   FoundPath search(const Configuration& start, RandomNumbers& random) {
-    if (std::find(goals_.begin(), goals_.end(), start) != goals_.end()) {
+    if (std::find(targets_.begin(), targets_.end(), start) != targets_.end()) {
       return {{start}, true};
     }
     if (options_.planner == Planner::lazy_prm_star) {
-      return detail::lazy_prm_star(work_, start, goals_, random);
+      return detail::lazy_prm_star(work_, start, targets_, random);
     }
     const double range = options_.range > 0.0 ? options_.range : default_range(scene_.space);
-    return detail::rrt_connect(work_, start, goals_, range, random);
+    return detail::rrt_connect(work_, start, targets_, range, random);
+  }
+
+  /// The place of an edge in a path that has the edges on which pairs open.
+  [[nodiscard]] EdgePlace place_of(std::size_t edge, const FoundPath& found) const {
+    if (at_start_ && edge == 0) {
+      return EdgePlace::at_start;
+    }
+    return at_goal_ && found.reaches_goal && edge + 2 == found.places.size() ? EdgePlace::at_goal
+                                                                             : EdgePlace::inner;
+  }
+
+  [[nodiscard]] EdgeCheckOptions options_of_proof(EdgePlace place) const {
+    return {.tolerance = options_.tolerance,
+            .extra_clearance = options_.extra_clearance,
+            .effort = options_.effort,
+            .held = contacts_.held(place)};
   }
 
   /// Proves an edge, with a clearance that is near the least distance where the effort is enough
@@ -185,9 +281,9 @@ class PlanSearch {
     double extra = options_.extra_clearance + options_.tolerance;
     for (int k = 0; k < kWiderMargins && best.verdict == EdgeVerdict::free; ++k) {
       extra *= 2.0;
-      const EdgeChecker wider(
-          scene_,
-          {.tolerance = options_.tolerance, .extra_clearance = extra, .effort = options_.effort});
+      EdgeCheckOptions asked = fresh.options();
+      asked.extra_clearance = extra;
+      const EdgeChecker wider(scene_, asked);
       const EdgeAnswer more = wider.check(from, to);
       if (more.verdict != EdgeVerdict::free) {
         break;
@@ -199,14 +295,26 @@ class PlanSearch {
 
   /// Proves the edges anew, by a checker that has not seen them.
   void prove(FoundPath found, const std::vector<Configuration>& goals, PlanResult& result) const {
-    const EdgeChecker fresh(scene_, {.tolerance = options_.tolerance,
-                                     .extra_clearance = options_.extra_clearance,
-                                     .effort = options_.effort});
+    const EdgeChecker fresh(scene_, options_of_proof(EdgePlace::inner));
+    std::optional<EdgeChecker> at_start;
+    std::optional<EdgeChecker> at_goal;
+    if (at_start_) {
+      at_start.emplace(scene_, options_of_proof(EdgePlace::at_start));
+    }
+    if (at_goal_) {
+      at_goal.emplace(scene_, options_of_proof(EdgePlace::at_goal));
+    }
+    const auto checker_of = [&](EdgePlace place) -> const EdgeChecker& {
+      return place == EdgePlace::inner      ? fresh
+             : place == EdgePlace::at_start ? *at_start
+                                            : *at_goal;
+    };
     const std::vector<Configuration>& path = found.places;
     const std::size_t edges = std::max<std::size_t>(path.size() - 1, 1);
     std::vector<EdgeAnswer> answers(edges);
     parallel_for(options_.threads, edges, [&](std::size_t k) {
-      answers[k] = proof_of(fresh, path[k], path[std::min(k + 1, path.size() - 1)]);
+      answers[k] =
+          proof_of(checker_of(place_of(k, found)), path[k], path[std::min(k + 1, path.size() - 1)]);
     });
     for (const EdgeAnswer& answer : answers) {
       if (answer.verdict != EdgeVerdict::free) {
@@ -215,6 +323,7 @@ class PlanSearch {
       }
       result.clearances.push_back(answer.clearance);
     }
+    result.contact_pairs = contacts_.pairs();
     result.cost = detail::cost_of(scene_.space, path);
     result.distance_to_goal = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < goals.size(); ++k) {
@@ -233,9 +342,14 @@ class PlanSearch {
   const PlanOptions& options_;
   PlanWork::Clock::time_point begin_;
   PlanWork::Clock::time_point end_;
+  detail::ContactEnds contacts_;
   EdgeChecker checker_;
+  std::optional<EdgeChecker> at_start_;  // Where pairs must open at that end.
+  std::optional<EdgeChecker> at_goal_;
   PlanWork work_;
-  std::vector<Configuration> goals_;  // That are free.
+  std::vector<Configuration> goals_;    // That are free.
+  std::vector<Configuration> targets_;  // Of the search: goals, or where pairs have opened.
+  std::vector<Configuration> goal_of_target_;
   std::vector<std::string> warnings_;
 };
 
@@ -252,6 +366,9 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
     widened.space.include(goal);
   }
   if (widened.times) {
+    require_plan(widened.contact_pairs.empty(),
+                 "contact_pairs: something else moves; pairs may begin in contact only among "
+                 "surroundings at rest");
     require_plan(options.planner == Planner::rrt_connect && options.contacts == ContactUse::none &&
                      !options.approximate,
                  "something else moves: there only the planner rrt_connect plans, with contacts "
@@ -259,7 +376,13 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
     const double range = options.range > 0.0 ? options.range : default_range(widened.space);
     return detail::plan_in_time(widened, start, goals, range, options);
   }
-  return PlanSearch(widened, options).run(start, goals);
+  detail::ContactEnds contacts(widened, start, goals, kept_by_search(options), options.tolerance);
+  const bool measures_goal = std::ranges::any_of(
+      contacts.pairs(), [](const PlannedContact& one) { return one.pair.at == PathEnd::goal; });
+  require_plan(!options.approximate || !measures_goal,
+               "an approximate path may end before the goal; contact_pairs at the goal need a path "
+               "that reaches it");
+  return PlanSearch(widened, options, std::move(contacts)).run(start, goals);
 }
 
 }  // namespace firstcontact

@@ -75,6 +75,13 @@ struct PlanStatistics {
   ContactStatistics contacts = {};
 };
 
+/// A pair that is in contact at an end of a path, and the distance that it is held to.
+struct PlannedContact {
+  ContactPair pair = {};
+  double distance = 0.0;   ///< [m]  Proven: farther apart where its policy replaces its margin.
+  double tolerance = 0.0;  ///< [m]  Of checks of it.
+};
+
 enum class PlanVerdict {
   none,         ///< No path was found in the time.
   approximate,  ///< The edges are proven, but the path does not end at a goal.
@@ -94,12 +101,14 @@ struct PlanResult {
   std::vector<double> times = {};
   /// [m]  Of each edge, or of the only place.
   ///
-  /// It is a proven lower bound of the distance of every tested pair; none where no pair is tested.
+  /// It is a proven lower bound of the distance of every tested pair that is not held along the
+  /// edge; none where there is no such pair.
   std::vector<std::optional<double>> clearances = {};
-  std::optional<std::size_t> goal = {};    ///< At which the path ends.
-  double distance_to_goal = 0.0;           ///< By the length of the space.
-  double cost = 0.0;                       ///< So, too: the length of the path.
-  std::vector<std::string> warnings = {};  ///< Such as goals that are not free.
+  std::vector<PlannedContact> contact_pairs = {};  ///< That are in contact at their end.
+  std::optional<std::size_t> goal = {};            ///< At which the path ends.
+  double distance_to_goal = 0.0;                   ///< By the length of the space.
+  double cost = 0.0;                               ///< So, too: the length of the path.
+  std::vector<std::string> warnings = {};          ///< Such as goals that are not free.
   PlanStatistics statistics = {};
 };
 
@@ -112,6 +121,10 @@ struct PlanResult {
 /// The search keeps twice the tolerance more than the margin, so that another check of the answer
 /// with the same tolerance finds it free, too, wherever it looks.
 ///
+/// Pairs of the scene's `contact_pairs` that are in contact at their end are held as their policy
+/// says (ContactPolicy). A pair that must open does so on a straight edge that is looked for first:
+/// without one the verdict is `none`, with a warning.
+///
 /// Where the surroundings move (`times` of the scene), the answer is a motion from the time 0 to
 /// the duration: the mover gets to a goal within its speeds, and rests there until the end. It is
 /// proven as a whole once more. There is no approximate answer; the planner is ST-RRT's, whatever
@@ -119,7 +132,7 @@ struct PlanResult {
 ///
 /// @throws std::invalid_argument  names what is wrong: an option, a limit, a place that is none; or
 ///         the start, or all goals, are not free, with the pair, how deep it is, and the nearest
-///         free place that was found
+///         free place that was found; or a contact pair is not tested, or touches at its end
 [[nodiscard]] FIRSTCONTACT_API PlanResult plan_path(const PlanScene& scene,
                                                     const Configuration& start,
                                                     const std::vector<Configuration>& goals,

@@ -212,7 +212,10 @@ ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
   for (const JointPositions& goal : question.goals) {
     goals.push_back(detail::goal_of(model, space, goal, start));
   }
-  PlanScene plan{.scene = *loaded.robots, .robot = robot, .space = std::move(space)};
+  PlanScene plan{.scene = *loaded.robots,
+                 .robot = robot,
+                 .space = std::move(space),
+                 .contact_pairs = question.contact_pairs};
   take_times(loaded.scene, question, plan);
   detail::add_link_goals(plan, question, start, loaded, goals);
   return {std::move(loaded), std::move(plan), std::move(start), std::move(goals), {}};
@@ -323,6 +326,7 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
   loaded.warnings.insert(loaded.warnings.end(), frozen.begin(), frozen.end());
   ScenePlan made = question.robot ? plan_of_robot(std::move(loaded), question)
                                   : plan_of_body(std::move(loaded), question);
+  made.plan.contact_pairs = question.contact_pairs;
   const PlanOptions defaults;
   made.options.planner = question.planner.value_or(defaults.planner);
   made.options.contacts = question.contacts.value_or(defaults.contacts);
@@ -379,6 +383,13 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   path.margin = resting.options.margin;
   path.tolerance = options.tolerance;
   path.extra_clearance = options.extra_clearance;
+  for (const PlannedContact& one : result.contact_pairs) {
+    path.contact_pairs.push_back(
+        {{member_name(resting, one.pair.members[0]), member_name(resting, one.pair.members[1])},
+         one.pair.policy,
+         one.pair.at,
+         one.distance});
+  }
   path.goals = scene.goals;
   path.goal = result.goal;
   path.distance_to_goal = result.distance_to_goal;

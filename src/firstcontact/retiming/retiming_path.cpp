@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -42,6 +43,13 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
     throw ParseError(name,
                      "expected a path without times: this one is among bodies that move, and "
                      "is proven for its own times alone");
+  }
+  if (!path.contact_pairs.empty()) {
+    const NamedContactPair& first = path.contact_pairs.front();
+    throw ParseError(name, "expected a path whose pairs all keep their margins: " +
+                               detail::in_quotes(first.pair[0]) + " and " +
+                               detail::in_quotes(first.pair[1]) +
+                               " are a contact pair, which a retimed trajectory does not hold");
   }
   RetimingPath result;
   result.is_approximate = !path.is_proven;

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/contact_pair.h>
 #include <firstcontact/scene/trajectory.h>
 
 namespace firstcontact {
@@ -74,7 +75,8 @@ struct PlanQuestion {
   std::vector<Pose> goal_poses = {};    ///< Of a body.
   /// [m]  Corners of the box in which the body's origin stays; else around all that there is.
   std::optional<std::array<Eigen::Vector3d, 2>> box = {};
-  std::optional<double> margin = {};  ///< [m]  In place of the scene's; >= 0.
+  std::optional<double> margin = {};            ///< [m]  In place of the scene's; >= 0.
+  std::vector<ContactPair> contact_pairs = {};  ///< Each pair of members once.
   std::optional<Planner> planner = {};
   std::optional<ContactUse> contacts = {};
   std::optional<std::uint64_t> seed = {};

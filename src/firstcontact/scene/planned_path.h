@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <firstcontact/robot/coordinate_path.h>
+#include <firstcontact/scene/contact_pair.h>
 #include <firstcontact/scene/plan_question.h>
 #include <firstcontact/scene/scene.h>
 
@@ -20,6 +21,15 @@ namespace firstcontact {
 struct NamedBlockingPair {
   std::array<std::string, 2> pair;
   std::size_t count = 0;
+};
+
+/// A pair of members by name that is in contact at an end of a path.
+struct NamedContactPair {
+  std::array<std::string, 2> pair = {};
+  ContactPolicy policy = ContactPolicy::may_stay;
+  PathEnd at = PathEnd::start;
+  /// [m]  The pair is farther apart than this where the policy takes the place of its margin.
+  double distance = 0.0;
 };
 
 /// How a path was found; see docs/path_format.md.
@@ -53,6 +63,7 @@ struct PlannedPath {
   double tolerance = 1e-6;               ///< [m]
   double extra_clearance = 0.0;          ///< [m]
   std::optional<double> clearance = {};  ///< [m]  The least, or that of the only waypoint.
+  std::vector<NamedContactPair> contact_pairs = {};
   std::vector<std::vector<double>> goals = {};
   std::optional<std::size_t> goal = {};
   double distance_to_goal = 0.0;

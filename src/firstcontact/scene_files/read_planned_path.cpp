@@ -1,6 +1,7 @@
 #include <firstcontact/scene_files/read_planned_path.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -47,6 +48,7 @@ class PathReader {
                                "tolerance",
                                "extra_clearance",
                                "clearance",
+                               "contact_pairs",
                                "goals",
                                "goal",
                                "distance_to_goal",
@@ -69,6 +71,7 @@ class PathReader {
     path.tolerance = read_.positive(read_.member(root, "tolerance"));
     path.extra_clearance = read_.not_negative(read_.member(root, "extra_clearance"));
     path.clearance = not_negative_or_null(read_.member(root, "clearance"));
+    take_contact_pairs(root, path);
     take_goal(read_.member(root, "goal"), path);
     path.distance_to_goal = read_.not_negative(read_.member(root, "distance_to_goal"));
     path.cost = read_.not_negative(read_.member(root, "cost"));
@@ -200,6 +203,31 @@ class PathReader {
     }
   }
 
+  void take_contact_pairs(const JsonValue& root, PlannedPath& path) const {
+    const JsonValue* pairs = find(std::get<JsonObject>(root.value), "contact_pairs");
+    if (pairs == nullptr) {
+      return;
+    }
+    for (const JsonValue& one : read_.array(*pairs, "an array of pairs in contact")) {
+      (void)read_.object(one, {{"pair", "policy", "at", "distance"}});
+      NamedContactPair contact;
+      contact.pair = pair_of_names(read_.member(one, "pair"));
+      contact.policy =
+          read_.enumerator<ContactPolicy>(read_.member(one, "policy"), kContactPolicyWords);
+      contact.at = read_.enumerator<PathEnd>(read_.member(one, "at"), kPathEndWords);
+      contact.distance = read_.positive(read_.member(one, "distance"));
+      path.contact_pairs.push_back(std::move(contact));
+    }
+  }
+
+  std::array<std::string, 2> pair_of_names(const JsonValue& value) const {
+    const JsonArray& names = read_.array(value, "a pair of names");
+    if (names.size() != 2) {
+      read_.fail_expected("a pair of names", value);
+    }
+    return {read_.string(names[0], "a name"), read_.string(names[1], "a name")};
+  }
+
   void take_goal(const JsonValue& value, PlannedPath& path) const {
     if (!std::holds_alternative<JsonNull>(value.value)) {
       path.goal = read_.index(value, path.goals.size(), "the number of a goal");
@@ -236,14 +264,8 @@ class PathReader {
     statistics.first_cost = not_negative_or_null(read_.member(value, "first_cost"));
     for (const JsonValue& one : read_.array(read_.member(value, "blocked"), "an array")) {
       (void)read_.object(one, {{"pair", "count"}});
-      const JsonValue& pair = read_.member(one, "pair");
-      const JsonArray& names = read_.array(pair, "a pair of names");
-      if (names.size() != 2) {
-        read_.fail_expected("a pair of names", pair);
-      }
       statistics.blocked.push_back(
-          {{read_.string(names[0], "a name"), read_.string(names[1], "a name")},
-           count(read_.member(one, "count"))});
+          {pair_of_names(read_.member(one, "pair")), count(read_.member(one, "count"))});
     }
   }
 

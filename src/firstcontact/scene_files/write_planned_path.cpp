@@ -1,6 +1,7 @@
 #include <firstcontact/scene_files/write_planned_path.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -82,13 +83,28 @@ JsonValue edges_of(const PlannedPath& path) {
   return {.value = std::move(edges)};
 }
 
+JsonValue pair_of(const std::array<std::string, 2>& names) {
+  return {.value = JsonArray{text_of(names[0]), text_of(names[1])}};
+}
+
+JsonValue contact_pairs_of(const PlannedPath& path) {
+  JsonArray pairs;
+  for (const NamedContactPair& one : path.contact_pairs) {
+    pairs.push_back(
+        {.value = JsonObject{
+             {"pair", pair_of(one.pair)},
+             {"policy", text_of(kContactPolicyWords.at(static_cast<std::size_t>(one.policy)))},
+             {"at", text_of(kPathEndWords.at(static_cast<std::size_t>(one.at)))},
+             {"distance", number_of(one.distance)}}});
+  }
+  return {.value = std::move(pairs)};
+}
+
 JsonValue statistics_of(const PlannedPathStatistics& statistics) {
   JsonArray blocked;
   for (const NamedBlockingPair& blocking : statistics.blocked) {
-    blocked.push_back(
-        {.value = JsonObject{
-             {"pair", {.value = JsonArray{text_of(blocking.pair[0]), text_of(blocking.pair[1])}}},
-             {"count", count_of(blocking.count)}}});
+    blocked.push_back({.value = JsonObject{{"pair", pair_of(blocking.pair)},
+                                           {"count", count_of(blocking.count)}}});
   }
   return {.value = JsonObject{{"seconds", number_of(statistics.seconds)},
                               {"first_path_seconds", number_or_null(statistics.first_path_seconds)},
@@ -132,10 +148,15 @@ std::string write_planned_path(const PlannedPath& path) {
                     {"scene_digest", text_of(path.scene.text_digest)},
                     {"resolved_digest", text_of(resolved_digest)},
                     {"input_digest", text_of(path.input_digest)}};
+  const auto before = [&](const char* key) {
+    return std::find_if(object.begin(), object.end(),
+                        [&](const auto& member) { return member.key == key; });
+  };
   if (!path.times.empty()) {
-    const auto behind_waypoints = std::find_if(
-        object.begin(), object.end(), [](const auto& member) { return member.key == "edges"; });
-    object.insert(behind_waypoints, {"times", numbers_of(path.times)});
+    object.insert(before("edges"), {"times", numbers_of(path.times)});
+  }
+  if (!path.contact_pairs.empty()) {
+    object.insert(before("goals"), {"contact_pairs", contact_pairs_of(path)});
   }
   return detail::write_json({.value = std::move(object)});
 }

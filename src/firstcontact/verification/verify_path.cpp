@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <cstddef>
 #include <map>
 #include <optional>
-#include <stdexcept>
-#include <utility>
-#include <variant>
+#include <string>
+#include <vector>
 
-#include <Eigen/Geometry>
-
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/scene/contact_pair.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/planned_path.h>
-#include <firstcontact/scene/shape_cache.h>
-#include <firstcontact/scene/trajectory.h>
-#include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/text/write_json.h>
 #include <firstcontact/verification/detail/describe_finding.h>
+#include <firstcontact/verification/detail/moving_scene.h>
 #include <firstcontact/verification/detail/rigid_motion.h>
 #include <firstcontact/verification/detail/scene_courses.h>
 #include <firstcontact/verification/detail/scene_proof.h>
@@ -26,263 +23,13 @@
 namespace firstcontact {
 namespace {
 
+using detail::BrokenPath;
 using detail::FreeClaim;
+using detail::MovingScene;
 using detail::ProofFinding;
 
-/// A path that contradicts itself or its scene. One sentence.
-class BrokenPath : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// How far the length of a quaternion may be from 1, as in scenes.
-constexpr double kUnit = 1e-6;
-
-/// [rad or m]  How far joints may be beyond their limits, as in limit_report().
-constexpr double kLimitTolerance = 1e-9;
-
-/// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
-void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
-  if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
-    throw BrokenPath("The coordinate " + detail::in_quotes(name) + " cannot turn the short way.");
-  }
-}
-
-/// Straight edges keep the limits that their ends keep, and so do joints that mimic.
-void require_limits(const RobotModel& model, std::size_t joint, double position) {
-  const Joint& moved = model.joints()[joint];
-  const bool has_limits = moved.type == JointType::revolute || moved.type == JointType::prismatic ||
-                          moved.type == JointType::screw;
-  const double slack = kLimitTolerance * (1.0 + std::abs(position));
-  if (has_limits && (position < moved.limits.lower.value_or(position) - slack ||
-                     position > moved.limits.upper.value_or(position) + slack)) {
-    throw BrokenPath("A waypoint has joint " + detail::in_quotes(moved.name) + " at " +
-                     detail::write_json(position) + ", outside of its limits.");
-  }
-  for (std::size_t other = 0; other < model.joints().size(); ++other) {
-    const std::optional<Mimic>& mimic = model.joints()[other].mimic;
-    if (mimic && mimic->joint == moved.name) {
-      require_limits(model, other, mimic->multiplier * position + mimic->offset);
-    }
-  }
-}
-
-/// [rad or m]  Where the scene has a joint of a robot at rest.
-double position_in_scene(const SceneRobot& robot, const std::string& name) {
-  const JointCoordinate which = find_coordinate(robot.model, name);
-  const auto found = robot.state.find(coordinate_name(robot.model, which));
-  return found != robot.state.end() ? found->second
-                                    : default_position(robot.model.joints()[which.joint]);
-}
-
-/// The scene in which the mover runs through all waypoints: at their times, else one edge a second.
-class MovingScene {
- public:
-  explicit MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
-    require_unheld_motion(loaded_.scene);
-    if (path.times.empty()) {
-      require_at_rest(loaded_.scene);
-      const std::size_t edges = path.waypoints.size() - 1;
-      loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
-    } else {
-      require_times();
-    }
-    if (path.body.empty()) {
-      move_robot();
-    } else {
-      move_body();
-    }
-  }
-
-  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
-  [[nodiscard]] const std::map<std::size_t, detail::Turnings>& turnings() const {
-    return turnings_;
-  }
-
-  /// The body that moves; none where a robot does.
-  [[nodiscard]] std::optional<std::size_t> body() const { return body_; }
-
-  /// Whether a member moves along edges.
-  [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
-
-  /// [s]  Of a waypoint.
-  [[nodiscard]] double time(std::size_t waypoint) const {
-    return path_.times.empty() ? static_cast<double>(waypoint) : path_.times.at(waypoint);
-  }
-
- private:
-  static LoadedScene load(const PlannedPath& path) {
-    ShapeCache cache;
-    return load_scene_of(path, cache);
-  }
-
-  /// The file is about edges of the mover alone. A state of joints is a trajectory of one point.
-  static void require_at_rest(const Scene& scene) {
-    const auto rests = [](const BodyMotion& motion) {
-      return std::holds_alternative<FixedMotion>(motion);
-    };
-    for (const Body& body : scene.bodies) {
-      if (!rests(body.motion)) {
-        throw BrokenPath("The body " + detail::in_quotes(body.name) + " moves by itself.");
-      }
-    }
-    for (const SceneRobot& robot : scene.robots) {
-      if (!rests(robot.base) || robot.trajectory.points.size() > 1) {
-        throw BrokenPath("The robot " + detail::in_quotes(robot.name) + " moves by itself.");
-      }
-    }
-  }
-
-  static void require_unheld_motion(const Scene& scene) {
-    for (const SceneRobot& robot : scene.robots) {
-      for (const SceneAttachment& held : robot.attached) {
-        if (held.from_time != 0.0 || held.to_time) {
-          throw BrokenPath("The robot " + detail::in_quotes(robot.name) +
-                           " holds a body for a part of the time.");
-        }
-      }
-    }
-  }
-
-  void require_times() const {
-    const std::vector<double>& times = path_.times;
-    const bool increase =
-        std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-    // What is proven divides by the duration: quotients that are one leave an edge of no length.
-    const double duration = loaded_.scene.duration;
-    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
-      if (!(times[k] / duration < times[k + 1] / duration)) {
-        throw BrokenPath("The times of the path are so close that doubles do not tell them apart.");
-      }
-    }
-    if (times.size() != path_.waypoints.size() || times.size() < 2 || !increase ||
-        times.front() != 0.0 || times.back() != loaded_.scene.duration) {
-      throw BrokenPath("The times of the path do not run from 0 to the duration of its scene.");
-    }
-  }
-
-  /// The mover has no motion of its own.
-  static void require_own_rest(bool rests, const std::string& name) {
-    if (!rests) {
-      throw BrokenPath("The mover " + detail::in_quotes(name) + " moves by itself.");
-    }
-  }
-
-  void move_robot() {
-    Scene& scene = loaded_.scene;
-    const auto is_it = [&](const SceneRobot& robot) { return robot.name == path_.robot; };
-    const auto found = std::find_if(scene.robots.begin(), scene.robots.end(), is_it);
-    if (found == scene.robots.end()) {
-      throw BrokenPath("The scene has no robot " + detail::in_quotes(path_.robot) + ".");
-    }
-    SceneRobot& robot = *found;
-    require_own_rest(
-        std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.joint_names.empty(),
-        robot.name);
-    const auto number = static_cast<std::size_t>(found - scene.robots.begin());
-    robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
-    for (std::size_t k = 0; k < path_.joints.size(); ++k) {
-      const JointCoordinate which = find_coordinate(robot.model, path_.joints[k]);
-      if (robot.model.joints()[which.joint].mimic) {
-        throw BrokenPath("The joint " + detail::in_quotes(path_.joints[k]) + " mimics another.");
-      }
-      require_turning(robot.model, path_.joints[k], path_.turnings.at(k));
-      if (path_.waypoints.front().at(k) != position_in_scene(robot, path_.joints[k])) {
-        throw BrokenPath("The path does not begin where its scene has joint " +
-                         detail::in_quotes(path_.joints[k]) + ".");
-      }
-      for (const std::vector<double>& waypoint : path_.waypoints) {
-        require_limits(robot.model, which.joint, waypoint.at(k));
-      }
-      turnings_[number][path_.joints[k]] = path_.turnings.at(k);
-    }
-    for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
-      robot.trajectory.points.push_back({.time = time(k), .positions = path_.waypoints[k]});
-    }
-    find_moving(robot, number);
-  }
-
-  void find_moving(const SceneRobot& robot, std::size_t number) {
-    const Scene& scene = loaded_.scene;
-    const std::size_t first = first_member(scene, number);
-    moves_.assign(
-        first_member(scene, scene.robots.size() - 1) + scene.robots.back().model.links().size(),
-        false);
-    for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
-      moves_[first + link] = !path_.times.empty();  // Others come near whatever rests.
-      for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
-           joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
-        moves_[first + link] = is_planned(robot.model, *joint);
-      }
-    }
-    for (const SceneAttachment& held : robot.attached) {
-      moves_[held.body] = moves_[first + held.link];
-    }
-  }
-
-  [[nodiscard]] bool is_planned(const RobotModel& model, std::size_t joint) const {
-    while (model.joints()[joint].mimic) {
-      joint = model.find_joint(model.joints()[joint].mimic->joint).value();
-    }
-    return std::any_of(path_.joints.begin(), path_.joints.end(), [&](const std::string& name) {
-      return find_coordinate(model, name).joint == joint;
-    });
-  }
-
-  void move_body() {
-    Scene& scene = loaded_.scene;
-    const auto is_it = [&](const Body& body) { return body.name == path_.body; };
-    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_it);
-    if (body == scene.bodies.end()) {
-      throw BrokenPath("The scene has no body " + detail::in_quotes(path_.body) + ".");
-    }
-    const auto number = static_cast<std::size_t>(body - scene.bodies.begin());
-    for (const SceneRobot& robot : scene.robots) {
-      for (const SceneAttachment& held : robot.attached) {
-        if (held.body == number) {
-          throw BrokenPath("A robot holds the body " + detail::in_quotes(path_.body) + ".");
-        }
-      }
-    }
-    require_own_rest(std::holds_alternative<FixedMotion>(body->motion), body->name);
-    require_begin(std::get<FixedMotion>(body->motion).pose);
-    WaypointMotion motion;
-    for (const std::vector<double>& q : path_.waypoints) {
-      if (!(std::abs(std::hypot(std::hypot(q.at(3), q.at(4)), std::hypot(q.at(5), q.at(6))) -
-                     1.0) <= kUnit)) {
-        throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
-      }
-      motion.times.push_back(time(motion.times.size()));
-      motion.poses.push_back(
-          {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
-    }
-    body->motion = motion;
-    std::size_t members = scene.bodies.size();
-    for (const SceneRobot& robot : scene.robots) {
-      members += robot.model.links().size();
-    }
-    moves_.assign(members, false);
-    moves_[number] = true;
-    body_ = number;
-  }
-
-  void require_begin(const Pose& pose) const {
-    const std::vector<double>& q = path_.waypoints.front();
-    const Eigen::Quaterniond& r = pose.rotation;
-    if (Eigen::Vector3d(q.at(0), q.at(1), q.at(2)) != pose.position ||
-        Eigen::Vector4d(q.at(3), q.at(4), q.at(5), q.at(6)) !=
-            Eigen::Vector4d(r.w(), r.x(), r.y(), r.z())) {
-      throw BrokenPath("The path does not begin where its scene has body " +
-                       detail::in_quotes(path_.body) + ".");
-    }
-  }
-
-  const PlannedPath& path_;
-  LoadedScene loaded_;
-  std::map<std::size_t, detail::Turnings> turnings_;
-  std::vector<bool> moves_;  // Of each member.
-  std::optional<std::size_t> body_ = {};
-};
+/// [-]  How far a distance that was held may be from the share of its policy.
+constexpr double kHeldError = 0x1p-8;
 
 class PathProof {
  public:
@@ -299,8 +46,10 @@ class PathProof {
       result_.warnings.emplace_back("no pair is tested: the scene has nothing that can be touched");
     }
     require_goal();
+    find_contact_pairs();
     require_totals();
     result_.verdict = ProofVerdict::proven;
+    prove_contact_pairs();
     const std::size_t edges = std::max<std::size_t>(path_.waypoints.size() - 1, 1);
     for (std::size_t edge = 0; edge < edges; ++edge) {
       prove(edge);
@@ -314,16 +63,104 @@ class PathProof {
   }
 
  private:
+  /// A pair of the path that is in contact at an end.
+  struct Contact {
+    BodyPair members = {};
+    const NamedContactPair* claim = nullptr;
+  };
+
+  [[nodiscard]] bool is_tested(const BodyPair& pair) const {
+    const auto [a, b] = pair;
+    return (moving_.moves(a) || moving_.moves(b)) && courses_.pairs().margin(pair) &&
+           !courses_.pairs().spans(pair).empty() && !courses_.of_member(a).empty() &&
+           !courses_.of_member(b).empty();
+  }
+
   void count_pairs() {
     for (std::size_t a = 0; a < courses_.member_count(); ++a) {
       for (std::size_t b = a + 1; b < courses_.member_count(); ++b) {
-        const bool is_tested = (moving_.moves(a) || moving_.moves(b)) &&
-                               courses_.pairs().margin({a, b}) &&
-                               !courses_.pairs().spans({a, b}).empty() &&
-                               !courses_.of_member(a).empty() && !courses_.of_member(b).empty();
-        result_.tested += is_tested ? 1 : 0;
+        result_.tested += is_tested({a, b}) ? 1 : 0;
       }
     }
+  }
+
+  [[nodiscard]] std::size_t member_named(const std::string& name) const {
+    for (std::size_t member = 0; member < courses_.member_count(); ++member) {
+      if (member_name(moving_.loaded().scene, member) == name) {
+        return member;
+      }
+    }
+    throw BrokenPath("The scene has no body or link " + detail::in_quotes(name) + ".");
+  }
+
+  void find_contact_pairs() {
+    std::size_t opening_ends = 0;
+    for (const PathEnd at : {PathEnd::start, PathEnd::goal}) {
+      opening_ends += std::ranges::any_of(path_.contact_pairs, [&](const NamedContactPair& one) {
+        return one.policy == ContactPolicy::must_open && one.at == at;
+      });
+    }
+    if (opening_ends > 0 && path_.waypoints.size() < opening_ends + 2) {
+      throw BrokenPath("The path has too few edges for its pairs to open.");
+    }
+    for (const NamedContactPair& one : path_.contact_pairs) {
+      const std::size_t a = member_named(one.pair[0]);
+      const std::size_t b = member_named(one.pair[1]);
+      const BodyPair members = {std::min(a, b), std::max(a, b)};
+      const std::string names =
+          detail::in_quotes(one.pair[0]) + " and " + detail::in_quotes(one.pair[1]);
+      if (a == b || !is_tested(members)) {
+        throw BrokenPath("The contact pair " + names + " is not tested.");
+      }
+      if (std::ranges::any_of(contacts_,
+                              [&](const Contact& other) { return other.members == members; })) {
+        throw BrokenPath("The contact pair " + names + " is named twice.");
+      }
+      if (!(one.distance > 0.0 && std::isfinite(one.distance))) {
+        throw BrokenPath("The distance of the contact pair " + names + " is not above 0.");
+      }
+      if (!path_.times.empty() || courses_.has_tracking_errors()) {
+        throw BrokenPath("The contact pair " + names +
+                         " is among surroundings that move, or with tracking errors.");
+      }
+      if (one.at == PathEnd::goal && !result_.reaches_goal) {
+        throw BrokenPath("The contact pair " + names + " is at a goal that is not reached.");
+      }
+      contacts_.push_back({members, &one});
+    }
+  }
+
+  /// The policies allow no less than a share of the distance at that end of the path.
+  void prove_contact_pairs() {
+    for (const Contact& contact : contacts_) {
+      const bool at_start = contact.claim->at == PathEnd::start;
+      const std::size_t edges = path_.clearances.size();
+      const FreeClaim claim{
+          .until = {}, .from = share(0), .last = share(std::max<std::size_t>(edges, 1))};
+      const double most =
+          contact.claim->distance / kept_share(contact.claim->policy) * (1.0 + kHeldError);
+      take(proof_.prove_within(contact.members, at_start ? claim.from : claim.last, most),
+           at_start || edges == 0 ? 0 : edges - 1, claim,
+           "A contact pair is held to less than its policy allows. ");
+    }
+  }
+
+  /// The pairs that are held along an edge.
+  [[nodiscard]] std::map<BodyPair, double> held_along(std::size_t edge) const {
+    std::map<BodyPair, double> held;
+    for (const Contact& contact : contacts_) {
+      const std::size_t opens_on =
+          contact.claim->at == PathEnd::start ? 0 : path_.clearances.size() - 1;
+      if (contact.claim->policy != ContactPolicy::must_open || edge == opens_on) {
+        held.emplace(contact.members, contact.claim->distance);
+      }
+    }
+    return held;
+  }
+
+  /// [-]  Of a waypoint, as the pieces of the motion begin and end, bit for bit.
+  [[nodiscard]] double share(std::size_t waypoint) const {
+    return moving_.time(waypoint) / moving_.loaded().scene.duration;
   }
 
   void require_goal() {
@@ -362,17 +199,14 @@ class PathProof {
                           return moving_.moves(pair[0]) || moving_.moves(pair[1]) ? 1.0 : -1.0;
                         },
                     .extra = path_.extra_clearance};
-    // As the pieces of the motion begin and end, bit for bit.
-    const auto share = [&](std::size_t k) {
-      return moving_.time(k) / moving_.loaded().scene.duration;
-    };
+    claim.held = held_along(edge);
     claim.from = share(edge);
     claim.last = share(edge + 1);
     take(proof_.prove_free(claim), edge, claim, "");
     const std::optional<double>& clearance =
         path_.clearances.empty() ? path_.clearance : path_.clearances[edge];
     if (!clearance) {
-      if (result_.tested > 0) {
+      if (result_.tested > claim.held.size()) {
         throw BrokenPath("Edge " + std::to_string(edge) + " has no clearance.");
       }
       return;
@@ -410,6 +244,7 @@ class PathProof {
   MovingScene moving_;
   detail::SceneCourses courses_;
   detail::SceneProof proof_;
+  std::vector<Contact> contacts_;
   PathVerification result_;
 };
 

@@ -10,6 +10,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/random_numbers.h>
+#include <firstcontact/planning/detail/straight_ways.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/text/quantity.h>
@@ -66,6 +67,50 @@ RobotScene placed_scene(const EdgeChecker& checker, const Configuration& q) {
   return scene;
 }
 
+/// [m]  What a pair is held to in place of its margin.
+std::optional<double> held_distance(const EdgeChecker& checker, const BodyPair& pair) {
+  const std::vector<HeldPair>& held = checker.options().held;
+  const auto found = std::ranges::find(held, pair, &HeldPair::members);
+  return found == held.end() ? std::nullopt : std::optional(found->distance);
+}
+
+/// Halves the way to a free place as long as its middle is free, or the other half of it.
+Configuration nearer_place(const EdgeChecker& checker, Configuration blocked, Configuration best) {
+  for (int k = 0; k < kHalvingsToFree; ++k) {
+    Configuration middle = checker.space().interpolate(blocked, best, 0.5);
+    (checker.is_free(middle) ? best : blocked) = std::move(middle);
+  }
+  return best;
+}
+
+/// A free place on a straight way; of all directions the one with the shortest, but for a factor
+/// of 2.
+std::optional<Configuration> free_place_straight_from(const EdgeChecker& checker,
+                                                      const Configuration& q,
+                                                      RandomNumbers& random) {
+  const ConfigurationSpace& space = checker.space();
+  const std::vector<Eigen::VectorXd> directions = directions_at(space, q, random);
+  double way = checker.options().tolerance;
+  for (int k = 0; k < kWayDoublings; ++k, way *= 2.0) {
+    std::optional<Configuration> best;
+    for (const Eigen::VectorXd& direction : directions) {
+      const Configuration place = behind_way(space, q, direction, way);
+      if (space.defect(place) || !checker.is_free(place)) {
+        continue;
+      }
+      Configuration nearer =
+          nearer_place(checker, behind_way(space, q, direction, 0.5 * way), place);
+      if (!best || space.distance(q, nearer) < space.distance(q, *best)) {
+        best = std::move(nearer);
+      }
+    }
+    if (best) {
+      return best;
+    }
+  }
+  return std::nullopt;
+}
+
 std::string numbers_of(const ConfigurationSpace& space, const Configuration& q) {
   std::string text;
   for (std::size_t k = 0; k < q.size(); ++k) {
@@ -100,6 +145,9 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members)
 std::optional<Configuration> free_place_near(const EdgeChecker& checker, const Configuration& q) {
   const ConfigurationSpace& space = checker.space();
   RandomNumbers random(1);
+  if (std::optional<Configuration> place = free_place_straight_from(checker, q, random)) {
+    return place;
+  }
   double share = kFirstRing;
   for (std::size_t ring = 0; ring < kRings; ++ring, share = std::min(1.0, 2.0 * share)) {
     std::optional<Configuration> best;
@@ -114,31 +162,23 @@ std::optional<Configuration> free_place_near(const EdgeChecker& checker, const C
       }
     }
     if (best) {
-      Configuration blocked = q;
-      for (int k = 0; k < kHalvingsToFree; ++k) {
-        Configuration middle = space.interpolate(blocked, *best, 0.5);
-        (checker.is_free(middle) ? *best : blocked) = std::move(middle);
-      }
-      return best;
+      return nearer_place(checker, q, *best);
     }
   }
   return std::nullopt;
 }
 
-std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
-                             const std::string& what) {
-  const EdgeAnswer answer = checker.check(q, q);
-  std::string text = what + " is not free";
-  if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
-    return text + ": it was not decided with the effort that is allowed";
-  }
+std::string describe_pair(const EdgeChecker& checker, const Configuration& q, const BodyPair& pair,
+                          const std::string& what) {
   const PlanScene& scene = checker.scene();
-  const BodyPair& pair = *answer.pair;
   const RobotScene placed = placed_scene(checker, q);
-  text += ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
+  std::string text =
+      what + ": " + in_quotes(scene.name(pair[0])) + " and " + in_quotes(scene.name(pair[1]));
   const std::optional<double> depth = depth_of(placed, pair);
   if (depth && *depth > 0.0) {
     text += " touch, up to " + quantity(*depth, "m") + " deep";
+  } else if (const std::optional<double> held = held_distance(checker, pair)) {
+    text += " are no farther apart than " + quantity(*held, "m") + ", which contact_pairs keeps";
   } else {
     text += " are within their margin of " + quantity(placed.margin(pair).value_or(0.0), "m");
   }
@@ -148,6 +188,16 @@ std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
     text += "; no free place was found near it";
   }
   return text;
+}
+
+std::string describe_blocked(const EdgeChecker& checker, const Configuration& q,
+                             const std::string& what) {
+  const EdgeAnswer answer = checker.check(q, q);
+  const std::string text = what + " is not free";
+  if (answer.verdict == EdgeVerdict::undecided || !answer.pair) {
+    return text + ": it was not decided with the effort that is allowed";
+  }
+  return describe_pair(checker, q, *answer.pair, text);
 }
 
 }  // namespace firstcontact::detail

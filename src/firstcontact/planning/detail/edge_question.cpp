@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -60,6 +62,44 @@ RobotScene scene_of_edges(const PlanScene& plan, double extra) {
   return scene;
 }
 
+RobotScene scene_of_edges(const PlanScene& plan, double extra, std::span<const HeldPair> held) {
+  RobotScene scene = scene_of_edges(plan, extra);
+  for (const HeldPair& pair : held) {
+    scene.rules().ignore(pair.members);
+  }
+  return scene;
+}
+
+RobotScene scene_of_held(const PlanScene& plan, double extra, std::span<const HeldPair> held) {
+  RobotScene scene = plan.scene;
+  std::set<std::size_t> members;
+  std::set<BodyPair> pairs;
+  for (const HeldPair& pair : held) {
+    members.insert(pair.members.begin(), pair.members.end());
+    pairs.insert(pair.members);
+    scene.rules().set_margin(pair.members, pair.distance + std::min(extra, pair.tolerance));
+  }
+  std::vector<std::size_t> others;
+  for (std::size_t member = 0; member < scene.size(); ++member) {
+    scene.set_padding(member, 0.0);
+    if (!members.contains(member)) {
+      others.push_back(member);
+    }
+  }
+  const std::size_t rest = scene.rules().add_group(std::move(others));
+  const std::size_t named = scene.rules().add_group({members.begin(), members.end()});
+  scene.rules().ignore_groups(rest, rest);
+  scene.rules().ignore_groups(rest, named);
+  for (auto a = members.begin(); a != members.end(); ++a) {
+    for (auto b = std::next(a); b != members.end(); ++b) {
+      if (!pairs.contains({*a, *b})) {
+        scene.rules().ignore({*a, *b});
+      }
+    }
+  }
+  return scene;
+}
+
 RobotCheckOptions question_of_edges(const EdgeCheckOptions& options) {
   RobotCheckOptions asked;
   asked.tolerance = options.tolerance;
@@ -68,6 +108,14 @@ RobotCheckOptions question_of_edges(const EdgeCheckOptions& options) {
   asked.budget.deadline = options.deadline;
   asked.budget.stop = options.stop;
   asked.threads = 1;
+  return asked;
+}
+
+RobotCheckOptions question_of_held(const EdgeCheckOptions& options) {
+  RobotCheckOptions asked = question_of_edges(options);
+  for (const HeldPair& pair : options.held) {
+    asked.tolerance = std::min(asked.tolerance, pair.tolerance);
+  }
   return asked;
 }
 

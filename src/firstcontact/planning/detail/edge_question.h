@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <firstcontact/planning/edge_checker.h>
@@ -20,7 +21,19 @@ namespace firstcontact::detail {
 /// moves are not tested.
 [[nodiscard]] RobotScene scene_of_edges(const PlanScene& plan, double extra);
 
+/// The same without pairs that are held.
+[[nodiscard]] RobotScene scene_of_edges(const PlanScene& plan, double extra,
+                                        std::span<const HeldPair> held);
+
+/// The scene in which held pairs alone are tested, with their distances for margins, and no more
+/// than `extra` and their tolerances beyond.
+[[nodiscard]] RobotScene scene_of_held(const PlanScene& plan, double extra,
+                                       std::span<const HeldPair> held);
+
 /// The question of a check with the options of edges.
 [[nodiscard]] RobotCheckOptions question_of_edges(const EdgeCheckOptions& options);
+
+/// The same for held pairs.
+[[nodiscard]] RobotCheckOptions question_of_held(const EdgeCheckOptions& options);
 
 }  // namespace firstcontact::detail

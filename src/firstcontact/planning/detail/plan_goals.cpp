@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <firstcontact/planning/detail/blocked_place.h>
+#include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/edge_question.h>
 #include <firstcontact/planning/inverse_kinematics.h>
 #include <firstcontact/text/write_json.h>
@@ -97,9 +98,11 @@ std::optional<std::string> add_places_of(const PlanScene& plan, const LinkGoal& 
     return std::nullopt;
   }
   const EdgeCheckOptions defaults;
-  const EdgeChecker checker(
-      plan, {.tolerance = tolerance,
-             .extra_clearance = defaults.extra_clearance + 2.0 * tolerance});  // As the search.
+  const double kept = defaults.extra_clearance + 2.0 * tolerance;  // As the search.
+  const ContactEnds contacts(plan, start, {}, kept, tolerance);
+  const EdgeChecker checker(plan, {.tolerance = tolerance,
+                                   .extra_clearance = kept,
+                                   .held = contacts.held_in_search(EdgePlace::inner)});
   const std::size_t before = goals.size();
   for (const ReachedPose& place : places) {
     if (checker.is_free(place.q)) {
@@ -173,6 +176,13 @@ void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const C
                      std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                          std::chrono::duration<double>(seconds));
   std::vector<std::string> problems;
+  const bool measures_goal = std::ranges::any_of(
+      plan.contact_pairs, [](const ContactPair& pair) { return pair.at == PathEnd::goal; });
+  if (measures_goal && !question.link_goals.empty()) {
+    refuse_goal(
+        "contact_pairs at the goal are measured where joints have numbers; give the goal as "
+        "positions of joints in place of the pose of a link");
+  }
   for (const LinkGoal& goal : question.link_goals) {
     if (auto problem =
             add_places_of(plan, goal, start, options, loaded.scene.options.tolerance, goals)) {

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/scene/detail/scene_names.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
 #include <firstcontact/text/write_json.h>
@@ -23,12 +24,13 @@ class PlanReader {
   PlanReader(const Scene& scene, const JsonReader& read) : scene_(scene), read_(read) {}
 
   PlanQuestion plan(const JsonValue& value) const {
-    const JsonObject& object =
-        read_.object(value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box",
-                              "speeds", "margin", "planner", "contacts", "seed", "time"}});
+    const JsonObject& object = read_.object(
+        value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box", "speeds",
+                 "margin", "planner", "contacts", "contact_pairs", "seed", "time"}});
     PlanQuestion plan;
     take_mover(value, object, plan);
     take_options(object, plan);
+    take_contact_pairs(object, plan);
     if (plan.robot) {
       take_joints(object, scene_.robots[*plan.robot], plan);
     } else {
@@ -90,6 +92,53 @@ class PlanReader {
     if (const JsonValue* time = find(object, "time")) {
       plan.time = read_.positive(*time);
     }
+  }
+
+  void take_contact_pairs(const JsonObject& object, PlanQuestion& plan) const {
+    const JsonValue* pairs = find(object, "contact_pairs");
+    if (pairs == nullptr) {
+      return;
+    }
+    const SceneNames names = names_in(scene_);
+    for (const JsonValue& element : read_.array(*pairs, "an array of pairs in contact")) {
+      const JsonObject& entry = read_.object(element, {{"pair", "policy", "at"}});
+      const JsonValue& pair = read_.member(element, "pair");
+      const JsonArray& two = read_.array(pair, "a pair of names, such as [\"peg\", \"block\"]");
+      if (two.size() != 2) {
+        read_.fail_expected("a pair of names, such as [\"peg\", \"block\"]", pair);
+      }
+      ContactPair contact;
+      const std::size_t a = member_named(two[0], names);
+      const std::size_t b = member_named(two[1], names);
+      contact.members = {std::min(a, b), std::max(a, b)};
+      if (a == b) {
+        read_.fail(pair, "expected two bodies, got one twice");
+      }
+      const auto is_same = [&](const ContactPair& other) {
+        return other.members == contact.members;
+      };
+      if (std::any_of(plan.contact_pairs.begin(), plan.contact_pairs.end(), is_same)) {
+        read_.fail(pair, "expected each pair once, got it a second time");
+      }
+      contact.policy =
+          read_.enumerator<ContactPolicy>(read_.member(element, "policy"), kContactPolicyWords);
+      if (const JsonValue* at = find(entry, "at")) {
+        contact.at = read_.enumerator<PathEnd>(*at, kPathEndWords);
+      }
+      plan.contact_pairs.push_back(contact);
+    }
+  }
+
+  /// A body or a link: who may be in contact is named exactly.
+  std::size_t member_named(const JsonValue& value, const SceneNames& names) const {
+    const std::string what =
+        scene_.robots.empty() ? "the name of a body" : "the name of a body, or robot/link";
+    const std::string& name = read_.string(value, what);
+    const auto found = names.find(name);
+    if (found == names.end() || found->second.kind != Named::Kind::member) {
+      read_.fail(value, "expected " + what + ", got " + in_quotes(name) + hint(names, name));
+    }
+    return found->second.index;
   }
 
   void take_joints(const JsonObject& object, const SceneRobot& robot, PlanQuestion& plan) const {

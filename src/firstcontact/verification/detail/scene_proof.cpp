@@ -106,19 +106,31 @@ double SceneProof::promised(const FreeClaim& claim, double margin) const {
   return claim.clearance.value_or(margin + claim.extra);
 }
 
+/// [m]  No pair is claimed to keep a greater distance.
+double SceneProof::reach_of(const FreeClaim& claim) const {
+  double reach = promised(claim, courses_.pairs().greatest_margin());
+  for (const auto& [members, distance] : claim.held) {
+    reach = std::max(reach, distance);
+  }
+  return reach;
+}
+
 void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
                           std::vector<Job>& jobs) const {
   const auto geometries = courses_.geometries();
-  for (const BodyPair& pair : near(window, promised(claim, courses_.pairs().greatest_margin()))) {
+  for (const BodyPair& pair : near(window, reach_of(claim))) {
     const BodyPair members{geometries[pair[0]].member, geometries[pair[1]].member};
     const std::optional<double> margin = courses_.pairs().margin(members);
-    if (!margin) {
+    const auto held =
+        claim.held.find({std::min(members[0], members[1]), std::max(members[0], members[1])});
+    if (!margin || (claim.clearance && held != claim.held.end())) {
       continue;
     }
     // Curved bodies keep a clearance if the triangles around them keep that much less.
     const double around =
         claim.clearance ? enclosure(geometries[pair[0]], geometries[pair[1]]) : 0.0;
-    const double distance = promised(claim, *margin) - around;
+    const double distance =
+        held != claim.held.end() ? held->second : promised(claim, *margin) - around;
     if (claim.clearance && distance <= *margin) {
       continue;  // The margin shows it already.
     }
@@ -331,13 +343,27 @@ std::optional<bool> SceneProof::has_inside(const CourseGeometry& solid, const Co
 }
 
 ProofFinding SceneProof::prove_contact(const BodyPair& members, double t, double tolerance) const {
-  ProofFinding finding{.members = members, .when = {t, t}};
   const std::optional<double> margin = courses_.pairs().margin(members);
+  return prove_reach(members, t, [&](const CourseGeometry&, const CourseGeometry&) {
+    return margin.value_or(0.0) + tolerance;
+  });
+}
+
+ProofFinding SceneProof::prove_within(const BodyPair& members, double t, double distance) const {
+  return prove_reach(members, t, [&](const CourseGeometry& A, const CourseGeometry& B) {
+    return distance + enclosure(A, B);
+  });
+}
+
+ProofFinding SceneProof::prove_reach(
+    const BodyPair& members, double t,
+    const std::function<double(const CourseGeometry&, const CourseGeometry&)>& reach) const {
+  ProofFinding finding{.members = members, .when = {t, t}};
   bool is_tested = false;
   for (const TimeSpan& span : courses_.pairs().spans(members)) {
     is_tested = is_tested || (span.from <= t && t <= span.to);
   }
-  if (!margin || !is_tested) {
+  if (!courses_.pairs().margin(members) || !is_tested) {
     finding.verdict = ProofVerdict::broken;
     return finding;
   }
@@ -345,7 +371,7 @@ ProofFinding SceneProof::prove_contact(const BodyPair& members, double t, double
   finding.reason = ProofReason::apart;
   for (const CourseGeometry& A : courses_.of_member(members[0])) {
     for (const CourseGeometry& B : courses_.of_member(members[1])) {
-      const ProofFinding found = prove_contact(A, B, t, *margin + tolerance);
+      const ProofFinding found = prove_contact(A, B, t, reach(A, B));
       if (found.verdict == ProofVerdict::proven) {
         return found;
       }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -35,6 +36,9 @@ struct FreeClaim {
   double from = 0.0;  ///< [-]  Nothing is claimed before it, or after `last`.
   double last = 1.0;
   double extra = 0.0;  ///< [m]  Beyond the margin.
+  /// [m]  Pairs that keep a distance of their own in place of their margin and `extra`, strictly; a
+  /// claim of a clearance is not about them.
+  std::map<BodyPair, double> held = {};
   /// [m]  In place of the margins: a distance that pairs keep, but for 2^-20 of it and twice the
   /// rounding.
   std::optional<double> clearance = {};
@@ -57,6 +61,10 @@ class SceneProof {
   [[nodiscard]] ProofFinding prove_contact(const BodyPair& members, double t,
                                            double tolerance) const;
 
+  /// Proves that two members are no farther apart than a distance at a time, for their nominal
+  /// motions. Of curved bodies it is the distance of the triangles around them.
+  [[nodiscard]] ProofFinding prove_within(const BodyPair& members, double t, double distance) const;
+
  private:
   struct Job {
     std::size_t a = 0;  // Geometries.
@@ -70,6 +78,7 @@ class SceneProof {
   [[nodiscard]] std::vector<TimeSpan> windows() const;
   [[nodiscard]] std::vector<BodyPair> near(const TimeSpan& window, double reach) const;
   [[nodiscard]] double promised(const FreeClaim& claim, double margin) const;
+  [[nodiscard]] double reach_of(const FreeClaim& claim) const;
   void add_jobs(const FreeClaim& claim, const TimeSpan& window, std::vector<Job>& jobs) const;
   [[nodiscard]] ProofFinding prove(const FreeClaim& claim, std::vector<Job>& jobs) const;
   [[nodiscard]] ProofFinding prove(const FreeClaim& claim, const Job& job) const;
@@ -81,6 +90,9 @@ class SceneProof {
                                                double t) const;
   [[nodiscard]] std::optional<bool> has_inside(const CourseGeometry& solid,
                                                const CourseGeometry& other, double t) const;
+  [[nodiscard]] ProofFinding prove_reach(
+      const BodyPair& members, double t,
+      const std::function<double(const CourseGeometry&, const CourseGeometry&)>& reach) const;
   [[nodiscard]] ProofFinding prove_contact(const CourseGeometry& A, const CourseGeometry& B,
                                            double t, double reach) const;
 

@@ -1,0 +1,32 @@
+/// @file
+/// Straight ways from a place, along axes and in random directions.
+
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <firstcontact/math/random_numbers.h>
+#include <firstcontact/planning/configuration_space.h>
+
+namespace firstcontact::detail {
+
+/// So often a way is doubled: from micrometres to metres.
+inline constexpr int kWayDoublings = 24;
+
+/// Unit vectors of ways from a place: along the axes of the world and of the body, or along each
+/// joint; then some in random directions.
+///
+/// @returns  of a body 3 numbers, as it does not turn; else as many as the space has
+[[nodiscard]] std::vector<Eigen::VectorXd> directions_at(const ConfigurationSpace& space,
+                                                         const Configuration& q,
+                                                         RandomNumbers& random);
+
+/// The place behind a way. The place itself where a body would leave its box.
+///
+/// @param way  [m, or rad and m alike]
+[[nodiscard]] Configuration behind_way(const ConfigurationSpace& space, const Configuration& q,
+                                       const Eigen::VectorXd& direction, double way);
+
+}  // namespace firstcontact::detail

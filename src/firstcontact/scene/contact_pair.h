@@ -1,0 +1,47 @@
+/// @file
+/// Pairs that may be in contact at an end of a planned path, and what the path keeps of them.
+
+#pragma once
+
+#include <array>
+
+#include <firstcontact/many_bodies/pair_rules.h>
+
+namespace firstcontact {
+
+/// A rule for a pair that is in contact at one end of a path.
+///
+/// There the pair is closer than its margin, but apart by a distance d0 > 0. It is held to a share
+/// of d0 in place of its margin, as with StartContacts::keep_half. As d0 is above 0, the two never
+/// pass into each other. All other pairs keep their margins.
+enum class ContactPolicy {
+  may_stay,    ///< Farther apart than half of d0 along the whole path. It may slide, leave, return.
+  not_deeper,  ///< Farther apart than 15/16 of d0 along the whole path.
+  /// Farther apart than 15/16 of d0 along the one edge at that end. Along all other edges the pair
+  /// keeps its margin.
+  must_open,
+};
+
+/// Its words in files, in this order.
+inline constexpr std::array<const char*, 3> kContactPolicyWords{"may_stay", "not_deeper",
+                                                                "must_open"};
+
+/// [-]  The share of d0 that a pair is held to.
+[[nodiscard]] constexpr double kept_share(ContactPolicy policy) {
+  return policy == ContactPolicy::may_stay ? 0.5 : 0.9375;
+}
+
+/// An end of a path.
+enum class PathEnd { start, goal };
+
+/// Its words in files, in this order.
+inline constexpr std::array<const char*, 2> kPathEndWords{"start", "goal"};
+
+/// A pair that may be in contact at an end of a path.
+struct ContactPair {
+  BodyPair members = {};  ///< Of the scene.
+  ContactPolicy policy = ContactPolicy::may_stay;
+  PathEnd at = PathEnd::start;  ///< Where d0 is measured; of several goals the least counts.
+};
+
+}  // namespace firstcontact

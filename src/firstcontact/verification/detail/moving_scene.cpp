@@ -1,0 +1,248 @@
+#include <firstcontact/verification/detail/moving_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <variant>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene/trajectory.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+/// How far the length of a quaternion may be from 1, as in scenes.
+constexpr double kUnit = 1e-6;
+
+/// [rad or m]  How far joints may be beyond their limits, as in limit_report().
+constexpr double kLimitTolerance = 1e-9;
+
+/// A coordinate of a joint can turn the short way if nothing that mimics it shows whole turns.
+void require_turning(const RobotModel& model, const std::string& name, Turning turning) {
+  if (turning == Turning::shortest && !takes_short_way(model, find_coordinate(model, name))) {
+    throw BrokenPath("The coordinate " + in_quotes(name) + " cannot turn the short way.");
+  }
+}
+
+/// Straight edges keep the limits that their ends keep, and so do joints that mimic.
+void require_limits(const RobotModel& model, std::size_t joint, double position) {
+  const Joint& moved = model.joints()[joint];
+  const bool has_limits = moved.type == JointType::revolute || moved.type == JointType::prismatic ||
+                          moved.type == JointType::screw;
+  const double slack = kLimitTolerance * (1.0 + std::abs(position));
+  if (has_limits && (position < moved.limits.lower.value_or(position) - slack ||
+                     position > moved.limits.upper.value_or(position) + slack)) {
+    throw BrokenPath("A waypoint has joint " + in_quotes(moved.name) + " at " +
+                     write_json(position) + ", outside of its limits.");
+  }
+  for (std::size_t other = 0; other < model.joints().size(); ++other) {
+    const std::optional<Mimic>& mimic = model.joints()[other].mimic;
+    if (mimic && mimic->joint == moved.name) {
+      require_limits(model, other, mimic->multiplier * position + mimic->offset);
+    }
+  }
+}
+
+/// [rad or m]  Where the scene has a joint of a robot at rest.
+double position_in_scene(const SceneRobot& robot, const std::string& name) {
+  const JointCoordinate which = find_coordinate(robot.model, name);
+  const auto found = robot.state.find(coordinate_name(robot.model, which));
+  return found != robot.state.end() ? found->second
+                                    : default_position(robot.model.joints()[which.joint]);
+}
+
+LoadedScene load(const PlannedPath& path) {
+  ShapeCache cache;
+  return load_scene_of(path, cache);
+}
+
+/// The file is about edges of the mover alone. A state of joints is a trajectory of one point.
+void require_at_rest(const Scene& scene) {
+  const auto rests = [](const BodyMotion& motion) {
+    return std::holds_alternative<FixedMotion>(motion);
+  };
+  for (const Body& body : scene.bodies) {
+    if (!rests(body.motion)) {
+      throw BrokenPath("The body " + in_quotes(body.name) + " moves by itself.");
+    }
+  }
+  for (const SceneRobot& robot : scene.robots) {
+    if (!rests(robot.base) || robot.trajectory.points.size() > 1) {
+      throw BrokenPath("The robot " + in_quotes(robot.name) + " moves by itself.");
+    }
+  }
+}
+
+void require_unheld_motion(const Scene& scene) {
+  for (const SceneRobot& robot : scene.robots) {
+    for (const SceneAttachment& held : robot.attached) {
+      if (held.from_time != 0.0 || held.to_time) {
+        throw BrokenPath("The robot " + in_quotes(robot.name) +
+                         " holds a body for a part of the time.");
+      }
+    }
+  }
+}
+
+/// The mover has no motion of its own.
+void require_own_rest(bool rests, const std::string& name) {
+  if (!rests) {
+    throw BrokenPath("The mover " + in_quotes(name) + " moves by itself.");
+  }
+}
+
+}  // namespace
+
+MovingScene::MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
+  require_unheld_motion(loaded_.scene);
+  if (path.times.empty()) {
+    require_at_rest(loaded_.scene);
+    const std::size_t edges = path.waypoints.size() - 1;
+    loaded_.scene.duration = static_cast<double>(std::max<std::size_t>(edges, 1));
+  } else {
+    require_times();
+  }
+  if (path.body.empty()) {
+    move_robot();
+  } else {
+    move_body();
+  }
+}
+
+double MovingScene::time(std::size_t waypoint) const {
+  return path_.times.empty() ? static_cast<double>(waypoint) : path_.times.at(waypoint);
+}
+
+void MovingScene::require_times() const {
+  const std::vector<double>& times = path_.times;
+  const bool increase =
+      std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+  // What is proven divides by the duration: quotients that are one leave an edge of no length.
+  const double duration = loaded_.scene.duration;
+  for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+    if (!(times[k] / duration < times[k + 1] / duration)) {
+      throw BrokenPath("The times of the path are so close that doubles do not tell them apart.");
+    }
+  }
+  if (times.size() != path_.waypoints.size() || times.size() < 2 || !increase ||
+      times.front() != 0.0 || times.back() != loaded_.scene.duration) {
+    throw BrokenPath("The times of the path do not run from 0 to the duration of its scene.");
+  }
+}
+
+void MovingScene::move_robot() {
+  Scene& scene = loaded_.scene;
+  const auto is_it = [&](const SceneRobot& robot) { return robot.name == path_.robot; };
+  const auto found = std::find_if(scene.robots.begin(), scene.robots.end(), is_it);
+  if (found == scene.robots.end()) {
+    throw BrokenPath("The scene has no robot " + in_quotes(path_.robot) + ".");
+  }
+  SceneRobot& robot = *found;
+  require_own_rest(
+      std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.joint_names.empty(),
+      robot.name);
+  const auto number = static_cast<std::size_t>(found - scene.robots.begin());
+  robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
+  for (std::size_t k = 0; k < path_.joints.size(); ++k) {
+    const JointCoordinate which = find_coordinate(robot.model, path_.joints[k]);
+    if (robot.model.joints()[which.joint].mimic) {
+      throw BrokenPath("The joint " + in_quotes(path_.joints[k]) + " mimics another.");
+    }
+    require_turning(robot.model, path_.joints[k], path_.turnings.at(k));
+    if (path_.waypoints.front().at(k) != position_in_scene(robot, path_.joints[k])) {
+      throw BrokenPath("The path does not begin where its scene has joint " +
+                       in_quotes(path_.joints[k]) + ".");
+    }
+    for (const std::vector<double>& waypoint : path_.waypoints) {
+      require_limits(robot.model, which.joint, waypoint.at(k));
+    }
+    turnings_[number][path_.joints[k]] = path_.turnings.at(k);
+  }
+  for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
+    robot.trajectory.points.push_back({.time = time(k), .positions = path_.waypoints[k]});
+  }
+  find_moving(robot, number);
+}
+
+void MovingScene::find_moving(const SceneRobot& robot, std::size_t number) {
+  const Scene& scene = loaded_.scene;
+  const std::size_t first = first_member(scene, number);
+  moves_.assign(
+      first_member(scene, scene.robots.size() - 1) + scene.robots.back().model.links().size(),
+      false);
+  for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
+    moves_[first + link] = !path_.times.empty();  // Others come near whatever rests.
+    for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
+         joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
+      moves_[first + link] = is_planned(robot.model, *joint);
+    }
+  }
+  for (const SceneAttachment& held : robot.attached) {
+    moves_[held.body] = moves_[first + held.link];
+  }
+}
+
+bool MovingScene::is_planned(const RobotModel& model, std::size_t joint) const {
+  while (model.joints()[joint].mimic) {
+    joint = model.find_joint(model.joints()[joint].mimic->joint).value();
+  }
+  return std::any_of(path_.joints.begin(), path_.joints.end(), [&](const std::string& name) {
+    return find_coordinate(model, name).joint == joint;
+  });
+}
+
+void MovingScene::move_body() {
+  Scene& scene = loaded_.scene;
+  const auto is_it = [&](const Body& body) { return body.name == path_.body; };
+  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), is_it);
+  if (body == scene.bodies.end()) {
+    throw BrokenPath("The scene has no body " + in_quotes(path_.body) + ".");
+  }
+  const auto number = static_cast<std::size_t>(body - scene.bodies.begin());
+  for (const SceneRobot& robot : scene.robots) {
+    for (const SceneAttachment& held : robot.attached) {
+      if (held.body == number) {
+        throw BrokenPath("A robot holds the body " + in_quotes(path_.body) + ".");
+      }
+    }
+  }
+  require_own_rest(std::holds_alternative<FixedMotion>(body->motion), body->name);
+  require_begin(std::get<FixedMotion>(body->motion).pose);
+  WaypointMotion motion;
+  for (const std::vector<double>& q : path_.waypoints) {
+    if (!(std::abs(std::hypot(std::hypot(q.at(3), q.at(4)), std::hypot(q.at(5), q.at(6))) - 1.0) <=
+          kUnit)) {
+      throw BrokenPath("A waypoint has a quaternion that is not of length 1.");
+    }
+    motion.times.push_back(time(motion.times.size()));
+    motion.poses.push_back(
+        {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
+  }
+  body->motion = motion;
+  std::size_t members = scene.bodies.size();
+  for (const SceneRobot& robot : scene.robots) {
+    members += robot.model.links().size();
+  }
+  moves_.assign(members, false);
+  moves_[number] = true;
+  body_ = number;
+}
+
+void MovingScene::require_begin(const Pose& pose) const {
+  const std::vector<double>& q = path_.waypoints.front();
+  const Eigen::Quaterniond& r = pose.rotation;
+  if (Eigen::Vector3d(q.at(0), q.at(1), q.at(2)) != pose.position ||
+      Eigen::Vector4d(q.at(3), q.at(4), q.at(5), q.at(6)) !=
+          Eigen::Vector4d(r.w(), r.x(), r.y(), r.z())) {
+    throw BrokenPath("The path does not begin where its scene has body " + in_quotes(path_.body) +
+                     ".");
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,63 @@
+/// @file
+/// The scene of a planned path in which its mover runs through all waypoints.
+
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <firstcontact/motion/pose.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/verification/detail/robot_course.h>
+
+namespace firstcontact {
+struct PlannedPath;
+}
+
+namespace firstcontact::detail {
+
+/// A path that contradicts itself or its scene. One sentence.
+class BrokenPath : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The scene in which the mover runs through all waypoints: at their times, else one edge a second.
+class MovingScene {
+ public:
+  /// @param path  outlives this
+  /// @throws BrokenPath; as load_scene_of()
+  explicit MovingScene(const PlannedPath& path);
+
+  [[nodiscard]] const LoadedScene& loaded() const { return loaded_; }
+  [[nodiscard]] const std::map<std::size_t, Turnings>& turnings() const { return turnings_; }
+
+  /// The body that moves; none where a robot does.
+  [[nodiscard]] std::optional<std::size_t> body() const { return body_; }
+
+  /// Whether a member moves along edges.
+  [[nodiscard]] bool moves(std::size_t member) const { return moves_.at(member); }
+
+  /// [s]  Of a waypoint.
+  [[nodiscard]] double time(std::size_t waypoint) const;
+
+ private:
+  void require_times() const;
+  void move_robot();
+  void find_moving(const SceneRobot& robot, std::size_t number);
+  [[nodiscard]] bool is_planned(const RobotModel& model, std::size_t joint) const;
+  void move_body();
+  void require_begin(const Pose& pose) const;
+
+  const PlannedPath& path_;
+  LoadedScene loaded_;
+  std::map<std::size_t, Turnings> turnings_;
+  std::vector<bool> moves_;  // Of each member.
+  std::optional<std::size_t> body_ = {};
+};
+
+}  // namespace firstcontact::detail
