@@ -1,19 +1,26 @@
 """`firstcontact haptics` as a user meets it: runs that are proven, logs, errors that name what is wrong.
 
-    haptics_test.py TOOL [unittest arguments]
+    haptics_test.py TOOL PLUGIN [unittest arguments]
+
+PLUGIN is the example of a plug-in, as a shared library.
 """
 
 import csv
 import json
 import pathlib
+import socket
 import sys
 import unittest
 
+import haptic_services
 import tool_test
 
 
 PLATE = {"name": "plate", "shape": {"box": {"size": [0.2, 0.2, 0.0001]}}}
 PEG = {"name": "peg", "shape": {"box": {"size": [0.02, 0.02, 0.04]}}, "pose": {"position": [0, 0, 0.04]}}
+
+
+PLUGIN = ""
 
 
 def scene(tools=({"body": "peg"},), bodies=(PLATE, PEG), **more):
@@ -66,6 +73,63 @@ class Haptics(tool_test.ToolTest):
         self.assertIn("tick_cpu", (self.folder / "timing.csv").read_text())
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
 
+    def felt_by(self, device, *arguments):
+        """Runs a device of a hand against the plate, proves the run, and gives the ticks."""
+        self.file("scene.json", scene())
+        result = self.run_tool("haptics", "scene.json", "--device", device, "-o", "run.jsonl", "--ticks", "ticks.csv",
+                               *arguments)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("SCHED_FIFO", result.stdout)  # On the wall, although nobody asked for it.
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+        with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+            return result, list(csv.DictReader(file))
+
+    def test_follows_a_spacemouse(self):
+        daemon = haptic_services.SpaceNavigator(self.folder / "spnav.sock")
+        self.addCleanup(daemon.close)
+        result, ticks = self.felt_by(f"spacemouse={daemon.path}", "--duration", "0.4")
+        self.assertRegex(result.stdout, r"device +SpaceMouse .*spnav.sock: [1-9]\d* samples, 0 missed, 0 malformed\n")
+        self.assertIn("live", {tick["status"] for tick in ticks})
+        self.assertLess(float(ticks[-1]["target_pz"]), 0.03)
+
+    def test_follows_a_haply_of_both_generations(self):
+        for is_since_3_5 in (False, True):
+            service = haptic_services.InverseService(is_since_3_5)
+            self.addCleanup(service.close)
+            result, ticks = self.felt_by(f"haply=ws://{service.address}", "--duration", "0.6", "--force")
+            self.assertRegex(result.stdout, r"device +inverse3 049D: [1-9]\d* samples")
+            self.assertAlmostEqual(float(ticks[-1]["target_pz"]), 0.01)
+            self.assertAlmostEqual(max(service.forces), 2.0)  # The plate pushes up, to the device's limit.
+            self.assertEqual(service.forces[-1], 0.0)
+
+    def test_follows_a_plug_in(self):
+        result, ticks = self.felt_by(f"plugin={PLUGIN},radius=0.05", "--duration", "0.3")
+        self.assertRegex(result.stdout, r"device +orbit: [1-9]\d* samples")
+        self.assertGreater(len({tick["device_px"] for tick in ticks}), 100)
+
+    def test_says_which_service_does_not_answer(self):
+        self.file("scene.json", scene())
+        self.assert_writes_nothing(self.haptics("--device", "spacemouse=none.sock"), "none.sock",
+                                   "systemctl start spacenavd")
+        with socket.create_server(("127.0.0.1", 0)) as closed:
+            address = "127.0.0.1:%d" % closed.getsockname()[1]
+        self.assert_writes_nothing(self.haptics("--device", f"haply={address}"), address, "start Haply Hub")
+        self.assert_writes_nothing(self.haptics("--device", "plugin=none.so"), "none.so", "found no file")
+
+    def test_refuses_addresses_of_another_form(self):
+        self.file("scene.json", scene())
+        for device, mend in (("haply=ws://localhost", "ws://HOST:PORT"), ("haply=:10001", "ws://HOST:PORT"),
+                             ("haply=localhost:70000", "ws://HOST:PORT"), ("haply=http://localhost:1", "ws://HOST:PORT"),
+                             ("spacemouse=", "spacemouse=SOCKET"), ("plugin", "plugin=FILE"),
+                             ("plugin=,radius=1", "plugin=FILE"), ("spaceball", "spacemouse, haply")):
+            self.assert_writes_nothing(self.haptics("--device", device), f"--device {device}: ", mend)
+
+    def test_refuses_virtual_time_with_a_hand(self):
+        self.file("scene.json", scene())
+        latency = ("--latency", "0.01")
+        self.assert_writes_nothing(self.haptics("--device", "haply", *latency), "--device haply runs on the wall clock")
+        self.assert_writes_nothing(self.haptics("--device", "simulated", "--wall", *latency), "--wall runs on the wall")
+
     def test_names_what_is_wrong(self):
         self.file("scene.json", {"firstcontact": 1, "bodies": [PLATE, PEG]})
         device = ("--device", "simulated")
@@ -84,4 +148,5 @@ class Haptics(tool_test.ToolTest):
 
 if __name__ == "__main__":
     tool_test.TOOL = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    PLUGIN = str(pathlib.Path(sys.argv.pop(1)).resolve())
     unittest.main()
