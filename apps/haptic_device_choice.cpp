@@ -14,6 +14,7 @@ namespace firstcontact::app {
 namespace {
 
 constexpr std::string_view kSimulated = "simulated";
+constexpr std::string_view kMouse = "mouse";
 constexpr std::string_view kSpaceMouse = "spacemouse";
 constexpr std::string_view kHaply = "haply";
 constexpr std::string_view kPlugin = "plugin";
@@ -28,7 +29,7 @@ struct DeviceWord {
 DeviceWord cut(std::string_view word) {
   const std::size_t sign = word.find('=');
   const std::string_view name = word.substr(0, sign);
-  if (name != kSpaceMouse && name != kHaply && name != kPlugin) {
+  if (name != kMouse && name != kSpaceMouse && name != kHaply && name != kPlugin) {
     return {word, std::nullopt};  // Paths may have the sign.
   }
   return sign == std::string_view::npos ? DeviceWord{name, std::nullopt}
@@ -37,6 +38,14 @@ DeviceWord cut(std::string_view word) {
 
 [[noreturn]] void refuse(const std::string& word, const char* expected) {
   throw ParseError("--device " + word, expected);
+}
+
+/// Of a whole number from 1 on; none if the text is something else.
+std::optional<std::uint16_t> port_of(std::string_view text) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+  const bool is_port = error == std::errc() && end == text.data() + text.size() && port > 0;
+  return is_port ? std::optional(port) : std::nullopt;
 }
 
 /// Of an address "ws://HOST:PORT", of which the scheme may be left out.
@@ -50,13 +59,12 @@ HaplyOptions haply_at(const std::string& word, std::string_view place) {
   const std::size_t colon = place.find(':');
   HaplyOptions options;
   options.host = place.substr(0, colon);
-  const std::string_view port =
-      colon == std::string_view::npos ? std::string_view() : place.substr(colon + 1);
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), options.port);
-  if (options.host.empty() || error != std::errc() || end != port.data() + port.size() ||
-      options.port == 0) {
+  const auto port =
+      port_of(colon == std::string_view::npos ? std::string_view() : place.substr(colon + 1));
+  if (options.host.empty() || !port) {
     refuse(word, "expected haply=ws://HOST:PORT, as in haply=ws://localhost:10001");
   }
+  options.port = *port;
   return options;
 }
 
@@ -76,7 +84,7 @@ Recording recording_of(const std::string& word) {
   std::error_code error;
   if (!std::filesystem::exists(word, error)) {
     refuse(word,
-           "found no such recording; other devices are simulated, spacemouse, haply and "
+           "found no such recording; other devices are simulated, mouse, spacemouse, haply and "
            "plugin=FILE");
   }
   return read_recording(word);
@@ -88,6 +96,14 @@ DeviceChoice read_device_choice(const std::string& word) {
   const DeviceWord device = cut(word);
   if (device.name == kSimulated) {
     return SimulatedChoice{};
+  }
+  if (device.name == kMouse) {
+    const auto port = port_of(device.place.value_or("0"));
+    if (device.place && !port) {
+      refuse(word,
+             "expected mouse=PORT with a port from 1 to 65535, or mouse alone for a free one");
+    }
+    return BrowserDeviceOptions{.port = port.value_or(0)};
   }
   if (device.name == kSpaceMouse) {
     if (device.place && device.place->empty()) {
@@ -116,8 +132,8 @@ std::optional<std::filesystem::path> file_of_device(const std::string& word) {
   if (device.name == kPlugin && device.place) {
     return device.place->substr(0, device.place->find(','));
   }
-  if (device.name == kSimulated || device.name == kSpaceMouse || device.name == kHaply ||
-      device.name == kPlugin) {
+  if (device.name == kSimulated || device.name == kMouse || device.name == kSpaceMouse ||
+      device.name == kHaply || device.name == kPlugin) {
     return std::nullopt;
   }
   return word;
@@ -131,6 +147,9 @@ std::unique_ptr<Device> open_device(const DeviceChoice& choice,
     }
     std::unique_ptr<Device> operator()(const Recording& recording) const {
       return std::make_unique<RecordedDevice>(recording);
+    }
+    std::unique_ptr<Device> operator()(const BrowserDeviceOptions& options) const {
+      return std::make_unique<BrowserDevice>(options);
     }
     std::unique_ptr<Device> operator()(const SpaceMouseOptions& options) const {
       return std::make_unique<SpaceMouse>(options);

@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include <firstcontact/haptic_devices/browser_device.h>
 #include <firstcontact/haptic_devices/device.h>
 #include <firstcontact/haptic_devices/haply.h>
 #include <firstcontact/haptic_devices/recording.h>
@@ -27,11 +28,11 @@ struct PluginChoice {
 };
 
 /// A device that is named but not open yet.
-using DeviceChoice =
-    std::variant<SimulatedChoice, Recording, SpaceMouseOptions, HaplyOptions, PluginChoice>;
+using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptions,
+                                  SpaceMouseOptions, HaplyOptions, PluginChoice>;
 
-/// Reads one word: "simulated", "spacemouse", "spacemouse=SOCKET", "haply", "haply=ws://HOST:PORT",
-/// "plugin=FILE", "plugin=FILE,SETTINGS", or else the path of a recording.
+/// Reads one word: "simulated", "mouse", "mouse=PORT", "spacemouse", "spacemouse=SOCKET", "haply",
+/// "haply=ws://HOST:PORT", "plugin=FILE", "plugin=FILE,SETTINGS", or else the path of a recording.
 ///
 /// @throws ParseError  where an address has another form, or the recording is none
 [[nodiscard]] DeviceChoice read_device_choice(const std::string& word);

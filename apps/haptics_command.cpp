@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptic_devices/browser_device.h>
 #include <firstcontact/haptic_devices/recorded_device.h>
 #include <firstcontact/haptic_devices/recording.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
@@ -31,6 +32,7 @@
 #include "command_line_file.h"
 #include "command_line_number.h"
 #include "haptic_device_choice.h"
+#include "haptic_live.h"
 #include "haptic_plot.h"
 #include "haptic_report.h"
 #include "interrupt.h"
@@ -82,12 +84,19 @@ NamedDevices read_devices(const Arguments& arguments) {
   NamedDevices named;
   named.on_the_wall = arguments.wall;
   double longest = 0.0;
+  bool has_mouse = false;
   for (const std::string& word : arguments.devices) {
     const DeviceChoice& choice = named.choices.emplace_back(read_device_choice(word));
     if (const auto* recording = std::get_if<Recording>(&choice)) {
       longest =
           std::max(longest, 1e-9 * static_cast<double>(RecordedDevice(*recording).duration_ns()));
     } else if (is_live(choice)) {
+      const bool is_mouse = std::holds_alternative<BrowserDeviceOptions>(choice);
+      if (is_mouse && std::exchange(has_mouse, true)) {
+        throw std::invalid_argument(
+            "--device mouse moves one tool; name another device for the "
+            "second tool, such as simulated");
+      }
       named.on_the_wall = true;
       named.duration = kLiveDuration;
     }
@@ -158,7 +167,7 @@ class HapticsRun {
                       setup_.scene.tools.size(), arguments.devices.size()));
     }
     open_devices();
-    if (!arguments.page.empty()) {
+    if (!arguments.page.empty() || mouse_ != nullptr) {
       template_ = viewer_page();  // Missing is better known before the work than after it.
     }
   }
@@ -221,6 +230,10 @@ class HapticsRun {
                                             setup_.options.mappings[k], named_.duration, k)));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
       pointers_.push_back(devices_[k].get());
+      if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
+        mouse_ = mouse;
+        live_.emplace(setup_, k);
+      }
     }
   }
 
@@ -236,6 +249,12 @@ class HapticsRun {
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
     }
+    if (live_) {
+      mouse_->serve(live_->page(record_->header(), template_));
+      say(fmt::format("http://127.0.0.1:{}/ has the page: drag the tool there; Ctrl-C ends\n",
+                      mouse_->port()));
+      flush_stdout();
+    }
     for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
       god_objects_[k] = setup_.scene.tools[k].X_WB;
     }
@@ -244,6 +263,9 @@ class HapticsRun {
   void take(const ForceTick& tick) {
     begin_ns_ = report_.ticks() == 0 ? tick.time_ns : begin_ns_;
     report_.add(tick, setup_.scene.tools.size());
+    if (live_ && live_->is_due(tick)) {
+      mouse_->show(live_->picture(tick));
+    }
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size()));
     }
@@ -254,6 +276,9 @@ class HapticsRun {
 
   void take(const HapticCycle& cycle, std::int64_t time_ns) {
     report_.add(cycle);
+    if (live_) {
+      live_->take(cycle);
+    }
     for (const HapticMemberMotion& motion : cycle.members) {
       if (motion.member < setup_.scene.tools.size()) {
         god_objects_[motion.member] = motion.X_WB;
@@ -348,7 +373,9 @@ class HapticsRun {
   HapticSetup setup_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Device*> pointers_;
-  std::string template_;  // Of the page.
+  BrowserDevice* mouse_ = nullptr;  // One of them, if any.
+  std::optional<HapticLive> live_;  // With the mouse.
+  std::string template_;            // Of the page.
   std::optional<HapticRun> record_;
   std::optional<RunFile> run_file_;
   std::optional<RunPage> page_;
@@ -367,10 +394,11 @@ SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices,
 DEVICE is one of these (docs/haptic_devices.md):
   FILE.csv                    a recording
   simulated                   a hand that knows nothing of the scene, on a device without weight
+  mouse[=PORT]                the mouse, on a page that this command serves to this machine only
   spacemouse[=SOCKET]         a SpaceMouse through spacenavd
   haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
   plugin=FILE[,SETTINGS]      another device, by a shared library
-The last three run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
+The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
 hardware. In virtual time the same command gives the same files.
 RUN is the way of the tools. `firstcontact verify RUN` proves it as written, with other code:
 nothing passed through anything, between ticks too. `firstcontact view RUN` plays it.
@@ -386,9 +414,10 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
       ->required();
   command
-      ->add_option("--device", arguments->devices,
-                   "A recording (.csv), simulated, spacemouse, haply or plugin=FILE; once for each "
-                   "tool")
+      ->add_option(
+          "--device", arguments->devices,
+          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; once for each "
+          "tool")
       ->required()
       ->expected(1)
       ->take_all();

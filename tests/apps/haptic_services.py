@@ -1,4 +1,4 @@
-"""Services of haptic devices for tests, on real sockets: spacenavd, and the Haply Inverse Service."""
+"""Peers of haptic devices for tests, on real sockets: spacenavd, the Haply Inverse Service, a page of a browser."""
 
 import base64
 import hashlib
@@ -125,3 +125,32 @@ class InverseService(Service):
         key = "vector" if self.is_since_3_5 else "values"
         for device in json.loads(payload).get("inverse3", []):
             self.forces.append(device["commands"]["set_cursor_force"][key]["z"])
+
+
+class Page:
+    """A page of a browser that moves the tool: its WebSocket, without the browser."""
+
+    def __init__(self, port: int, origin: str):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=20)
+        self.socket.sendall(f"GET /live HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: {origin}\r\n"
+                            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode())
+        self.received = self.socket.makefile("rb")
+        self.status = int(self.received.readline().split()[1])
+        while self.received.readline().strip():
+            pass
+
+    def send(self, text: str):
+        payload = text.encode()
+        self.socket.sendall(b"\x81" + bytes([0x80 | len(payload)]) + bytes(4) + payload)  # Masked by zeros.
+
+    def picture(self) -> dict:
+        """The next one."""
+        length = self.received.read(2)[1]
+        if length == 126:
+            length = struct.unpack(">H", self.received.read(2))[0]
+        return json.loads(self.received.read(length))
+
+    def close(self):
+        self.received.close()
+        self.socket.close()

@@ -8,9 +8,13 @@ PLUGIN is the example of a plug-in, as a shared library.
 import csv
 import json
 import pathlib
+import re
+import signal
 import socket
 import sys
 import unittest
+import urllib.error
+import urllib.request
 
 import haptic_services
 import tool_test
@@ -107,6 +111,57 @@ class Haptics(tool_test.ToolTest):
         self.assertRegex(result.stdout, r"device +orbit: [1-9]\d* samples")
         self.assertGreater(len({tick["device_px"] for tick in ticks}), 100)
 
+    def live(self):
+        """Starts a session whose tool follows a page; gives the process and the port."""
+        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
+            self.skipTest("built without the viewer")
+        self.file("scene.json", scene())
+        process = self.start("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl", "--ticks", "ticks.csv")
+        return process, int(re.match(r"http://127.0.0.1:(\d+)/ ", process.stdout.readline()).group(1))
+
+    def test_follows_the_mouse_on_its_page(self):
+        process, port = self.live()
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=20) as page:
+            self.assertIn(b'<script id="firstcontact-live" type="application/json">{"tool":1}', page.read())
+        page = haptic_services.Page(port, f"http://127.0.0.1:{port}")
+        self.addCleanup(page.close)
+        self.assertEqual(page.status, 101)
+        self.assertEqual(page.picture()["handle"], [0, 0, 0, 1, 0, 0, 0])
+        page.send('{"position": [0, 0, -0.025], "rotation": [1, 0, 0, 0]}')
+        picture = page.picture()
+        while picture["force"][2] < 4.9:  # A spring of 1,000 N/m, 5 mm in the plate.
+            picture = page.picture()
+        self.assertAlmostEqual(picture["target"][2], 0.015)
+        self.assertEqual(picture["bodies"][0][0], 1)
+        self.assertGreater(picture["bodies"][0][3], 0.02)
+        self.assertGreater(len(picture["contacts"]), 2)
+        page.send('{"position": [0, 0, 1e9], "rotation": [1, 0, 0, 0]}')
+        page.send('{"position": [0, 0, 0.01], "rotation": [1, 0, 0, 0]}')
+        while picture["force"][2] > 0:
+            picture = page.picture()
+        process.send_signal(signal.SIGINT)
+        stdout, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        self.assertRegex(stdout, rf"device +mouse 127.0.0.1:{port}: 2 samples, 0 missed, 1 malformed")
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+
+    def test_gives_the_tool_to_its_own_page_only(self):
+        process, port = self.live()
+        for origin, status in (("http://example.com", 403), (f"http://localhost:{port}", 101),
+                               (f"http://127.0.0.1:{port}", 403)):
+            page = haptic_services.Page(port, origin)
+            self.addCleanup(page.close)
+            self.assertEqual(page.status, status, origin)
+        with self.assertRaises(urllib.error.HTTPError) as refusal:
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/scene.json", timeout=20)
+        refusal.exception.close()
+        self.assertEqual(refusal.exception.code, 404)
+        self.assert_refused_with(self.run_tool("haptics", "scene.json", "--device", f"mouse={port}", "-o", "other.jsonl"),
+                                 f"127.0.0.1:{port}", "another port")
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+
     def test_says_which_service_does_not_answer(self):
         self.file("scene.json", scene())
         self.assert_writes_nothing(self.haptics("--device", "spacemouse=none.sock"), "none.sock",
@@ -120,7 +175,8 @@ class Haptics(tool_test.ToolTest):
         self.file("scene.json", scene())
         for device, mend in (("haply=ws://localhost", "ws://HOST:PORT"), ("haply=:10001", "ws://HOST:PORT"),
                              ("haply=localhost:70000", "ws://HOST:PORT"), ("haply=http://localhost:1", "ws://HOST:PORT"),
-                             ("spacemouse=", "spacemouse=SOCKET"), ("plugin", "plugin=FILE"),
+                             ("spacemouse=", "spacemouse=SOCKET"), ("mouse=0", "mouse=PORT"),
+                             ("mouse=x", "mouse=PORT"), ("plugin", "plugin=FILE"),
                              ("plugin=,radius=1", "plugin=FILE"), ("spaceball", "spacemouse, haply")):
             self.assert_writes_nothing(self.haptics("--device", device), f"--device {device}: ", mend)
 
