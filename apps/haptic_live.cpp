@@ -25,7 +25,7 @@ std::string numbers(const Eigen::Vector3d& v) {
 
 HapticLive::HapticLive(const HapticSetup& setup, std::size_t tool) : setup_(setup), tool_(tool) {
   for (const HapticTool& each : setup.scene.tools) {
-    poses_.push_back(each.X_WB);
+    poses_.emplace_back(each.X_WB);
   }
   poses_.resize(setup.bodies.size());
 }

@@ -196,6 +196,7 @@ class Haptics(tool_test.ToolTest):
         self.assert_writes_nothing(self.haptics(*device), '"peg" and "plate" meet')
         self.file("scene.json", scene())
         self.assert_writes_nothing(self.haptics(*device, *device), "--device", "1 of them; got 2")
+        self.assert_writes_nothing(self.haptics("--device", "mouse", "--device", "mouse"), "mouse moves one tool")
         self.assert_writes_nothing(self.haptics("--device", "none.csv"), "none.csv")
         self.assert_writes_nothing(self.haptics(*device, out="scene.json"), "scene.json")
         self.file("broken.csv", "no recording\n")
