@@ -373,19 +373,19 @@ class HapticsRun {
   HapticSetup setup_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Device*> pointers_;
-  BrowserDevice* mouse_ = nullptr;  // One of them, if any.
-  std::optional<HapticLive> live_;  // With the mouse.
-  std::string template_;            // Of the page.
+  std::array<Pose, kMostTools> god_objects_ = {};
   std::optional<HapticRun> record_;
-  std::optional<RunFile> run_file_;
   std::optional<RunPage> page_;
+  std::string template_;  // Of the page.
+  std::optional<RunFile> run_file_;
   std::optional<GrowingFile> ticks_;
   std::optional<GrowingFile> cycles_;
   HapticPlot plot_;
-  std::array<Pose, kMostTools> god_objects_ = {};
   std::int64_t begin_ns_ = 0;
   HapticReport report_;
   std::optional<WallSessionReport> wall_;
+  BrowserDevice* mouse_ = nullptr;  // One of them, if any.
+  std::optional<HapticLive> live_;  // With the mouse.
   bool is_stopped_ = false;
 };
 
