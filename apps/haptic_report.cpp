@@ -44,6 +44,15 @@ std::string report_line(const char* label, const std::string& value) {
   return fmt::format("  {:<10} {}\n", label, visible(value));
 }
 
+std::string device_text(const Device& device) {
+  const DeviceCapabilities& is = device.capabilities();
+  const DeviceCounts counts = device.counts();
+  const std::string problem = device.problem();
+  return fmt::format("{}{}{}: {} samples, {} missed, {} malformed{}{}", is.name,
+                     is.id.empty() ? "" : " ", is.id, counts.samples, counts.missed,
+                     counts.malformed, problem.empty() ? "" : "; ", problem);
+}
+
 void HapticReport::add(const ForceTick& tick, std::size_t tools) {
   ++ticks_;
   for (std::size_t k = 0; k < tools; ++k) {

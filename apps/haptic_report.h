@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include <firstcontact/haptic_devices/device.h>
 #include <firstcontact/haptics/contact_loop.h>
 #include <firstcontact/haptics/force_loop.h>
 #include <firstcontact/haptics/wall_session.h>
@@ -42,6 +43,9 @@ class HapticReport {
   std::uint64_t unfinished_ = 0;  // Cycles that could have gained more.
   std::uint32_t faults_ = 0;
 };
+
+/// Describes a device that a hand moved: its name, its samples, and why it is lost if it is.
+[[nodiscard]] std::string device_text(const Device& device);
 
 /// A line of a report: its label in a column, then its value.
 [[nodiscard]] std::string report_line(const char* label, const std::string& value);

@@ -8,12 +8,15 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include <firstcontact/geometry/shape_bounds.h>
+#include <firstcontact/haptic_devices/browser_device.h>
 #include <firstcontact/haptic_devices/recorded_device.h>
+#include <firstcontact/haptic_devices/recording.h>
 #include <firstcontact/haptic_devices/simulated_operator.h>
 #include <firstcontact/haptics/wall_session.h>
 #include <firstcontact/haptics_files/haptic_log.h>
@@ -28,6 +31,8 @@
 #include "atomic_file.h"
 #include "command_line_file.h"
 #include "command_line_number.h"
+#include "haptic_device_choice.h"
+#include "haptic_live.h"
 #include "haptic_plot.h"
 #include "haptic_report.h"
 #include "interrupt.h"
@@ -41,7 +46,8 @@
 namespace firstcontact::app {
 namespace {
 
-constexpr const char* kSimulated = "simulated";
+constexpr double kDuration = 10.0;      // [s]
+constexpr double kLiveDuration = 60.0;  // [s]  With a device that a hand moves.
 
 struct Arguments {
   std::string scene;
@@ -69,30 +75,45 @@ std::vector<OutputFile> outputs_of(const Arguments& arguments) {
 
 /// What the devices are, before they are opened.
 struct NamedDevices {
-  std::vector<std::optional<Recording>> recordings;  // None: simulated.
-  double duration = 10.0;                            // [s]  Of the longest recording, if any.
+  std::vector<DeviceChoice> choices;
+  double duration = kDuration;  // [s]  Of the longest recording, if any.
+  bool on_the_wall = false;     // Asked for, or because a hand moves one of them.
 };
 
 NamedDevices read_devices(const Arguments& arguments) {
   NamedDevices named;
+  named.on_the_wall = arguments.wall;
   double longest = 0.0;
-  for (const std::string& device : arguments.devices) {
-    if (device == kSimulated) {
-      named.recordings.emplace_back();
-      continue;
+  bool has_mouse = false;
+  for (const std::string& word : arguments.devices) {
+    const DeviceChoice& choice = named.choices.emplace_back(read_device_choice(word));
+    if (const auto* recording = std::get_if<Recording>(&choice)) {
+      longest =
+          std::max(longest, 1e-9 * static_cast<double>(RecordedDevice(*recording).duration_ns()));
+    } else if (is_live(choice)) {
+      const bool is_mouse = std::holds_alternative<BrowserDeviceOptions>(choice);
+      if (is_mouse && std::exchange(has_mouse, true)) {
+        throw std::invalid_argument(
+            "--device mouse moves one tool; name another device for the "
+            "second tool, such as simulated");
+      }
+      named.on_the_wall = true;
+      named.duration = kLiveDuration;
     }
-    named.recordings.emplace_back(read_recording(device));
-    longest = std::max(longest, 1e-9 * static_cast<double>(
-                                           RecordedDevice(*named.recordings.back()).duration_ns()));
+    if (named.on_the_wall && arguments.latency) {
+      throw std::invalid_argument(fmt::format(
+          "--latency is for virtual time, but {} runs on the wall clock; leave one of them out",
+          is_live(choice) ? "--device " + word : "--wall"));
+    }
   }
   named.duration = arguments.duration.value_or(longest > 0.0 ? longest : named.duration);
   return named;
 }
 
 /// A hand that knows nothing of the scene: it wants to be anywhere around the tool.
-std::unique_ptr<Device> simulated_hand(const Arguments& arguments, const HapticTool& tool,
-                                       const DeviceMapping& mapping, double duration,
-                                       std::size_t number) {
+SimulatedOperatorOptions simulated_hand(const Arguments& arguments, const HapticTool& tool,
+                                        const DeviceMapping& mapping, double duration,
+                                        std::size_t number) {
   RandomPathOptions path;
   path.seed = arguments.seed + 1000 * number;
   path.radius = arguments.radius.value_or(2.0 * tool.shape.bounds().reach) / mapping.scale;
@@ -103,7 +124,7 @@ std::unique_ptr<Device> simulated_hand(const Arguments& arguments, const HapticT
   SimulatedOperatorOptions options;
   options.path = random_via_points(path);
   options.seed = path.seed;
-  return std::make_unique<SimulatedOperator>(options);
+  return options;
 }
 
 /// Opens the files that grow, and writes to them.
@@ -146,14 +167,14 @@ class HapticsRun {
                       setup_.scene.tools.size(), arguments.devices.size()));
     }
     open_devices();
-    if (!arguments.page.empty()) {
+    if (!arguments.page.empty() || mouse_ != nullptr) {
       template_ = viewer_page();  // Missing is better known before the work than after it.
     }
   }
 
   ExitStatus run() {
     begin_files();
-    if (arguments_.wall) {
+    if (named_.on_the_wall) {
       run_on_the_wall();
     } else {
       run_virtually();
@@ -167,8 +188,11 @@ class HapticsRun {
   LoadedScene load() const {
     require_different(outputs_of(arguments_));
     require_no_input(outputs_of(arguments_), {arguments_.scene});
-    require_no_input(outputs_of(arguments_),
-                     {arguments_.devices.begin(), arguments_.devices.end()});
+    for (const std::string& word : arguments_.devices) {
+      if (const auto file = file_of_device(word)) {
+        require_no_input(outputs_of(arguments_), {*file});
+      }
+    }
     Scene scene = arguments_.scene == kStdin
                       ? parse_scene(read_stdin(), std::filesystem::path(kStdinName))
                       : read_scene(arguments_.scene);
@@ -200,13 +224,16 @@ class HapticsRun {
 
   void open_devices() {
     setup_.options.mappings = complete_mappings(setup_.scene, setup_.options.mappings);
-    for (std::size_t k = 0; k < named_.recordings.size(); ++k) {
-      devices_.push_back(named_.recordings[k]
-                             ? std::make_unique<RecordedDevice>(*named_.recordings[k])
-                             : simulated_hand(arguments_, setup_.scene.tools[k],
-                                              setup_.options.mappings[k], named_.duration, k));
+    for (std::size_t k = 0; k < named_.choices.size(); ++k) {
+      devices_.push_back(open_device(
+          named_.choices[k], simulated_hand(arguments_, setup_.scene.tools[k],
+                                            setup_.options.mappings[k], named_.duration, k)));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
       pointers_.push_back(devices_[k].get());
+      if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
+        mouse_ = mouse;
+        live_.emplace(setup_, k);
+      }
     }
   }
 
@@ -222,6 +249,12 @@ class HapticsRun {
     if (!arguments_.run.empty()) {
       run_file_.emplace(RunFile::begin(arguments_.run, record_->header(), arguments_.force));
     }
+    if (live_) {
+      mouse_->serve(live_->page(record_->header(), template_));
+      say(fmt::format("http://127.0.0.1:{}/ has the page: drag the tool there; Ctrl-C ends\n",
+                      mouse_->port()));
+      flush_stdout();
+    }
     for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
       god_objects_[k] = setup_.scene.tools[k].X_WB;
     }
@@ -230,6 +263,9 @@ class HapticsRun {
   void take(const ForceTick& tick) {
     begin_ns_ = report_.ticks() == 0 ? tick.time_ns : begin_ns_;
     report_.add(tick, setup_.scene.tools.size());
+    if (live_ && live_->is_due(tick)) {
+      mouse_->show(live_->picture(tick));
+    }
     if (ticks_->is_open()) {
       ticks_->write(haptic_tick_lines(tick, setup_.scene.tools.size()));
     }
@@ -240,6 +276,9 @@ class HapticsRun {
 
   void take(const HapticCycle& cycle, std::int64_t time_ns) {
     report_.add(cycle);
+    if (live_) {
+      live_->take(cycle);
+    }
     for (const HapticMemberMotion& motion : cycle.members) {
       if (motion.member < setup_.scene.tools.size()) {
         god_objects_[motion.member] = motion.X_WB;
@@ -312,6 +351,11 @@ class HapticsRun {
 
   void print() const {
     say(report_.text(arguments_.scene, is_stopped_, wall_));
+    for (std::size_t k = 0; k < devices_.size(); ++k) {
+      if (is_live(named_.choices[k])) {
+        say(report_line("device", device_text(*devices_[k])));
+      }
+    }
     for (const std::string& warning : loaded_.warnings) {
       say(report_line("warning", warning));
     }
@@ -329,24 +373,33 @@ class HapticsRun {
   HapticSetup setup_;
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Device*> pointers_;
-  std::string template_;  // Of the page.
+  std::array<Pose, kMostTools> god_objects_ = {};
   std::optional<HapticRun> record_;
-  std::optional<RunFile> run_file_;
   std::optional<RunPage> page_;
+  std::string template_;  // Of the page.
+  std::optional<RunFile> run_file_;
   std::optional<GrowingFile> ticks_;
   std::optional<GrowingFile> cycles_;
   HapticPlot plot_;
-  std::array<Pose, kMostTools> god_objects_ = {};
   std::int64_t begin_ns_ = 0;
   HapticReport report_;
   std::optional<WallSessionReport> wall_;
+  BrowserDevice* mouse_ = nullptr;  // One of them, if any.
+  std::optional<HapticLive> live_;  // With the mouse.
   bool is_stopped_ = false;
 };
 
 constexpr const char* kFooter = R"(
 SCENE is a scene with "haptics" (docs/haptics.md): its tools follow the devices, one --device each.
-DEVICE is a recording (.csv, docs/haptic_devices.md) or "simulated": a hand that knows nothing of
-the scene, on a device without weight. In virtual time the same command gives the same files.
+DEVICE is one of these (docs/haptic_devices.md):
+  FILE.csv                    a recording
+  simulated                   a hand that knows nothing of the scene, on a device without weight
+  mouse[=PORT]                the mouse, on a page that this command serves to this machine only
+  spacemouse[=SOCKET]         a SpaceMouse through spacenavd
+  haply[=ws://HOST:PORT]      a Haply Inverse3 through its service; localhost:10001 by default
+  plugin=FILE[,SETTINGS]      another device, by a shared library
+The last four run on the wall clock, as with --wall; SpaceMouse and Haply were not tried on
+hardware. In virtual time the same command gives the same files.
 RUN is the way of the tools. `firstcontact verify RUN` proves it as written, with other code:
 nothing passed through anything, between ticks too. `firstcontact view RUN` plays it.
 
@@ -361,8 +414,10 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   command->add_option("SCENE", arguments->scene, "The scene, .json; - for standard input")
       ->required();
   command
-      ->add_option("--device", arguments->devices,
-                   "A recording (.csv) or \"simulated\"; once for each tool")
+      ->add_option(
+          "--device", arguments->devices,
+          "A recording (.csv), simulated, mouse, spacemouse, haply or plugin=FILE; once for each "
+          "tool")
       ->required()
       ->expected(1)
       ->take_all();
@@ -374,7 +429,8 @@ void add_haptics_command(CLI::App& app, ExitStatus& status) {
   add_file(*command, "--plot", arguments->plot, "Draws forces over time (.svg)");
   add_file(*command, "--html", arguments->page, "Makes a page that plays the run");
   add_number(*command, "--duration", arguments->duration, Range::positive,
-             "Seconds; by default those of the longest recording, or 10");
+             "Seconds; by default those of the longest recording, or 60 with a device that a hand "
+             "moves, or 10");
   add_number(*command, "--latency", arguments->latency, Range::not_negative,
              "Seconds that a cycle of the contact loop takes in virtual time");
   add_number(*command, "--radius", arguments->radius, Range::positive,

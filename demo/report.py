@@ -1,15 +1,17 @@
 """Shows the results of the demo: a table on the terminal, and a page beside the results.
 
-    report.py FOLDER NAME... [--simulations NAME...] [--plans NAME...]
+    report.py FOLDER NAME... [--simulations NAME...] [--plans NAME...] [--haptics NAME...]
 
 FOLDER has NAME.json (the result), NAME.svg (the gap over time), NAME.html (the page that plays it)
 and NAME.txt (what the tool said). Of a simulation there are NAME.jsonl (the run), NAME.txt and, where pages
-were asked for, NAME.html. Of a plan there are NAME.json (the path), NAME.txt and NAME.html.
+were asked for, NAME.html. Of a plan there are NAME.json (the path), NAME.txt and NAME.html. A haptic session
+has the files of a simulation, and NAME.svg (its forces over time).
 """
 
 import html
 import json
 import pathlib
+import re
 import sys
 
 UNITS = (("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9))
@@ -75,7 +77,8 @@ def of_result(folder: pathlib.Path, name: str, result: dict) -> dict:
             "plot": f"{name}.svg" if has_plot else ""}
 
 
-def of_simulation(folder: pathlib.Path, name: str, text: str) -> dict:
+def of_run(folder: pathlib.Path, name: str, text: str, done: str) -> dict:
+    """What the card of a simulation or of a haptic session says."""
     with open(folder / f"{name}.jsonl", encoding="utf-8") as run:
         title = json.loads(run.readline())["scene"]["id"]
         last = None
@@ -87,9 +90,17 @@ def of_simulation(folder: pathlib.Path, name: str, text: str) -> dict:
     proven = "jsonl: proven: " in text
     tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
     return {"name": name, "title": title, "kind": "free" if proven else "undecided",
-            "word": "Simulated, verified" if proven else "Simulated", "fact": f"{plural(steps, 'step')}, {seconds:.3g} s",
+            "word": f"{done}, verified" if proven else done, "fact": f"{plural(steps, 'step')}, {seconds:.3g} s",
             "tested": int(tested) if tested else None, "warnings": text.count("warning:"), "data": f"{name}.jsonl",
             "plot": ""}
+
+
+def of_session(folder: pathlib.Path, name: str, text: str) -> dict:
+    force = re.search(r"force +at most (\S+ N)", text)
+    facts = of_run(folder, name, text, "Felt")
+    has_plot = (folder / f"{name}.svg").exists()
+    return {**facts, "fact": facts["fact"] + (f", at most {force.group(1)}" if force else ""),
+            "plot": f"{name}.svg" if has_plot else "", "plotted": "Forces over time"}
 
 
 def of_plan(name: str, path: dict, text: str) -> dict:
@@ -114,7 +125,7 @@ def card(folder: pathlib.Path, facts: dict, text: str) -> str:
     worth = [plural(facts["tested"], "pair") + " tested"] if facts["tested"] is not None else []
     worth += [f'<em>⚠ {plural(facts["warnings"], "warning")}</em>'] if facts["warnings"] else []
     links = [f'<a href="{name}.html">Play</a>'] if playable else []
-    links += [f'<a href="{facts["plot"]}">Gap over time</a>'] if facts["plot"] else []
+    links += [f'<a href="{facts["plot"]}">{facts.get("plotted", "Gap over time")}</a>'] if facts["plot"] else []
     links += [f'<a href="{facts["data"]}">{facts["data"]}</a>']
     return f"""<article id="{name}" data-kind="{facts["kind"]}">
 {top}
@@ -128,7 +139,7 @@ def card(folder: pathlib.Path, facts: dict, text: str) -> str:
 </article>"""
 
 
-def main(folder: pathlib.Path, names: list, simulations: list, plans: list) -> int:
+def main(folder: pathlib.Path, names: list, simulations: list, plans: list, sessions: list) -> int:
     names = [name for name in names if (folder / f"{name}.json").exists()]
     results = [json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in names]
     print(terminal_table([row(result) for result in results]) + "\n")
@@ -140,7 +151,9 @@ def main(folder: pathlib.Path, names: list, simulations: list, plans: list) -> i
         return (folder / f"{name}.txt").read_text(encoding="utf-8")
 
     scenes = [card(folder, of_result(folder, name, result), said(name)) for name, result in zip(names, results)]
-    runs = [card(folder, of_simulation(folder, name, said(name)), said(name)) for name in simulations
+    runs = [card(folder, of_run(folder, name, said(name), "Simulated"), said(name)) for name in simulations
+            if (folder / f"{name}.jsonl").exists()]
+    felt = [card(folder, of_session(folder, name, said(name)), said(name)) for name in sessions
             if (folder / f"{name}.jsonl").exists()]
     plans = [name for name in plans if (folder / f"{name}.json").exists()]
     paths = [card(folder, of_plan(name, json.loads((folder / f"{name}.json").read_text(encoding="utf-8")), said(name)),
@@ -148,13 +161,14 @@ def main(folder: pathlib.Path, names: list, simulations: list, plans: list) -> i
     page = (pathlib.Path(__file__).parent / "index_template.html").read_text(encoding="utf-8")
     (folder / "index.html").write_text(page.replace("<!-- scenes -->", "\n".join(scenes))
                                            .replace("<!-- plans -->", "\n".join(paths))
+                                           .replace("<!-- sessions -->", "\n".join(felt))
                                            .replace("<!-- simulations -->", "\n".join(runs)), encoding="utf-8")
     print(f"\nPlots and results: {folder / 'index.html'}")
     return 0
 
 
 if __name__ == "__main__":
-    asked = {"names": [], "--simulations": [], "--plans": []}
+    asked = {"names": [], "--simulations": [], "--plans": [], "--haptics": []}
     section = "names"
     for word in sys.argv[2:]:
         if word in asked:

@@ -4,6 +4,7 @@
 set(public_headers
   firstcontact/motion/motion.h
   firstcontact/text/parse_error.h
+  firstcontact/haptic_devices/browser_device.h
   firstcontact/haptic_devices/device.h
   firstcontact/haptic_devices/device_plugin.h
   firstcontact/haptic_devices/haply.h

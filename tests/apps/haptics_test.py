@@ -1,19 +1,30 @@
 """`firstcontact haptics` as a user meets it: runs that are proven, logs, errors that name what is wrong.
 
-    haptics_test.py TOOL [unittest arguments]
+    haptics_test.py TOOL PLUGIN [unittest arguments]
+
+PLUGIN is the example of a plug-in, as a shared library.
 """
 
 import csv
 import json
 import pathlib
+import re
+import signal
+import socket
 import sys
 import unittest
+import urllib.error
+import urllib.request
 
+import haptic_services
 import tool_test
 
 
 PLATE = {"name": "plate", "shape": {"box": {"size": [0.2, 0.2, 0.0001]}}}
 PEG = {"name": "peg", "shape": {"box": {"size": [0.02, 0.02, 0.04]}}, "pose": {"position": [0, 0, 0.04]}}
+
+
+PLUGIN = ""
 
 
 def scene(tools=({"body": "peg"},), bodies=(PLATE, PEG), **more):
@@ -66,6 +77,115 @@ class Haptics(tool_test.ToolTest):
         self.assertIn("tick_cpu", (self.folder / "timing.csv").read_text())
         self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
 
+    def felt_by(self, device, *arguments):
+        """Runs a device of a hand against the plate, proves the run, and gives the ticks."""
+        self.file("scene.json", scene())
+        result = self.run_tool("haptics", "scene.json", "--device", device, "-o", "run.jsonl", "--ticks", "ticks.csv",
+                               *arguments)
+        self.assertEqual(result.returncode, 0, result)
+        self.assertIn("SCHED_FIFO", result.stdout)  # On the wall, although nobody asked for it.
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+        with open(self.folder / "ticks.csv", encoding="utf-8") as file:
+            return result, list(csv.DictReader(file))
+
+    def test_follows_a_spacemouse(self):
+        daemon = haptic_services.SpaceNavigator(self.folder / "spnav.sock")
+        self.addCleanup(daemon.close)
+        result, ticks = self.felt_by(f"spacemouse={daemon.path}", "--duration", "0.4")
+        self.assertRegex(result.stdout, r"device +SpaceMouse .*spnav.sock: [1-9]\d* samples, 0 missed, 0 malformed\n")
+        self.assertIn("live", {tick["status"] for tick in ticks})
+        self.assertLess(float(ticks[-1]["target_pz"]), 0.03)
+
+    def test_follows_a_haply_of_both_generations(self):
+        for is_since_3_5 in (False, True):
+            service = haptic_services.InverseService(is_since_3_5)
+            self.addCleanup(service.close)
+            result, ticks = self.felt_by(f"haply=ws://{service.address}", "--duration", "0.6", "--force")
+            self.assertRegex(result.stdout, r"device +inverse3 049D: [1-9]\d* samples")
+            self.assertAlmostEqual(float(ticks[-1]["target_pz"]), 0.01)
+            self.assertAlmostEqual(max(service.forces), 2.0)  # The plate pushes up, to the device's limit.
+            self.assertEqual(service.forces[-1], 0.0)
+
+    def test_follows_a_plug_in(self):
+        result, ticks = self.felt_by(f"plugin={PLUGIN},radius=0.05", "--duration", "0.3")
+        self.assertRegex(result.stdout, r"device +orbit: [1-9]\d* samples")
+        self.assertGreater(len({tick["device_px"] for tick in ticks}), 100)
+
+    def live(self):
+        """Starts a session whose tool follows a page; gives the process and the port."""
+        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
+            self.skipTest("built without the viewer")
+        self.file("scene.json", scene())
+        process = self.start("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl", "--ticks", "ticks.csv")
+        return process, int(re.match(r"http://127.0.0.1:(\d+)/ ", process.stdout.readline()).group(1))
+
+    def test_follows_the_mouse_on_its_page(self):
+        process, port = self.live()
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=20) as page:
+            self.assertIn(b'<script id="firstcontact-live" type="application/json">{"tool":1}', page.read())
+        page = haptic_services.Page(port, f"http://127.0.0.1:{port}")
+        self.addCleanup(page.close)
+        self.assertEqual(page.status, 101)
+        self.assertEqual(page.picture()["handle"], [0, 0, 0, 1, 0, 0, 0])
+        page.send('{"position": [0, 0, -0.025], "rotation": [1, 0, 0, 0]}')
+        picture = page.picture()
+        while picture["force"][2] < 4.9:  # A spring of 1,000 N/m, 5 mm in the plate.
+            picture = page.picture()
+        self.assertAlmostEqual(picture["target"][2], 0.015)
+        self.assertEqual(picture["bodies"][0][0], 1)
+        self.assertGreater(picture["bodies"][0][3], 0.02)
+        self.assertGreater(len(picture["contacts"]), 2)
+        page.send('{"position": [0, 0, 1e9], "rotation": [1, 0, 0, 0]}')
+        page.send('{"position": [0, 0, 0.01], "rotation": [1, 0, 0, 0]}')
+        while picture["force"][2] > 0:
+            picture = page.picture()
+        process.send_signal(signal.SIGINT)
+        stdout, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+        self.assertRegex(stdout, rf"device +mouse 127.0.0.1:{port}: 2 samples, 0 missed, 1 malformed")
+        self.assertEqual(self.run_tool("verify", "run.jsonl").returncode, 0)
+
+    def test_gives_the_tool_to_its_own_page_only(self):
+        process, port = self.live()
+        for origin, status in (("http://example.com", 403), (f"http://localhost:{port}", 101),
+                               (f"http://127.0.0.1:{port}", 403)):
+            page = haptic_services.Page(port, origin)
+            self.addCleanup(page.close)
+            self.assertEqual(page.status, status, origin)
+        with self.assertRaises(urllib.error.HTTPError) as refusal:
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/scene.json", timeout=20)
+        refusal.exception.close()
+        self.assertEqual(refusal.exception.code, 404)
+        self.assert_refused_with(self.run_tool("haptics", "scene.json", "--device", f"mouse={port}", "-o", "other.jsonl"),
+                                 f"127.0.0.1:{port}", "another port")
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 3)
+
+    def test_says_which_service_does_not_answer(self):
+        self.file("scene.json", scene())
+        self.assert_writes_nothing(self.haptics("--device", "spacemouse=none.sock"), "none.sock",
+                                   "systemctl start spacenavd")
+        with socket.create_server(("127.0.0.1", 0)) as closed:
+            address = "127.0.0.1:%d" % closed.getsockname()[1]
+        self.assert_writes_nothing(self.haptics("--device", f"haply={address}"), address, "start Haply Hub")
+        self.assert_writes_nothing(self.haptics("--device", "plugin=none.so"), "none.so", "found no file")
+
+    def test_refuses_addresses_of_another_form(self):
+        self.file("scene.json", scene())
+        for device, mend in (("haply=ws://localhost", "ws://HOST:PORT"), ("haply=:10001", "ws://HOST:PORT"),
+                             ("haply=localhost:70000", "ws://HOST:PORT"), ("haply=http://localhost:1", "ws://HOST:PORT"),
+                             ("spacemouse=", "spacemouse=SOCKET"), ("mouse=0", "mouse=PORT"),
+                             ("mouse=x", "mouse=PORT"), ("plugin", "plugin=FILE"),
+                             ("plugin=,radius=1", "plugin=FILE"), ("spaceball", "spacemouse, haply")):
+            self.assert_writes_nothing(self.haptics("--device", device), f"--device {device}: ", mend)
+
+    def test_refuses_virtual_time_with_a_hand(self):
+        self.file("scene.json", scene())
+        latency = ("--latency", "0.01")
+        self.assert_writes_nothing(self.haptics("--device", "haply", *latency), "--device haply runs on the wall clock")
+        self.assert_writes_nothing(self.haptics("--device", "simulated", "--wall", *latency), "--wall runs on the wall")
+
     def test_names_what_is_wrong(self):
         self.file("scene.json", {"firstcontact": 1, "bodies": [PLATE, PEG]})
         device = ("--device", "simulated")
@@ -76,6 +196,7 @@ class Haptics(tool_test.ToolTest):
         self.assert_writes_nothing(self.haptics(*device), '"peg" and "plate" meet')
         self.file("scene.json", scene())
         self.assert_writes_nothing(self.haptics(*device, *device), "--device", "1 of them; got 2")
+        self.assert_writes_nothing(self.haptics("--device", "mouse", "--device", "mouse"), "mouse moves one tool")
         self.assert_writes_nothing(self.haptics("--device", "none.csv"), "none.csv")
         self.assert_writes_nothing(self.haptics(*device, out="scene.json"), "scene.json")
         self.file("broken.csv", "no recording\n")
@@ -84,4 +205,5 @@ class Haptics(tool_test.ToolTest):
 
 if __name__ == "__main__":
     tool_test.TOOL = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    PLUGIN = str(pathlib.Path(sys.argv.pop(1)).resolve())
     unittest.main()

@@ -18,8 +18,8 @@ def run(name: str, *arguments) -> str:
     return done.stdout
 
 
-def test_there_are_seven():
-    assert len(list(FOLDER.glob("*.py"))) == 7
+def test_there_are_eight():
+    assert len(list(FOLDER.glob("*.py"))) == 8
 
 
 def test_tumbling_box():
@@ -84,3 +84,15 @@ def test_pushed_crate(tmp_path):
     assert mass == pytest.approx(200 * 0.4**3) and place == pytest.approx(0.5, abs=0.02)
     assert nearest > 0 and force == pytest.approx(9.81 * mass, rel=1e-3)
     assert told.splitlines()[-1] == "The run is proven"
+
+
+def test_felt_hole(tmp_path):
+    told = run("felt_hole", tmp_path / "map.svg", 5)
+    up, led = zip(*(map(float, pair) for pair in re.findall(r"mm +(\S+) +(\S+)", told)))
+    # The spring has 1,500 N/m and the handle is 0.5 mm below the rim; the tilt takes some of it.
+    assert up[0] == pytest.approx(0.75, rel=0.05) and abs(led[0]) < 0.02
+    # Chamfers of 45 degrees without friction lead sideways as much as up.
+    assert 0.1 < up[1] < 0.3 and led[1] == pytest.approx(up[1], rel=0.02)
+    assert up[2] == led[2] == 0
+    assert up == pytest.approx(up[::-1], rel=1e-3) and led == pytest.approx(led[::-1], abs=1e-3)
+    assert (tmp_path / "map.svg").read_text().count("<rect") == 25

@@ -1,4 +1,4 @@
-"""demo/report.py makes a card of each scene and simulation that there is, and of nothing else."""
+"""demo/report.py makes a card of each scene, path, simulation and haptic session that there is, and of nothing else."""
 
 import contextlib
 import html.parser
@@ -66,13 +66,18 @@ class Report(unittest.TestCase):
             (folder / "path.json").write_text(json.dumps(PATH), encoding="utf-8")
             proof = "path.json: proven: 2 edges\n" if verified else "error: no proof\n"
             (folder / "path.txt").write_text(proof + "  tested     4 pairs\n", encoding="utf-8")
+            (folder / "felt.jsonl").write_text("\n".join(map(json.dumps, lines)) + "\n", encoding="utf-8")
+            proof = "felt.jsonl: proven: none touches\n" if verified else "error: no proof\n"
+            (folder / "felt.txt").write_text("  force      at most 1.5 N and 0.2 N m\n" + proof, encoding="utf-8")
+            (folder / "felt.svg").write_text("", encoding="utf-8")
             with contextlib.redirect_stdout(io.StringIO()) as said:
-                report.main(folder, ["free", "contact", "missing"], ["run", "missing_run"], ["path", "missing_path"])
+                report.main(folder, ["free", "contact", "missing"], ["run", "missing_run"], ["path", "missing_path"],
+                            ["felt", "missing_session"])
             return Cards((folder / "index.html").read_text(encoding="utf-8")), said.getvalue()
 
     def test_has_what_there_is_and_nothing_else(self):
         cards, said = self.cards()
-        self.assertEqual(list(cards.texts), ["free", "contact", "path", "run"])
+        self.assertEqual(list(cards.texts), ["free", "contact", "path", "felt", "run"])
         self.assertIn("apart <b>", said)
 
     def test_says_the_verdict_the_pairs_and_the_warnings(self):
@@ -96,6 +101,14 @@ class Report(unittest.TestCase):
             self.assertIn(text, cards.texts["path"])
         cards, _ = self.cards(verified=False)
         self.assertNotIn("verified", cards.texts["path"])
+
+    def test_shows_the_force_of_a_haptic_session(self):
+        cards, _ = self.cards()
+        for text in ("Felt, verified", "2 steps, 1 s, at most 1.5 N", "Forces over time"):
+            self.assertIn(text, cards.texts["felt"])
+        self.assertEqual(set(cards.links["felt"]), {"felt.svg", "felt.jsonl"})
+        cards, _ = self.cards(verified=False)
+        self.assertNotIn("verified", cards.texts["felt"])
 
     def test_calls_a_simulation_verified_only_where_it_is(self):
         cards, _ = self.cards()

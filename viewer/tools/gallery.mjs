@@ -56,6 +56,15 @@ all.push(
   { name: "turntable", ...law("turntable"), theme: "light", nearer: 3, t: 0.66 },
   { name: "arch", ...law("arch"), theme: "dark", nearer: 1, t: 0.5 },
 );
+all.push({
+  name: "peg_felt",
+  session: ["demo/haptics/peg_and_hole.json", "--device", "demo/haptics/peg_hand.csv"],
+  size: [1120, 700],
+  theme: "light",
+  keys: ["2", "x"],
+  joint: "contacts",
+  t: 0.62,
+});
 const pictures = all.filter(({ name }) => wanted.length === 0 || wanted.includes(name));
 
 const folder = mkdtempSync(join(tmpdir(), "firstcontact-"));
@@ -69,15 +78,17 @@ const browser = await chromium.launch({
   ],
 });
 
-function makePage({ name, question, simulation, law }) {
+function makePage({ name, question, simulation, session, law }) {
   const page = join(folder, `${name}.html`);
   if (law !== undefined) {
     execFileSync("python3", ["demo/simulations/make_laws.py", folder]);
     return makePage({ name, simulation: [join(folder, `${law}.json`)] });
   }
-  if (simulation !== undefined) {
+  const moved = session ?? simulation;
+  if (moved !== undefined) {
     const run = join(folder, `${name}.jsonl`);
-    execFileSync(tool, ["simulate", ...simulation, "-o", run, "--html", page]);
+    const command = session === undefined ? "simulate" : "haptics";
+    execFileSync(tool, [command, ...moved, "-o", run, "--html", page]);
     execFileSync(tool, ["verify", run], { stdio: "inherit" });
     return page;
   }

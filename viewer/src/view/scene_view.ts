@@ -6,6 +6,7 @@ import {
   BufferGeometry,
   DirectionalLight,
   HemisphereLight,
+  type Intersection,
   MOUSE,
   PerspectiveCamera,
   Raycaster,
@@ -60,7 +61,7 @@ export class SceneView {
   frameTime = 0;
   onFrame: (() => void) | null = null;
 
-  private readonly scene = new Scene();
+  readonly scene = new Scene();
   private readonly renderer: WebGLRenderer;
   private readonly controls: OrbitControls;
   private readonly flight: CameraFlight;
@@ -247,8 +248,8 @@ export class SceneView {
     this.fly({ position: target.clone().addScaledVector(direction, range), target });
   }
 
-  /// The point of a body under a place of the window.
-  pick(x: number, y: number): void {
+  /// The nearest surface under a place of the window.
+  hitAt(x: number, y: number): Intersection | undefined {
     const box = this.canvas.getBoundingClientRect();
     const at = new Vector2(
       (2 * (x - box.left)) / box.width - 1,
@@ -257,9 +258,14 @@ export class SceneView {
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
     ray.params.Points.threshold = 0.005 * this.home.radius;
-    const hit = ray
+    return ray
       .intersectObjects(this.shownSurfaces(), false)
       .find(({ distance, point }) => distance > this.camera.near && this.cut.keeps(point));
+  }
+
+  /// The point of a body under a place of the window.
+  pick(x: number, y: number): void {
+    const hit = this.hitAt(x, y);
     if (!hit) {
       this.probe.clear();
       return;

@@ -141,6 +141,31 @@ FileDescriptor connect_tcp(const std::string& host, std::uint16_t port, const St
   return socket;
 }
 
+FileDescriptor listen_local_tcp(std::uint16_t wanted, std::uint16_t& port, std::string& problem) {
+  FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int on = 1;
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(wanted);
+  socklen_t size = sizeof address;
+  if (!socket.is_open() ||
+      ::setsockopt(socket.number(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
+      ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(socket.number(), SOMAXCONN) != 0 ||
+      ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&address), &size) != 0) {
+    problem = text_of(errno);
+    return FileDescriptor();
+  }
+  port = ntohs(address.sin_port);
+  return socket;
+}
+
+FileDescriptor accept_one(const FileDescriptor& listener) noexcept {
+  return FileDescriptor(
+      ::accept4(listener.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+}
+
 bool send_all(const FileDescriptor& socket, std::string_view bytes, const StopSignal& stop,
               std::int64_t until_ns) noexcept {
   while (!bytes.empty()) {

@@ -66,6 +66,14 @@ enum class WaitFor { reading, writing };
                                          const StopSignal& stop, std::int64_t until_ns,
                                          std::string& problem);
 
+/// Listens on a port of 127.0.0.1; 0 stands for a free one, and `port` becomes the one that it is.
+/// Without success the descriptor is closed, and `problem` has the reason.
+[[nodiscard]] FileDescriptor listen_local_tcp(std::uint16_t wanted, std::uint16_t& port,
+                                              std::string& problem);
+
+/// Takes a connection that waits; a closed descriptor if none does.
+[[nodiscard]] FileDescriptor accept_one(const FileDescriptor& listener) noexcept;
+
 /// Sends all bytes. False if the other side is gone, or the wait ended.
 [[nodiscard]] bool send_all(const FileDescriptor& socket, std::string_view bytes,
                             const StopSignal& stop, std::int64_t until_ns) noexcept;

@@ -1,0 +1,53 @@
+/// @file
+/// The words of `--device`: which haptic device moves a tool, and where it is found.
+
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <firstcontact/haptic_devices/browser_device.h>
+#include <firstcontact/haptic_devices/device.h>
+#include <firstcontact/haptic_devices/haply.h>
+#include <firstcontact/haptic_devices/recording.h>
+#include <firstcontact/haptic_devices/simulated_operator.h>
+#include <firstcontact/haptic_devices/space_mouse.h>
+
+namespace firstcontact::app {
+
+/// A hand without hardware.
+struct SimulatedChoice {};
+
+/// A plug-in, and the settings that its device is opened by.
+struct PluginChoice {
+  std::string path;
+  std::string settings;
+};
+
+/// A device that is named but not open yet.
+using DeviceChoice = std::variant<SimulatedChoice, Recording, BrowserDeviceOptions,
+                                  SpaceMouseOptions, HaplyOptions, PluginChoice>;
+
+/// Reads one word: "simulated", "mouse", "mouse=PORT", "spacemouse", "spacemouse=SOCKET", "haply",
+/// "haply=ws://HOST:PORT", "plugin=FILE", "plugin=FILE,SETTINGS", or else the path of a recording.
+///
+/// @throws ParseError  where an address has another form, or the recording is none
+[[nodiscard]] DeviceChoice read_device_choice(const std::string& word);
+
+/// Whether a hand moves the device, so that it stands on the wall clock.
+[[nodiscard]] bool is_live(const DeviceChoice& choice);
+
+/// The file that a word names; none where it names no file.
+[[nodiscard]] std::optional<std::filesystem::path> file_of_device(const std::string& word);
+
+/// Opens the device.
+///
+/// @param hand  of a simulated one
+/// @throws std::runtime_error  where a service does not answer; names its address and the mend
+[[nodiscard]] std::unique_ptr<Device> open_device(const DeviceChoice& choice,
+                                                  const SimulatedOperatorOptions& hand);
+
+}  // namespace firstcontact::app

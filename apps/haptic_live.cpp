@@ -1,0 +1,82 @@
+#include "haptic_live.h"
+
+#include <fmt/core.h>
+
+#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+
+namespace firstcontact::app {
+namespace {
+
+constexpr std::int64_t kPictureNs = 16'000'000;  // Between pictures: 60 a second.
+constexpr double kStill = 1.0;                   // [s]  Of the page, in which nothing moves.
+
+std::string numbers(const Pose& pose) {
+  const auto& [p, q] = pose;
+  return fmt::format("{},{},{},{},{},{},{}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+}
+
+std::string numbers(const Eigen::Vector3d& v) {
+  return fmt::format("{},{},{}", v.x(), v.y(), v.z());
+}
+
+}  // namespace
+
+HapticLive::HapticLive(const HapticSetup& setup, std::size_t tool) : setup_(setup), tool_(tool) {
+  for (const HapticTool& each : setup.scene.tools) {
+    poses_.emplace_back(each.X_WB);
+  }
+  poses_.resize(setup.bodies.size());
+}
+
+std::string HapticLive::page(const RunHeader& header, std::string_view page_template) const {
+  RunPage still(header);
+  RunStep step{.index = 1, .time = kStill, .lasted = kStill};
+  for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
+    const Pose& X_WB = setup_.scene.tools[k].X_WB;
+    step.bodies.push_back(
+        {.body = setup_.bodies[k], .pieces = {{.to = kStill, .X_WB = X_WB}}, .X_WB = X_WB});
+  }
+  still.add(step);
+  ShapeCache cache;
+  std::string text = still.write(page_template, load_scene(header.scene, cache));
+  text.insert(
+      text.rfind("</body>"),
+      fmt::format("<script id=\"firstcontact-live\" type=\"application/json\">{{\"tool\":{}}}"
+                  "</script>\n",
+                  setup_.bodies[tool_]));
+  return text;
+}
+
+void HapticLive::take(const HapticCycle& cycle) {
+  for (const HapticMemberMotion& motion : cycle.members) {
+    poses_[motion.member] = motion.X_WB;
+  }
+  touches_ = cycle.touches;
+}
+
+bool HapticLive::is_due(const ForceTick& tick) const {
+  return shown_ns_ == 0 || tick.time_ns - shown_ns_ >= kPictureNs;
+}
+
+std::string HapticLive::picture(const ForceTick& tick) {
+  shown_ns_ = tick.time_ns;
+  const ToolTick& tool = tick.tools[tool_];
+  std::string text = fmt::format(R"({{"handle":[{}],"target":[{}],"force":[{}],"torque":[{}],)",
+                                 numbers(tool.device.X_DH), numbers(tool.target),
+                                 numbers(tool.force_W), numbers(tool.torque_W));
+  text += "\"bodies\":[";
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (poses_[k]) {  // The first tool always has one.
+      text += fmt::format("{}[{},{}]", k == 0 ? "" : ",", setup_.bodies[k], numbers(*poses_[k]));
+    }
+  }
+  text += "],\"contacts\":[";
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    text += fmt::format("{}[{}]", k == 0 ? "" : ",", numbers(touches_[k].contact.point));
+  }
+  return text + "]}";
+}
+
+}  // namespace firstcontact::app

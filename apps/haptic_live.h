@@ -1,0 +1,46 @@
+/// @file
+/// The live view of a haptic session: its page, and what that page is sent.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/haptics/force_loop.h>
+#include <firstcontact/haptics_files/haptic_setup.h>
+#include <firstcontact/record/run.h>
+
+namespace firstcontact::app {
+
+/// Gathers what there is to see: poses, contacts and forces. One tool follows the mouse.
+class HapticLive {
+ public:
+  /// @param setup  lives as long as this
+  /// @param tool   its number
+  HapticLive(const HapticSetup& setup, std::size_t tool);
+
+  /// The viewer's page, of bodies that stand until messages move them.
+  [[nodiscard]] std::string page(const RunHeader& header, std::string_view page_template) const;
+
+  void take(const HapticCycle& cycle);
+
+  /// Whether a picture is due at a tick.
+  [[nodiscard]] bool is_due(const ForceTick& tick) const;
+
+  /// A picture as JSON.
+  [[nodiscard]] std::string picture(const ForceTick& tick);
+
+ private:
+  const HapticSetup& setup_;
+  std::size_t tool_;
+  std::vector<std::optional<Pose>> poses_;  // X_WB of each member that has moved, and of tools.
+  std::vector<HapticTouch> touches_;
+  std::int64_t shown_ns_ = 0;
+};
+
+}  // namespace firstcontact::app

@@ -1,0 +1,269 @@
+#include <firstcontact/haptic_devices/browser_device.h>
+
+#include <array>
+#include <cmath>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include <firstcontact/haptic_devices/detail/driver_report.h>
+#include <firstcontact/haptic_devices/detail/quiet_state.h>
+#include <firstcontact/haptic_devices/detail/socket.h>
+#include <firstcontact/haptic_devices/detail/websocket.h>
+#include <firstcontact/haptic_devices/mail_slot.h>
+#include <firstcontact/text/json_reader.h>
+#include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/text/parse_json.h>
+
+namespace firstcontact {
+namespace {
+
+using detail::JsonArray;
+using detail::JsonReader;
+using detail::JsonValue;
+using detail::WebSocketKind;
+
+constexpr std::int64_t kRoundNs = 4'000'000;     // Between looks at the connections.
+constexpr std::int64_t kPictureNs = 16'000'000;  // Between messages to the page.
+constexpr std::int64_t kSendNs = 500'000'000;    // Limit for one answer.
+constexpr std::size_t kMostMessage = 4096;       // [byte]  Of a pose.
+constexpr std::size_t kMostConnections = 16;
+constexpr double kMostLength = 100.0;  // [m]
+
+const std::string& page_name() {
+  static const std::string name = "page of the mouse";
+  return name;
+}
+
+std::string http_answer(const char* status, std::string_view text) {
+  return std::string("HTTP/1.1 ") + status +
+         "\r\nContent-Type: text/html; charset=utf-8\r\nCache-Control: no-store\r\n"
+         "Connection: close\r\nContent-Length: " +
+         std::to_string(text.size()) + "\r\n\r\n" + std::string(text);
+}
+
+template <std::size_t n>
+std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& value, double most) {
+  const JsonArray& given = reader.array(value, "a list of numbers");
+  if (given.size() != n) {
+    reader.fail_expected(std::to_string(n) + " numbers", value);
+  }
+  std::array<double, n> numbers{};
+  for (std::size_t k = 0; k < n; ++k) {
+    numbers[k] = reader.number(given[k]);
+    if (!(std::abs(numbers[k]) <= most)) {
+      reader.fail_expected("a smaller number", given[k]);
+    }
+  }
+  return numbers;
+}
+
+Pose handle_of(std::string_view text) {
+  const JsonValue root = detail::parse_json(text, page_name());
+  const JsonReader reader(root, page_name());
+  const auto p = numbers_of<3>(reader, reader.member(root, "position"), kMostLength);
+  const auto q = numbers_of<4>(reader, reader.member(root, "rotation"), 2.0);
+  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
+    reader.fail_expected("a quaternion of length 1", reader.member(root, "rotation"));
+  }
+  return {Eigen::Vector3d(p[0], p[1], p[2]), rotation.normalized()};
+}
+
+}  // namespace
+
+struct BrowserDevice::Data {
+  struct Connection {
+    detail::FileDescriptor socket;
+    std::string request;
+    std::optional<detail::WebSocketReader> reader;  // Once it is a WebSocket.
+    bool closed = false;
+  };
+
+  explicit Data(const BrowserDeviceOptions& options) {
+    std::string problem;
+    listener = detail::listen_local_tcp(options.port, port, problem);
+    if (!listener.is_open()) {
+      throw std::runtime_error("cannot serve a page at 127.0.0.1:" + std::to_string(options.port) +
+                               ": " + problem + "; name another port, or 0 for a free one");
+    }
+    capabilities.name = "mouse";
+    capabilities.id = "127.0.0.1:" + std::to_string(port);
+    capabilities.sensed = DegreesOfFreedom::all();
+    report.set_problem("no page is open yet");
+  }
+
+  bool send(const Connection& connection, std::string_view bytes) {
+    return detail::send_all(connection.socket, bytes, stop, steady_now_ns() + kSendNs);
+  }
+
+  /// Whether a request comes from a page of this device, or from a program.
+  [[nodiscard]] bool is_own(const std::string& origin) const {
+    const std::string suffix = ":" + std::to_string(port);
+    return origin.empty() || origin == "http://127.0.0.1" + suffix ||
+           origin == "http://localhost" + suffix;
+  }
+
+  [[nodiscard]] bool has_page() const {
+    for (const Connection& connection : connections) {
+      if (connection.reader && !connection.closed) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void answer(Connection& connection, const detail::HttpHead& head) {
+    const auto shakes_hands = detail::websocket_answer(head);
+    if (head.first_line.starts_with("GET /live ") && shakes_hands) {
+      if (!is_own(head.origin) || has_page()) {
+        connection.closed = true;
+        (void)send(connection, http_answer("403 Forbidden", "another page moves the tool"));
+        return;
+      }
+      connection.reader.emplace(detail::WebSocketSide::server, kMostMessage);
+      connection.reader->add(std::string_view(connection.request).substr(head.size));
+      connection.closed = !send(connection, *shakes_hands);
+      ++report.connections;
+      return;
+    }
+    connection.closed = true;
+    const bool is_page = head.first_line.starts_with("GET / ");
+    (void)send(connection, is_page ? http_answer("200 OK", page)
+                                   : http_answer("404 Not Found", "there is a page at / only"));
+  }
+
+  void take(const std::string& text) {
+    try {
+      state.X_DH = handle_of(text);
+      state.status = DeviceStatus::live;
+      state.time_ns = steady_now_ns();
+      ++state.sequence;
+      ++report.samples;
+      report.set_problem({});
+      states.put(state);
+    } catch (const ParseError& error) {
+      ++report.malformed;
+      report.set_problem(error.what());
+    }
+  }
+
+  void read(Connection& connection) {
+    std::array<char, 16'384> buffer{};
+    const detail::Received received = detail::receive(connection.socket, buffer);
+    const std::string_view bytes(buffer.data(), received.count);
+    connection.closed = !received.open;
+    if (!connection.reader) {
+      connection.request.append(bytes);
+      if (const auto head = detail::http_head(connection.request)) {
+        answer(connection, *head);
+      } else if (connection.request.size() > detail::kMostHttpHead) {
+        connection.closed = true;
+      }
+      return;
+    }
+    connection.reader->add(bytes);
+    while (const auto message = connection.reader->next()) {
+      if (message->kind == WebSocketKind::text) {
+        take(message->payload);
+      } else if (message->kind == WebSocketKind::ping) {
+        (void)send(connection, detail::websocket_frame(WebSocketKind::pong, message->payload, {}));
+      } else if (message->kind == WebSocketKind::close) {
+        connection.closed = true;
+      }
+    }
+    connection.closed = connection.closed || !connection.reader->failure().empty();
+  }
+
+  void show_newest() {
+    std::string text;
+    {
+      const std::lock_guard lock(mutex);
+      text = std::exchange(picture, {});
+    }
+    for (Connection& connection : connections) {
+      if (connection.reader && !connection.closed && !text.empty()) {
+        connection.closed =
+            !send(connection, detail::websocket_frame(WebSocketKind::text, text, {}));
+      }
+    }
+  }
+
+  void run() {
+    std::int64_t shown_ns = steady_now_ns();
+    while (detail::wait_for(stop, steady_now_ns() + kRoundNs) != detail::WaitEnd::stopped) {
+      detail::FileDescriptor socket = detail::accept_one(listener);
+      if (socket.is_open() && connections.size() < kMostConnections) {
+        connections.push_back({.socket = std::move(socket), .request = {}, .reader = {}});
+      }
+      const bool had_page = has_page();
+      for (Connection& connection : connections) {
+        read(connection);
+      }
+      if (steady_now_ns() - shown_ns >= kPictureNs) {
+        shown_ns = steady_now_ns();
+        show_newest();
+      }
+      if (had_page && !has_page()) {
+        state = detail::quiet(state, DeviceStatus::lost);
+        states.put(state);
+        report.set_problem("the page was closed");
+      }
+      connections.remove_if([](const Connection& connection) { return connection.closed; });
+    }
+  }
+
+  // In an order without gaps.
+  MailSlot<DeviceState> states;
+  DeviceState state;  // Of the thread.
+  detail::FileDescriptor listener;
+  std::list<Connection> connections;
+  std::string page;
+  std::mutex mutex;
+  std::string picture;  // To the page.
+  DeviceCapabilities capabilities;
+  detail::DriverReport report;
+  detail::StopSignal stop;
+  std::thread thread;
+  std::uint16_t port = 0;
+};
+
+BrowserDevice::BrowserDevice(const BrowserDeviceOptions& options)
+    : data_(std::make_unique<Data>(options)) {}
+
+BrowserDevice::~BrowserDevice() {
+  data_->stop.set();
+  if (data_->thread.joinable()) {
+    data_->thread.join();
+  }
+}
+
+std::uint16_t BrowserDevice::port() const noexcept { return data_->port; }
+
+void BrowserDevice::serve(std::string page) {
+  data_->page = std::move(page);
+  data_->thread = std::thread([data = data_.get()] { data->run(); });
+}
+
+void BrowserDevice::show(std::string_view message) {
+  const std::lock_guard lock(data_->mutex);
+  data_->picture = message;
+}
+
+const DeviceCapabilities& BrowserDevice::capabilities() const noexcept {
+  return data_->capabilities;
+}
+
+DeviceState BrowserDevice::read(std::int64_t /*now_ns*/) noexcept { return data_->states.newest(); }
+
+void BrowserDevice::command(const ForceCommand& /*command*/, std::int64_t /*now_ns*/) noexcept {}
+
+DeviceCounts BrowserDevice::counts() const { return data_->report.counts(); }
+
+std::string BrowserDevice::problem() const { return data_->report.problem(); }
+
+}  // namespace firstcontact

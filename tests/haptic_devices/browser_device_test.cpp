@@ -1,0 +1,116 @@
+#include <firstcontact/haptic_devices/browser_device.h>
+
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <firstcontact/haptic_devices/detail/websocket.h>
+
+#include "haptic_devices/local_server.h"
+
+namespace firstcontact {
+namespace {
+
+using test::eventually;
+using test::send_bytes;
+
+/// A page without a browser.
+class FakePage {
+ public:
+  explicit FakePage(std::uint16_t port, const std::string& origin = {}) {
+    std::string problem;
+    socket_ =
+        detail::connect_tcp("127.0.0.1", port, stop_, steady_now_ns() + 20'000'000'000, problem);
+    std::string request =
+        detail::websocket_request("127.0.0.1", port, "/live", "dGhlIHNhbXBsZSBub25jZQ==");
+    if (!origin.empty()) {
+      request.insert(request.size() - 2, "Origin: " + origin + "\r\n");
+    }
+    send_bytes(socket_, request);
+    while (!detail::http_head(answer)) {
+      const std::string more = test::receive_bytes(socket_, 20'000);
+      if (more.empty()) {
+        return;
+      }
+      answer += more;
+    }
+  }
+
+  void send(const std::string& text) {
+    send_bytes(socket_, detail::websocket_frame(detail::WebSocketKind::text, text, 7));
+  }
+
+  std::string receive() { return test::receive_bytes(socket_, 20'000); }
+
+  std::string answer;
+
+ private:
+  detail::StopSignal stop_;
+  detail::FileDescriptor socket_;
+};
+
+DeviceState state_of_browser(BrowserDevice& device) { return device.read(steady_now_ns()); }
+
+TEST(BrowserDevice, FollowsItsPageAndIsLostWithIt) {
+  BrowserDevice device;
+  device.serve("a page");
+  EXPECT_EQ(state_of_browser(device).status, DeviceStatus::waiting);
+  EXPECT_EQ(device.problem(), "no page is open yet");
+  {
+    FakePage page(device.port());
+    ASSERT_TRUE(page.answer.starts_with("HTTP/1.1 101")) << page.answer;
+    page.send(R"({"position": [1, 2, 3], "rotation": [0, 1, 0, 0]})");
+    ASSERT_TRUE(eventually([&] { return device.counts().samples == 1; }));
+    EXPECT_EQ(state_of_browser(device).status, DeviceStatus::live);
+    EXPECT_EQ(state_of_browser(device).X_DH.position, Eigen::Vector3d(1.0, 2.0, 3.0));
+    EXPECT_EQ(state_of_browser(device).X_DH.rotation.x(), 1.0);
+    device.show("a picture");
+    EXPECT_NE(page.receive().find("a picture"), std::string::npos);
+  }
+  ASSERT_TRUE(eventually([&] { return state_of_browser(device).status == DeviceStatus::lost; }));
+  EXPECT_EQ(state_of_browser(device).X_DH.position, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_TRUE(eventually([&] { return device.problem() == "the page was closed"; }));
+  const FakePage again(device.port());
+  EXPECT_TRUE(again.answer.starts_with("HTTP/1.1 101")) << again.answer;
+}
+
+TEST(BrowserDevice, DropsPosesThatMakeNoSense) {
+  BrowserDevice device;
+  device.serve("a page");
+  FakePage page(device.port());
+  for (const char* text : {"", "{}", R"({"position": [0, 0], "rotation": [1, 0, 0, 0]})",
+                           R"({"position": [0, 0, 1e9], "rotation": [1, 0, 0, 0]})",
+                           R"({"position": [0, 0, 0], "rotation": [0, 0, 0, 0]})",
+                           R"({"position": [0, 0, "x"], "rotation": [1, 0, 0, 0]})"}) {
+    page.send(text);
+  }
+  ASSERT_TRUE(eventually([&] { return device.counts().malformed == 6; }));
+  EXPECT_EQ(state_of_browser(device).status, DeviceStatus::waiting);
+  page.send(std::string(5000, ' '));  // Longer than any pose: the connection ends.
+  EXPECT_TRUE(eventually([&] { return state_of_browser(device).status == DeviceStatus::lost; }));
+}
+
+TEST(BrowserDevice, RefusesPagesOfOtherSitesAndASecondOne) {
+  BrowserDevice device;
+  device.serve("a page");
+  EXPECT_TRUE(FakePage(device.port(), "http://example.com").answer.starts_with("HTTP/1.1 403"));
+  const FakePage own(device.port(), "http://localhost:" + std::to_string(device.port()));
+  EXPECT_TRUE(own.answer.starts_with("HTTP/1.1 101"));
+  EXPECT_TRUE(FakePage(device.port()).answer.starts_with("HTTP/1.1 403"));
+}
+
+TEST(BrowserDevice, NamesAPortThatIsTaken) {
+  const BrowserDevice device;
+  try {
+    const BrowserDevice other({.port = device.port()});
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find(":" + std::to_string(device.port()) + ": "), std::string::npos);
+    EXPECT_NE(message.find("another port"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact
