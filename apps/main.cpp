@@ -9,19 +9,11 @@
 
 #include <firstcontact/scene/version.h>
 
-#include "batch_command.h"
-#include "check_command.h"
+#include "commands.h"
 #include "exit_status.h"
 #include "freed_memory.h"
-#include "haptics_command.h"
-#include "info_command.h"
-#include "plan_command.h"
-#include "retime_command.h"
-#include "simulate_command.h"
 #include "standard_streams.h"
 #include "terminal_text.h"
-#include "verify_command.h"
-#include "view_command.h"
 
 namespace firstcontact::app {
 namespace {
@@ -51,15 +43,7 @@ ExitStatus run(int argc, char** argv) {
                "firstcontact");
   app.set_version_flag("--version", std::string("firstcontact ") + version());
   app.require_subcommand(1);
-  add_check_command(app, status);
-  add_batch_command(app, status);
-  add_plan_command(app, status);
-  add_retime_command(app, status);
-  add_simulate_command(app, status);
-  add_haptics_command(app, status);
-  add_verify_command(app, status);
-  add_view_command(app);
-  add_info_command(app);
+  add_commands(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
