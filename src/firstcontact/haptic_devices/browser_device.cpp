@@ -210,8 +210,8 @@ struct BrowserDevice::Data {
       }
       if (had_page && !has_page()) {
         state = detail::quiet(state, DeviceStatus::lost);
-        states.put(state);
         report.set_problem("the page was closed");
+        states.put(state);
       }
       connections.remove_if([](const Connection& connection) { return connection.closed; });
     }

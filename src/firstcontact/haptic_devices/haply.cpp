@@ -335,8 +335,8 @@ struct Haply::Data {
         }
         link.reset();
         state = detail::quiet(state, DeviceStatus::lost);
-        states.put(state);
         report.set_problem("the Haply Inverse Service at " + place() + ": " + reason);
+        states.put(state);
       }
       if (detail::wait_for(stop, steady_now_ns() + options.retry_ns) == WaitEnd::stopped) {
         return;

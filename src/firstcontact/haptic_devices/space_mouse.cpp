@@ -81,16 +81,18 @@ struct SpaceMouse::Data {
     return socket;
   }
 
+  // Who sees a state finds its reason: that is told first.
   void take(const detail::SpacenavEvent& event) {
     const std::uint64_t before = rates.sample().state.sequence;
-    if (rates.take(event, steady_now_ns())) {
-      put();
-      report.samples += rates.sample().state.sequence - before;
-    }
+    const bool is_new = rates.take(event, steady_now_ns());
     if (event.type == detail::SpacenavEventType::device_removed) {
       report.set_problem("spacenavd reports that the device was taken away");
     } else if (rates.sample().state.status == DeviceStatus::live) {
       report.set_problem({});
+    }
+    if (is_new) {
+      put();
+      report.samples += rates.sample().state.sequence - before;
     }
   }
 
@@ -98,8 +100,8 @@ struct SpaceMouse::Data {
   void follow(const detail::FileDescriptor& socket) {
     ++report.connections;
     rates.connected();
-    put();
     report.set_problem("no event yet: the cap has not been touched");
+    put();
     detail::SpacenavDecoder decoder;
     std::array<char, 4096> buffer{};
     bool answered = false;
@@ -133,8 +135,8 @@ struct SpaceMouse::Data {
       }
     }
     rates.lost();
-    put();
     report.set_problem("spacenavd closed the connection");
+    put();
   }
 
   void run(detail::FileDescriptor socket) {
