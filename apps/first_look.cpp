@@ -1,5 +1,5 @@
-// `check` alone needs two thirds of the library: the demonstration shows what it finds while the
-// rest is compiled.
+// `check` alone needs neither planning, simulation, haptics nor second proofs: the demonstration
+// shows what it finds before these are compiled.
 
 #include "check_command.h"
 #include "commands.h"

@@ -18,9 +18,9 @@ struct ScriptedMotion {
 /// [m]  How far at most any point of the body is from where a straight piece would have it: the
 /// origin on a line, the turn at a constant rate (rotation_between).
 ///
-/// Between two breaks of the motion the distance of the origins has a second derivative of at most
-/// rate^2 lever, and the angle between both orientations changes no faster than by the difference
-/// of the two rates. Rounding is not charged: `verify` proves the run by itself.
+/// Two bounds hold between two breaks of the motion. The vector between the origins has a second
+/// derivative of at most rate^2 lever. The angle between the orientations changes no faster than by
+/// the difference of the two rates. Rounding is not charged: `verify` proves the run by itself.
 ///
 /// @param from, to  in [0, 1], from < to
 [[nodiscard]] double bend_bound(const ScriptedMotion& script, double from, double to);

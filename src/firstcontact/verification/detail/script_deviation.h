@@ -23,8 +23,7 @@ struct ScriptDeviation {
 /// faster than by the difference of the spins. Only the rounding of times is not charged.
 ///
 /// @param begin     [s]  when the step of the piece begins
-/// @param script    one after another from 0, where 1 is the duration; the last one is the body at
-///                  rest after it
+/// @param script    of script_of: one after another from 0, where 1 is the duration
 /// @param duration  [s]
 /// @param reach     [m]  no point is farther from the pivot
 [[nodiscard]] ScriptDeviation script_deviation(const PieceMotion& piece, double begin,
