@@ -111,7 +111,7 @@ set(supporting_headers
   firstcontact/robot/joint_path.h
   firstcontact/robot/link_geometry.h
   firstcontact/robot/link_path.h
-  firstcontact/robot/mechanism.h
+  firstcontact/mechanism/mechanism.h
   firstcontact/robot/precise_transform.h
   firstcontact/robot/robot_description.h
   firstcontact/robot/tracking_error.h

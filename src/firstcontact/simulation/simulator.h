@@ -14,8 +14,8 @@
 #include <firstcontact/contact_solver/kinetics.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/record/run.h>
-#include <firstcontact/robot/mechanism.h>
 #include <firstcontact/scene/simulation.h>
 
 namespace firstcontact {

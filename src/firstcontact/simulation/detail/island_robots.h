@@ -12,8 +12,8 @@
 
 #include <firstcontact/contact_solver/contact_problem.h>
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/robot/mechanism.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>
 #include <firstcontact/simulation_model/detail/move.h>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/record/run_step.h>
-#include <firstcontact/robot/mechanism.h>
 
 namespace firstcontact::detail {
 

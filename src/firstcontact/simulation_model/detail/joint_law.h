@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/robot/robot_description.h>
 #include <firstcontact/scene/simulation.h>
 

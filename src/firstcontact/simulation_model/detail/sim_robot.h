@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/robot/robot_description.h>
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation_model/detail/joint_law.h>

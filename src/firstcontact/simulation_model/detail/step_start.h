@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/robot/mechanism.h>
 #include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact::detail {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 #include <firstcontact/scene/simulation.h>
 
 namespace firstcontact::detail {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 
 namespace firstcontact {
 namespace {

@@ -8,7 +8,7 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 
 namespace firstcontact {
 namespace {

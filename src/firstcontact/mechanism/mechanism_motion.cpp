@@ -1,4 +1,4 @@
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <firstcontact/robot/detail/spatial.h>
+#include <firstcontact/mechanism/detail/spatial.h>
 
 namespace firstcontact {
 namespace {

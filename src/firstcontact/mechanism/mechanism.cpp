@@ -1,4 +1,4 @@
-#include <firstcontact/robot/mechanism.h>
+#include <firstcontact/mechanism/mechanism.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include <firstcontact/mechanism/detail/spatial.h>
 #include <firstcontact/motion/detail/turn.h>
-#include <firstcontact/robot/detail/spatial.h>
 
 namespace firstcontact {
 namespace {
