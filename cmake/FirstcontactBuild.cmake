@@ -39,6 +39,10 @@ if(FIRSTCONTACT_SANITIZERS)
   # The first finding ends the program. Code that could go on after it would also be slower to make and to run.
   add_compile_options(-fsanitize=${FIRSTCONTACT_SANITIZERS} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FIRSTCONTACT_SANITIZERS})
+  if(FIRSTCONTACT_SANITIZERS MATCHES "address.*undefined" AND CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    # Both are about addresses, which the address sanitizer checks. They would take a third of the time to compile.
+    add_compile_options(-fno-sanitize=object-size,pointer-overflow)
+  endif()
 endif()
 
 # Vector kernels that are inlined whole take clang ten minutes with a check of every address, which the address
