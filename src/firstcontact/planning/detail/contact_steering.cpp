@@ -125,7 +125,7 @@ class ContactSteering::Way {
       return false;
     }
     Configuration to = t_.moved(q_, dq);
-    if (!s_.work_.space().holds(to)) {
+    if (t_.length(t_.difference(q_, to)) < least_step() || !s_.work_.space().holds(to)) {
       return false;
     }
     if (std::optional<Configuration> near = t_.screwed(q_, dq);
@@ -267,7 +267,9 @@ class ContactSteering::Way {
         break;
       }
       Configuration to = t_.moved(q_, dq);
-      if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
+      // At the limits of all joints nothing moves any more.
+      if (t_.length(t_.difference(q_, to)) < least_step() || !s_.work_.space().holds(to) ||
+          !s_.work_.is_free(q_, to)) {
         break;
       }
       take(std::move(to));
