@@ -93,6 +93,30 @@ void hold_contact_pairs(const PlannedPath& path, Scene& scene) {
   }
 }
 
+/// Gives each robot of a path its columns of the positions.
+void give_trajectories(const PlannedPath& path, const std::vector<double>& times,
+                       const std::vector<std::vector<double>>& positions, Scene& scene) {
+  for (const std::string& name : path.robots) {
+    const std::string begin = path.robots.size() == 1 ? "" : name + "/";
+    std::vector<std::size_t> columns;
+    Trajectory trajectory{.joint_names = {}, .points = {}};
+    for (std::size_t k = 0; k < path.joints.size(); ++k) {
+      if (path.joints[k].starts_with(begin)) {
+        columns.push_back(k);
+        trajectory.joint_names.push_back(path.joints[k].substr(begin.size()));
+      }
+    }
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      TrajectoryPoint point{.time = times[k], .positions = {}};
+      for (const std::size_t column : columns) {
+        point.positions.push_back(positions[k][column]);
+      }
+      trajectory.points.push_back(std::move(point));
+    }
+    named(scene.robots, name).trajectory = std::move(trajectory);
+  }
+}
+
 }  // namespace
 
 Scene scene_in_motion(const PlannedPath& path) {
@@ -120,11 +144,7 @@ Scene scene_in_motion(const PlannedPath& path) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       append(times, positions, all[k], unwound_path.waypoints[k]);
     }
-    Trajectory trajectory{.joint_names = path.joints, .points = {}};
-    for (std::size_t k = 0; k < times.size(); ++k) {
-      trajectory.points.push_back({.time = times[k], .positions = std::move(positions[k])});
-    }
-    named(scene.robots, path.robot).trajectory = std::move(trajectory);
+    give_trajectories(path, times, positions, scene);
   }
   scene.duration = times.size() > 1 ? times.back() : 1.0;
   return scene;

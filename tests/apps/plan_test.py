@@ -43,6 +43,17 @@ class Plan(tool_test.ToolTest):
         self.assert_refused_with(result, *words)
         self.assertFalse((self.folder / "path.json").exists())
 
+    def assert_schemas(self, path):
+        """A path, its scene and the scene of which it was asked are as their schemas say."""
+        try:
+            import jsonschema
+        except ImportError:
+            return
+        schemas = SOURCE / "src/firstcontact/scene_files/schema"
+        for schema, value in [("path", path), ("scene", path["scene"]),
+                              ("scene", json.loads((self.folder / "scene.json").read_text()))]:
+            jsonschema.Draft202012Validator(json.loads((schemas / f"{schema}.json").read_text())).validate(value)
+
     def test_finds_a_path_and_writes_it(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL, "margin": 0.01}))
         result = self.plan("scene.json", "-o", "path.json")
@@ -58,14 +69,7 @@ class Plan(tool_test.ToolTest):
         self.assertEqual(len(path["edges"]), len(path["waypoints"]) - 1)
         self.assertTrue(all(edge["clearance"] >= 0.01 for edge in path["edges"]))
         self.assertNotIn("plan", path["scene"])
-        try:
-            import jsonschema
-        except ImportError:
-            return
-        schemas = SOURCE / "src/firstcontact/scene_files/schema"
-        for schema, value in [("path", path), ("scene", path["scene"]),
-                              ("scene", json.loads((self.folder / "scene.json").read_text()))]:
-            jsonschema.Draft202012Validator(json.loads((schemas / f"{schema}.json").read_text())).validate(value)
+        self.assert_schemas(path)
 
     def test_plans_in_time_among_what_moves(self):
         door = {"name": "door", "shape": {"box": {"size": [0.02, 3, 3]}},
@@ -90,6 +94,28 @@ class Plan(tool_test.ToolTest):
         del question["speeds"]
         self.file("scene.json", scene(question, (door, PEG)))
         self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "speeds")
+
+    def test_plans_robots_that_change_places(self):
+        self.file("gantry.urdf", URDF)
+        robots = [{"name": name, "urdf": "gantry.urdf", "state": {"x": x}} for name, x in (("a", -0.5), ("b", 0.5))]
+        question = {"robots": ["a", "b"], "goal": {"a/x": 0.5, "b/x": -0.5, "b/z": 0}}
+        self.file("scene.json", {**scene(question, ()), "robots": robots})
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        path = json.loads((self.folder / "path.json").read_text())
+        self.assert_schemas(path)
+        self.assertEqual(path["moves"]["robots"], ["a", "b"])
+        self.assertEqual(path["moves"]["joints"], ["a/x", "b/x", "b/z"])
+        self.assertEqual(self.run_tool("verify", "path.json").returncode, 0)
+        # One after the other they would meet.
+        path["waypoints"] = [[-0.5, 0.5, 0], [0.5, 0.5, 0], [0.5, -0.5, 0]]
+        path["edges"] = [{"verdict": "proven", "clearance": 0}] * 2
+        path["clearance"] = 0
+        self.file("false.json", path)
+        self.assertEqual(self.run_tool("verify", "false.json").returncode, 1)
+        refused = self.run_tool("retime", "path.json", "-o", "motion.csv")
+        self.assertEqual(refused.returncode, 2, refused)
+        self.assertIn("path of one robot", refused.stderr)
 
     def test_makes_a_page_that_plays_the_path(self):
         if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():

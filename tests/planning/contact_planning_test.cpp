@@ -130,7 +130,7 @@ TEST(MoverContactFinder, TellsHowGapsOfRobotsChange) {
   const ContactsAt at = finder.near({-0.12, 0.3, 0.1}, 0.1);
   ASSERT_FALSE(at.contacts.empty());
   EXPECT_NEAR(at.contacts.front().gap, 0.12 - 0.1 - 5e-6, 1e-9);
-  const std::size_t tool = scene.scene.first_member(scene.robot) + 3;
+  const std::size_t tool = scene.scene.first_member(scene.robots.front()) + 3;
   EXPECT_LT((at.members[tool].J.leftCols(3).topRows<3>() - Eigen::Matrix3d::Identity()).norm(),
             1e-6);
 }

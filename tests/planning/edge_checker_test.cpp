@@ -62,7 +62,7 @@ PlanScene wheel(const std::vector<double>& angles) {
   const std::vector<std::string> names = {"turn"};
   const std::size_t index = scene.add_robot("wheel", rest);
   return {.scene = std::move(scene),
-          .robot = index,
+          .robots = {index},
           .space = ConfigurationSpace::of_joints(model, names, all_at_rest(rest))};
 }
 
@@ -226,7 +226,7 @@ TEST(EdgeChecker, RefusesHeldPairsOfWhichNothingWouldBeProven) {
   ignored.scene.rules().ignore({0, tool});
   EXPECT_NE(problem(ignored, {{0, tool}, 5e-4, 1e-5}).find("not tested"), std::string::npos);
   PlanScene inexact = scene;
-  inexact.scene.set_tracking_error(inexact.robot, "z", {.distance = 1e-4});
+  inexact.scene.set_tracking_error(inexact.robots.front(), "z", {.distance = 1e-4});
   EXPECT_NE(problem(inexact, {{0, tool}, 5e-4, 1e-5}).find("tracking errors"), std::string::npos);
 }
 
@@ -368,7 +368,7 @@ TEST(EdgeChecker, TakesRobotsAtRestWithJoints) {
   scene.add_robot("other",
                   planar_motion({ramp(0.3, 0.3), ramp(-1.0, -1.0)}, resting_at({50.0, 0.0, 0.0})));
   PlanScene plan = with_gantry(std::move(scene));
-  plan.robot = 1;
+  plan.robots = {1};
   const EdgeChecker checker(plan);
   EXPECT_EQ(checker.check({-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}).verdict, EdgeVerdict::free);
 }
@@ -393,7 +393,7 @@ TEST(EdgeChecker, RefusesWhatMovesByItself) {
   EXPECT_THROW(EdgeChecker(std::move(two)), std::invalid_argument);
 
   PlanScene none = with_gantry(RobotScene());
-  none.robot = 1;
+  none.robots = {1};
   EXPECT_THROW(EdgeChecker(std::move(none)), std::invalid_argument);
   EXPECT_THROW(EdgeChecker(with_gantry(RobotScene()), {.tolerance = 0.0}), std::invalid_argument);
   EXPECT_THROW(EdgeChecker(with_gantry(RobotScene()), {.effort = 0}), std::invalid_argument);

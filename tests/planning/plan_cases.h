@@ -55,7 +55,7 @@ inline PlanScene with_gantry(RobotScene scene) {
   const std::vector<std::string> names = {"x", "y", "z"};
   const std::size_t robot = scene.add_robot("gantry", rest);
   return {.scene = std::move(scene),
-          .robot = robot,
+          .robots = {robot},
           .space = ConfigurationSpace::of_joints(rest.model(), names, all_at_rest(rest))};
 }
 
@@ -86,7 +86,7 @@ inline PlanScene with_bar(RobotScene scene, const Eigen::Vector3d& sizes) {
       "bar", make_box(sizes), Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
   const Configuration origin = {0, 0, 0, 1, 0, 0, 0};
   const std::size_t robot = scene.add_robot("bar", space.motion(origin, origin));
-  return {.scene = std::move(scene), .robot = robot, .space = std::move(space)};
+  return {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)};
 }
 
 }  // namespace firstcontact::test

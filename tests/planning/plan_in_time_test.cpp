@@ -158,7 +158,7 @@ TEST(PlanInTime, LetsAnArmPassAnotherOne) {
   const std::vector<std::string> names{"j0"};
   PlanScene plan{
       .scene = scene,
-      .robot = mover,
+      .robots = {mover},
       .space = ConfigurationSpace::of_joints(at_rest.model(), names, {{"j0", ramp(0.0, 0.0)}})};
   plan.times = PlanTimes{4.0, {1.0}};
   const Configuration start{1.2};

@@ -193,7 +193,7 @@ TEST(PlanPath, RefusesWhatCannotBePlanned) {
   EXPECT_EQ(message_of(bar, {-1, 0, 0, 1, 0, 0, 0}, {{1, 0, 1.6, 1, 0, 0, 0}}),
             "a goal is outside of the box; widen the box");
   PlanScene none = scene;
-  none.robot = 3;
+  none.robots = {3};
   EXPECT_NE(message_of(none, kBefore, {kBehind}).find("something to move"), std::string::npos);
 }
 

@@ -192,7 +192,7 @@ TEST_F(GantryFile, KeepsWhatIsHeldInItsPlace) {
   }
   EXPECT_GT(most, 0.6);
   const PlannedPath path = planned_path(over, over.options, result);
-  EXPECT_EQ(path.robot, "g");
+  EXPECT_EQ(path.robots, std::vector<std::string>{"g"});
   EXPECT_EQ(path.joints, (std::vector<std::string>{"x", "z"}));
   ASSERT_TRUE(path.scene.robots[0].attached[0].pose.has_value());
   EXPECT_NEAR(path.scene.robots[0].attached[0].pose->position.z(), -0.6, 1e-12);

@@ -111,7 +111,7 @@ NarrowPassage passage(Walls walls, const Shape& mover, const Vector3d& low, cons
   ConfigurationSpace space = ConfigurationSpace::of_body("mover", mover, low, high);
   RobotScene scene = walls.take();
   const std::size_t robot = scene.add_robot("mover", space.motion(start, start));
-  return {.scene = {.scene = std::move(scene), .robot = robot, .space = std::move(space)},
+  return {.scene = {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)},
           .start = std::move(start),
           .goal = std::move(goal)};
 }

@@ -144,7 +144,7 @@ TEST(VerifyPath, ProvesARobotAndWhatItCarries) {
       "attached": [{"body": "ball", "link": "tip", "touch_links": ["bar"],
                     "pose": {"position": [0.15, 0, 0]}}]}]})",
                              folder.path() / "scene.json");
-  path.robot = "arm";
+  path.robots = {"arm"};
   path.joints = {"elbow"};
   path.turnings = {Turning::as_given};
   set_waypoints(path, {{0.0}, {0.9}, {1.5}});

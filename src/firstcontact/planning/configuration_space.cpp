@@ -110,30 +110,44 @@ double length_of(const RobotModel& model) {
   return length + part;
 }
 
+/// Gives a coordinate of a robot its path.
+void set_path(std::map<std::string, JointMotion>& joints, const RobotModel& model,
+              const SpaceCoordinate& coordinate, CoordinatePath path) {
+  JointMotion& joint = joints.at(model.joints()[coordinate.joint].name);
+  if (auto* planar = std::get_if<PlanarPath>(&joint)) {
+    (*planar)[coordinate.index] = std::move(path);
+  } else {
+    joint = std::move(path);
+  }
+}
+
 }  // namespace
 
-ConfigurationSpace::ConfigurationSpace(RobotModel model, Motion base)
-    : model_(std::move(model)), base_(std::move(base)), reach_(length_of(model_)) {}
+ConfigurationSpace::ConfigurationSpace(RobotModel model, Motion base,
+                                       std::map<std::string, JointMotion> held) {
+  const double reach = length_of(model);
+  movers_.push_back({std::move(model), std::move(base), std::move(held), reach});
+}
 
 ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
                                                  std::span<const std::string> names,
                                                  std::map<std::string, JointMotion> held,
                                                  Motion base) {
-  ConfigurationSpace space(std::move(model), std::move(base));
-  space.held_ = std::move(held);
+  ConfigurationSpace space(std::move(model), std::move(base), std::move(held));
+  const RobotModel& of = space.model();
   if (names.empty()) {
     refuse_space("expected at least one joint that moves, got none");
   }
   for (const std::string& name : names) {
-    const JointCoordinate found = find_coordinate(space.model_, name);
-    const Joint& joint = space.model_.joints()[found.joint];
+    const JointCoordinate found = find_coordinate(of, name);
+    const Joint& joint = of.joints()[found.joint];
     const std::string quoted = detail::in_quotes(name);
     if (joint.mimic) {
       refuse_space("joint " + quoted + " mimics " + detail::in_quotes(joint.mimic->joint) +
                    ": it follows that one and is not planned by itself");
     }
-    SpaceCoordinate coordinate{.name = coordinate_name(space.model_, found),
-                               .turns_short = takes_short_way(space.model_, found),
+    SpaceCoordinate coordinate{.name = coordinate_name(of, found),
+                               .turns_short = takes_short_way(of, found),
                                .joint = found.joint,
                                .index = found.index};
     const auto is_same = [&](const SpaceCoordinate& other) {
@@ -143,7 +157,7 @@ ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
       refuse_space("joint " + quoted + " is named twice");
     }
     take_limits(joint, coordinate);
-    narrow_by_mimics(space.model_, found.joint, 1.0, 0.0, coordinate);
+    narrow_by_mimics(of, found.joint, 1.0, 0.0, coordinate);
     space.coordinates_.push_back(std::move(coordinate));
   }
   return space;
@@ -159,11 +173,31 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
   RobotDescription description{.name = name, .links = {{.name = "body"}}, .joints = {}};
   description.links[0].collision.push_back(
       {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
-  ConfigurationSpace space(RobotModel(std::move(description)), Motion::fixed());
+  ConfigurationSpace space(RobotModel(std::move(description)), Motion::fixed(), {});
   space.is_body_ = true;
   space.low_ = low;
   space.high_ = high;
   return space;
+}
+
+ConfigurationSpace ConfigurationSpace::joined(std::span<const std::string> names,
+                                              std::span<const ConfigurationSpace> spaces) {
+  if (names.empty() || names.size() != spaces.size()) {
+    refuse_space("expected at least one robot that moves, and a name for each");
+  }
+  ConfigurationSpace joined;
+  for (std::size_t k = 0; k < spaces.size(); ++k) {
+    if (spaces[k].is_body() || spaces[k].mover_count() != 1) {
+      refuse_space(detail::in_quotes(names[k]) + ": expected the joints of one robot");
+    }
+    joined.movers_.push_back(spaces[k].movers_.front());
+    for (SpaceCoordinate coordinate : spaces[k].coordinates_) {
+      coordinate.name = names[k] + "/" + coordinate.name;
+      coordinate.mover = k;
+      joined.coordinates_.push_back(std::move(coordinate));
+    }
+  }
+  return joined;
 }
 
 std::optional<std::string> ConfigurationSpace::defect_of_body(const Configuration& q) const {
@@ -220,7 +254,8 @@ double ConfigurationSpace::distance(const Configuration& from, const Configurati
   if (is_body_) {
     const Pose a = pose_of(from);
     const Pose b = pose_of(to);
-    return (b.position - a.position).norm() + reach_ * angle_between(a.rotation, b.rotation);
+    return (b.position - a.position).norm() +
+           movers_.front().reach * angle_between(a.rotation, b.rotation);
   }
   double square = 0.0;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
@@ -262,52 +297,55 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
     numbers += size;
     slides += size;
   }
-  // Each radian moves a point by no more than the robot is long, with what slides drawn out.
-  return kUlps * numbers * (1.0 + reach_ + carried + slides);
-}
-
-void ConfigurationSpace::set_path(std::map<std::string, JointMotion>& joints,
-                                  const SpaceCoordinate& coordinate, CoordinatePath path) const {
-  JointMotion& joint = joints.at(model_.joints()[coordinate.joint].name);
-  if (auto* planar = std::get_if<PlanarPath>(&joint)) {
-    (*planar)[coordinate.index] = std::move(path);
-  } else {
-    joint = std::move(path);
+  double reach = 0.0;
+  for (const Mover& mover : movers_) {
+    reach = std::max(reach, mover.reach);
   }
+  // Each radian moves a point by no more than its robot is long, with what slides drawn out.
+  return kUlps * numbers * (1.0 + reach + carried + slides);
 }
 
-RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to) const {
+RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to,
+                                       std::size_t mover) const {
   if (is_body_) {
-    return {model_, {}, Motion::constant_velocity(pose_of(from), pose_of(to))};
+    return {model(), {}, Motion::constant_velocity(pose_of(from), pose_of(to))};
   }
-  std::map<std::string, JointMotion> joints = held_;
+  const Mover& moved = movers_[mover];
+  std::map<std::string, JointMotion> joints = moved.held;
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
-    const std::array<double, 2> ends = {from[k], to[k]};
-    set_path(joints, coordinate, CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate)));
+    if (coordinate.mover == mover) {
+      const std::array<double, 2> ends = {from[k], to[k]};
+      set_path(joints, moved.model, coordinate,
+               CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate)));
+    }
   }
-  return {model_, std::move(joints), base_};
+  return {moved.model, std::move(joints), moved.base};
 }
 
 RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
-                                       std::span<const double> times) const {
+                                       std::span<const double> times, std::size_t mover) const {
   if (is_body_) {
     std::vector<Pose> poses;
     for (const Configuration& place : places) {
       poses.push_back(pose_of(place));
     }
-    return {model_, {}, Motion::waypoints(times, poses)};
+    return {model(), {}, Motion::waypoints(times, poses)};
   }
-  std::map<std::string, JointMotion> joints = held_;
+  const Mover& moved = movers_[mover];
+  std::map<std::string, JointMotion> joints = moved.held;
   std::vector<double> positions(places.size());
   for (std::size_t k = 0; k < coordinates_.size(); ++k) {
     const SpaceCoordinate& coordinate = coordinates_[k];
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      positions[i] = places[i][k];
+    if (coordinate.mover == mover) {
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        positions[i] = places[i][k];
+      }
+      set_path(joints, moved.model, coordinate,
+               CoordinatePath::linear(times, positions, turning_of(coordinate)));
     }
-    set_path(joints, coordinate, CoordinatePath::linear(times, positions, turning_of(coordinate)));
   }
-  return {model_, std::move(joints), base_};
+  return {moved.model, std::move(joints), moved.base};
 }
 
 double ConfigurationSpace::travel_time(const Configuration& from, const Configuration& to,

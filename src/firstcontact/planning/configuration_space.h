@@ -1,5 +1,5 @@
 /// @file
-/// The space in which a planner moves: the coordinates of a robot's joints, or the pose of a body.
+/// The space in which a planner moves: the coordinates of robots' joints, or the pose of a body.
 
 #pragma once
 
@@ -28,21 +28,24 @@ using Configuration = std::vector<double>;
 
 /// One number of a configuration of joints.
 struct SpaceCoordinate {
-  std::string name;          ///< As trajectories call it.
+  std::string name;          ///< As trajectories call it; ROBOT/NAME where several robots move.
   double lower = 0.0;        ///< [rad or m]  Samples lie between these two.
   double upper = 0.0;        ///< [rad or m]
   bool has_limits = true;    ///< Whether configurations beyond the two are refused.
   bool slides = false;       ///< Along an axis, in place of turning.
   bool turns_short = false;  ///< Edges take the way of at most half a turn: Turning::shortest.
-  std::size_t joint = 0;     ///< Of the model.
+  std::size_t mover = 0;     ///< Of the space.
+  std::size_t joint = 0;     ///< Of the mover's model.
   std::size_t index = 0;     ///< Of the coordinate in it; up to 2 for planar joints.
 };
 
-/// The mover of a plan: its coordinates, its motion along an edge, the distance of two places.
+/// The movers of a plan: their coordinates, their motions along an edge, the distance of two
+/// places.
 ///
-/// An edge takes every coordinate of joints from its first number to its second one at a constant
-/// rate. A body moves its origin on a line and turns at a constant rate by the shortest rotation:
-/// Motion::constant_velocity(). All else that the robot has rests. Immutable.
+/// A mover is a robot, or the only body. An edge takes every coordinate of joints from its first
+/// number to its second one at a constant rate. A body moves its origin on a line and turns at a
+/// constant rate by the shortest rotation: Motion::constant_velocity(). All else that a robot has
+/// rests. Immutable.
 class FIRSTCONTACT_API ConfigurationSpace {
  public:
   /// Makes the space of some coordinates of a robot; the other ones rest where `held` has them.
@@ -67,10 +70,22 @@ class FIRSTCONTACT_API ConfigurationSpace {
   static ConfigurationSpace of_body(const std::string& name, const Shape& shape,
                                     const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
+  /// Makes the space in which several robots move at once: the coordinates of one after the other.
+  ///
+  /// @param names   of the robots; coordinates are called ROBOT/NAME
+  /// @param spaces  of joints of one robot each, as many as names
+  /// @throws std::invalid_argument if there is no space, one for each name, or one is of a body
+  static ConfigurationSpace joined(std::span<const std::string> names,
+                                   std::span<const ConfigurationSpace> spaces);
+
   /// Numbers of a configuration; 7 for a body.
   [[nodiscard]] std::size_t size() const { return is_body_ ? 7 : coordinates_.size(); }
   [[nodiscard]] bool is_body() const { return is_body_; }
-  [[nodiscard]] const RobotModel& model() const { return model_; }
+  /// How many robots move; 1 for a body.
+  [[nodiscard]] std::size_t mover_count() const { return movers_.size(); }
+  [[nodiscard]] const RobotModel& model(std::size_t mover = 0) const {
+    return movers_[mover].model;
+  }
   /// The coordinates of joints; empty for a body.
   [[nodiscard]] std::span<const SpaceCoordinate> coordinates() const { return coordinates_; }
 
@@ -98,14 +113,15 @@ class FIRSTCONTACT_API ConfigurationSpace {
   [[nodiscard]] double rounding_bound(const Configuration& from, const Configuration& to,
                                       double carried = 0.0) const;
 
-  /// The motion of the robot along an edge, t in [0, 1].
-  [[nodiscard]] RobotMotion motion(const Configuration& from, const Configuration& to) const;
+  /// The motion of a mover along an edge, t in [0, 1].
+  [[nodiscard]] RobotMotion motion(const Configuration& from, const Configuration& to,
+                                   std::size_t mover = 0) const;
 
   /// The motion through several places, t in [0, 1]; at rest before the first and after the last.
   ///
   /// @param times  [-]  in [0, 1], strictly increasing, as many as places
   [[nodiscard]] RobotMotion motion(std::span<const Configuration> places,
-                                   std::span<const double> times) const;
+                                   std::span<const double> times, std::size_t mover = 0) const;
 
   /// [s]  The least time for an edge at given speeds.
   ///
@@ -134,20 +150,23 @@ class FIRSTCONTACT_API ConfigurationSpace {
   [[nodiscard]] std::optional<std::string> unbounded() const;
 
  private:
-  ConfigurationSpace(RobotModel model, Motion base);
+  struct Mover {
+    RobotModel model;
+    Motion base;
+    std::map<std::string, JointMotion> held;  // Every joint that moves, at rest.
+    double reach = 0.0;  // [m]  Of a body from its origin; of a robot, how long it can be.
+  };
+
+  ConfigurationSpace() = default;
+  ConfigurationSpace(RobotModel model, Motion base, std::map<std::string, JointMotion> held);
 
   [[nodiscard]] std::optional<std::string> defect_of_body(const Configuration& q) const;
-  void set_path(std::map<std::string, JointMotion>& joints, const SpaceCoordinate& coordinate,
-                CoordinatePath path) const;
 
-  RobotModel model_;
-  Motion base_;
-  std::map<std::string, JointMotion> held_;
-  std::vector<SpaceCoordinate> coordinates_;
+  std::vector<Mover> movers_;
+  std::vector<SpaceCoordinate> coordinates_;  // Those of a mover together.
   bool is_body_ = false;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();   // [m]
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();  // [m]
-  double reach_ = 0.0;  // [m]  Of a body from its origin; of a robot, how long it can be.
 };
 
 }  // namespace firstcontact

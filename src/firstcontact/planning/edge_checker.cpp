@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -74,6 +75,18 @@ bool rests(const RobotMotion& motion) {
   return all;
 }
 
+/// Refuses movers that are not robots of the scene, each once.
+void require_robots(const PlanScene& plan) {
+  const std::size_t count = plan.scene.robot_count();
+  if (std::ranges::any_of(plan.robots, [&](std::size_t robot) { return robot >= count; })) {
+    throw std::invalid_argument("expected a scene with something to move, it has no such robot");
+  }
+  const std::set<std::size_t> all(plan.robots.begin(), plan.robots.end());
+  if (all.size() != plan.robots.size() || all.size() != plan.space.mover_count()) {
+    throw std::invalid_argument("expected a robot of the scene for each mover of the space");
+  }
+}
+
 /// Refuses what moves by itself.
 void require_at_rest(const PlanScene& plan) {
   const RobotScene& scene = plan.scene;
@@ -99,7 +112,7 @@ void require_at_rest(const PlanScene& plan) {
     }
   }
   for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
-    if (robot != plan.robot && !rests(scene.robot_motion(robot))) {
+    if (!plan.mover(robot) && !rests(scene.robot_motion(robot))) {
       throw std::invalid_argument("robot " + detail::in_quotes(scene.robot_name(robot)) +
                                   " moves by itself; a path is planned among robots at rest");
     }
@@ -162,6 +175,12 @@ std::optional<double> finite_clearance(double clearance) {
 
 }  // namespace
 
+std::optional<std::size_t> PlanScene::mover(std::size_t robot) const {
+  const auto found = std::ranges::find(robots, robot);
+  return found == robots.end() ? std::nullopt
+                               : std::optional(static_cast<std::size_t>(found - robots.begin()));
+}
+
 struct EdgeChecker::Data {
   /// What one thread works with.
   struct ThreadWork {
@@ -200,7 +219,7 @@ struct EdgeChecker::Data {
   [[nodiscard]] EdgeAnswer ask_along(const Configuration& from, const Configuration& to,
                                      const Ask& ask) {
     ThreadWork& work = *works.local();
-    work.search.set_motion(plan.robot, plan.space.motion(from, to));
+    plan.set_motions(work.search, from, to);
     const detail::EdgeFound found = ask(work.search);
     return answer(from, to, with_held(work, from, to, found, ask), work.search.least_margin());
   }
@@ -213,7 +232,7 @@ struct EdgeChecker::Data {
     if (!work.search_of_held) {
       return found;
     }
-    work.search_of_held->set_motion(plan.robot, plan.space.motion(from, to));
+    plan.set_motions(*work.search_of_held, from, to);
     return earlier(found, ask(*work.search_of_held));
   }
 
@@ -252,9 +271,7 @@ struct EdgeChecker::Data {
 
 EdgeChecker::EdgeChecker(PlanScene scene, const EdgeCheckOptions& options) {
   require_options(options);
-  if (scene.robot >= scene.scene.robot_count()) {
-    throw std::invalid_argument("expected a scene with something to move, it has no such robot");
-  }
+  require_robots(scene);
   require_at_rest(scene);
   const FloatEnvironmentGuard guard;
   data_ = std::make_unique<Data>(std::move(scene), options);
@@ -286,7 +303,7 @@ EdgeAnswer EdgeChecker::check_closely(const Configuration& from, const Configura
   if (!closest) {
     closest.emplace(data_->padded);
   }
-  closest->set_motion(data_->plan.robot, space().motion(from, to));
+  scene().set_motions(*closest, from, to);
   RobotCheckOptions question = detail::question_of_edges(data_->options);
   question.closest = true;
   const SceneResult found = closest->check(question);

@@ -28,11 +28,11 @@ struct PlanTimes {
   std::vector<double> speeds = {};  ///< As ConfigurationSpace::travel_time().
 };
 
-/// A scene of which one robot is planned, with all else at rest, or moving on known ways.
+/// A scene of which some robots are planned, with all else at rest, or moving on known ways.
 struct PlanScene {
   RobotScene scene;
-  std::size_t robot = 0;                ///< That the space is of.
-  ConfigurationSpace space;             ///< Its model is that of the robot.
+  std::vector<std::size_t> robots = {0};  ///< Of each mover of the space, whose model it has.
+  ConfigurationSpace space;
   std::vector<std::string> names = {};  ///< Of members, in messages; else those of the scene.
   std::optional<PlanTimes> times = {};  ///< Where the surroundings move; see plan_path().
   /// For plan_path(), each pair once. An EdgeChecker holds those of its options alone.
@@ -40,6 +40,26 @@ struct PlanScene {
 
   [[nodiscard]] const std::string& name(std::size_t member) const {
     return names.empty() ? scene.name(member) : names[member];
+  }
+
+  /// The mover of the space that a robot of the scene is; none where it is none.
+  [[nodiscard]] std::optional<std::size_t> mover(std::size_t robot) const;
+
+  /// Gives all movers their motions along an edge: to a scene, a RobotChecker or a search.
+  template <class Moved>
+  void set_motions(Moved& moved, const Configuration& from, const Configuration& to) const {
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      moved.set_motion(robots[k], space.motion(from, to, k));
+    }
+  }
+
+  /// The same through several places at their times.
+  template <class Moved>
+  void set_motions(Moved& moved, std::span<const Configuration> places,
+                   std::span<const double> at) const {
+    for (std::size_t k = 0; k < robots.size(); ++k) {
+      moved.set_motion(robots[k], space.motion(places, at, k));
+    }
   }
 };
 

@@ -96,7 +96,7 @@ class PoseSearch {
   }
 
   [[nodiscard]] LinkPath path(const Configuration& from, const Configuration& to) const {
-    return space_.motion(from, to).path(goal_.link, 0.0).then(X_LT_);
+    return space_.motion(from, to, goal_.mover).path(goal_.link, 0.0).then(X_LT_);
   }
 
   [[nodiscard]] Vector6 error_at(const Configuration& q) const {
@@ -179,6 +179,18 @@ class PoseSearch {
   LinkScratch scratch_;
 };
 
+/// A random place of the mover of a goal, with the others at their start.
+Configuration sample(const ConfigurationSpace& space, const LinkPoseGoal& goal,
+                     const Configuration& start, RandomNumbers& random) {
+  Configuration q = space.sample(random);
+  for (std::size_t k = 0; k < q.size(); ++k) {
+    if (space.coordinates()[k].mover != goal.mover) {
+      q[k] = start[k];
+    }
+  }
+  return q;
+}
+
 }  // namespace
 
 bool reaches(const ReachedPose& place, const LinkPoseGoal& goal) {
@@ -191,7 +203,9 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
                                     const Configuration& start, const ReachOptions& options) {
   const FloatEnvironmentGuard guard;
   require_goal(!space.is_body(), "expected a robot with joints: a body is at a pose without them");
-  require_goal(goal.link < space.model().links().size(), "expected a link of the robot");
+  require_goal(
+      goal.mover < space.mover_count() && goal.link < space.model(goal.mover).links().size(),
+      "expected a link of the robot");
   require_goal(start.size() == space.size(), "expected a start with a number for each coordinate");
   require_goal(is_pose(goal.X_WT) && is_pose(goal.X_LT),
                "expected poses with finite numbers and quaternions of length 1");
@@ -206,7 +220,7 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
         (options.deadline && std::chrono::steady_clock::now() >= *options.deadline)) {
       break;
     }
-    ReachedPose place = search.run(k == 0 ? start : space.sample(random));
+    ReachedPose place = search.run(k == 0 ? start : sample(space, goal, start, random));
     if (!reaches(place, goal)) {
       const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
       if (!nearest || size(place) < size(*nearest)) {

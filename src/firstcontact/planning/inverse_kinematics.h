@@ -18,7 +18,8 @@ namespace firstcontact {
 
 /// A frame of a link that is to be at a pose.
 struct LinkPoseGoal {
-  std::size_t link = 0;              ///< Of the model.
+  std::size_t link = 0;              ///< Of the mover's model.
+  std::size_t mover = 0;             ///< Of the space; the others stay where they start.
   Pose X_LT = {};                    ///< The frame T, fixed in the link.
   Pose X_WT = {};                    ///< Where T is to be.
   double position_tolerance = 1e-6;  ///< [m]  > 0

@@ -20,6 +20,7 @@
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/planning/detail/plan_goals.h>
 #include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/version.h>
@@ -37,10 +38,14 @@ bool moves_by_itself(const SceneRobot& robot) {
          (robot.trajectory.points.size() > 1 && !robot.trajectory.joint_names.empty());
 }
 
-/// The name of something other than the mover that moves; none where all else rests.
+bool is_planned(const PlanQuestion& question, std::size_t robot) {
+  return std::ranges::find(question.robots, robot) != question.robots.end();
+}
+
+/// The name of something other than the movers that moves; none where all else rests.
 std::optional<std::string> what_moves(const Scene& scene, const PlanQuestion& question) {
   for (std::size_t k = 0; k < scene.robots.size(); ++k) {
-    if (question.robot != k && moves_by_itself(scene.robots[k])) {
+    if (!is_planned(question, k) && moves_by_itself(scene.robots[k])) {
       return "robot " + in_quotes(scene.robots[k].name);
     }
   }
@@ -83,7 +88,16 @@ std::vector<std::string> frozen_by_plan(const Scene& scene, const PlanQuestion& 
   return frozen;
 }
 
-/// The scene with the mover at rest at its start, all else at rest or moving by itself, and the
+/// Takes the start of the question among the positions at which its robots rest.
+void rest_at_start(const PlanQuestion& question, Scene& scene) {
+  for (const auto& [name, position] : question.start) {
+    const detail::RobotName split = detail::split_robot_name(scene, question.robots, name);
+    SceneRobot& robot = scene.robots[question.robots[split.which]];
+    robot.state[coordinate_name(robot.model, find_coordinate(robot.model, split.name))] = position;
+  }
+}
+
+/// The scene with the movers at rest at their start, all else at rest or moving by itself, and the
 /// margin of the question.
 Scene resting_scene(Scene scene, const PlanQuestion& question) {
   const bool keeps_times = what_moves(scene, question).has_value();
@@ -93,20 +107,16 @@ Scene resting_scene(Scene scene, const PlanQuestion& question) {
     for (SceneAttachment& held : robot.attached) {
       held.to_time.reset();
     }
-    if (question.robot == k || !moves_by_itself(robot)) {
+    if (is_planned(question, k) || !moves_by_itself(robot)) {
       rest_at_begin(robot);
     }
-    if (question.robot == k) {
-      if (!std::holds_alternative<FixedMotion>(robot.base)) {
-        refuse_plan("the base of robot " + in_quotes(robot.name) +
-                    " moves; a path is planned for a base at rest");
-      }
-      for (const auto& [name, position] : question.start) {
-        robot.state[coordinate_name(robot.model, find_coordinate(robot.model, name))] = position;
-      }
+    if (is_planned(question, k) && !std::holds_alternative<FixedMotion>(robot.base)) {
+      refuse_plan("the base of robot " + in_quotes(robot.name) +
+                  " moves; a path is planned for a base at rest");
     }
     robot.dynamics.reset();
   }
+  rest_at_start(question, scene);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     Body& body = scene.bodies[k];
     body.free.reset();
@@ -128,6 +138,20 @@ Scene resting_scene(Scene scene, const PlanQuestion& question) {
   return scene;
 }
 
+void require_movers(const Scene& scene, const PlanQuestion& question) {
+  if (question.robots.empty() != question.body.has_value()) {
+    refuse_plan("expected a robot or a body that moves");
+  }
+  const auto is_known = [&](std::size_t robot) { return robot < scene.robots.size(); };
+  if (!std::ranges::all_of(question.robots, is_known) ||
+      (question.body && *question.body >= scene.bodies.size())) {
+    refuse_plan("expected a scene with something to move, it has no such robot or body");
+  }
+  if (std::set(question.robots.begin(), question.robots.end()).size() != question.robots.size()) {
+    refuse_plan("expected each robot once");
+  }
+}
+
 /// Gives what is held the place in its link that it has at the start. Whether any was given.
 bool freeze_held(const LoadedScene& loaded, Scene& scene) {
   bool any = false;
@@ -144,10 +168,12 @@ bool freeze_held(const LoadedScene& loaded, Scene& scene) {
   return any;
 }
 
-/// The coordinates of a robot at the start, by their names.
-double start_of(const SceneRobot& robot, const std::string& name, const Joint& joint) {
-  const auto found = robot.state.find(name);
-  return found != robot.state.end() ? found->second : default_position(joint);
+/// [rad or m]  Where a coordinate is at the start.
+double start_of(const SceneRobot& robot, const SpaceCoordinate& coordinate) {
+  const auto found =
+      robot.state.find(coordinate_name(robot.model, {coordinate.joint, coordinate.index}));
+  return found != robot.state.end() ? found->second
+                                    : default_position(robot.model.joints()[coordinate.joint]);
 }
 
 std::map<std::string, JointMotion> held_motions(const RobotMotion& motion) {
@@ -178,8 +204,8 @@ std::vector<double> speeds_of(const PlanQuestion& question, const ConfigurationS
   }
   std::vector<double> speeds;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    speeds.push_back(
-        speed(coordinate.name, space.model().joints()[coordinate.joint].limits.velocity));
+    speeds.push_back(speed(
+        coordinate.name, space.model(coordinate.mover).joints()[coordinate.joint].limits.velocity));
   }
   return speeds;
 }
@@ -190,30 +216,41 @@ void take_times(const Scene& scene, const PlanQuestion& question, PlanScene& pla
   }
 }
 
-ScenePlan plan_of_robot(LoadedScene loaded, const PlanQuestion& question) {
-  const std::size_t robot = *question.robot;
-  const SceneRobot& described = loaded.scene.robots[robot];
-  const RobotMotion& motion = loaded.robots->robot_motion(robot);
-  const RobotModel& model = motion.model();
-  const std::vector<std::string> joints = detail::planned_joints(model, question);
-  if (joints.empty()) {
-    refuse_plan("robot " + in_quotes(described.name) + ": no goal names a joint that moves");
+/// The space of what the question plans.
+ConfigurationSpace space_of_robots(const LoadedScene& loaded, const PlanQuestion& question) {
+  const std::vector<std::vector<std::string>> joints =
+      detail::planned_joints(loaded.scene, question);
+  std::vector<std::string> names;
+  std::vector<ConfigurationSpace> spaces;
+  for (std::size_t k = 0; k < question.robots.size(); ++k) {
+    const RobotMotion& motion = loaded.robots->robot_motion(question.robots[k]);
+    names.push_back(loaded.scene.robots[question.robots[k]].name);
+    if (joints[k].empty()) {
+      refuse_plan("robot " + in_quotes(names.back()) + ": no goal names a joint that moves");
+    }
+    spaces.push_back(ConfigurationSpace::of_joints(motion.model(), joints[k], held_motions(motion),
+                                                   motion.base()));
   }
   ConfigurationSpace space =
-      ConfigurationSpace::of_joints(model, joints, held_motions(motion), motion.base());
+      spaces.size() == 1 ? std::move(spaces.front()) : ConfigurationSpace::joined(names, spaces);
   for (const auto& [name, limits] : question.bounds) {
     space.set_limits(name, limits[0], limits[1]);
   }
+  return space;
+}
+
+ScenePlan plan_of_robots(LoadedScene loaded, const PlanQuestion& question) {
+  ConfigurationSpace space = space_of_robots(loaded, question);
   Configuration start;
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
-    start.push_back(start_of(described, coordinate.name, model.joints()[coordinate.joint]));
+    start.push_back(start_of(loaded.scene.robots[question.robots[coordinate.mover]], coordinate));
   }
   std::vector<Configuration> goals;
   for (const JointPositions& goal : question.goals) {
-    goals.push_back(detail::goal_of(model, space, goal, start));
+    goals.push_back(detail::goal_of(loaded.scene, question, space, goal, start));
   }
   PlanScene plan{.scene = *loaded.robots,
-                 .robot = robot,
+                 .robots = question.robots,
                  .space = std::move(space),
                  .contact_pairs = question.contact_pairs};
   take_times(loaded.scene, question, plan);
@@ -297,7 +334,7 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
     goals.push_back(configuration_of_pose(goal));
   }
   RobotScene scene = scene_of_body(loaded, mover, space, start);
-  PlanScene plan{.scene = std::move(scene), .robot = 0, .space = std::move(space)};
+  PlanScene plan{.scene = std::move(scene), .robots = {0}, .space = std::move(space)};
   take_times(loaded.scene, question, plan);
   for (std::size_t member = 0; member < plan.scene.size(); ++member) {
     plan.names.push_back(member_name(loaded.scene, member));
@@ -309,14 +346,7 @@ ScenePlan plan_of_body(LoadedScene loaded, const PlanQuestion& question) {
 
 ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache& cache) {
   const FloatEnvironmentGuard guard;
-  if (question.robot.has_value() == question.body.has_value()) {
-    refuse_plan("expected a robot or a body that moves");
-  }
-  if (question.robot.value_or(0) >= std::max<std::size_t>(scene.robots.size(), 1) ||
-      question.body.value_or(0) >= std::max<std::size_t>(scene.bodies.size(), 1) ||
-      (question.robot && scene.robots.empty()) || (question.body && scene.bodies.empty())) {
-    refuse_plan("expected a scene with something to move, it has no such robot or body");
-  }
+  require_movers(scene, question);
   const std::vector<std::string> frozen = frozen_by_plan(scene, question);
   Scene resting = resting_scene(std::move(scene), question);
   LoadedScene loaded = load_scene(resting, cache);
@@ -324,8 +354,8 @@ ScenePlan make_scene_plan(Scene scene, const PlanQuestion& question, ShapeCache&
     loaded = load_scene(std::move(resting), cache);
   }
   loaded.warnings.insert(loaded.warnings.end(), frozen.begin(), frozen.end());
-  ScenePlan made = question.robot ? plan_of_robot(std::move(loaded), question)
-                                  : plan_of_body(std::move(loaded), question);
+  ScenePlan made = question.body ? plan_of_body(std::move(loaded), question)
+                                 : plan_of_robots(std::move(loaded), question);
   made.plan.contact_pairs = question.contact_pairs;
   const PlanOptions defaults;
   made.options.planner = question.planner.value_or(defaults.planner);
@@ -346,7 +376,7 @@ PlanQuestion question_of_trajectory(const Scene& scene) {
                 in_quotes(scene.robots.front().name) + " is to go");
   }
   PlanQuestion question;
-  question.robot = 0;
+  question.robots = {0};
   question.goals.emplace_back();
   for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
     const std::string& name = trajectory.joint_names[k];
@@ -365,7 +395,12 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
   const Scene& resting = scene.loaded.scene;
   const ConfigurationSpace& space = scene.plan.space;
   path.is_proven = result.verdict == PlanVerdict::proven;
-  (space.is_body() ? path.body : path.robot) = scene.plan.scene.robot_name(scene.plan.robot);
+  for (const std::size_t robot : scene.plan.robots) {
+    path.robots.push_back(scene.plan.scene.robot_name(robot));
+  }
+  if (space.is_body()) {
+    path.body = std::exchange(path.robots, {}).front();
+  }
   for (const SpaceCoordinate& coordinate : space.coordinates()) {
     path.joints.push_back(coordinate.name);
     path.turnings.push_back(coordinate.turns_short ? Turning::shortest : Turning::as_given);

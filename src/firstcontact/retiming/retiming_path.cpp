@@ -39,6 +39,11 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
     throw ParseError(name, "expected the path of a robot, got that of body " +
                                detail::in_quotes(path.body) + ", which has no joints");
   }
+  if (path.robots.size() > 1) {
+    throw ParseError(name, "expected the path of one robot, got that of " +
+                               std::to_string(path.robots.size()) +
+                               ", which are only free of each other at the same share of an edge");
+  }
   if (!path.times.empty()) {
     throw ParseError(name,
                      "expected a path without times: this one is among bodies that move, and "
@@ -61,7 +66,7 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
     turns_short.push_back(turning == Turning::shortest);
   }
   try {
-    result.robot = robot_named(result.scene, path.robot);
+    result.robot = robot_named(result.scene, path.robots.front());
     require_path(result.path);
   } catch (const std::invalid_argument& error) {
     throw ParseError(name, error.what());

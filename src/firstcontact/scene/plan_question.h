@@ -38,9 +38,9 @@ inline constexpr std::array<const char*, 2> kPlannerWords{"rrt_connect", "lazy_p
 
 /// A goal of a robot: a frame T of one of its links at a pose.
 struct LinkGoal {
-  std::string link = {};
-  Pose X_LT = {};                    ///< T, fixed in the link.
-  Pose X_WT = {};                    ///< Where T is to be.
+  std::string link = {};  ///< ROBOT/LINK where several robots are planned; the others stay.
+  Pose X_LT = {};         ///< T, fixed in the link.
+  Pose X_WT = {};         ///< Where T is to be.
   double position_tolerance = 1e-6;  ///< [m]  > 0
   double rotation_tolerance = 1e-6;  ///< [rad]  > 0; pi or more: any rotation will do.
 };
@@ -57,14 +57,14 @@ enum class ContactUse {
 /// Its words in files and in Python, in this order.
 inline constexpr std::array<const char*, 4> kContactUseWords{"none", "sample", "slide", "both"};
 
-/// A path that is asked for, of a robot or of a body of the scene.
+/// A path that is asked for, of robots or of a body of the scene.
+///
+/// Coordinates are called as in trajectories; ROBOT/NAME where several robots are planned.
 struct PlanQuestion {
-  std::optional<std::size_t> robot = {};  ///< Of the scene; or a body.
+  std::vector<std::size_t> robots = {};  ///< Of the scene, each once; or a body.
   std::optional<std::size_t> body = {};
-  /// The coordinates that are planned, as trajectories call them; without any, those that goals
-  /// name.
-  std::vector<std::string> joints = {};
-  JointPositions start = {};               ///< Of a robot; others begin where the scene has them.
+  std::vector<std::string> joints = {};  ///< That are planned; without any, those that goals name.
+  JointPositions start = {};             ///< Of a robot; others begin where the scene has them.
   std::vector<JointPositions> goals = {};  ///< Joints that they do not name keep their start.
   /// [rad/s or m/s]  Among surroundings that move: by coordinates, else those of the URDF; of a
   /// body "linear" and "angular".

@@ -48,10 +48,11 @@ struct PlannedPathStatistics {
 /// The contents of a path file. Numbers are those of the file, bit for bit.
 struct PlannedPath {
   bool is_proven = false;  ///< Else approximate: its edges are proven, but it ends before a goal.
-  std::string robot = {};  ///< That moves; empty where a body does.
-  std::string body = {};   ///< So, too.
-  std::vector<std::string> joints = {};  ///< Coordinates that the numbers of waypoints are of.
-  std::vector<Turning> turnings = {};    ///< Of each of them.
+  std::vector<std::string> robots = {};  ///< That move; empty where a body does.
+  std::string body = {};                 ///< That moves; empty where robots do.
+  /// Coordinates that the numbers of waypoints are of; ROBOT/NAME where several robots move.
+  std::vector<std::string> joints = {};
+  std::vector<Turning> turnings = {};  ///< Of each of them.
   /// At least one. Of a body a position, then a quaternion w, x, y, z.
   std::vector<std::vector<double>> waypoints = {};
   /// [s]  Of each waypoint, from 0 to the duration of the scene, where the surroundings move; else
@@ -73,7 +74,7 @@ struct PlannedPath {
   std::uint64_t seed = 1;
   double time = 1.0;  ///< [s]
   PlannedPathStatistics statistics = {};
-  /// All but the mover, which is at its start. Its text_digest is that of the text from
+  /// All, with the movers at their starts. Its text_digest is that of the text from
   /// which the path was planned.
   Scene scene = {};
   std::string version = {};

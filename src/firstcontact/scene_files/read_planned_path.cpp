@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -109,7 +111,8 @@ class PathReader {
   }
 
   void take_mover(const JsonValue& value, PlannedPath& path) const {
-    const JsonObject& object = read_.object(value, {{"robot", "joints", "turning", "body"}});
+    const JsonObject& object =
+        read_.object(value, {{"robot", "robots", "joints", "turning", "body"}});
     if (const JsonValue* body = find(object, "body")) {
       if (object.size() != 1) {
         read_.fail(value, "expected \"body\" alone, or a robot");
@@ -118,14 +121,10 @@ class PathReader {
       require_name(path.scene.bodies, path.body, *body);
       return;
     }
-    path.robot = read_.string(read_.member(value, "robot"), "the name of a robot");
-    const SceneRobot& robot =
-        require_name(path.scene.robots, path.robot, read_.member(value, "robot"));
+    const std::vector<std::size_t> robots = take_robots(value, path);
     for (const JsonValue& joint : read_.array(read_.member(value, "joints"), "names of joints")) {
       path.joints.push_back(read_.string(joint, "the name of a joint"));
-      if (!known_coordinate(robot.model, path.joints.back())) {
-        read_.fail_expected("the name of a joint of the robot", joint);
-      }
+      require_joint(joint, robots, path);
       if (std::count(path.joints.begin(), path.joints.end(), path.joints.back()) > 1) {
         read_.fail(joint, "expected each joint once, got one twice");
       }
@@ -136,6 +135,49 @@ class PathReader {
     if (path.joints.empty() || path.turnings.size() != path.joints.size()) {
       read_.fail(value, "expected at least one joint, and a turning for each");
     }
+  }
+
+  /// The robots that move, by their numbers in the scene.
+  std::vector<std::size_t> take_robots(const JsonValue& value, PlannedPath& path) const {
+    std::vector<std::size_t> numbers;
+    const auto take = [&](const JsonValue& name) {
+      path.robots.push_back(read_.string(name, "the name of a robot"));
+      const SceneRobot& robot = require_name(path.scene.robots, path.robots.back(), name);
+      numbers.push_back(static_cast<std::size_t>(&robot - path.scene.robots.data()));
+      if (std::count(numbers.begin(), numbers.end(), numbers.back()) > 1) {
+        read_.fail(name, "expected each robot once, got one twice");
+      }
+    };
+    const JsonValue* robots = find(std::get<JsonObject>(value.value), "robots");
+    if (robots == nullptr) {
+      take(read_.member(value, "robot"));
+      return numbers;
+    }
+    if (find(std::get<JsonObject>(value.value), "robot") != nullptr) {
+      read_.fail(value, "expected either \"robot\" or \"robots\", got both");
+    }
+    for (const JsonValue& name : read_.array(*robots, "names of robots")) {
+      take(name);
+    }
+    if (numbers.size() < 2) {
+      read_.fail_expected("at least two robots; a single one is \"robot\"", *robots);
+    }
+    return numbers;
+  }
+
+  /// Refuses the last joint of a path where none of its robots has it.
+  void require_joint(const JsonValue& where, std::span<const std::size_t> robots,
+                     const PlannedPath& path) const {
+    try {
+      const detail::RobotName split =
+          detail::split_robot_name(path.scene, robots, path.joints.back());
+      if (known_coordinate(path.scene.robots[robots[split.which]].model, split.name)) {
+        return;
+      }
+    } catch (const std::invalid_argument& error) {
+      read_.fail(where, error.what());
+    }
+    read_.fail_expected("the name of a joint of the robot", where);
   }
 
   template <class Named>

@@ -136,7 +136,7 @@ class SceneBuilder {
       robot.trajectory = straight_motion(robot.model, robot.state, request.goal, turning());
     } else if (question_.plans) {
       robot.trajectory.points = {TrajectoryPoint{}};
-      scene_.plan = PlanQuestion{.robot = 0, .link_goals = {*request.link_goal}};
+      scene_.plan = PlanQuestion{.robots = {0}, .link_goals = {*request.link_goal}};
     } else {
       throw ParseError(question_.request.string(),
                        "expected a goal of joint positions, got the pose of a link; "

@@ -69,7 +69,13 @@ JsonValue mover_of(const PlannedPath& path) {
   for (const Turning turning : path.turnings) {
     turnings.push_back(text_of(to_string(turning)));
   }
-  return {.value = JsonObject{{"robot", text_of(path.robot)},
+  JsonArray robots;
+  for (const std::string& robot : path.robots) {
+    robots.push_back(text_of(robot));
+  }
+  const bool is_one = robots.size() == 1;
+  return {.value = JsonObject{{is_one ? "robot" : "robots",
+                               is_one ? robots.front() : JsonValue{.value = std::move(robots)}},
                               {"joints", {.value = std::move(joints)}},
                               {"turning", {.value = std::move(turnings)}}}};
 }

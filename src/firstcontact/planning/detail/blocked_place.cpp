@@ -60,10 +60,10 @@ std::vector<Eigen::Vector3d> directions_of_cube() {
   return all;
 }
 
-/// The scene with its robot at a place.
+/// The scene with its movers at a place.
 RobotScene placed_scene(const EdgeChecker& checker, const Configuration& q) {
   RobotScene scene = checker.scene().scene;
-  scene.set_motion(checker.scene().robot, checker.space().motion(q, q));
+  checker.scene().set_motions(scene, q, q);
   return scene;
 }
 

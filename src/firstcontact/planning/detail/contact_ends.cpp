@@ -32,7 +32,7 @@ std::string names_of(const PlanScene& plan, const BodyPair& members) {
 StartGap gap_at(const PlanScene& plan, const Configuration& q, const BodyPair& members, double kept,
                 double tolerance) {
   RobotScene scene = plan.scene;
-  scene.set_motion(plan.robot, plan.space.motion(q, q));
+  plan.set_motions(scene, q, q);
   const RobotTimeline timeline(scene);
   const auto found = std::ranges::find(timeline.pairs(), members, &TestedPair::members);
   if (found == timeline.pairs().end() || !timeline.is_tested(*found, 0)) {

@@ -12,21 +12,22 @@ namespace firstcontact::detail {
 namespace {
 
 /// Whether a coordinate of the space moves a joint, or the one that it mimics.
-bool is_planned(const ConfigurationSpace& space, std::size_t joint) {
-  const RobotModel& model = space.model();
+bool is_planned(const ConfigurationSpace& space, std::size_t mover, std::size_t joint) {
+  const RobotModel& model = space.model(mover);
   while (model.joints()[joint].mimic) {
     joint = model.find_joint(model.joints()[joint].mimic->joint).value();
   }
-  return std::any_of(space.coordinates().begin(), space.coordinates().end(),
-                     [&](const SpaceCoordinate& one) { return one.joint == joint; });
+  return std::any_of(
+      space.coordinates().begin(), space.coordinates().end(),
+      [&](const SpaceCoordinate& one) { return one.mover == mover && one.joint == joint; });
 }
 
-bool is_moved(const PlanScene& plan, std::size_t link) {
-  const RobotModel& model = plan.space.model();
+bool is_moved(const PlanScene& plan, std::size_t mover, std::size_t link) {
+  const RobotModel& model = plan.space.model(mover);
   bool moves = plan.space.is_body() || plan.times.has_value();
   for (auto joint = model.parent_joint(link); joint && !moves;
        joint = model.parent_joint(model.parent_link(*joint))) {
-    moves = is_planned(plan.space, *joint);
+    moves = is_planned(plan.space, mover, *joint);
   }
   return moves;
 }
@@ -37,7 +38,8 @@ std::vector<bool> moved_members(const PlanScene& plan) {
   std::vector<bool> moved(plan.scene.size(), false);
   for (std::size_t member = 0; member < moved.size(); ++member) {
     const std::optional<RobotLink> link = plan.scene.robot_link(member);
-    moved[member] = link && link->robot == plan.robot && is_moved(plan, link->link);
+    const std::optional<std::size_t> mover = link ? plan.mover(link->robot) : std::nullopt;
+    moved[member] = mover && is_moved(plan, *mover, link->link);
   }
   for (const Attachment& attachment : plan.scene.attachments()) {
     if (moved[attachment.link]) {

@@ -19,7 +19,14 @@ void EdgeSearch::set_motion(std::size_t robot, RobotMotion motion) {
   robot_ = robot;
   moved_body_ = motion.model().joints().empty() ? std::optional(motion.base()) : std::nullopt;
   scene_.set_motion(robot, std::move(motion));
-  timeline_.follow_motions();
+  is_followed_ = false;
+}
+
+void EdgeSearch::follow_motions() {
+  if (!is_followed_) {
+    timeline_.follow_motions();
+    is_followed_ = true;
+  }
 }
 
 const Motion* EdgeSearch::body_motion(std::size_t geometry) const {
@@ -59,6 +66,7 @@ EdgeFound EdgeSearch::found_by(const GeometryCandidate& candidate,
 }
 
 EdgeFound EdgeSearch::first_contact() {
+  follow_motions();
   EdgeFound first;
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
@@ -89,6 +97,7 @@ EdgeFound EdgeSearch::first_contact() {
 }
 
 EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
+  follow_motions();
   EdgeFound unknown;
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};

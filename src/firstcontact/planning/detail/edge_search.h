@@ -38,6 +38,7 @@ class EdgeSearch {
   EdgeSearch(const EdgeSearch&) = delete;
   EdgeSearch& operator=(const EdgeSearch&) = delete;
 
+  /// Questions that follow are of this motion, and of those set before of other robots.
   void set_motion(std::size_t robot, RobotMotion motion);
 
   /// The first contact.
@@ -53,6 +54,7 @@ class EdgeSearch {
   [[nodiscard]] double least_margin() const { return timeline_.least_margin(); }
 
  private:
+  void follow_motions();
   [[nodiscard]] FirstContactResult ask(const GeometryCandidate& candidate,
                                        const TimeWindow& window);
   /// The motion of a geometry as that of a rigid body, where it is no link among joints; null else.
@@ -63,6 +65,7 @@ class EdgeSearch {
   RobotScene scene_;
   RobotCheckOptions options_;
   RobotTimeline timeline_;
+  bool is_followed_ = true;  // Whether the timeline has the motions of the scene.
   CandidateSearch candidates_;
   LinkWorkspace workspace_;
   std::size_t robot_ = 0;             // The last that was moved.

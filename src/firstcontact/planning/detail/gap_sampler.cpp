@@ -155,7 +155,7 @@ GapSampler::GapSampler(const PlanScene& scene) : space_(scene.space) {
     return;
   }
   const RobotScene& all = scene.scene;
-  const std::size_t mover = all.first_member(scene.robot);
+  const std::size_t mover = all.first_member(scene.robots.front());
   const Shape& shape = all.geometries(mover)[0].shape;
   most_ = 2.0 * (shape.hierarchy().radius + shape.radius());
   add_triangles(shape, {}, moved_);

@@ -94,7 +94,7 @@ MoverContactFinder::MoverContactFinder(const PlanScene& scene, const TangentSpac
   moves_.resize(all.size());
   for (std::size_t member = 0; member < all.size(); ++member) {
     const auto link = all.robot_link(member);
-    moves_[member] = link && link->robot == scene.robot;
+    moves_[member] = link && scene.mover(link->robot);
   }
   for (const Attachment& attachment : all.attachments()) {
     moves_[attachment.body] = moves_[attachment.body] || moves_[attachment.link];
@@ -127,10 +127,10 @@ MoverContactFinder::MoverContactFinder(const PlanScene& scene, const TangentSpac
 std::vector<MovedMember> MoverContactFinder::members_at(const Configuration& q) {
   std::vector<MovedMember> members(moves_.size());
   if (plan_.space.is_body()) {
-    members[plan_.scene.first_member(plan_.robot)] = tangents_.moved_body(q);
+    members[plan_.scene.first_member(plan_.robots.front())] = tangents_.moved_body(q);
     return members;
   }
-  posed_->set_motion(plan_.robot, plan_.space.motion(q, q));
+  plan_.set_motions(*posed_, q, q);
   for (std::size_t member = 0; member < members.size(); ++member) {
     if (moves_[member]) {
       members[member].X_WM = posed_->pose(member, 0.0);
@@ -141,7 +141,7 @@ std::vector<MovedMember> MoverContactFinder::members_at(const Configuration& q) 
   for (Eigen::Index k = 0; k < tangents_.size(); ++k) {
     Configuration beside = q;
     beside[static_cast<std::size_t>(k)] += kDifference;
-    posed_->set_motion(plan_.robot, plan_.space.motion(beside, beside));
+    plan_.set_motions(*posed_, beside, beside);
     for (std::size_t member = 0; member < members.size(); ++member) {
       if (!moves_[member]) {
         continue;

@@ -14,6 +14,7 @@
 #include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/edge_question.h>
 #include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact::detail {
@@ -21,8 +22,8 @@ namespace {
 
 [[noreturn]] void refuse_goal(const std::string& what) { throw std::invalid_argument(what); }
 
-std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal) {
-  const std::optional<std::size_t> link = model.find_link(goal.link);
+std::size_t link_of_goal(const RobotModel& model, const LinkGoal& goal, const std::string& name) {
+  const std::optional<std::size_t> link = model.find_link(name);
   if (!link) {
     refuse_goal("expected a goal of a link of the robot, got " + in_quotes(goal.link));
   }
@@ -46,8 +47,9 @@ void add_joints_below(const RobotModel& model, std::size_t link, std::set<JointC
 }
 
 /// Refuses a position of a joint that mimics a planned one where it contradicts that one's.
-void require_mimicked(const RobotModel& model, const ConfigurationSpace& space,
-                      const Configuration& goal, std::size_t joint, double position) {
+void require_mimicked(const ConfigurationSpace& space, const Configuration& goal, std::size_t mover,
+                      std::size_t joint, double position) {
+  const RobotModel& model = space.model(mover);
   constexpr double kSame = 1e-6;
   double factor = 1.0;
   double shift = 0.0;
@@ -60,7 +62,8 @@ void require_mimicked(const RobotModel& model, const ConfigurationSpace& space,
   const auto coordinates = space.coordinates();
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const double follows = factor * goal[k] + shift;
-    if (coordinates[k].joint == source && std::abs(follows - position) > kSame) {
+    if (coordinates[k].mover == mover && coordinates[k].joint == source &&
+        std::abs(follows - position) > kSame) {
       refuse_goal("a goal has joint " + in_quotes(model.joints()[joint].name) + " at " +
                   write_json(position) + ", but it mimics " +
                   in_quotes(model.joints()[source].name) + " and is at " + write_json(follows) +
@@ -72,10 +75,14 @@ void require_mimicked(const RobotModel& model, const ConfigurationSpace& space,
 /// Adds free places of the joints at which a link is at its pose.
 ///
 /// @returns  one sentence where there is none
-std::optional<std::string> add_places_of(const PlanScene& plan, const LinkGoal& wanted,
-                                         const Configuration& start, const ReachOptions& options,
-                                         double tolerance, std::vector<Configuration>& goals) {
-  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(), wanted),
+std::optional<std::string> add_places_of(const PlanScene& plan, const Scene& scene,
+                                         const LinkGoal& wanted, const Configuration& start,
+                                         const ReachOptions& options,
+                                         std::vector<Configuration>& goals) {
+  const double tolerance = scene.options.tolerance;
+  const RobotName split = split_robot_name(scene, plan.robots, wanted.link);
+  const LinkPoseGoal goal{.link = link_of_goal(plan.space.model(split.which), wanted, split.name),
+                          .mover = split.which,
                           .X_LT = wanted.X_LT,
                           .X_WT = wanted.X_WT,
                           .position_tolerance = wanted.position_tolerance,
@@ -119,50 +126,72 @@ std::optional<std::string> add_places_of(const PlanScene& plan, const LinkGoal& 
 
 }  // namespace
 
-std::vector<std::string> planned_joints(const RobotModel& model, const PlanQuestion& question) {
-  if (!question.joints.empty()) {
-    return question.joints;
+std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
+                                                     const PlanQuestion& question) {
+  std::vector<std::vector<std::string>> joints(question.robots.size());
+  for (const std::string& name : question.joints) {
+    RobotName split = split_robot_name(scene, question.robots, name);
+    joints[split.which].push_back(std::move(split.name));
   }
-  std::set<JointCoordinate> named;
+  if (!question.joints.empty()) {
+    return joints;
+  }
+  const auto model_of = [&](const RobotName& split) -> const RobotModel& {
+    return scene.robots[question.robots[split.which]].model;
+  };
+  std::vector<std::set<JointCoordinate>> named(question.robots.size());
   for (const JointPositions& goal : question.goals) {
     for (const auto& [name, position] : goal) {
-      const JointCoordinate coordinate = find_coordinate(model, name);
-      if (!model.joints()[coordinate.joint].mimic) {
-        named.insert(coordinate);
+      const RobotName split = split_robot_name(scene, question.robots, name);
+      const JointCoordinate coordinate = find_coordinate(model_of(split), split.name);
+      if (!model_of(split).joints()[coordinate.joint].mimic) {
+        named[split.which].insert(coordinate);
       }
     }
   }
   for (const LinkGoal& goal : question.link_goals) {
-    add_joints_below(model, link_of_goal(model, goal), named);
+    const RobotName split = split_robot_name(scene, question.robots, goal.link);
+    const RobotModel& model = model_of(split);
+    add_joints_below(model, link_of_goal(model, goal, split.name), named[split.which]);
   }
-  std::vector<std::string> joints;
-  for (const JointCoordinate& coordinate : named) {
-    joints.push_back(coordinate_name(model, coordinate));
+  for (std::size_t k = 0; k < named.size(); ++k) {
+    for (const JointCoordinate& coordinate : named[k]) {
+      joints[k].push_back(coordinate_name(scene.robots[question.robots[k]].model, coordinate));
+    }
   }
   return joints;
 }
 
-Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
-                      const JointPositions& positions, const Configuration& start) {
+Configuration goal_of(const Scene& scene, const PlanQuestion& question,
+                      const ConfigurationSpace& space, const JointPositions& positions,
+                      const Configuration& start) {
+  struct Mimicking {
+    std::size_t mover;
+    std::size_t joint;
+    double position;
+  };
   Configuration goal = start;
-  std::vector<std::pair<std::size_t, double>> mimics;  // Joints and their positions.
+  std::vector<Mimicking> mimics;
   for (const auto& [name, position] : positions) {
-    const JointCoordinate coordinate = find_coordinate(model, name);
+    const RobotName split = split_robot_name(scene, question.robots, name);
+    const RobotModel& model = space.model(split.which);
+    const JointCoordinate coordinate = find_coordinate(model, split.name);
     const auto coordinates = space.coordinates();
     const auto found =
         std::find_if(coordinates.begin(), coordinates.end(), [&](const SpaceCoordinate& one) {
-          return one.joint == coordinate.joint && one.index == coordinate.index;
+          return one.mover == split.which && one.joint == coordinate.joint &&
+                 one.index == coordinate.index;
         });
     if (found != coordinates.end()) {
       goal[static_cast<std::size_t>(found - coordinates.begin())] = position;
     } else if (model.joints()[coordinate.joint].mimic) {
-      mimics.emplace_back(coordinate.joint, position);
+      mimics.push_back({split.which, coordinate.joint, position});
     } else {
       refuse_goal("a goal names joint " + in_quotes(name) + ", which is not among those planned");
     }
   }
-  for (const auto& [joint, position] : mimics) {
-    require_mimicked(model, space, goal, joint, position);
+  for (const Mimicking& one : mimics) {
+    require_mimicked(space, goal, one.mover, one.joint, one.position);
   }
   return goal;
 }
@@ -184,8 +213,7 @@ void add_link_goals(const PlanScene& plan, const PlanQuestion& question, const C
         "positions of joints in place of the pose of a link");
   }
   for (const LinkGoal& goal : question.link_goals) {
-    if (auto problem =
-            add_places_of(plan, goal, start, options, loaded.scene.options.tolerance, goals)) {
+    if (auto problem = add_places_of(plan, loaded.scene, goal, start, options, goals)) {
       problems.push_back(std::move(*problem));
     }
   }

@@ -13,15 +13,17 @@
 
 namespace firstcontact::detail {
 
-/// The joints that the question or a goal names, without those that mimic others.
-[[nodiscard]] std::vector<std::string> planned_joints(const RobotModel& model,
-                                                      const PlanQuestion& question);
+/// Of each robot of the question: the joints that the question or a goal names, as the robot calls
+/// them, without those that mimic others.
+[[nodiscard]] std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
+                                                                   const PlanQuestion& question);
 
 /// The configuration of a goal: coordinates that it does not name keep their start.
 ///
 /// @throws std::invalid_argument  names a joint that is not planned, or that mimics another one and
 ///         contradicts it
-[[nodiscard]] Configuration goal_of(const RobotModel& model, const ConfigurationSpace& space,
+[[nodiscard]] Configuration goal_of(const Scene& scene, const PlanQuestion& question,
+                                    const ConfigurationSpace& space,
                                     const JointPositions& positions, const Configuration& start);
 
 /// Adds the goals that are poses of links. One that is out of reach is a warning where others are

@@ -127,7 +127,7 @@ class PlanInTime {
       times.push_back(place.t / edges_.duration());
     }
     RobotScene scene = scene_of_edges(scene_, options_.extra_clearance);
-    scene.set_motion(scene_.robot, scene_.space.motion(places, times));
+    scene_.set_motions(scene, places, times);
     RobotCheckOptions question =
         question_of_edges({.tolerance = options_.tolerance, .effort = options_.effort});
     question.threads = options_.threads;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -29,13 +30,12 @@ Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& rotation) {
 }
 
 /// [m]  How far geometries of a robot are from its base, in the motion that the scene has.
-double reach_of_robot(const PlanScene& plan) {
-  const RobotScene& scene = plan.scene;
-  const Eigen::Vector3d base = scene.robot_motion(plan.robot).base().pose(0.0).position;
+double reach_of_robot(const RobotScene& scene, std::size_t robot) {
+  const Eigen::Vector3d base = scene.robot_motion(robot).base().pose(0.0).position;
   double reach = 0.0;
   for (std::size_t member = 0; member < scene.size(); ++member) {
     const auto link = scene.robot_link(member);
-    if (!link || link->robot != plan.robot) {
+    if (!link || link->robot != robot) {
       continue;
     }
     for (const MemberGeometry& geometry : scene.geometries(member)) {
@@ -52,7 +52,7 @@ double reach_of_robot(const PlanScene& plan) {
 
 TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
   if (space_.is_body()) {
-    const std::size_t member = scene.scene.first_member(scene.robot);
+    const std::size_t member = scene.scene.first_member(scene.robots.front());
     const Hierarchy& hierarchy = scene.scene.geometries(member)[0].shape.hierarchy();
     p_BC_ = hierarchy.centre;
     reach_ = hierarchy.radius;
@@ -60,11 +60,17 @@ TangentSpace::TangentSpace(const PlanScene& scene) : space_(scene.space) {
     inverse_metric_.tail<3>().setConstant(1.0 / (reach_ * reach_));
     return;
   }
-  reach_ = std::max(reach_of_robot(scene), 1e-9);
+  std::vector<double> reaches;  // Of each mover.
+  for (const std::size_t robot : scene.robots) {
+    reaches.push_back(std::max(reach_of_robot(scene.scene, robot), 1e-9));
+    reach_ = std::max(reach_, reaches.back());
+  }
   inverse_metric_ = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(space_.size()));
   for (std::size_t k = 0; k < space_.size(); ++k) {
-    if (!space_.coordinates()[k].slides) {
-      inverse_metric_[static_cast<Eigen::Index>(k)] = 1.0 / (reach_ * reach_);
+    const SpaceCoordinate& coordinate = space_.coordinates()[k];
+    if (!coordinate.slides) {
+      const double reach = reaches[coordinate.mover];
+      inverse_metric_[static_cast<Eigen::Index>(k)] = 1.0 / (reach * reach);
     }
   }
 }

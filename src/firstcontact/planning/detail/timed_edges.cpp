@@ -22,8 +22,11 @@ EdgeFound TimedEdges::ask(const TimedPlace& from, const TimedPlace& to) {
   const std::array<double, 2> times{from.t / duration(), to.t / duration()};
   const bool is_place = !(times[0] < times[1]);
   const std::array<Configuration, 2> places{from.q, to.q};
-  search_.set_motion(plan_.robot, is_place ? plan_.space.motion(from.q, from.q)
-                                           : plan_.space.motion(places, times));
+  if (is_place) {
+    plan_.set_motions(search_, from.q, from.q);
+  } else {
+    plan_.set_motions(search_, places, times);
+  }
   ++(is_place ? counts_.states_checked : counts_.edges_checked);
   const EdgeFound found = search_.any_contact({times[0], std::max(times[0], times[1])});
   if (found.verdict == Verdict::undecided) {

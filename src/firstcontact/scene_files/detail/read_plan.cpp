@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/detail/scene_names.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene_files/detail/read_pose.h>
@@ -25,16 +26,16 @@ class PlanReader {
 
   PlanQuestion plan(const JsonValue& value) const {
     const JsonObject& object = read_.object(
-        value, {{"robot", "body", "joints", "start", "goal", "goals", "bounds", "box", "speeds",
-                 "margin", "planner", "contacts", "contact_pairs", "seed", "time"}});
+        value, {{"robot", "robots", "body", "joints", "start", "goal", "goals", "bounds", "box",
+                 "speeds", "margin", "planner", "contacts", "contact_pairs", "seed", "time"}});
     PlanQuestion plan;
     take_mover(value, object, plan);
     take_options(object, plan);
     take_contact_pairs(object, plan);
-    if (plan.robot) {
-      take_joints(object, scene_.robots[*plan.robot], plan);
-    } else {
+    if (plan.body) {
       take_body(object, plan);
+    } else {
+      take_joints(object, plan);
     }
     take_goals(value, object, plan);
     return plan;
@@ -43,18 +44,34 @@ class PlanReader {
  private:
   void take_mover(const JsonValue& value, const JsonObject& object, PlanQuestion& plan) const {
     const JsonValue* robot = find(object, "robot");
+    const JsonValue* robots = find(object, "robots");
     const JsonValue* body = find(object, "body");
-    if (robot != nullptr && body != nullptr) {
-      read_.fail(*body, "expected either \"robot\" or \"body\", got both");
+    if ((robot != nullptr) + (robots != nullptr) + (body != nullptr) > 1) {
+      read_.fail(value, "expected one of \"robot\", \"robots\" and \"body\", got several");
     }
     if (body != nullptr) {
       plan.body = numbered(*body, "body", scene_.bodies);
     } else if (robot != nullptr) {
-      plan.robot = numbered(*robot, "robot", scene_.robots);
+      plan.robots = {numbered(*robot, "robot", scene_.robots)};
+    } else if (robots != nullptr) {
+      take_robots(*robots, plan);
     } else if (scene_.robots.size() == 1) {
-      plan.robot = 0;
+      plan.robots = {0};
     } else {
-      read_.fail(value, "expected \"robot\" or \"body\", the name of what moves");
+      read_.fail(value, "expected \"robot\", \"robots\" or \"body\", the name of what moves");
+    }
+  }
+
+  void take_robots(const JsonValue& value, PlanQuestion& plan) const {
+    for (const JsonValue& one : read_.array(value, "an array of names of robots")) {
+      const std::size_t robot = numbered(one, "robot", scene_.robots);
+      if (std::ranges::find(plan.robots, robot) != plan.robots.end()) {
+        read_.fail(one, "expected each robot once, got it a second time");
+      }
+      plan.robots.push_back(robot);
+    }
+    if (plan.robots.empty()) {
+      read_.fail_expected("at least one robot", value);
     }
   }
 
@@ -141,22 +158,21 @@ class PlanReader {
     return found->second.index;
   }
 
-  void take_joints(const JsonObject& object, const SceneRobot& robot, PlanQuestion& plan) const {
+  void take_joints(const JsonObject& object, PlanQuestion& plan) const {
     if (const JsonValue* box = find(object, "box")) {
       read_.fail(*box, "\"box\" is of a body; a robot has \"bounds\"");
     }
     if (const JsonValue* joints = find(object, "joints")) {
       for (const JsonValue& joint : read_.array(*joints, "an array of names of joints")) {
-        plan.joints.push_back(
-            known_joint(joint, read_.string(joint, "the name of a joint"), robot));
+        plan.joints.push_back(known_joint(joint, read_.string(joint, "the name of a joint"), plan));
       }
     }
     if (const JsonValue* start = find(object, "start")) {
-      plan.start = state(*start, robot);
+      plan.start = state(*start, plan);
     }
     if (const JsonValue* speeds = find(object, "speeds")) {
       for (const auto& [name, speed] : members_of(*speeds, "speeds by joint")) {
-        plan.speeds[known_joint(speed, name, robot)] = speed_of(speed);
+        plan.speeds[known_joint(speed, name, plan)] = speed_of(speed);
       }
     }
     if (const JsonValue* bounds = find(object, "bounds")) {
@@ -166,8 +182,7 @@ class PlanReader {
         if (two.size() != 2) {
           read_.fail_expected("two numbers, the lower limit first", limits);
         }
-        plan.bounds[known_joint(limits, name, robot)] = {read_.number(two[0]),
-                                                         read_.number(two[1])};
+        plan.bounds[known_joint(limits, name, plan)] = {read_.number(two[0]), read_.number(two[1])};
       }
     }
   }
@@ -232,12 +247,12 @@ class PlanReader {
       read_.fail_expected("at least one goal", *goals);
     }
     for (const JsonValue* one : all) {
-      if (plan.robot && is_link_goal(*one)) {
-        plan.link_goals.push_back(link_goal(*one, scene_.robots[*plan.robot]));
-      } else if (plan.robot) {
-        plan.goals.push_back(state(*one, scene_.robots[*plan.robot]));
-      } else {
+      if (plan.body) {
         plan.goal_poses.push_back(read_pose(*one, read_));
+      } else if (is_link_goal(*one)) {
+        plan.link_goals.push_back(link_goal(*one, plan));
+      } else {
+        plan.goals.push_back(state(*one, plan));
       }
     }
   }
@@ -249,18 +264,20 @@ class PlanReader {
     return link != nullptr && std::holds_alternative<std::string>(link->value);
   }
 
-  LinkGoal link_goal(const JsonValue& value, const SceneRobot& robot) const {
+  LinkGoal link_goal(const JsonValue& value, const PlanQuestion& plan) const {
     const JsonObject& object = read_.object(
         value, {{"link", "frame", "pose", "position_tolerance", "rotation_tolerance"}});
     LinkGoal goal;
     const JsonValue& link = read_.member(value, "link");
     goal.link = read_.string(link, "the name of a link");
-    if (!robot.model.find_link(goal.link)) {
+    const RobotName split = split_name(link, goal.link, plan);
+    const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
+    if (!model.find_link(split.name)) {
       std::vector<std::string_view> names;
-      for (const Link& one : robot.model.links()) {
+      for (const Link& one : model.links()) {
         names.push_back(one.name);
       }
-      const std::string_view near = nearest_word(goal.link, names);
+      const std::string_view near = nearest_word(split.name, names);
       read_.fail(link, "expected a link of the robot, got " + in_quotes(goal.link) +
                            (near.empty() ? "" : "; did you mean " + in_quotes(near) + "?"));
     }
@@ -277,38 +294,60 @@ class PlanReader {
     return goal;
   }
 
-  std::string known_joint(const JsonValue& where, const std::string& name,
-                          const SceneRobot& robot) const {
+  RobotName split_name(const JsonValue& where, const std::string& name,
+                       const PlanQuestion& plan) const {
     try {
-      return coordinate_name(robot.model, find_coordinate(robot.model, name));
+      return split_robot_name(scene_, plan.robots, name);
+    } catch (const std::invalid_argument& error) {
+      read_.fail(where, error.what());
+    }
+  }
+
+  /// A name within one of the robots, as the question calls it.
+  std::string full_name(const PlanQuestion& plan, std::size_t which,
+                        const std::string& name) const {
+    return plan.robots.size() == 1 ? name : scene_.robots[plan.robots[which]].name + "/" + name;
+  }
+
+  std::string known_joint(const JsonValue& where, const std::string& name,
+                          const PlanQuestion& plan) const {
+    const RobotName split = split_name(where, name, plan);
+    const RobotModel& model = scene_.robots[plan.robots[split.which]].model;
+    try {
+      return full_name(plan, split.which,
+                       coordinate_name(model, find_coordinate(model, split.name)));
     } catch (const std::invalid_argument& error) {
       read_.fail(where, error.what());
     }
   }
 
   /// A state of the SRDF by its name, coordinates by theirs, or an array of both.
-  JointPositions state(const JsonValue& value, const SceneRobot& robot) const {
+  JointPositions state(const JsonValue& value, const PlanQuestion& plan) const {
     JointPositions positions;
-    add_state(value, robot, positions);
+    add_state(value, plan, positions);
     return positions;
   }
 
-  void add_state(const JsonValue& value, const SceneRobot& robot, JointPositions& positions) const {
+  void add_state(const JsonValue& value, const PlanQuestion& plan,
+                 JointPositions& positions) const {
     if (const auto* array = std::get_if<JsonArray>(&value.value)) {
       for (const JsonValue& element : *array) {
-        add_state(element, robot, positions);
+        add_state(element, plan, positions);
       }
     } else if (const auto* name = std::get_if<std::string>(&value.value)) {
+      const RobotName split = split_name(value, *name, plan);
+      const SceneRobot& robot = scene_.robots[plan.robots[split.which]];
       try {
-        for (const auto& [joint, position] : group_state(robot.model, robot.semantics, *name)) {
-          positions[joint] = position;
+        for (const auto& [joint, position] :
+             group_state(robot.model, robot.semantics, split.name)) {
+          positions[full_name(plan, split.which, joint)] = position;
         }
       } catch (const std::invalid_argument& error) {
         read_.fail(value, error.what());
       }
     } else if (const auto* object = std::get_if<JsonObject>(&value.value)) {
       for (const auto& [joint, position] : *object) {
-        positions[known_joint(position, joint, robot)] = read_.number(position);
+        positions[known_joint(position, joint, plan)] = read_.number(position);
       }
     } else {
       read_.fail_expected(

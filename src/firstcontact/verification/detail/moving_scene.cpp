@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/trajectory.h>
@@ -97,6 +98,24 @@ void require_own_rest(bool rests, const std::string& name) {
   }
 }
 
+std::size_t member_count(const Scene& scene) {
+  std::size_t members = scene.bodies.size();
+  for (const SceneRobot& robot : scene.robots) {
+    members += robot.model.links().size();
+  }
+  return members;
+}
+
+/// Whether the trajectory of a robot moves a joint, or the one that it mimics.
+bool is_in_trajectory(const SceneRobot& robot, std::size_t joint) {
+  while (robot.model.joints()[joint].mimic) {
+    joint = robot.model.find_joint(robot.model.joints()[joint].mimic->joint).value();
+  }
+  return std::ranges::any_of(robot.trajectory.joint_names, [&](const std::string& name) {
+    return find_coordinate(robot.model, name).joint == joint;
+  });
+}
+
 }  // namespace
 
 MovingScene::MovingScene(const PlannedPath& path) : path_(path), loaded_(load(path)) {
@@ -109,7 +128,7 @@ MovingScene::MovingScene(const PlannedPath& path) : path_(path), loaded_(load(pa
     require_times();
   }
   if (path.body.empty()) {
-    move_robot();
+    move_robots();
   } else {
     move_body();
   }
@@ -136,65 +155,76 @@ void MovingScene::require_times() const {
   }
 }
 
-void MovingScene::move_robot() {
+void MovingScene::move_robots() {
   Scene& scene = loaded_.scene;
-  const auto is_it = [&](const SceneRobot& robot) { return robot.name == path_.robot; };
-  const auto found = std::find_if(scene.robots.begin(), scene.robots.end(), is_it);
-  if (found == scene.robots.end()) {
-    throw BrokenPath("The scene has no robot " + in_quotes(path_.robot) + ".");
+  std::vector<std::size_t> numbers;
+  for (const std::string& name : path_.robots) {
+    const auto found = std::ranges::find(scene.robots, name, &SceneRobot::name);
+    if (found == scene.robots.end()) {
+      throw BrokenPath("The scene has no robot " + in_quotes(name) + ".");
+    }
+    require_own_rest(
+        std::holds_alternative<FixedMotion>(found->base) && found->trajectory.joint_names.empty(),
+        found->name);
+    numbers.push_back(static_cast<std::size_t>(found - scene.robots.begin()));
+    found->trajectory = Trajectory{.joint_names = {}, .points = {}};
+    for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
+      found->trajectory.points.push_back({.time = time(k), .positions = {}});
+    }
   }
-  SceneRobot& robot = *found;
-  require_own_rest(
-      std::holds_alternative<FixedMotion>(robot.base) && robot.trajectory.joint_names.empty(),
-      robot.name);
-  const auto number = static_cast<std::size_t>(found - scene.robots.begin());
-  robot.trajectory = Trajectory{.joint_names = path_.joints, .points = {}};
-  for (std::size_t k = 0; k < path_.joints.size(); ++k) {
-    const JointCoordinate which = find_coordinate(robot.model, path_.joints[k]);
-    if (robot.model.joints()[which.joint].mimic) {
-      throw BrokenPath("The joint " + in_quotes(path_.joints[k]) + " mimics another.");
-    }
-    require_turning(robot.model, path_.joints[k], path_.turnings.at(k));
-    if (path_.waypoints.front().at(k) != position_in_scene(robot, path_.joints[k])) {
-      throw BrokenPath("The path does not begin where its scene has joint " +
-                       in_quotes(path_.joints[k]) + ".");
-    }
-    for (const std::vector<double>& waypoint : path_.waypoints) {
-      require_limits(robot.model, which.joint, waypoint.at(k));
-    }
-    turnings_[number][path_.joints[k]] = path_.turnings.at(k);
+  for (std::size_t column = 0; column < path_.joints.size(); ++column) {
+    const RobotName split = split_robot_name(scene, numbers, path_.joints[column]);
+    const std::size_t number = numbers[split.which];
+    move_joint(column, scene.robots[number], number, split.name);
   }
+  moves_.assign(member_count(scene), false);
+  for (const std::size_t number : numbers) {
+    if (scene.robots[number].trajectory.joint_names.empty()) {
+      throw BrokenPath("The path moves no joint of robot " + in_quotes(scene.robots[number].name) +
+                       ".");
+    }
+    find_moving(scene.robots[number], number);
+  }
+}
+
+/// Lets a joint of a robot go through its column of the waypoints.
+void MovingScene::move_joint(std::size_t column, SceneRobot& robot, std::size_t number,
+                             const std::string& name) {
+  const JointCoordinate which = find_coordinate(robot.model, name);
+  if (robot.model.joints()[which.joint].mimic) {
+    throw BrokenPath("The joint " + in_quotes(name) + " mimics another.");
+  }
+  require_turning(robot.model, name, path_.turnings.at(column));
+  if (path_.waypoints.front().at(column) != position_in_scene(robot, name)) {
+    throw BrokenPath("The path does not begin where its scene has joint " +
+                     in_quotes(path_.joints[column]) + ".");
+  }
+  for (const std::string& other : robot.trajectory.joint_names) {
+    if (find_coordinate(robot.model, other) == which) {
+      throw BrokenPath("The path has joint " + in_quotes(path_.joints[column]) + " twice.");
+    }
+  }
+  robot.trajectory.joint_names.push_back(name);
   for (std::size_t k = 0; k < path_.waypoints.size(); ++k) {
-    robot.trajectory.points.push_back({.time = time(k), .positions = path_.waypoints[k]});
+    const double position = path_.waypoints[k].at(column);
+    require_limits(robot.model, which.joint, position);
+    robot.trajectory.points[k].positions.push_back(position);
   }
-  find_moving(robot, number);
+  turnings_[number][name] = path_.turnings.at(column);
 }
 
 void MovingScene::find_moving(const SceneRobot& robot, std::size_t number) {
-  const Scene& scene = loaded_.scene;
-  const std::size_t first = first_member(scene, number);
-  moves_.assign(
-      first_member(scene, scene.robots.size() - 1) + scene.robots.back().model.links().size(),
-      false);
+  const std::size_t first = first_member(loaded_.scene, number);
   for (std::size_t link = 0; link < robot.model.links().size(); ++link) {
     moves_[first + link] = !path_.times.empty();  // Others come near whatever rests.
     for (auto joint = robot.model.parent_joint(link); joint && !moves_[first + link];
          joint = robot.model.parent_joint(robot.model.parent_link(*joint))) {
-      moves_[first + link] = is_planned(robot.model, *joint);
+      moves_[first + link] = is_in_trajectory(robot, *joint);
     }
   }
   for (const SceneAttachment& held : robot.attached) {
     moves_[held.body] = moves_[first + held.link];
   }
-}
-
-bool MovingScene::is_planned(const RobotModel& model, std::size_t joint) const {
-  while (model.joints()[joint].mimic) {
-    joint = model.find_joint(model.joints()[joint].mimic->joint).value();
-  }
-  return std::any_of(path_.joints.begin(), path_.joints.end(), [&](const std::string& name) {
-    return find_coordinate(model, name).joint == joint;
-  });
 }
 
 void MovingScene::move_body() {
@@ -225,11 +255,7 @@ void MovingScene::move_body() {
         {{q.at(0), q.at(1), q.at(2)}, Eigen::Quaterniond(q.at(3), q.at(4), q.at(5), q.at(6))});
   }
   body->motion = motion;
-  std::size_t members = scene.bodies.size();
-  for (const SceneRobot& robot : scene.robots) {
-    members += robot.model.links().size();
-  }
-  moves_.assign(members, false);
+  moves_.assign(member_count(scene), false);
   moves_[number] = true;
   body_ = number;
 }

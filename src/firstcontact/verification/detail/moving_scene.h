@@ -1,5 +1,5 @@
 /// @file
-/// The scene of a planned path in which its mover runs through all waypoints.
+/// The scene of a planned path in which its movers run through all waypoints.
 
 #pragma once
 
@@ -26,7 +26,7 @@ class BrokenPath : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The scene in which the mover runs through all waypoints: at their times, else one edge a second.
+/// The scene in which the movers run through all waypoints: at their times, else one edge a second.
 class MovingScene {
  public:
   /// @param path  outlives this
@@ -47,9 +47,10 @@ class MovingScene {
 
  private:
   void require_times() const;
-  void move_robot();
+  void move_robots();
+  void move_joint(std::size_t column, SceneRobot& robot, std::size_t number,
+                  const std::string& name);
   void find_moving(const SceneRobot& robot, std::size_t number);
-  [[nodiscard]] bool is_planned(const RobotModel& model, std::size_t joint) const;
   void move_body();
   void require_begin(const Pose& pose) const;
 

@@ -1,0 +1,30 @@
+/// @file
+/// Names of joints and links of one or several robots of a scene.
+
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace firstcontact {
+struct Scene;
+}
+
+namespace firstcontact::detail {
+
+/// The name of a joint or link, and the robot whose it is.
+struct RobotName {
+  std::size_t which = 0;  ///< Of the robots that were asked about.
+  std::string name;       ///< In that robot.
+};
+
+/// Takes a name apart: that of a joint or link where there is one robot, else ROBOT/NAME.
+///
+/// @param robots  of the scene; at least one
+/// @throws std::invalid_argument  names what begins with none of the robots' names, or with two
+[[nodiscard]] RobotName split_robot_name(const Scene& scene, std::span<const std::size_t> robots,
+                                         std::string_view name);
+
+}  // namespace firstcontact::detail

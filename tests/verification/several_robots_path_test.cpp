@@ -1,0 +1,148 @@
+// Paths of several robots: proven from the file alone, and refuted where they are false.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <firstcontact/planning/plan_path.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/planned_path.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_planned_path.h>
+#include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/scene_files/write_planned_path.h>
+#include <firstcontact/text/parse_error.h>
+#include <firstcontact/verification/verify_path.h>
+
+#include "scene/robot_text.h"
+
+namespace firstcontact {
+namespace {
+
+/// Two arms that face each other, 2 m apart, and a third that stands aside.
+PlannedPath path_of_arms(const test::ArmFolder& folder, const std::string& bodies = "") {
+  const Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [)" + bodies + R"(], "robots": [
+    {"name": "aside", "urdf": "arm.urdf", "base": {"position": [0, 9, 0]}},
+    {"name": "left", "urdf": "arm.urdf", "state": {"elbow": -0.8}},
+    {"name": "right", "urdf": "arm.urdf", "state": {"elbow": 0.8},
+     "base": {"position": [2, 0, 0], "rpy": [0, 0, 3.14159265358979]}}],
+    "plan": {"robots": ["right", "left"], "goal": {"left/elbow": 0.8, "right/elbow": -0.8}}})",
+                                  folder.path() / "scene.json");
+  ShapeCache cache;
+  const ScenePlan plan = make_scene_plan(scene, scene.plan.value(), cache);
+  const PlanResult result = plan_path(plan.plan, plan.start, plan.goals, plan.options);
+  EXPECT_EQ(result.verdict, PlanVerdict::proven);
+  return planned_path(plan, plan.options, result);
+}
+
+TEST(SeveralRobotsPath, IsWrittenReadAndProven) {
+  const test::ArmFolder folder;
+  const PlannedPath path = path_of_arms(folder);
+  EXPECT_EQ(path.robots, (std::vector<std::string>{"right", "left"}));
+  EXPECT_EQ(path.joints, (std::vector<std::string>{"right/elbow", "left/elbow"}));
+  const std::string text = write_planned_path(path);
+  const PlannedPath read = parse_planned_path(text, folder.path() / "path.json");
+  EXPECT_EQ(read.robots, path.robots);
+  EXPECT_EQ(read.waypoints, path.waypoints);
+  EXPECT_EQ(write_planned_path(read), text);
+  const PathVerification proof = verify_path(read);
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
+  EXPECT_EQ(proof.edges, path.waypoints.size() - 1);
+  EXPECT_TRUE(proof.reaches_goal);
+  // Of bar and tip of the two arms 4 pairs, and of each with those of the third.
+  EXPECT_EQ(proof.tested, 4u + 2u * 4u);
+}
+
+TEST(SeveralRobotsPath, IsRefutedWhereTheArmsMeet) {
+  const test::ArmFolder folder;
+  PlannedPath path = path_of_arms(folder);
+  path.waypoints = {path.waypoints.front(), path.waypoints.back()};
+  path.clearances = {0.0};
+  path.clearance = 0.0;
+  const PathVerification refuted = verify_path(path);
+  EXPECT_EQ(refuted.verdict, ProofVerdict::refuted);
+  EXPECT_EQ(refuted.problem_edge, 0u);
+  // By either arm alone, with the other at rest.
+  path.waypoints = {{0.8, -0.8}, {0.8, 0.0}, {0.0, 0.0}, {-0.8, 0.8}};
+  path.clearances = {0.0, 0.0, 0.0};
+  EXPECT_EQ(verify_path(path).problem_edge, 1u);
+}
+
+TEST(SeveralRobotsPath, IsBrokenWhereItContradictsItsScene) {
+  const test::ArmFolder folder;
+  const PlannedPath whole = path_of_arms(folder);
+  const auto problem = [&](const std::function<void(PlannedPath&)>& change) {
+    PlannedPath path = whole;
+    change(path);
+    const PathVerification proof = verify_path(path);
+    EXPECT_EQ(proof.verdict, ProofVerdict::broken);
+    return proof.problem;
+  };
+  EXPECT_EQ(problem([](PlannedPath& path) { path.robots[1] = "lift"; }),
+            "The scene has no robot \"lift\".");
+  EXPECT_EQ(problem([](PlannedPath& path) {
+              path.robots = {"right", "left", "aside"};
+            }),
+            "The path moves no joint of robot \"aside\".");
+  EXPECT_EQ(problem([](PlannedPath& path) { path.joints[0] = "left/elbow"; }),
+            "The path does not begin where its scene has joint \"left/elbow\".");
+  EXPECT_EQ(problem([](PlannedPath& path) {
+              path.joints[0] = "left/elbow";
+              for (std::vector<double>& waypoint : path.waypoints) {
+                waypoint[0] = waypoint[1];
+              }
+              path.goals = {path.waypoints.back()};
+            }),
+            "The path has joint \"left/elbow\" twice.");
+  EXPECT_EQ(problem([](PlannedPath& path) { path.waypoints[1][0] = -1.5; }),
+            "A waypoint has joint \"elbow\" at -1.5, outside of its limits.");
+}
+
+TEST(SeveralRobotsPath, HasNamesThatItsFileCannotConfuse) {
+  const test::ArmFolder folder;
+  const std::string text = write_planned_path(path_of_arms(folder));
+  const auto problem = [&](const std::string& from, const std::string& to) -> std::string {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    try {
+      (void)parse_planned_path(changed, folder.path() / "path.json");
+    } catch (const ParseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(problem(R"(["right","left"])", R"(["right","right"])").find("twice"),
+            std::string::npos);
+  EXPECT_NE(problem(R"(["right","left"])", R"(["right"])").find("at least two robots"),
+            std::string::npos);
+  EXPECT_NE(problem(R"(["right","left"])", R"(["right","none"])").find("that the scene has"),
+            std::string::npos);
+  EXPECT_NE(problem(R"("right/elbow")", R"("elbow")").find("ROBOT/NAME"), std::string::npos);
+  EXPECT_NE(problem(R"("right/elbow")", R"("right/wrist")").find("name of a joint"),
+            std::string::npos);
+}
+
+// A gate shuts the way of both arms at first: the two wait, each for the other and for the gate.
+TEST(SeveralRobotsPath, IsProvenInTime) {
+  const test::ArmFolder folder;
+  PlannedPath path =
+      path_of_arms(folder, R"({"name": "gate", "shape": {"box": {"size": [0.1, 0.1, 0.5]}},
+        "motion": {"type": "waypoints", "times": [0, 2, 3, 8],
+          "poses": [{"position": [1, 0, 0]}, {"position": [1, 0, 0]}, {"position": [1, 0, 3]}, {"position": [1, 0, 3]}]}})");
+  ASSERT_FALSE(path.times.empty());
+  const PathVerification proof = verify_path(path);
+  EXPECT_EQ(proof.verdict, ProofVerdict::proven) << proof.problem;
+  // At its speed of 1 rad/s the first arm would be at the gate long before it opens.
+  PlannedPath early = path;
+  early.waypoints = {{0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}, {-0.8, 0.8}};
+  early.times = {0.0, 1.6, 3.2, 8.0};
+  early.clearances.assign(3, 0.0);
+  early.clearance = 0.0;
+  EXPECT_EQ(verify_path(early).problem_edge, 0u);
+}
+
+}  // namespace
+}  // namespace firstcontact
