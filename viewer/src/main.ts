@@ -26,7 +26,7 @@ import { probePanel } from "./panels/probe";
 import { resultTable } from "./panels/result_table";
 import { runPanel } from "./panels/run";
 import { runCharts, runChartsPanel, type RunChart } from "./panels/run_charts";
-import { stepContactsPanel, stepImpactsPanel, stepPanel } from "./panels/step";
+import { stepContactsPanel, stepImpactsPanel, stepPanel, stepTiesPanel } from "./panels/step";
 import { summaryPanel } from "./panels/summary";
 import { TimeChart, type ChartContent } from "./panels/time_chart";
 import { toolbar } from "./panels/toolbar";
@@ -175,6 +175,7 @@ function start(model: Model, result: number | null = null): void {
     jointsPanel(model, player, joint),
     bodiesPanel(model, view, display),
     model.run && stepContactsPanel(model, model.run, view, player),
+    ...(model.run ? stepTiesPanel(model, model.run, view, player) : []),
     ...(model.run ? stepImpactsPanel(model, model.run, view, player) : []),
     filesPanel(model),
   ].filter((card) => card !== null);

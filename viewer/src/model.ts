@@ -20,6 +20,7 @@ import { chainTo, coordinateAt, linkMotions, restsAt, restsOn } from "./motion/r
 import { length, scale, unit, zero } from "./motion/vector";
 import { angleAlong, motionAlong } from "./motion/way";
 import { Run } from "./run";
+import { tiesOf, type Tie } from "./ties";
 
 /// A rigid geometry of a body, in a frame of its own; or the whole of a body that deforms.
 export interface BodyGeometry {
@@ -216,6 +217,8 @@ export class Model {
   readonly run: Run | null;
   /// Bodies, then the links of each robot.
   readonly bodies: readonly Body[];
+  /// Of a run.
+  readonly ties: readonly Tie[];
   readonly robots: readonly string[];
   readonly coordinates: readonly Coordinate[];
   readonly gap: GapLine;
@@ -250,6 +253,7 @@ export class Model {
       bodies[body] = carried(bodies[body]!, stretches, bodies);
     });
     this.bodies = bodies;
+    this.ties = run ? tiesOf(run, bodies) : [];
     this.robots = robots.map(({ name }) => name);
     this.coordinates = robots.flatMap((robot, index) => coordinatesOf(robot, index, result ?? {}));
     this.indices = new Map(bodies.map(({ name }, index) => [name, index]));

@@ -143,6 +143,12 @@ export async function colorsOf(
 }
 
 /// What the page leaves for whoever asks it.
+interface PlaceOfPage {
+  clone(): PlaceOfPage;
+  add(other: PlaceOfPage): PlaceOfPage;
+  toArray(): [number, number, number];
+}
+
 declare global {
   interface Window {
     firstcontact: {
@@ -156,6 +162,18 @@ declare global {
           geometries: PieceOfPage[];
           looks: PieceOfPage[];
         }[];
+        ties: {
+          group: {
+            position: PlaceOfPage;
+            children: {
+              children: {
+                material: { color: { r: number; g: number }; opacity: number };
+                position: PlaceOfPage;
+                scale: { z: number };
+              }[];
+            }[];
+          };
+        } | null;
         forces: {
           dots: { visible: boolean };
           arrows: {

@@ -336,3 +336,126 @@ describe.skipIf(!canLook)("the page of bodies that fly far apart", () => {
     await page.context().close();
   });
 });
+
+/// A crate on a spring, a lamp on a loose cable, a door on a hinge, and a ball pinned to the crate.
+const tied = {
+  firstcontact: 1,
+  id: "tied",
+  bodies: [
+    { name: "crate", shape: { box: { size: [0.4, 0.4, 0.4] } }, dynamics: { density: 300 } },
+    {
+      name: "lamp",
+      shape: { sphere: { radius: 0.1 } },
+      pose: { position: [1, 0, 0.3] },
+      dynamics: { density: 500 },
+    },
+    {
+      name: "door",
+      shape: { box: { size: [0.6, 0.05, 1] } },
+      pose: { position: [-1, 0, 0] },
+      dynamics: { density: 300, angular_velocity: [0, 0, 1] },
+    },
+    {
+      name: "ball",
+      shape: { sphere: { radius: 0.1 } },
+      pose: { position: [0.2, 0, -0.5] },
+      dynamics: { density: 500 },
+    },
+  ],
+  simulation: {
+    duration: 1,
+    step: 0.01,
+    gravity: [0, 0, -9.81],
+    ties: [
+      { type: "spring", bodies: [null, "crate"], points: [[0, 0, 1], [0, 0, 0.2]], stiffness: 2000 }, // prettier-ignore
+      {
+        type: "cable",
+        bodies: [null, "lamp"],
+        points: [
+          [1, 0, 1],
+          [0, 0, 0.1],
+        ],
+        length: 1,
+      },
+      { type: "hinge", bodies: [null, "door"], points: [[-1.3, 0, 0], null] },
+      { type: "pin", bodies: ["crate", "ball"], points: [null, [0, 0, 0.2]] },
+    ],
+  },
+};
+
+describe.skipIf(!canLook)("the page of bodies that are tied", () => {
+  let browser: Browser;
+  let made: MadeRun;
+  const folder = new Folder();
+
+  beforeAll(async () => {
+    made = await folder.simulate("tied", tied);
+    browser = await launch();
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    folder.remove();
+  });
+
+  test("draws ties between their points, redder where they bear more", async () => {
+    const context = await browser.newContext({ reducedMotion: "reduce" });
+    const page = await context.newPage();
+    await page.goto(made.url);
+    await page.waitForFunction(() => "firstcontact" in window);
+    const drawn = (tie: number, t: number) =>
+      page.evaluate(
+        ([index, moment]) => {
+          window.firstcontact.player.seek(moment!);
+          const { group } = window.firstcontact.view.ties!;
+          const { children } = group.children[index!]!;
+          const { material } = children[0]!;
+          const at = (part: number) =>
+            children[part]!.position.clone().add(group.position).toArray();
+          return {
+            red: material.color.r - material.color.g,
+            opacity: material.opacity,
+            from: at(0),
+            long: children[0]!.scale.z,
+            last: at(children.length - 1),
+          };
+        },
+        [tie, t],
+      );
+    const placeOf = (step: number, body: number): Vector3 =>
+      made.steps[step]!.bodies.find((moved) => moved.body === body)!.position;
+    const spring = await drawn(0, 0.5);
+    expect(distance(spring.from, [0, 0, 1])).toBeLessThan(1e-5);
+    const crate = placeOf(49, 0);
+    expect(spring.long).toBeCloseTo(0.8 - crate[2], 1); // The crate may tilt.
+    expect((await drawn(1, 0.05)).opacity).toBeLessThan(1);
+    const late = await drawn(1, 0.99);
+    expect(late.opacity).toBe(1);
+    expect(late.long).toBeCloseTo(1, 3);
+    expect(distance((await drawn(2, 0.7)).last, [-1.3, 0, 0])).toBeLessThan(1e-3);
+    const force = (step: number) =>
+      length((made.steps[step] as unknown as { ties: { force: Vector3 }[] }).ties[0]!.force);
+    const steps = made.steps.map((_, step) => step).sort((a, b) => force(a) - force(b));
+    const [least, most] = [steps[0]!, steps.at(-1)!];
+    expect((await drawn(0, (most + 0.5) / 100)).red).toBeGreaterThan(
+      (await drawn(0, (least + 0.5) / 100)).red + 0.2,
+    );
+    const said = await page.getByRole("region", { name: "Ties", exact: true }).textContent();
+    expect(said).toMatch(/^Ties 4/);
+    expect(said).toMatch(/world · cratespring: [\d.]+\s[mk]?N[\d.]+\s\w+ long/);
+    expect(said).toMatch(/crate · ballpin: [\d.]+\s[mk]?N/);
+    await page.context().close();
+  });
+
+  test("shows no list of ties where there are none", async () => {
+    const free = await folder.simulate("free", {
+      ...tied,
+      simulation: { ...tied.simulation, ties: [] },
+    });
+    const page = await browser.newPage();
+    await page.goto(free.url);
+    await page.waitForFunction(() => "firstcontact" in window);
+    expect(await page.getByRole("region", { name: "Ties", exact: true }).count()).toBe(0);
+    await page.close();
+  });
+});

@@ -25,6 +25,21 @@ export interface StepData {
   readonly events: number;
   readonly robots?: readonly RobotStepData[]; ///< That forces move.
   readonly impacts?: readonly ImpactData[];
+  readonly ties?: readonly TieForceData[]; ///< In the order of the scene's.
+}
+
+/// The force of a tie.
+export interface TieForceData {
+  readonly force: Vector3; ///< [N] On its second body, the mean over the step without impacts.
+}
+
+/// What ties two bodies, or a body to the world, as in scenes.
+export interface TieData {
+  readonly type: "spring" | "cable" | "pin" | "hinge" | "weld";
+  readonly bodies: readonly [string | null, string | null];
+  readonly points?: readonly [Vector3 | null, Vector3 | null];
+  readonly length?: number; ///< [m]
+  readonly axis?: Vector3; ///< Of a hinge, in the frame of the first body.
 }
 
 /// A robot at the end of a step.
@@ -53,7 +68,11 @@ export interface RunContactsData {
 
 export interface RunHeader {
   readonly scene: SceneData & {
-    readonly simulation: { readonly duration: number; readonly gravity: Vector3 };
+    readonly simulation: {
+      readonly duration: number;
+      readonly gravity: Vector3;
+      readonly ties?: readonly TieData[];
+    };
   };
   readonly version: string;
   readonly masses: readonly number[];

@@ -13,7 +13,7 @@ import {
 import { Signal } from "../core/signal";
 import type { Vector3 } from "../data/result";
 import type { Model } from "../model";
-import { length } from "../motion/vector";
+import { add, distance, length, scale } from "../motion/vector";
 import type { Player } from "../player";
 import type { Run, RunContact, RunImpact } from "../run";
 import type { SceneView } from "../view/scene_view";
@@ -53,13 +53,18 @@ function row(
 ): HTMLElement {
   const [a, b] = bodies.map((body) => model.bodies[body]!);
   const lines = [said, `at ${pointText(point, 4)}`];
+  return rowButton(`${a!.name} · ${b!.name}`, lines, () => view.focusPoint(point, [a!, b!]));
+}
+
+/// A row of two names and what is said of them.
+function rowButton(names: string, lines: readonly string[], look: () => void): HTMLElement {
   const button = element(
     "button.row-name.tall",
-    { type: "button", title: `Look at ${a!.name} and ${b!.name}` },
-    element("span.name", {}, `${a!.name} · ${b!.name}`),
+    { type: "button", title: `Look at ${names.replace(" · ", " and ")}` },
+    element("span.name", {}, names),
     element("span.lines", {}, ...lines.map((line) => element("span", {}, line))),
   );
-  button.addEventListener("click", () => view.focusPoint(point, [a!, b!]));
+  button.addEventListener("click", look);
   return element("li", {}, button);
 }
 
@@ -129,6 +134,33 @@ export function stepContactsPanel(
         return row(contact, said, model, view);
       });
   return rowsPanel(run, player, { name: "Contacts", less: "force", of });
+}
+
+/// What ties bodies, the greatest forces first; none where the run has no tie.
+export function stepTiesPanel(
+  model: Model,
+  run: Run,
+  view: SceneView,
+  player: Player,
+): HTMLElement[] {
+  if (model.ties.length === 0) {
+    return [];
+  }
+  const of = (index: number): HTMLElement[] =>
+    [...model.ties]
+      .sort((a, b) => b.forces[index]! - a.forces[index]!)
+      .map((tie) => {
+        const [a, b] = tie.ends(run.ends[index]!);
+        const isLine = tie.type === "spring" || tie.type === "cable";
+        const said = [
+          `${tie.type}: ${forceText(tie.forces[index]!)}`,
+          ...(isLine ? [`${lengthText(distance(a, b))} long`] : [`at ${pointText(a, 4)}`]),
+        ];
+        const bodies = tie.names.flatMap((name) => (name === null ? [] : [model.body(name)]));
+        const names = tie.names.map((name) => name ?? "world").join(" · ");
+        return rowButton(names, said, () => view.focusPoint(scale(0.5, add(a, b)), bodies));
+      });
+  return [rowsPanel(run, player, { name: "Ties", less: "force", of })];
 }
 
 /// The impacts of the step, the greatest impulses first; none where the run has no impact.

@@ -45,6 +45,7 @@ import { Grid } from "./grid";
 import { homeDirection } from "./home_view";
 import { fieldOfView, type GeometryView, type Surface } from "./geometry_view";
 import { Probe, probePoint } from "./probe";
+import { TieMarkers } from "./tie_view";
 
 const slowFrame = 60; // [ms] Beyond this the picture gets coarser while it moves.
 const nearContact = 0.04; // In t: contacts of a result are seen within it.
@@ -57,6 +58,7 @@ export class SceneView {
   readonly bounds: Bounds;
   /// Of a run.
   readonly forces: ForceMarkers | null;
+  readonly ties: TieMarkers | null;
   /// [ms] between the last frames while the picture moves.
   frameTime = 0;
   onFrame: (() => void) | null = null;
@@ -105,6 +107,8 @@ export class SceneView {
 
     this.bounds = new Bounds(model.bodies);
     this.sweep = this.bounds.opening(model.firstTouch);
+    const ends = model.ties.flatMap((tie) => tie.ends(0));
+    ends.forEach((end) => this.sweep.expandByPoint(new Vector3(...end)));
     this.home = this.sweep.getBoundingSphere(new Sphere());
     this.whole = this.bounds.sweep();
     this.reach = this.home.center.distanceTo(this.whole.getCenter(new Vector3()));
@@ -113,12 +117,15 @@ export class SceneView {
     this.bodies = this.makeBodies();
     this.ghosts = new Ghosts(this.bodies);
     this.forces = model.run && new ForceMarkers(model.run, this.home.center, this.bodySize());
+    this.ties =
+      model.run && new TieMarkers(model.run, model.ties, this.home.center, this.bodySize());
     this.scene.add(
       ...this.bodies.map(({ group }) => group),
       this.ghosts.group,
       this.grid.object,
       this.markers.group,
       ...(this.forces ? [this.forces.group] : []),
+      ...(this.ties ? [this.ties.group] : []),
       this.probe.group,
       this.camera,
     );
@@ -382,6 +389,7 @@ export class SceneView {
       this.contactsAt === null ? 0 : nearness(t, this.contactsAt, Math.max(window, nearContact)),
     );
     this.forces?.show(t, window);
+    this.ties?.show(t);
     this.probe.show(t);
     this.requestFrame();
   }
