@@ -1,7 +1,9 @@
 // God-objects follow their devices, and pass through nothing.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <stdexcept>
@@ -176,6 +178,7 @@ TEST(ContactLoop, IsPushedByWhatMoves) {
   for (int k = 0; k < 200; ++k) {
     const HapticCycle& cycle = loop.advance(std::array{at(Vector3d::Zero())}, kMillisecond, k);
     ASSERT_NEAR(cycle.lasted, kMillisecond, 1e-15) << k;
+    EXPECT_TRUE(cycle.is_converged) << k;
   }
   EXPECT_NEAR(loop.pose(0).position.x(), -0.05 + 0.2 + 0.01 + 0.01, 1e-4);
   EXPECT_NEAR(loop.time(), 0.2, 1e-12);
@@ -200,6 +203,91 @@ TEST(ContactLoop, MakesCoursesWaitWhereTheyWouldCrushATool) {
   EXPECT_GT(lost, 0.05);
   EXPECT_LT(loop.pose(0).position.x(), 0.03);
   EXPECT_GT(loop.pose(1).position.x(), -0.02);
+}
+
+/// Where a member of a cycle is at a time of it; tools turn about their centres, here their
+/// origins.
+Pose pose_in(const HapticCycle& cycle, std::size_t member, double time) {
+  const auto& pieces = cycle.members.at(member).pieces;
+  double from = 0.0;
+  for (const HapticPiece& piece : pieces) {
+    if (time <= piece.to || &piece == &pieces.back()) {
+      const double share = std::clamp((time - from) / (piece.to - from), 0.0, 1.0);
+      const double angle = piece.rotation_vector.norm();
+      const Vector3d axis =
+          angle > 0.0 ? Vector3d(piece.rotation_vector / angle) : Vector3d::UnitX();
+      return {piece.X_WB.position + share * piece.translation,
+              Eigen::AngleAxisd(share * angle, axis) * piece.X_WB.rotation};
+    }
+    from = piece.to;
+  }
+  return cycle.members.at(member).X_WB;
+}
+
+/// [m]  The least gap of a ball, the tool, to a box, the only body, at many times of a cycle.
+double least_gap(const HapticCycle& cycle, double radius, const Vector3d& size) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= 200; ++k) {
+    const double time = cycle.lasted * k / 200.0;
+    const Pose box = pose_in(cycle, 1, time);
+    const Vector3d p = box.rotation.conjugate() * (pose_in(cycle, 0, time).position - box.position);
+    const Vector3d beyond = (p.cwiseAbs() - 0.5 * size).cwiseMax(0.0);
+    least = std::min(least, beyond.norm() - radius);
+  }
+  return least;
+}
+
+// Its ends lie in cycles, not between them: what it does within one cycle is no less true.
+TEST(ContactLoop, IsHitByWhatComesAndGoesWithinACycle) {
+  const Vector3d size(0.02, 0.1, 0.1);
+  HapticScene scene;
+  scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.0}));
+  HapticBody hammer = body_at("hammer", make_box(size), {-0.3, 0.0, 0.0});
+  const std::vector<double> times = {0.0, 0.5011, 0.5014, 0.5017, 1.0};
+  const std::vector<Pose> places = {at({-0.3, 0, 0}), at({-0.3, 0, 0}), at({0.03, 0, 0}),
+                                    at({-0.3, 0, 0}), at({-0.3, 0, 0})};
+  hammer.course = Motion::waypoints(times, places);
+  scene.bodies.push_back(hammer);
+  scene.duration = 1.0;
+  ContactLoop loop(scene);
+  double farthest = 0.0;
+  double lost = 0.0;
+  for (int k = 0; k < 1000; ++k) {
+    const HapticCycle& cycle = loop.advance(std::array{at(Vector3d::Zero())}, kMillisecond, k);
+    lost += cycle.asked - cycle.lasted;
+    for (int i = 0; i <= 100; ++i) {
+      farthest = std::max(farthest, pose_in(cycle, 0, cycle.lasted * i / 100.0).position.x());
+    }
+    ASSERT_GT(least_gap(cycle, 0.0099, size), 0.0) << k;
+  }
+  EXPECT_GT(farthest, 0.045);  // The hammer's face gets to 0.04 m.
+  EXPECT_LT(lost, 0.01);
+}
+
+TEST(ContactLoop, IsHitByABladeThatTurnsAlmostOnceACycle) {
+  const Vector3d size(0.3, 0.01, 0.05);
+  HapticScene scene;
+  scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.08, 0.06, 0.0}));
+  HapticBody blade = body_at("blade", make_box(size), Vector3d::Zero());
+  const double turns = 50.0 * 350.0 / 360.0;
+  blade.course = Motion::screw(blade.X_WB, Vector3d::Zero(), Vector3d::UnitZ(),
+                               2.0 * std::numbers::pi * turns, 0.0);
+  scene.bodies.push_back(blade);
+  scene.duration = 0.05;
+  ContactLoop loop(scene);
+  double farthest = 0.0;
+  double lost = 0.0;
+  for (int k = 0; k < 50; ++k) {
+    const HapticCycle& cycle = loop.advance(std::array{at({0.08, 0.06, 0.0})}, kMillisecond, k);
+    ASSERT_GT(least_gap(cycle, 0.0099, size), 0.0) << k;
+    lost += cycle.asked - cycle.lasted;
+    for (int i = 0; i <= 100; ++i) {
+      const Vector3d place = pose_in(cycle, 0, cycle.lasted * i / 100.0).position;
+      farthest = std::max(farthest, (place - Vector3d(0.08, 0.06, 0.0)).norm());
+    }
+  }
+  // It cannot stay where the blade passes: it is carried along, or the blade waits for it.
+  EXPECT_TRUE(farthest > 0.05 || lost > 0.02) << farthest << " m, " << lost << " s";
 }
 
 TEST(ContactLoop, KeepsTwoToolsApart) {

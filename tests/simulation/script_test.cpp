@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/simulation_model/detail/script_parts.h>
 
 #include "simulation/simulated_run.h"
 #include "support/random.h"

@@ -65,7 +65,11 @@ void ContactLoop::Implementation::begin_members() {
     least_reach = std::min(least_reach, add(tool.shape, tool.X_WB, tool.friction));
   }
   for (const HapticBody& body : scene_.bodies) {
-    add(body.shape, body.course ? body.course->pose(0.0) : body.X_WB, body.friction);
+    const double reach =
+        add(body.shape, body.course ? body.course->pose(0.0) : body.X_WB, body.friction);
+    if (body.course) {
+      bends_.push_back({*body.course, reach + members_.back().shape.bounds().centre.norm()});
+    }
   }
   distance_ = scene_.contact_distance.value_or(detail::kContactDistanceOfReach * least_reach);
   detail::require_haptic(distance_ >= detail::kLeastContactDistanceOfExtent * extent,

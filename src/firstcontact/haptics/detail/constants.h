@@ -31,10 +31,16 @@ inline constexpr double kShareOfJammedGap = 0.9;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 0.3;
+/// [-]  A round ends before a course has bent away so far from a straight line.
+inline constexpr double kBendOfCourse = 0.5;
 /// [-]  Where bodies with courses bring a tool so much nearer than it may come, there is no room.
 inline constexpr double kSlackOfRoom = 0.1;
 /// [-]  Then they go on for this part of the time, and are tried again.
 inline constexpr double kShareWithoutRoom = 0.25;
+/// [-]  So does a part of a round in which a course bends away from any of 10,000 straight lines.
+inline constexpr double kShareOfWildCourse = 1e-4;
+/// [-]  Of a round: what is left of it after the courses are over counts from here on.
+inline constexpr double kLeastRestOfRound = 1e-6;
 /// [node groups and steps]  A proof of one pair in one round; what is spent is proven until there.
 inline constexpr std::size_t kProofSteps = 20'000;
 /// [-]  A motion that gains less than this is not made: what sticks does not creep.

@@ -48,15 +48,36 @@ double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& way
   return gain;
 }
 
+/// [s]  The part of a slot in which all courses are straight, to half the contact distance.
+double ContactLoop::Implementation::straight_slot(double slot) const {
+  const double begin = time_ + now_;
+  const double from = std::min(1.0, begin / scene_.duration);
+  const double to = std::min(1.0, (begin + slot) / scene_.duration);
+  if (bends_.empty() || !(from < to)) {
+    return slot;
+  }
+  const std::vector<double> ends =
+      detail::straight_parts(bends_, from, to, detail::kBendOfCourse * distance_);
+  if (ends.empty()) {
+    return detail::kShareOfWildCourse * slot;
+  }
+  const double straight = ends.front() * scene_.duration - begin;
+  const bool is_whole = ends.front() == to && slot - straight <= detail::kLeastRestOfRound * slot;
+  return is_whole ? slot : std::clamp(straight, detail::kLeastRestOfRound * slot, slot);
+}
+
 /// Sets how far the bodies with courses go in a part of the cycle: from where they are to where
 /// their courses are then.
 void ContactLoop::Implementation::set_courses(double slot) {
   for (std::size_t m = tools(); m < members_.size(); ++m) {
     courses_[m] = {};
     if (has_course(m)) {
-      const Pose to = on_course(m, time_ + now_ + slot);
-      courses_[m].translation = to.position - poses_[m].position;
-      courses_[m].rotation_vector = detail::turn_between(poses_[m].rotation, to.rotation);
+      const Motion& course = *body_of(m).course;
+      const double from = std::min(1.0, (time_ + now_) / scene_.duration);
+      const double to = std::min(1.0, (time_ + now_ + slot) / scene_.duration);
+      courses_[m].translation = course.pose(to).position - poses_[m].position;
+      courses_[m].rotation_vector =
+          detail::rotation_along(course, from, to, poses_[m].rotation.normalized());
     }
   }
 }
@@ -274,7 +295,8 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     const double left = dt - now_;
     find_contacts();
     const bool is_last = round + 1 == options_.rounds;
-    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * left;
+    const double straight = straight_slot(left);
+    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
     detail::GodObjectPlan plan = plan_within_turn(ways);
@@ -284,8 +306,8 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
       cycle_.is_converged = true;
       break;
     }
-    if (!gains && slot < left && share == 1.0) {  // Only the courses are left: all of them.
-      slot = left;
+    if (!gains && slot < straight && share == 1.0) {  // Only the courses are left: all of them.
+      slot = straight;
       set_courses(slot);
       plan = plan_within_turn(ways);
     }
@@ -295,7 +317,9 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
       continue;
     }
     const double made = execute(plan, slot, dt, deadline);
-    const bool is_there = made == 1.0 && !plan.is_pressed && !plan.is_shortened;
+    // Among bodies that move, a plan to the end of the cycle is the last one.
+    const bool is_last_plan = are_courses_moving_ && slot == left;
+    const bool is_there = made == 1.0 && !plan.is_shortened && (!plan.is_pressed || is_last_plan);
     cycle_.is_converged = is_there;
     goes_on = made * gain_of(plan.displacements) > 1e-3 * least_gain ||
               (are_courses_moving_ && made > 0.0);

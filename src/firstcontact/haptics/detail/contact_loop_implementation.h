@@ -16,6 +16,7 @@
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
+#include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/motion/motion.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/placed_shape.h>
@@ -64,6 +65,7 @@ class ContactLoop::Implementation {
   void begin_cycle(double dt);
   [[nodiscard]] detail::ToolDisplacements wanted(std::span<const Pose> targets) const;
   [[nodiscard]] double gain_of(const detail::ToolDisplacements& ways) const;
+  [[nodiscard]] double straight_slot(double slot) const;
   void set_courses(double slot);
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
@@ -79,7 +81,8 @@ class ContactLoop::Implementation {
   std::vector<detail::HapticMember> members_;
   std::vector<std::optional<PlacedShape>> placed_;
   std::vector<detail::HapticPair> pairs_;
-  std::vector<Displacement> courses_;  // Of members, over the next plan.
+  std::vector<detail::ScriptedMotion> bends_;  // Of all courses.
+  std::vector<Displacement> courses_;          // Of members, over the next plan.
   std::vector<Motion> motions_;
   detail::ContactFinder finder_{0.0};
   Workspace workspace_;

@@ -4,42 +4,18 @@
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Geometry>
-
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
-#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
-
-using Eigen::AngleAxisd;
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
 
 namespace {
 
 /// [-]  Of the contact distance: how far a script may be from a straight piece.
 constexpr double kBendOfDistance = 0.5;
 
-/// [rad]  What rounding may turn a body away from its script.
-constexpr double kTurnRounding = 1e-9;
-
 /// [-]  Of a step: what is left of it after the scene is over counts from here on.
 constexpr double kLeastRest = 1e-9;
-
-/// The turn to where the script is, also from where a body is that fell back behind it.
-Vector3d turn_to_script(const Motion& motion, double from, double to, const Quaterniond& rotation) {
-  const Vector3d along = rotation_between(motion, from, to);
-  const double angle = along.norm();
-  const Quaterniond reached =
-      angle > 0.0 ? Quaterniond(AngleAxisd(angle, along / angle)) * rotation : rotation;
-  const Quaterniond script = motion.pose(to).rotation;
-  if (reached.angularDistance(script) <= kTurnRounding) {
-    return along;
-  }
-  const AngleAxisd whole(script * rotation.conjugate());
-  return whole.angle() * whole.axis();
-}
 
 }  // namespace
 
@@ -97,7 +73,7 @@ std::vector<Move> Script::moves(const std::vector<RigidState>& states, double ti
     const Pose& X_WB = states[bodies_[k]].X_WB;
     const Motion& motion = motions_[k].motion;
     moves[bodies_[k]] = {motion.pose(to).position - X_WB.position,
-                         turn_to_script(motion, from, to, X_WB.rotation)};
+                         rotation_along(motion, from, to, X_WB.rotation)};
   }
   return moves;
 }

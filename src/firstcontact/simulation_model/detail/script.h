@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/motion/detail/straight_parts.h>
 #include <firstcontact/simulation_model/detail/move.h>
-#include <firstcontact/simulation_model/detail/script_parts.h>
 
 namespace firstcontact {
 struct LoadedScene;

@@ -29,8 +29,4 @@ struct StepStart {
 [[nodiscard]] Pose scripted_pose(const SimulationModel& model, const StepStart& start,
                                  std::size_t body, double share);
 
-/// The rotation vector over a part of a motion: of one piece with all its turns, over several by
-/// the shortest way.
-[[nodiscard]] Eigen::Vector3d rotation_between(const Motion& motion, double from, double to);
-
 }  // namespace firstcontact::detail

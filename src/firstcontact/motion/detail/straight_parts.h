@@ -1,19 +1,32 @@
 /// @file
-/// How a step is divided where a scripted body does not move straight.
+/// How a step is divided where a body that moves by itself does not move straight.
 
 #pragma once
 
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <firstcontact/motion/motion.h>
 
 namespace firstcontact::detail {
 
-/// A scripted body that a step follows.
+/// A body that moves by itself, and that a step follows.
 struct ScriptedMotion {
   Motion motion;
   double reach = 0.0;  ///< [m]  No point of the body is farther from its origin.
 };
+
+/// The rotation vector over a part of a motion: of one piece with all its turns, over several by
+/// the shortest way.
+[[nodiscard]] Eigen::Vector3d rotation_between(const Motion& motion, double from, double to);
+
+/// The rotation vector that leads a body to where its motion is, also from where it is that fell
+/// back behind it: then by the shortest way.
+///
+/// @param rotation  of the body now
+[[nodiscard]] Eigen::Vector3d rotation_along(const Motion& motion, double from, double to,
+                                             const Eigen::Quaterniond& rotation);
 
 /// [m]  How far at most any point of the body is from where a straight piece would have it: the
 /// origin on a line, the turn at a constant rate (rotation_between).

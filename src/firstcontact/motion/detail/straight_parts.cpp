@@ -1,12 +1,10 @@
-#include <firstcontact/simulation_model/detail/script_parts.h>
+#include <firstcontact/motion/detail/straight_parts.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include <Eigen/Geometry>
-
-#include <firstcontact/simulation_model/detail/step_start.h>
 
 namespace firstcontact::detail {
 
@@ -17,6 +15,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::size_t kMostParts = 10'000;
+
+/// [rad]  What rounding may turn a body away from its motion.
+constexpr double kTurnRounding = 1e-9;
 
 /// [-]  Of a part: no division leaves less of it, as forces over no time are no forces.
 constexpr double kLeastShare = 0.01;
@@ -95,6 +96,28 @@ double dividing_time(const Motion& motion, double from, double to) {
 }
 
 }  // namespace
+
+Vector3d rotation_between(const Motion& motion, double from, double to) {
+  const auto breaks = motion.breaks();
+  const auto piece = static_cast<std::size_t>(
+      std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from) - breaks.begin() - 1);
+  if (to <= breaks[piece + 1]) {
+    const ConstantRatePath path = motion.path(piece, Vector3d::Zero());
+    return path.axis() * (path.rate() * (to - from));
+  }
+  const AngleAxisd way(motion.pose(to).rotation * motion.pose(from).rotation.conjugate());
+  return way.angle() * way.axis();
+}
+
+Vector3d rotation_along(const Motion& motion, double from, double to, const Quaterniond& rotation) {
+  const Vector3d along = rotation_between(motion, from, to);
+  const Quaterniond there = motion.pose(to).rotation;
+  if (turned(along, rotation).angularDistance(there) <= kTurnRounding) {
+    return along;
+  }
+  const AngleAxisd whole(there * rotation.conjugate());
+  return whole.angle() * whole.axis();
+}
 
 double bend_bound(const ScriptedMotion& script, double from, double to) {
   const auto breaks = script.motion.breaks();
