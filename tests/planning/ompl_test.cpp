@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -237,6 +238,106 @@ TEST(Ompl, PlansForABody) {
   planner.solve(ob::timedPlannerTerminationCondition(10.0));
   ASSERT_TRUE(problem->hasExactSolution());
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+  const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
+  for (std::size_t k = 0; k + 1 < path->getStateCount(); ++k) {
+    EXPECT_EQ(strict
+                  .check(states.read(path->getState(static_cast<unsigned int>(k))),
+                         states.read(path->getState(static_cast<unsigned int>(k + 1))))
+                  .verdict,
+              EdgeVerdict::free);
+  }
+}
+
+/// A small cube among bodies, whose edges are screws.
+PlanScene with_screws(RobotScene scene) {
+  ConfigurationSpace space = ConfigurationSpace::of_body(
+      "cube", make_box({0.1, 0.1, 0.1}), Eigen::Vector3d::Constant(-2.0),
+      Eigen::Vector3d::Constant(2.0), BodyEdges::screw);
+  const Configuration origin = {0, 0, 0, 1, 0, 0, 0};
+  const std::size_t robot = scene.add_robot("cube", space.motion(origin, origin));
+  return {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)};
+}
+
+/// A quarter of a turn about z through the origin takes the one to the other.
+const Configuration kEast = {1, 0, 0, 1, 0, 0, 0};
+const Configuration kNorth = {0, 1, 0, std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+
+TEST(Screws, AreEdgesOnAnArc) {
+  const double on_arc = std::sqrt(0.5);
+  RobotScene post;
+  post.add_body("post", make_box({0.1, 0.1, 1.0}), resting_at({on_arc, on_arc, 0.0}));
+  const EdgeChecker blocked(with_screws(std::move(post)));
+  const EdgeAnswer answer = blocked.check(kEast, kNorth);
+  EXPECT_EQ(answer.verdict, EdgeVerdict::blocked);
+  EXPECT_GT(answer.fraction, 0.3);
+  EXPECT_LT(answer.fraction, 0.5);
+  EXPECT_EQ(
+      blocked.check(kEast, blocked.space().interpolate(kEast, kNorth, answer.fraction)).verdict,
+      EdgeVerdict::free);
+  // The chord is 0.29 m away from the arc.
+  RobotScene inside;
+  inside.add_body("post", make_box({0.1, 0.1, 1.0}), resting_at({0.5, 0.5, 0.0}));
+  EXPECT_EQ(EdgeChecker(with_screws(inside)).check(kEast, kNorth).verdict, EdgeVerdict::free);
+  const PlanScene straight = with_bar(inside, {0.1, 0.1, 0.1});
+  EXPECT_EQ(EdgeChecker(straight).check(kEast, kNorth).verdict, EdgeVerdict::blocked);
+}
+
+TEST(Screws, AreTheSameInOmplToTheBit) {
+  const PlanScene scene = with_screws(RobotScene());
+  const Eigen::Vector3d corner = Eigen::Vector3d::Constant(2.0);
+  const auto space = make_ompl_space(scene.space, -corner, corner);
+  const OmplStates states(*space, scene.space);
+  const ob::StateSamplerPtr sampler = space->allocStateSampler();
+  Random random(4);
+  ob::State* from = space->allocState();
+  ob::State* to = space->allocState();
+  ob::State* between = space->allocState();
+  for (int k = 0; k < 500; ++k) {
+    sampler->sampleUniform(from);
+    if (k % 5 == 0) {
+      sampler->sampleUniformNear(to, from, 1e-7);  // Axes that are far away.
+    } else {
+      sampler->sampleUniform(to);
+    }
+    const double share = k % 7 == 0 ? 1.0 : random.uniform(0.0, 1.0);
+    space->interpolate(from, to, share, between);
+    EXPECT_EQ(states.read(between),
+              scene.space.interpolate(states.read(from), states.read(to), share));
+  }
+  space->interpolate(from, to, 0.5, from);  // Into its own start.
+  EXPECT_NE(states.read(from), states.read(to));
+  for (ob::State* state : {from, to, between}) {
+    space->freeState(state);
+  }
+}
+
+TEST(Screws, AreNoStraightEdges) {
+  const PlanScene screws = with_screws(RobotScene());
+  const PlanScene straight = with_bar(RobotScene(), {1, 1, 1});
+  EXPECT_THROW(OmplStates(ob::SE3StateSpace(), screws.space), std::invalid_argument);
+  EXPECT_THROW(OmplStates(ScrewStateSpace(), straight.space), std::invalid_argument);
+}
+
+TEST(Screws, LeadAPlannerThroughAWindow) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  const PlanScene scene = with_screws(thin_wall(0.4));
+  const Proven proven(scene, Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
+  const OmplStates states(*proven.space, proven.edges->space());
+  auto problem = std::make_shared<ob::ProblemDefinition>(proven.si);
+  ob::ScopedState<ScrewStateSpace> start(proven.space);
+  start->setXYZ(-0.8, 1.0, 0.0);
+  start->rotation().setIdentity();
+  ob::ScopedState<ScrewStateSpace> goal(proven.space);
+  goal->setXYZ(0.8, 1.0, 0.0);
+  goal->rotation().setAxisAngle(0.0, 0.0, 1.0, 2.5);
+  problem->setStartAndGoalStates(start, goal, 1e-6);
+  og::RRTConnect planner(proven.si);
+  planner.setProblemDefinition(problem);
+  planner.setup();
+  planner.solve(ob::timedPlannerTerminationCondition(10.0));
+  ASSERT_TRUE(problem->hasExactSolution());
+  const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+  path->interpolate();  // What is densified is proven, too.
   const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
   for (std::size_t k = 0; k + 1 < path->getStateCount(); ++k) {
     EXPECT_EQ(strict

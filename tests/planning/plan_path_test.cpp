@@ -194,7 +194,7 @@ TEST(PlanPath, RefusesWhatCannotBePlanned) {
             "a goal is outside of the box; widen the box");
   PlanScene none = scene;
   none.robots = {3};
-  EXPECT_NE(message_of(none, kBefore, {kBehind}).find("something to move"), std::string::npos);
+  EXPECT_NE(message_of(none, kBefore, {kBehind}).find("robot of the scene for each"), std::string::npos);
 }
 
 TEST(PlanPath, EndsWhenItIsStopped) {

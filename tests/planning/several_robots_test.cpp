@@ -184,7 +184,7 @@ TEST(SeveralRobots, ReachAPoseWithOneOfThem) {
 }
 
 TEST(SeveralRobots, ContactsLeadThroughAWindow) {
-  const PlanScene plan = two_gantries(thin_wall(0.18));
+  const PlanScene plan = two_gantries(thin_wall(0.25));
   const PlanOptions options{.contacts = ContactUse::both, .seed = 1, .time = 60.0};
   const PlanResult result =
       plan_path(plan, {-0.5, 0.4, 0, 0.5, 0.4, 0}, {{0.5, -0.4, 0, -0.5, -0.4, 0}}, options);

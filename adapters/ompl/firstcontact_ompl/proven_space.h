@@ -16,13 +16,17 @@
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 
+#include <firstcontact/motion/motion.h>
 #include <firstcontact/planning/configuration_space.h>
+
+#include "firstcontact_ompl/screw_space.h"
 
 namespace firstcontact {
 
 /// Reads states of an OMPL space as configurations of a space here.
 ///
-/// A body has an SE3StateSpace: straight lines with slerp on both sides. Joints have
+/// A body has an SE3StateSpace: straight lines with slerp on both sides; or, where its edges are
+/// screws, a ScrewStateSpace. Joints have
 /// RealVectorStateSpaces, and SO2StateSpaces for those that go the short way round, in the order of
 /// the coordinates; several are joined by a CompoundStateSpace, whatever its weights. All other
 /// spaces, those that derive from these among them, are refused: their edges may be other curves.
@@ -32,7 +36,10 @@ class OmplStates {
   ///         fit
   OmplStates(const ompl::base::StateSpace& states, const ConfigurationSpace& places) {
     if (places.is_body()) {
-      if (typeid(states) != typeid(ompl::base::SE3StateSpace)) {
+      if (places.has_screws() && typeid(states) != typeid(ScrewStateSpace)) {
+        refuse(states, "a body that moves on screws has a ScrewStateSpace");
+      }
+      if (!places.has_screws() && typeid(states) != typeid(ompl::base::SE3StateSpace)) {
         refuse(states, "a body has an SE3StateSpace");
       }
       is_body_ = true;
@@ -123,7 +130,8 @@ inline ompl::base::StateSpacePtr make_ompl_space(
     const ConfigurationSpace& places, const Eigen::Vector3d& low = Eigen::Vector3d::Zero(),
     const Eigen::Vector3d& high = Eigen::Vector3d::Zero()) {
   if (places.is_body()) {
-    auto space = std::make_shared<ompl::base::SE3StateSpace>();
+    auto space = places.has_screws() ? std::make_shared<ScrewStateSpace>()
+                                     : std::make_shared<ompl::base::SE3StateSpace>();
     ompl::base::RealVectorBounds bounds(3);
     for (unsigned int k = 0; k < 3; ++k) {
       bounds.setLow(k, low[k]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -165,7 +166,7 @@ ConfigurationSpace ConfigurationSpace::of_joints(RobotModel model,
 
 ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Shape& shape,
                                                const Eigen::Vector3d& low,
-                                               const Eigen::Vector3d& high) {
+                                               const Eigen::Vector3d& high, BodyEdges edges) {
   if (!(low.allFinite() && high.allFinite() && (low.array() <= high.array()).all())) {
     refuse_space("body " + detail::in_quotes(name) +
                  ": expected a box of places with finite corners, the low one first");
@@ -175,6 +176,7 @@ ConfigurationSpace ConfigurationSpace::of_body(const std::string& name, const Sh
       {.name = "", .X_LG = {}, .source = SphereGeometry{}, .shape = shape});
   ConfigurationSpace space(RobotModel(std::move(description)), Motion::fixed(), {});
   space.is_body_ = true;
+  space.edges_ = edges;
   space.low_ = low;
   space.high_ = high;
   return space;
@@ -265,6 +267,11 @@ double ConfigurationSpace::distance(const Configuration& from, const Configurati
   return std::sqrt(square);
 }
 
+Motion ConfigurationSpace::body_motion(const Configuration& from, const Configuration& to) const {
+  return has_screws() ? Motion::screw(pose_of(from), pose_of(to))
+                      : Motion::constant_velocity(pose_of(from), pose_of(to));
+}
+
 Configuration ConfigurationSpace::interpolate(const Configuration& from, const Configuration& to,
                                               double share) const {
   if (share <= 0.0) {
@@ -274,7 +281,7 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
     return to;
   }
   if (is_body_) {
-    return configuration_of(Motion::constant_velocity(pose_of(from), pose_of(to)).pose(share));
+    return configuration_of(body_motion(from, to).pose(share));
   }
   Configuration q(from.size());
   for (std::size_t k = 0; k < q.size(); ++k) {
@@ -289,6 +296,9 @@ Configuration ConfigurationSpace::interpolate(const Configuration& from, const C
 
 double ConfigurationSpace::rounding_bound(const Configuration& from, const Configuration& to,
                                           double carried) const {
+  if (has_screws()) {
+    return std::numeric_limits<double>::infinity();
+  }
   constexpr double kUlps = 0x1p-48;  // Far more than the few roundings of a place and of its edge.
   double numbers = 0.0;
   double slides = 0.0;
@@ -308,19 +318,10 @@ double ConfigurationSpace::rounding_bound(const Configuration& from, const Confi
 RobotMotion ConfigurationSpace::motion(const Configuration& from, const Configuration& to,
                                        std::size_t mover) const {
   if (is_body_) {
-    return {model(), {}, Motion::constant_velocity(pose_of(from), pose_of(to))};
+    return {model(), {}, body_motion(from, to)};
   }
-  const Mover& moved = movers_[mover];
-  std::map<std::string, JointMotion> joints = moved.held;
-  for (std::size_t k = 0; k < coordinates_.size(); ++k) {
-    const SpaceCoordinate& coordinate = coordinates_[k];
-    if (coordinate.mover == mover) {
-      const std::array<double, 2> ends = {from[k], to[k]};
-      set_path(joints, moved.model, coordinate,
-               CoordinatePath::linear(kEdgeTimes, ends, turning_of(coordinate)));
-    }
-  }
-  return {moved.model, std::move(joints), moved.base};
+  const std::array<Configuration, 2> ends = {from, to};
+  return motion(ends, kEdgeTimes, mover);
 }
 
 RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
@@ -330,7 +331,10 @@ RobotMotion ConfigurationSpace::motion(std::span<const Configuration> places,
     for (const Configuration& place : places) {
       poses.push_back(pose_of(place));
     }
-    return {model(), {}, Motion::waypoints(times, poses)};
+    return {model(),
+            {},
+            Motion::waypoints(times, poses,
+                              has_screws() ? Between::screw : Between::constant_velocity)};
   }
   const Mover& moved = movers_[mover];
   std::map<std::string, JointMotion> joints = moved.held;

@@ -39,13 +39,19 @@ struct SpaceCoordinate {
   std::size_t index = 0;     ///< Of the coordinate in it; up to 2 for planar joints.
 };
 
+/// The edges of a body.
+enum class BodyEdges {
+  straight,  ///< The origin on a line, the turn at a constant rate: Motion::constant_velocity().
+  screw,     ///< A screw by the shortest rotation: Motion::screw().
+};
+
 /// The movers of a plan: their coordinates, their motions along an edge, the distance of two
 /// places.
 ///
 /// A mover is a robot, or the only body. An edge takes every coordinate of joints from its first
 /// number to its second one at a constant rate. A body moves its origin on a line and turns at a
-/// constant rate by the shortest rotation: Motion::constant_velocity(). All else that a robot has
-/// rests. Immutable.
+/// constant rate by the shortest rotation, or moves on a screw: BodyEdges. All else that a robot
+/// has rests. Immutable.
 class FIRSTCONTACT_API ConfigurationSpace {
  public:
   /// Makes the space of some coordinates of a robot; the other ones rest where `held` has them.
@@ -66,9 +72,11 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// The body is the only link, "body", of a robot of its own that has no joints.
   ///
   /// @param low, high  [m]  corners of the box, in the world
+  /// @param edges      path files hold straight ones only
   /// @throws std::invalid_argument if the box is empty or not finite, or the shape deforms
   static ConfigurationSpace of_body(const std::string& name, const Shape& shape,
-                                    const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+                                    const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                                    BodyEdges edges = BodyEdges::straight);
 
   /// Makes the space in which several robots move at once: the coordinates of one after the other.
   ///
@@ -81,6 +89,8 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// Numbers of a configuration; 7 for a body.
   [[nodiscard]] std::size_t size() const { return is_body_ ? 7 : coordinates_.size(); }
   [[nodiscard]] bool is_body() const { return is_body_; }
+  /// Whether edges are screws of a body.
+  [[nodiscard]] bool has_screws() const { return edges_ == BodyEdges::screw; }
   /// How many robots move; 1 for a body.
   [[nodiscard]] std::size_t mover_count() const { return movers_.size(); }
   [[nodiscard]] const RobotModel& model(std::size_t mover = 0) const {
@@ -107,7 +117,7 @@ class FIRSTCONTACT_API ConfigurationSpace {
                                           double share) const;
 
   /// [m]  A bound of how far any point of an edge's piece between rounded places may be from the
-  /// edge itself.
+  /// edge itself. Infinite for screws, whose axes may be far away.
   ///
   /// @param carried  [m]  how far what the robot holds reaches from the links that hold it
   [[nodiscard]] double rounding_bound(const Configuration& from, const Configuration& to,
@@ -161,10 +171,12 @@ class FIRSTCONTACT_API ConfigurationSpace {
   ConfigurationSpace(RobotModel model, Motion base, std::map<std::string, JointMotion> held);
 
   [[nodiscard]] std::optional<std::string> defect_of_body(const Configuration& q) const;
+  [[nodiscard]] Motion body_motion(const Configuration& from, const Configuration& to) const;
 
   std::vector<Mover> movers_;
   std::vector<SpaceCoordinate> coordinates_;  // Those of a mover together.
   bool is_body_ = false;
+  BodyEdges edges_ = BodyEdges::straight;
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();   // [m]
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();  // [m]
 };

@@ -1,6 +1,7 @@
 #include <firstcontact/planning/edge_checker.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -77,12 +78,9 @@ bool rests(const RobotMotion& motion) {
 
 /// Refuses movers that are not robots of the scene, each once.
 void require_robots(const PlanScene& plan) {
-  const std::size_t count = plan.scene.robot_count();
-  if (std::ranges::any_of(plan.robots, [&](std::size_t robot) { return robot >= count; })) {
-    throw std::invalid_argument("expected a scene with something to move, it has no such robot");
-  }
   const std::set<std::size_t> all(plan.robots.begin(), plan.robots.end());
-  if (all.size() != plan.robots.size() || all.size() != plan.space.mover_count()) {
+  if (all.size() != plan.robots.size() || all.size() != plan.space.mover_count() ||
+      *all.rbegin() >= plan.scene.robot_count()) {
     throw std::invalid_argument("expected a robot of the scene for each mover of the space");
   }
 }
@@ -220,8 +218,32 @@ struct EdgeChecker::Data {
                                      const Ask& ask) {
     ThreadWork& work = *works.local();
     plan.set_motions(work.search, from, to);
-    const detail::EdgeFound found = ask(work.search);
-    return answer(from, to, with_held(work, from, to, found, ask), work.search.least_margin());
+    const detail::EdgeFound found = with_held(work, from, to, ask(work.search), ask);
+    const EdgeAnswer edge = answer(from, to, found, work.search.least_margin());
+    return plan.space.has_screws() ? with_proven_screw(work, from, to, found, edge, ask) : edge;
+  }
+
+  /// An answer with the fraction to which a screw is proven: rounding moves the axis of a piece, so
+  /// that the piece is asked by itself.
+  template <class Ask>
+  [[nodiscard]] EdgeAnswer with_proven_screw(ThreadWork& work, const Configuration& from,
+                                             const Configuration& to,
+                                             const detail::EdgeFound& found, EdgeAnswer edge,
+                                             const Ask& ask) {
+    constexpr std::array<double, 3> kShares = {1.0, 1.0 - 1e-4, 0.9};
+    for (const double share : kShares) {
+      const double fraction = share * found.t;
+      if (edge.verdict == EdgeVerdict::free || !(fraction > 0.0)) {
+        break;
+      }
+      const Configuration piece = plan.space.interpolate(from, to, fraction);
+      plan.set_motions(work.search, from, piece);
+      if (with_held(work, from, piece, ask(work.search), ask).verdict == Verdict::free) {
+        edge.fraction = fraction;
+        break;
+      }
+    }
+    return edge;
   }
 
   /// A finding, or what `ask` finds of held pairs where that comes earlier.

@@ -179,18 +179,6 @@ class PoseSearch {
   LinkScratch scratch_;
 };
 
-/// A random place of the mover of a goal, with the others at their start.
-Configuration sample(const ConfigurationSpace& space, const LinkPoseGoal& goal,
-                     const Configuration& start, RandomNumbers& random) {
-  Configuration q = space.sample(random);
-  for (std::size_t k = 0; k < q.size(); ++k) {
-    if (space.coordinates()[k].mover != goal.mover) {
-      q[k] = start[k];
-    }
-  }
-  return q;
-}
-
 }  // namespace
 
 bool reaches(const ReachedPose& place, const LinkPoseGoal& goal) {
@@ -220,7 +208,11 @@ std::vector<ReachedPose> reach_pose(const ConfigurationSpace& space, const LinkP
         (options.deadline && std::chrono::steady_clock::now() >= *options.deadline)) {
       break;
     }
-    ReachedPose place = search.run(k == 0 ? start : sample(space, goal, start, random));
+    Configuration from = k == 0 ? start : space.sample(random);
+    for (std::size_t c = 0; c < from.size(); ++c) {
+      from[c] = space.coordinates()[c].mover == goal.mover ? from[c] : start[c];
+    }
+    ReachedPose place = search.run(std::move(from));
     if (!reaches(place, goal)) {
       const auto size = [](const ReachedPose& p) { return p.position_error + p.rotation_error; };
       if (!nearest || size(place) < size(*nearest)) {

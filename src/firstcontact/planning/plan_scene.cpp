@@ -168,7 +168,6 @@ bool freeze_held(const LoadedScene& loaded, Scene& scene) {
   return any;
 }
 
-/// [rad or m]  Where a coordinate is at the start.
 double start_of(const SceneRobot& robot, const SpaceCoordinate& coordinate) {
   const auto found =
       robot.state.find(coordinate_name(robot.model, {coordinate.joint, coordinate.index}));
@@ -390,6 +389,9 @@ PlannedPath planned_path(const ScenePlan& scene, const PlanOptions& options,
                          const PlanResult& result) {
   if (result.path.empty()) {
     refuse_plan("expected a result with a path, got none");
+  }
+  if (scene.plan.space.has_screws()) {
+    refuse_plan("expected straight edges of the body; a path file holds no screws");
   }
   PlannedPath path;
   const Scene& resting = scene.loaded.scene;

@@ -48,6 +48,7 @@ struct ScenePlan {
 ///
 /// @param options  with which the path was planned
 /// @param result   with a path
+/// @throws std::invalid_argument without a path, or if its edges are screws
 [[nodiscard]] FIRSTCONTACT_API PlannedPath planned_path(const ScenePlan& scene,
                                                         const PlanOptions& options,
                                                         const PlanResult& result);
