@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 

@@ -11,8 +11,8 @@
 
 #include <fmt/core.h>
 
-#include <firstcontact/page/write_run_animation.h>
-#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/run_page/write_run_animation.h>
+#include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/simulation_duration.h>

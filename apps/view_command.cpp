@@ -18,10 +18,10 @@
 #include <fmt/core.h>
 
 #include <firstcontact/page/write_page.h>
-#include <firstcontact/page/write_run_animation.h>
-#include <firstcontact/page/write_run_page.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
+#include <firstcontact/run_page/write_run_animation.h>
+#include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/gap_bound.h>
 #include <firstcontact/scene/gap_curve.h>

@@ -12,10 +12,10 @@
 
 #include <pybind11/stl/filesystem.h>
 
-#include <firstcontact/page/write_run_page.h>
 #include <firstcontact/record/load_scene_of.h>
 #include <firstcontact/record/read_run.h>
 #include <firstcontact/record/write_run.h>
+#include <firstcontact/run_page/write_run_page.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/shape_cache.h>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/run_page/write_run_page.h>
 
 #include <array>
 #include <stdexcept>

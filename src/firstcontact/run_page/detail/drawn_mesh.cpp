@@ -1,4 +1,4 @@
-#include <firstcontact/page/detail/drawn_mesh.h>
+#include <firstcontact/run_page/detail/drawn_mesh.h>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/page/detail/glb_writer.h>
+#include <firstcontact/run_page/detail/glb_writer.h>
 
 namespace firstcontact::detail {
 

@@ -1,6 +1,6 @@
 // The animation moves every vertex as the run does, at keys and between them.
 
-#include <firstcontact/page/write_run_animation.h>
+#include <firstcontact/run_page/write_run_animation.h>
 
 #include <algorithm>
 #include <array>

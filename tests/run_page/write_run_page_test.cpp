@@ -1,6 +1,6 @@
 // The page of a run holds every piece, and what rests between two of them.
 
-#include <firstcontact/page/write_run_page.h>
+#include <firstcontact/run_page/write_run_page.h>
 
 #include <initializer_list>
 #include <numbers>

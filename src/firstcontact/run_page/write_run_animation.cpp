@@ -1,4 +1,4 @@
-#include <firstcontact/page/write_run_animation.h>
+#include <firstcontact/run_page/write_run_animation.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include <firstcontact/page/detail/glb_writer.h>
+#include <firstcontact/run_page/detail/glb_writer.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
-#include <firstcontact/page/detail/glb_scene.h>
+#include <firstcontact/run_page/detail/glb_scene.h>
 
 #include <array>
 
-#include <firstcontact/page/detail/drawn_mesh.h>
+#include <firstcontact/run_page/detail/drawn_mesh.h>
 
 namespace firstcontact::detail {
 namespace {

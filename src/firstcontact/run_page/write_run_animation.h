@@ -11,8 +11,8 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/page/detail/glb_scene.h>
 #include <firstcontact/record/run.h>
+#include <firstcontact/run_page/detail/glb_scene.h>
 
 namespace firstcontact {
 
