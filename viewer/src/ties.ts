@@ -3,7 +3,7 @@
 import type { Vector3 } from "./data/result";
 import type { RunData, TieData } from "./data/run_data";
 import { identity, place, unplace, type Motion } from "./motion/motion";
-import { length, rotate, unit } from "./motion/vector";
+import { distance, length, rotate, unit } from "./motion/vector";
 
 export interface Tie {
   readonly type: TieData["type"];
@@ -11,8 +11,7 @@ export interface Tie {
   /// Its two points in the world at t in [0, 1]; of joints they are the same but for rounding.
   readonly ends: (t: number) => [Vector3, Vector3];
   readonly axis: ((t: number) => Vector3) | null; ///< Unit, in the world, of a hinge.
-  /// [m] At which a cable is taut; null where the record does not say.
-  readonly length: number | null;
+  readonly length: number; ///< [m] At which a cable is taut: given, or that at the start.
   readonly forces: readonly number[]; ///< [N] The mean over each step, without impacts.
 }
 
@@ -45,12 +44,16 @@ export function tiesOf({ header, steps }: RunData, bodies: readonly Place[]): re
     const motions = tie.bodies.map(motionOf) as [Motion, Motion];
     const points = pointsOf(tie, motions);
     const { axis } = tie;
+    const ends = (t: number): [Vector3, Vector3] => [
+      place(motions[0](t), points[0]),
+      place(motions[1](t), points[1]),
+    ];
     return {
       type: tie.type,
       names: tie.bodies,
-      ends: (t) => [place(motions[0](t), points[0]), place(motions[1](t), points[1])],
+      ends,
       axis: axis ? (t) => rotate(motions[0](t).rotation, unit(axis)) : null,
-      length: tie.length ?? null,
+      length: tie.length ?? distance(...ends(0)),
       forces: steps.map((step) => length(step.ties?.[k]?.force ?? [0, 0, 0])),
     };
   });

@@ -65,7 +65,7 @@ class TieView {
       isLine || isHinge ? new Mesh(tie.type === "spring" ? shapes.coil : shapes.rod) : null;
     this.ball = isLine ? null : new Mesh(shapes.ball);
     this.ball?.scale.setScalar(ballRadius * size);
-    this.most = Math.max(...tie.forces, 0);
+    this.most = tie.forces.reduce((most, force) => Math.max(most, force), 0);
     for (const part of [this.line, this.ball]) {
       if (part) {
         part.material = this.material;
@@ -87,7 +87,7 @@ class TieView {
       const at = new Vector3(...a);
       this.layLine(at.clone().sub(half), at.add(half), 0.6 * thickness);
     } else if (this.line) {
-      const isSlack = type === "cable" && length !== null && distance(a, b) < slackShare * length;
+      const isSlack = type === "cable" && distance(a, b) < slackShare * length;
       this.material.transparent = isSlack;
       this.material.opacity = isSlack ? 0.35 : 1;
       const radius = type === "spring" ? coilRadius : thickness;
@@ -134,7 +134,7 @@ export class TieMarkers {
     };
     this.views = ties.map((tie) => new TieView(tie, middle, size, shapes));
     this.group.position.copy(middle);
-    this.group.add(...this.views.map(({ group }) => group));
+    this.views.forEach(({ group }) => this.group.add(group));
     this.show(0);
   }
 
