@@ -180,5 +180,45 @@ TEST(Script, BendIsBounded) {
   EXPECT_GE(tight, 150);
 }
 
+/// [rad]  Between where a turn leads and where the motion is.
+double missed_by(const Eigen::Vector3d& turn, const Eigen::Quaterniond& from,
+                 const Eigen::Quaterniond& there) {
+  const double angle = turn.norm();
+  const Eigen::Quaterniond turned =
+      angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * from : from;
+  return turned.angularDistance(there);
+}
+
+// A body that rounding has moved beside its motion is led back without losing a turn.
+TEST(Script, ATurnKeepsItsWholeTurns) {
+  test::Random random(8);
+  for (int n = 0; n < 500; ++n) {
+    const double turns = n % 5 == 0 ? random.uniform(0.0, 0.4) : random.uniform(0.6, 40.0);
+    const Eigen::Vector3d whole =
+        2.0 * std::numbers::pi * turns * random.vector(0.0, 1.0).normalized();
+    const Motion motion =
+        Motion::constant_velocity({{0, 0, 0}, random.rotation()}, Eigen::Vector3d::Zero(), whole);
+    const double beside = std::pow(10.0, random.uniform(-14.0, -4.0));
+    const Eigen::Quaterniond from =
+        Eigen::Quaterniond(Eigen::AngleAxisd(n % 2 == 0 ? beside : -beside, whole.normalized())) *
+        motion.pose(0.0).rotation;
+    const Eigen::Vector3d turn = detail::rotation_along(motion, 0.0, 1.0, from);
+    EXPECT_NEAR(turn.norm(), whole.norm(), 2.0 * beside + 1e-9) << turns;
+    EXPECT_LT(missed_by(turn, from, motion.pose(1.0).rotation), 1e-12 * (1.0 + turns)) << turns;
+  }
+}
+
+// Half a break away by rounding is at the break.
+TEST(Script, ATurnUpToABreakIsOfOnePiece) {
+  const Pose start;
+  const Eigen::Quaterniond third(Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitZ()));
+  const std::vector<double> times{0.0, 0.3, 0.6};
+  const std::vector<Pose> poses{start, {{0, 0, 0}, third}, {{0, 0, 0}, third * third}};
+  const Motion motion = Motion::waypoints(times, poses);
+  const double after = std::nextafter(0.3, 1.0);
+  EXPECT_NEAR(detail::rotation_between(motion, 0.0, after).norm(), 3.0, 1e-12);
+  EXPECT_NEAR(detail::rotation_between(motion, std::nextafter(0.3, 0.0), 0.6).norm(), 3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace firstcontact

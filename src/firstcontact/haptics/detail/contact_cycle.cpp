@@ -188,8 +188,7 @@ double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, d
       continue;
     }
     append_piece(m, m < tools() ? plan.displacements[m] : courses_[m], proven.t, to);
-    poses_[m] = has_course(m) && proven.t == 1.0 ? on_course(m, time_ + now_ + slot)
-                                                 : motions_[m].pose(proven.t);
+    poses_[m] = motions_[m].pose(proven.t);
     placed_[m].reset();
   }
   rest_clearance_ = proven.clearance;
@@ -253,11 +252,12 @@ void ContactLoop::Implementation::end_cycle(double dt, std::int64_t stamp_ns) {
       contact.surface_velocity.setZero();
       for (const HapticMemberMotion& motion : cycle_.members) {
         if (motion.member == member && !motion.pieces.empty()) {
-          // How fast it went in this cycle, waiting included.
-          const HapticPiece& first = motion.pieces.front();
-          const Displacement way{
-              poses_[member].position - first.X_WB.position,
-              detail::turn_between(first.X_WB.rotation, poses_[member].rotation)};
+          // How fast it went in this cycle, waiting included; it may have turned several times.
+          Displacement way{.translation =
+                               poses_[member].position - motion.pieces.front().X_WB.position};
+          for (const HapticPiece& piece : motion.pieces) {
+            way.rotation_vector += piece.rotation_vector;
+          }
           contact.surface_velocity =
               detail::moved_by(way, contact.point - poses_[member].position) / dt;
         }

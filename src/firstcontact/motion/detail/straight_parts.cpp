@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -16,8 +17,14 @@ namespace {
 
 constexpr std::size_t kMostParts = 10'000;
 
-/// [rad]  What rounding may turn a body away from its motion.
-constexpr double kTurnRounding = 1e-9;
+/// [-]  Of the step: two times that are no farther apart are one, but for rounding.
+constexpr double kSameTime = 4.0 * std::numeric_limits<double>::epsilon();
+
+/// [rad]  Up to here the shortest turn to where the motion is turns as the motion does.
+constexpr double kShort = 3.0;
+
+/// [rad]  A body that is farther beside its motion has fallen back behind it.
+constexpr double kOffCourse = 1e-3;
 
 /// [-]  Of a part: no division leaves less of it, as forces over no time are no forces.
 constexpr double kLeastShare = 0.01;
@@ -26,6 +33,11 @@ Quaterniond turned(const Vector3d& rotation_vector, const Quaterniond& rotation)
   const double angle = rotation_vector.norm();
   return angle > 0.0 ? Quaterniond(AngleAxisd(angle, rotation_vector / angle)) * rotation
                      : rotation;
+}
+
+Vector3d shortest_turn(const Quaterniond& from, const Quaterniond& to) {
+  const AngleAxisd way(to * from.conjugate());
+  return way.angle() * way.axis();
 }
 
 /// The straight piece, and how far a motion is from it.
@@ -100,23 +112,24 @@ double dividing_time(const Motion& motion, double from, double to) {
 Vector3d rotation_between(const Motion& motion, double from, double to) {
   const auto breaks = motion.breaks();
   const auto piece = static_cast<std::size_t>(
-      std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from) - breaks.begin() - 1);
-  if (to <= breaks[piece + 1]) {
+      std::upper_bound(breaks.begin() + 1, breaks.end() - 1, from + kSameTime) - breaks.begin() -
+      1);
+  if (to <= breaks[piece + 1] + kSameTime) {
     const ConstantRatePath path = motion.path(piece, Vector3d::Zero());
     return path.axis() * (path.rate() * (to - from));
   }
-  const AngleAxisd way(motion.pose(to).rotation * motion.pose(from).rotation.conjugate());
-  return way.angle() * way.axis();
+  return shortest_turn(motion.pose(from).rotation, motion.pose(to).rotation);
 }
 
 Vector3d rotation_along(const Motion& motion, double from, double to, const Quaterniond& rotation) {
   const Vector3d along = rotation_between(motion, from, to);
   const Quaterniond there = motion.pose(to).rotation;
-  if (turned(along, rotation).angularDistance(there) <= kTurnRounding) {
-    return along;
+  const double angle = along.norm();
+  const Vector3d beside = shortest_turn(turned(along, rotation), there);
+  if (angle < kShort || beside.norm() > kOffCourse) {
+    return shortest_turn(rotation, there);
   }
-  const AngleAxisd whole(there * rotation.conjugate());
-  return whole.angle() * whole.axis();
+  return along * (1.0 + along.dot(beside) / (angle * angle));
 }
 
 double bend_bound(const ScriptedMotion& script, double from, double to) {

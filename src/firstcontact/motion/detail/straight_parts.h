@@ -24,6 +24,9 @@ struct ScriptedMotion {
 /// The rotation vector that leads a body to where its motion is, also from where it is that fell
 /// back behind it: then by the shortest way.
 ///
+/// A turn of less than 3 rad leads there but for rounding. Of a longer one, only what a body is
+/// beside its motion about the axis is made good.
+///
 /// @param rotation  of the body now
 [[nodiscard]] Eigen::Vector3d rotation_along(const Motion& motion, double from, double to,
                                              const Eigen::Quaterniond& rotation);
