@@ -261,10 +261,11 @@ TEST(SeveralRobots, NameWhatIsWrong) {
     EXPECT_NE(problem(plan).find(words), std::string::npos) << plan << ": " << problem(plan);
   };
   says(R"({"goal": {"elbow": 0}})", "\"robots\"");
-  says(R"({"robots": [], "goal": {"left/elbow": 0}})", "at least one robot");
+  says(R"({"robots": [], "goal": {"left/elbow": 0}})", "at least two robots");
   says(R"({"robots": ["left", "left"], "goal": {"left/elbow": 0}})", "a second time");
   says(R"({"robots": ["left", "rihgt"], "goal": {"left/elbow": 0}})", "did you mean \"right\"");
   says(R"({"robots": ["left"], "robot": "right", "goal": {"left/elbow": 0}})", "got several");
+  says(R"({"robots": ["left"], "goal": {"left/elbow": 0}})", "a single one is \"robot\"");
   says(R"({"robots": ["left", "right"], "goal": {"elbow": 0}})", "ROBOT/NAME");
   says(R"({"robots": ["left", "right"], "goal": {"left/wrist": 0}})", "wrist");
   says(R"({"robots": ["left", "right"], "goal": ["left/quarter"]})", "quarter");

@@ -148,6 +148,16 @@ TEST(ContactPairs, CloseOnTheLastEdge) {
   proven_path(table_scene("0.3", goal + pair_with("may_stay", R"(, "at": "goal")")));
 }
 
+// Each goal has a distance of its own, so that the hold of one would be none for another.
+TEST(ContactPairs, AtTheGoalNeedOneGoal) {
+  const std::string goals =
+      R"("start": {"position": [-0.6, 0, 0.4]}, "goals": [{"position": [0.6, 0, 0.101]},
+         {"position": [0.6, 0.5, 0.4]}], )";
+  EXPECT_NE(refusal_of(table_scene("0.3", goals + pair_with("may_stay", R"(, "at": "goal")")))
+                .find("expected one goal"),
+            std::string::npos);
+}
+
 TEST(ContactPairs, KeepTheirMarginWhereTheyAreNotInContact) {
   const Planned planned = plan(table_scene("0.3", kGoalAbove + pair_with("may_stay")));
   EXPECT_EQ(planned.result.verdict, PlanVerdict::proven);
@@ -298,6 +308,21 @@ const Places kTouchesAgain = {
 const Places kDives = {{-0.6, 0, 0.101}, {-0.6, 0.3, 0.1007}, {-0.6, 0.6, 0.101}};
 
 ProofVerdict verdict_of(const PlannedPath& path) { return verify_path(path).verdict; }
+
+// A hold takes the place of a margin only for a pair that is in contact at that end.
+TEST(ContactPairsProof, RefutesAHoldOfAPairThatKeepsItsMargin) {
+  // 19 mm above the table, whose margin is 10 mm; then 9.6 mm.
+  const Places sinks = {{-0.6, 0, 0.119}, {-0.6, 0.3, 0.1096}, {-0.6, 0.6, 0.3}};
+  PlannedPath path = path_of_box(sinks, ContactPolicy::may_stay, 0.0095);
+  path.scene.bodies[2].motion = FixedMotion{{{-0.6, 0, 0.119}, Eigen::Quaterniond::Identity()}};
+  EXPECT_EQ(verdict_of(path), ProofVerdict::refuted);
+}
+
+TEST(ContactPairsProof, KnowsTheToleranceOfTheScene) {
+  PlannedPath path = path_of_box(kAway, ContactPolicy::may_stay, 0.0005);
+  path.tolerance = 1.0;
+  EXPECT_EQ(verify_path(path).problem, "The tolerance of the path is not that of its scene.");
+}
 
 TEST(ContactPairsProof, AllowsWhatThePolicyAllows) {
   const double half = 0.5 * kGap;

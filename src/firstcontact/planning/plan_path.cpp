@@ -379,9 +379,9 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
   detail::ContactEnds contacts(widened, start, goals, kept_by_search(options), options.tolerance);
   const bool measures_goal = std::ranges::any_of(
       contacts.pairs(), [](const PlannedContact& one) { return one.pair.at == PathEnd::goal; });
-  require_plan(!options.approximate || !measures_goal,
-               "an approximate path may end before the goal; contact_pairs at the goal need a path "
-               "that reaches it");
+  require_plan(!measures_goal || (!options.approximate && goals.size() == 1),
+               "contact_pairs at the goal are measured there; expected one goal, and no "
+               "approximate path");
   return PlanSearch(widened, options, std::move(contacts)).run(start, goals);
 }
 

@@ -328,4 +328,11 @@ Pose RobotScene::pose(std::size_t member, double t) const {
   return resting != nullptr ? resting->X_WB : moved.motion->pose(t);
 }
 
+Pose RobotScene::geometry_pose(std::size_t member, std::size_t geometry, double t) const {
+  const Pose X_WM = pose(member, t);
+  const Pose& X_MG = geometries(member)[geometry].X_MG;
+  const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
+  return {X_WM.position + R_WM * X_MG.position, R_WM * X_MG.rotation.normalized()};
+}
+
 }  // namespace firstcontact

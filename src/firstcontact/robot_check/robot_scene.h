@@ -172,6 +172,9 @@ class FIRSTCONTACT_API RobotScene {
   /// The pose X_WM(t), rounded to doubles; t is clamped to [0, 1].
   [[nodiscard]] Pose pose(std::size_t member, double t) const;
 
+  /// The same of one of its geometries, by its number.
+  [[nodiscard]] Pose geometry_pose(std::size_t member, std::size_t geometry, double t) const;
+
  private:
   struct Member {
     std::string name;

@@ -31,6 +31,9 @@ using detail::ProofFinding;
 /// [-]  How far a distance that was held may be from the share of its policy.
 constexpr double kHeldError = 0x1p-8;
 
+/// [tolerances]  Beyond its margin a planner still takes a pair to be in contact.
+constexpr double kContactTolerances = 3.0;
+
 class PathProof {
  public:
   PathProof(const PlannedPath& path, const VerifyResultOptions& options)
@@ -137,8 +140,12 @@ class PathProof {
       const std::size_t edges = path_.clearances.size();
       const FreeClaim claim{
           .until = {}, .from = share(0), .last = share(std::max<std::size_t>(edges, 1))};
-      const double most =
+      // A pair that keeps its margin at that end is no contact pair, and has no hold in its place.
+      const double in_contact = courses_.pairs().margin(contact.members).value() +
+                                path_.extra_clearance + kContactTolerances * path_.tolerance;
+      const double held =
           contact.claim->distance / kept_share(contact.claim->policy) * (1.0 + kHeldError);
+      const double most = std::min(held, in_contact);
       take(proof_.prove_within(contact.members, at_start ? claim.from : claim.last, most),
            at_start || edges == 0 ? 0 : edges - 1, claim,
            "A contact pair is held to less than its policy allows. ");
@@ -178,6 +185,9 @@ class PathProof {
 
   /// The numbers about the whole path are those of its scene and its edges.
   void require_totals() {
+    if (!(path_.tolerance == moving_.loaded().scene.options.tolerance)) {
+      throw BrokenPath("The tolerance of the path is not that of its scene.");
+    }
     if (!(path_.margin == moving_.loaded().scene.options.margin)) {
       throw BrokenPath("The margin of the path is not that of its scene.");
     }

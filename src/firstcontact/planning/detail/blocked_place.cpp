@@ -11,6 +11,7 @@
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/straight_ways.h>
+#include <firstcontact/query/distance.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/text/quantity.h>
@@ -23,13 +24,6 @@ constexpr std::size_t kRings = 12;  // Each twice as wide as the one before.
 constexpr std::size_t kPlacesOfRing = 128;
 constexpr double kFirstRing = 1e-3;  // [-]  Of what is sampled.
 constexpr int kHalvingsToFree = 12;
-
-Pose pose_of_geometry(const RobotScene& scene, std::size_t member, std::size_t geometry) {
-  const Pose X_WM = scene.pose(member, 0.0);
-  const Pose& X_MG = scene.geometries(member)[geometry].X_MG;
-  const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
-  return {X_WM.position + R_WM * X_MG.position, R_WM * X_MG.rotation.normalized()};
-}
 
 /// [m]  The way along a direction from which on A, moved along it, does not touch B any more.
 std::optional<double> way_out(const Shape& A, const Pose& X_WA, const Shape& B, const Pose& X_WB,
@@ -128,12 +122,17 @@ std::optional<double> depth_of(const RobotScene& scene, const BodyPair& members)
   double deepest = 0.0;
   for (std::size_t a = 0; a < scene.geometries(members[0]).size(); ++a) {
     for (std::size_t b = 0; b < scene.geometries(members[1]).size(); ++b) {
+      const Shape& A = scene.geometries(members[0])[a].shape;
+      const Shape& B = scene.geometries(members[1])[b].shape;
+      const Pose X_WA = scene.geometry_pose(members[0], a, 0.0);
+      const Pose X_WB = scene.geometry_pose(members[1], b, 0.0);
+      if (distance({A, Motion::fixed(X_WA)}, {B, Motion::fixed(X_WB)}, 0.0, workspace).distance >
+          0.0) {
+        continue;  // Near, or all around: what does not meet has no depth.
+      }
       double least = std::numeric_limits<double>::infinity();
       for (const Eigen::Vector3d& direction : directions_of_cube()) {
-        const std::optional<double> way =
-            way_out(scene.geometries(members[0])[a].shape, pose_of_geometry(scene, members[0], a),
-                    scene.geometries(members[1])[b].shape, pose_of_geometry(scene, members[1], b),
-                    direction, workspace);
+        const std::optional<double> way = way_out(A, X_WA, B, X_WB, direction, workspace);
         least = std::min(least, way.value_or(least));
       }
       deepest = std::max(deepest, least);

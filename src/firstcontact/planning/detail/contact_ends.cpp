@@ -56,7 +56,7 @@ StartGap gap_at(const PlanScene& plan, const Configuration& q, const BodyPair& m
   return gap;
 }
 
-bool is_apart(const StartGap& gap) { return gap.apart > 16.0 * gap.error; }
+bool is_apart(const StartGap& gap) { return gap.apart > 1024.0 * gap.error; }
 
 }  // namespace
 

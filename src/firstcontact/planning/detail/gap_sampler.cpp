@@ -163,13 +163,8 @@ GapSampler::GapSampler(const PlanScene& scene) : space_(scene.space) {
     if (member == mover) {
       continue;
     }
-    for (const MemberGeometry& geometry : all.geometries(member)) {
-      const Pose X_WM = all.pose(member, 0.0);
-      const Eigen::Quaterniond R_WM = X_WM.rotation.normalized();
-      add_triangles(geometry.shape,
-                    {X_WM.position + R_WM * geometry.X_MG.position,
-                     R_WM * geometry.X_MG.rotation.normalized()},
-                    fixed_);
+    for (std::size_t k = 0; k < all.geometries(member).size(); ++k) {
+      add_triangles(all.geometries(member)[k].shape, all.geometry_pose(member, k, 0.0), fixed_);
     }
   }
 }

@@ -70,8 +70,8 @@ class PlanReader {
       }
       plan.robots.push_back(robot);
     }
-    if (plan.robots.empty()) {
-      read_.fail_expected("at least one robot", value);
+    if (plan.robots.size() < 2) {
+      read_.fail_expected("at least two robots; a single one is \"robot\"", value);
     }
   }
 
