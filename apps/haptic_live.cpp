@@ -60,12 +60,18 @@ bool HapticLive::is_due(const ForceTick& tick) const {
   return shown_ns_ == 0 || tick.time_ns - shown_ns_ >= kPictureNs;
 }
 
+/// Where the page begins to drag: before its first pose, where the mapping has the handle.
+Pose HapticLive::handle(const ToolTick& tool) const {
+  return tool.device.status == DeviceStatus::waiting ? setup_.options.mappings[tool_].X_DH
+                                                     : tool.device.X_DH;
+}
+
 std::string HapticLive::picture(const ForceTick& tick) {
   shown_ns_ = tick.time_ns;
   const ToolTick& tool = tick.tools[tool_];
   std::string text = fmt::format(R"({{"handle":[{}],"target":[{}],"force":[{}],"torque":[{}],)",
-                                 numbers(tool.device.X_DH), numbers(tool.target),
-                                 numbers(tool.force_W), numbers(tool.torque_W));
+                                 numbers(handle(tool)), numbers(tool.target), numbers(tool.force_W),
+                                 numbers(tool.torque_W));
   text += "\"bodies\":[";
   for (std::size_t k = 0; k < poses_.size(); ++k) {
     if (poses_[k]) {  // The first tool always has one.

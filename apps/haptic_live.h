@@ -36,6 +36,8 @@ class HapticLive {
   [[nodiscard]] std::string picture(const ForceTick& tick);
 
  private:
+  [[nodiscard]] Pose handle(const ToolTick& tool) const;
+
   const HapticSetup& setup_;
   std::size_t tool_;
   std::vector<std::optional<Pose>> poses_;  // X_WB of each member that has moved, and of tools.

@@ -34,8 +34,12 @@ std::string wall_text(const WallSessionReport& wall) {
          report_line("empty loop", "late by " + quantiles(wall.empty_delay)) +
          report_line("cycle", quantiles(wall.cycle_wall)) +
          report_line("missed",
-                     fmt::format("{} ticks began more than a period late, {} were skipped",
-                                 wall.late_ticks, wall.skipped_ticks));
+                     fmt::format("{} ticks began more than a period late, {} were skipped{}",
+                                 wall.late_ticks, wall.skipped_ticks,
+                                 wall.unread_ticks == 0
+                                     ? std::string()
+                                     : fmt::format("; {} were not written, as that took too long",
+                                                   wall.unread_ticks)));
 }
 
 }  // namespace

@@ -229,10 +229,27 @@ class HapticsRun {
           named_.choices[k], simulated_hand(arguments_, setup_.scene.tools[k],
                                             setup_.options.mappings[k], named_.duration, k)));
       setup_.options.mappings[k].kind = devices_[k]->capabilities().kind;
+      require_buttons(k);
       pointers_.push_back(devices_[k].get());
       if (auto* mouse = dynamic_cast<BrowserDevice*>(devices_[k].get())) {
         mouse_ = mouse;
         live_.emplace(setup_, k);
+      }
+    }
+  }
+
+  /// A button that the device lacks would never be pressed, and the tool never felt.
+  void require_buttons(std::size_t tool) const {
+    const DeviceMapping& mapping = setup_.options.mappings[tool];
+    const DeviceCapabilities& device = devices_[tool]->capabilities();
+    const bool is_recorded = dynamic_cast<const RecordedDevice*>(devices_[tool].get()) != nullptr;
+    for (const auto& [key, button] : {std::pair("dead_man_button", mapping.dead_man_button),
+                                      std::pair("clutch_button", mapping.clutch_button)}) {
+      if (!is_recorded && button >= static_cast<int>(device.buttons)) {
+        throw ParseError(arguments_.scene,
+                         fmt::format("haptics: {} is {}, but the device {} has {} buttons; choose "
+                                     "one of them from 0, or leave the key out",
+                                     key, button, device.name, device.buttons));
       }
     }
   }

@@ -162,6 +162,14 @@ class Haptics(tool_test.ToolTest):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, 3)
 
+    def test_refuses_a_button_that_the_device_lacks(self):
+        if not (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists():
+            self.skipTest("built without the viewer")
+        self.file("scene.json", scene(({"body": "peg", "dead_man_button": 0},)))
+        self.assert_refused_with(self.run_tool("haptics", "scene.json", "--device", "mouse", "-o", "run.jsonl"),
+                                 "scene.json", "dead_man_button", "mouse has 0 buttons")
+        self.assertFalse((self.folder / "run.jsonl").exists())
+
     def test_says_which_service_does_not_answer(self):
         self.file("scene.json", scene())
         self.assert_writes_nothing(self.haptics("--device", "spacemouse=none.sock"), "none.sock",

@@ -18,12 +18,13 @@ using test::send_bytes;
 /// A page without a browser.
 class FakePage {
  public:
-  explicit FakePage(std::uint16_t port, const std::string& origin = {}) {
+  explicit FakePage(std::uint16_t port, const std::string& origin = {},
+                    const std::string& host = "127.0.0.1") {
     std::string problem;
     socket_ =
         detail::connect_tcp("127.0.0.1", port, stop_, steady_now_ns() + 20'000'000'000, problem);
     std::string request =
-        detail::websocket_request("127.0.0.1", port, "/live", "dGhlIHNhbXBsZSBub25jZQ==");
+        detail::websocket_request(host, port, "/live", "dGhlIHNhbXBsZSBub25jZQ==");
     if (!origin.empty()) {
       request.insert(request.size() - 2, "Origin: " + origin + "\r\n");
     }
@@ -95,9 +96,40 @@ TEST(BrowserDevice, RefusesPagesOfOtherSitesAndASecondOne) {
   BrowserDevice device;
   device.serve("a page");
   EXPECT_TRUE(FakePage(device.port(), "http://example.com").answer.starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(FakePage(device.port(), "http://localhost:80").answer.starts_with("HTTP/1.1 403"));
   const FakePage own(device.port(), "http://localhost:" + std::to_string(device.port()));
   EXPECT_TRUE(own.answer.starts_with("HTTP/1.1 101"));
   EXPECT_TRUE(FakePage(device.port()).answer.starts_with("HTTP/1.1 403"));
+}
+
+/// The answer to a plain request.
+std::string answer_to(std::uint16_t port, const std::string& request) {
+  detail::StopSignal stop;
+  std::string problem;
+  const detail::FileDescriptor socket =
+      detail::connect_tcp("127.0.0.1", port, stop, steady_now_ns() + 20'000'000'000, problem);
+  send_bytes(socket, request);
+  return test::receive_bytes(socket, 20'000);
+}
+
+// A name of another site may be made to lead here: its pages must not read the geometry.
+TEST(BrowserDevice, AnswersToItsOwnNameOnly) {
+  BrowserDevice device;
+  device.serve("a page");
+  const std::string port = ":" + std::to_string(device.port());
+  const auto get = [&](const std::string& host) {
+    return answer_to(device.port(), "GET / HTTP/1.1\r\n" + host + "\r\n");
+  };
+  const std::string own = get("Host: 127.0.0.1" + port + "\r\n");
+  EXPECT_TRUE(own.starts_with("HTTP/1.1 200")) << own;
+  EXPECT_NE(own.find("X-Frame-Options: DENY"), std::string::npos);
+  EXPECT_TRUE(get("Host: localhost:8080\r\n").starts_with("HTTP/1.1 200"));  // A tunnel.
+  EXPECT_TRUE(get("Host: localhost\r\n").starts_with("HTTP/1.1 200"));
+  EXPECT_TRUE(get("Host: evil.example" + port + "\r\n").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(get("Host: localhost.evil.example\r\n").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(get("").starts_with("HTTP/1.1 403"));
+  EXPECT_TRUE(FakePage(device.port(), "http://evil.example" + port, "evil.example")
+                  .answer.starts_with("HTTP/1.1 403"));
 }
 
 TEST(BrowserDevice, NamesAPortThatIsTaken) {

@@ -47,7 +47,7 @@ void read(void*, std::int64_t now_ns, firstcontact_device_sample* sample) {
   sample->status = FIRSTCONTACT_DEVICE_LIVE;
 #ifdef FAULT_BAD_SAMPLES
   if (samples % 3 == 2) {
-    sample->position[0] = std::nan("");
+    sample->position[0] = samples % 2 == 0 ? std::nan("") : 1e70;
   } else if (samples % 3 == 0) {
     sample->quaternion_wxyz[0] = 0.0;
   }

@@ -85,9 +85,47 @@ TEST(HaplyMessage, NamesThePlaceOfWhatMakesNoSense) {
   EXPECT_NE(position(R"({"x":"0","y":0,"z":0})").find("cursor_position.x"), std::string::npos);
   EXPECT_NE(position(R"({"x":11,"y":0,"z":0})").find("a number of at most 10"), std::string::npos);
   EXPECT_NE(position("null").find("cursor_position"), std::string::npos);
-  const std::string grip =
-      R"({"verse_grip":[{"device_id":"A","state":{"orientation":{"w":0,"x":0,"y":0,"z":0}}}]})";
-  EXPECT_NE(refusal(grip).find("a quaternion of length 1"), std::string::npos);
+}
+
+/// A message with the position of an Inverse3, and a grip.
+HaplyMessage with_grip(const std::string& grip) {
+  return parse_haply_message(
+      R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":0,"y":0,"z":1}}}],)"
+      R"("wireless_verse_grip":[)" +
+          grip + "]}",
+      {});
+}
+
+// The position counts all the same: a grip that sleeps must not stop the device.
+TEST(HaplyMessage, LeavesOutAGripThatMakesNoSense) {
+  for (
+      const char* grip :
+      {R"({"device_id":"G","state":{"orientation":{"w":0,"x":0,"y":0,"z":0},"buttons":{"a":true}}})",
+       R"({"device_id":"G","state":{"buttons":{"a":1}}})", R"({"device_id":null})", "7"}) {
+    const HaplyMessage message = with_grip(grip);
+    EXPECT_EQ(message.position.value().z(), 1.0) << grip;
+    EXPECT_FALSE(message.orientation) << grip;
+    EXPECT_EQ(message.buttons, 0U) << grip;
+    EXPECT_NE(message.grip_problem, "") << grip;
+  }
+  EXPECT_NE(with_grip(R"({"device_id":"G","state":{"orientation":{"w":0,"x":0,"y":0,"z":0}}})")
+                .grip_problem.find("a quaternion of length 1"),
+            std::string::npos);
+}
+
+TEST(HaplyMessage, ReleasesTheButtonsOfAGripThatIsGone) {
+  const auto grip = [](const std::string& status) {
+    return with_grip(R"({"device_id":"G","state":{"orientation":{"w":1,"x":0,"y":0,"z":0},)"
+                     R"("buttons":{"a":true}},"status":)" +
+                     status + "}");
+  };
+  EXPECT_EQ(grip(R"({"connected":true,"ready":true})").buttons, 1U);
+  EXPECT_EQ(grip("{}").buttons, 1U);
+  for (const char* status : {R"({"connected":false})", R"({"connected":true,"ready":false})"}) {
+    EXPECT_EQ(grip(status).buttons, 0U);
+    EXPECT_FALSE(grip(status).orientation);
+    EXPECT_EQ(grip(status).grip_problem, "");
+  }
 }
 
 TEST(HaplyForce, HasTheKeyOfItsGeneration) {

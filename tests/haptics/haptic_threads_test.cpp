@@ -118,6 +118,61 @@ class StillDevice : public Device {
   ForceCommand last_;
 };
 
+/// A device whose reading is lost: finite, but nowhere.
+class FarDevice : public StillDevice {
+ public:
+  DeviceState read(std::int64_t now_ns) noexcept override {
+    DeviceState state = StillDevice::read(now_ns);
+    state.X_DH.position.x() = 1e70;
+    return state;
+  }
+};
+
+TEST(WallSession, DoesNotFollowADeviceThatIsNowhere) {
+  FarDevice device;
+  Device* const devices[] = {&device};
+  std::uint32_t faults = 0;
+  double farthest = 0.0;
+  (void)run_wall_session(
+      cube_on_floor(), {.force_rate = 500.0, .contact_rate = 100.0}, devices,
+      {.duration = 0.1, .real_time = false},
+      [&](const ForceTick& tick) { faults |= tick.tools[0].faults; },
+      [&](const HapticCycle& cycle, std::int64_t) {
+        farthest = std::max(farthest, cycle.members[0].X_WB.position.norm());
+      });
+  EXPECT_NE(faults & static_cast<std::uint32_t>(ForceFault::not_finite), 0U);
+  EXPECT_LT(farthest, 1.0);
+}
+
+/// A device that drives 0.5 N.
+class WeakDevice : public StillDevice {
+ public:
+  WeakDevice() {
+    weak_.driven = DegreesOfFreedom::translation();
+    weak_.max_force = 0.5;
+  }
+  [[nodiscard]] const DeviceCapabilities& capabilities() const noexcept override { return weak_; }
+
+ private:
+  DeviceCapabilities weak_ = StillDevice::capabilities();
+};
+
+TEST(WallSession, LogsTheForceThatTheDeviceCanDrive) {
+  WeakDevice device;
+  Device* const devices[] = {&device};
+  double greatest = 0.0;
+  std::uint32_t faults = 0;
+  (void)run_wall_session(cube_on_floor(), {.force_rate = 500.0, .contact_rate = 100.0}, devices,
+                         {.duration = 0.2, .real_time = false},
+                         [&](const ForceTick& tick) {
+                           greatest = std::max(greatest, tick.tools[0].command.force_D.norm());
+                           faults |= tick.tools[0].faults;
+                         },
+                         {});
+  EXPECT_NEAR(greatest, 0.5, 1e-12);
+  EXPECT_NE(faults & static_cast<std::uint32_t>(ForceFault::limited), 0U);
+}
+
 TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   StillDevice device;
   Device* const devices[] = {&device};

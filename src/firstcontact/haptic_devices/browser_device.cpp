@@ -18,6 +18,7 @@
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
+#include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
 namespace {
@@ -32,7 +33,6 @@ constexpr std::int64_t kPictureNs = 16'000'000;  // Between messages to the page
 constexpr std::int64_t kSendNs = 500'000'000;    // Limit for one answer.
 constexpr std::size_t kMostMessage = 4096;       // [byte]  Of a pose.
 constexpr std::size_t kMostConnections = 16;
-constexpr double kMostLength = 100.0;  // [m]
 
 const std::string& page_name() {
   static const std::string name = "page of the mouse";
@@ -42,7 +42,7 @@ const std::string& page_name() {
 std::string http_answer(const char* status, std::string_view text) {
   return std::string("HTTP/1.1 ") + status +
          "\r\nContent-Type: text/html; charset=utf-8\r\nCache-Control: no-store\r\n"
-         "Connection: close\r\nContent-Length: " +
+         "X-Frame-Options: DENY\r\nConnection: close\r\nContent-Length: " +
          std::to_string(text.size()) + "\r\n\r\n" + std::string(text);
 }
 
@@ -56,7 +56,7 @@ std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& valu
   for (std::size_t k = 0; k < n; ++k) {
     numbers[k] = reader.number(given[k]);
     if (!(std::abs(numbers[k]) <= most)) {
-      reader.fail_expected("a smaller number", given[k]);
+      reader.fail_expected("a number of at most " + detail::write_json(most), given[k]);
     }
   }
   return numbers;
@@ -65,7 +65,7 @@ std::array<double, n> numbers_of(const JsonReader& reader, const JsonValue& valu
 Pose handle_of(std::string_view text) {
   const JsonValue root = detail::parse_json(text, page_name());
   const JsonReader reader(root, page_name());
-  const auto p = numbers_of<3>(reader, reader.member(root, "position"), kMostLength);
+  const auto p = numbers_of<3>(reader, reader.member(root, "position"), detail::kMostOfSample);
   const auto q = numbers_of<4>(reader, reader.member(root, "rotation"), 2.0);
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
@@ -101,11 +101,14 @@ struct BrowserDevice::Data {
     return detail::send_all(connection.socket, bytes, stop, steady_now_ns() + kSendNs);
   }
 
-  /// Whether a request comes from a page of this device, or from a program.
-  [[nodiscard]] bool is_own(const std::string& origin) const {
-    const std::string suffix = ":" + std::to_string(port);
-    return origin.empty() || origin == "http://127.0.0.1" + suffix ||
-           origin == "http://localhost" + suffix;
+  /// Whether a request is to this machine by its own name, through a tunnel or not, and from a page
+  /// of this device or from a program. Other names may be those of pages that were led here.
+  [[nodiscard]] static bool is_own(const detail::HttpHead& head) {
+    const std::string name = head.host.substr(0, head.host.rfind(':'));
+    const std::string suffix = head.host.substr(name.size());
+    return (name == "127.0.0.1" || name == "localhost") &&
+           (head.origin.empty() || head.origin == "http://127.0.0.1" + suffix ||
+            head.origin == "http://localhost" + suffix);
   }
 
   [[nodiscard]] bool has_page() const {
@@ -118,9 +121,15 @@ struct BrowserDevice::Data {
   }
 
   void answer(Connection& connection, const detail::HttpHead& head) {
+    if (!is_own(head)) {
+      connection.closed = true;
+      (void)send(connection,
+                 http_answer("403 Forbidden", "this page is for 127.0.0.1 and localhost only"));
+      return;
+    }
     const auto shakes_hands = detail::websocket_answer(head);
     if (head.first_line.starts_with("GET /live ") && shakes_hands) {
-      if (!is_own(head.origin) || has_page()) {
+      if (has_page()) {
         connection.closed = true;
         (void)send(connection, http_answer("403 Forbidden", "another page moves the tool"));
         return;
@@ -129,6 +138,7 @@ struct BrowserDevice::Data {
       connection.reader->add(std::string_view(connection.request).substr(head.size));
       connection.closed = !send(connection, *shakes_hands);
       ++report.connections;
+      report.set_problem("the page has not moved the tool yet");
       return;
     }
     connection.closed = true;

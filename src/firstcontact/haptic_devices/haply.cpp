@@ -220,13 +220,21 @@ struct Haply::Data {
 
   // --- The exchange of states and forces.
 
+  /// Of the thread; the lock of the report is taken only where the problem is another one.
+  void set_problem(const std::string& problem) {
+    if (problem != said) {
+      said = problem;
+      report.set_problem(problem);
+    }
+  }
+
   void take_state(const detail::HaplyMessage& message) {
     note_generation(message);
     if (message.device_id.empty() || !message.ready) {
       state = detail::quiet(state, DeviceStatus::lost);
-      report.set_problem(message.device_id.empty()
-                             ? "the service no longer lists the device " + choice.device_id
-                             : "the service reports that the device is not ready");
+      set_problem(message.device_id.empty()
+                      ? "the service no longer lists the device " + choice.device_id
+                      : "the service reports that the device is not ready");
     } else if (message.position) {
       state.X_DH.position = *message.position - options.centre;
       if (message.orientation && capabilities.sensed.angular[0]) {
@@ -237,10 +245,9 @@ struct Haply::Data {
       state.time_ns = steady_now_ns();
       ++state.sequence;
       ++report.samples;
-      if (state.status != DeviceStatus::live) {
-        state.status = DeviceStatus::live;
-        report.set_problem({});
-      }
+      report.malformed += message.grip_problem.empty() ? 0 : 1;
+      state.status = DeviceStatus::live;
+      set_problem(message.grip_problem);
     } else {
       ++report.malformed;
     }
@@ -260,11 +267,14 @@ struct Haply::Data {
                                first && since_3_5 ? kProfile : "");
   }
 
-  bool send_force(Link& link, bool first) {
+  /// @param is_named  whether the service has heard which program this is
+  bool send_force(Link& link, bool& is_named) {
     if (state.status == DeviceStatus::lost) {
       return send(link, WebSocketKind::text, kEmptyMessage);
     }
-    return send(link, WebSocketKind::text, force_message(force_now(link), first));
+    const std::string message = force_message(force_now(link), !is_named);
+    is_named = is_named || since_3_5;
+    return send(link, WebSocketKind::text, message);
   }
 
   /// Exchanges until the connection ends or the driver stops. Returns why it ended.
@@ -273,7 +283,7 @@ struct Haply::Data {
     std::int64_t sent_ns = link.since_ns - period_ns;
     std::int64_t received_ns = link.since_ns;
     int on_the_way = 0;
-    bool first = true;
+    bool is_named = false;
     while (!link.closed) {
       const std::int64_t wait_ns = on_the_way < kMostOnTheWay ? period_ns : kAnswerLostNs;
       const std::int64_t due_ns = sent_ns + wait_ns;
@@ -299,10 +309,9 @@ struct Haply::Data {
         }
         ++on_the_way;
         sent_ns = now_ns;
-        if (!send_force(link, first)) {
+        if (!send_force(link, is_named)) {
           return "the service takes no messages";
         }
-        first = false;
       }
     }
     return link.reader.failure().empty() ? "the service closed the connection"
@@ -316,7 +325,7 @@ struct Haply::Data {
       return true;
     } catch (const ParseError& error) {
       ++report.malformed;
-      report.set_problem(error.what());
+      set_problem(error.what());
       return false;
     }
   }
@@ -335,7 +344,7 @@ struct Haply::Data {
         }
         link.reset();
         state = detail::quiet(state, DeviceStatus::lost);
-        report.set_problem("the Haply Inverse Service at " + place() + ": " + reason);
+        set_problem("the Haply Inverse Service at " + place() + ": " + reason);
         states.put(state);
       }
       if (detail::wait_for(stop, steady_now_ns() + options.retry_ns) == WaitEnd::stopped) {
@@ -345,7 +354,7 @@ struct Haply::Data {
       since_3_5 = false;
       link = open(steady_now_ns() + options.connect_ns, problem);
       if (!link) {
-        report.set_problem(problem);
+        set_problem(problem);
       }
     }
   }
@@ -354,6 +363,7 @@ struct Haply::Data {
   MailSlot<DeviceState> states;
   MailSlot<TimedForce> commands;
   DeviceState state;  // Of the thread.
+  std::string said;   // So, too: the problem of the report.
   HaplyOptions options;
   detail::HaplyChoice choice;
   DeviceCapabilities capabilities;

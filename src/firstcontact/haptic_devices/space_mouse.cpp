@@ -72,7 +72,7 @@ struct SpaceMouse::Data {
     if (socket.is_open() && !detail::send_all(socket, detail::spacenav_protocol_request(), stop,
                                               steady_now_ns() + kAnswerNs)) {
       problem = "the daemon closed the connection";
-      return detail::FileDescriptor();
+      socket = detail::FileDescriptor();
     }
     if (!socket.is_open()) {
       problem = "no connection to spacenavd at " + options.socket + ": " + problem +

@@ -17,6 +17,7 @@ using detail::Coordinates;
 using Eigen::Vector3d;
 
 constexpr double kNanosecond = 1e-9;  // [s]
+constexpr double kMostScale = 1e6;    // [-]  Of a mapping: targets stay where doubles resolve.
 
 /// [s]  Ticks farther apart count as this: what was not watched is not made up for.
 constexpr double kLongestTick = 0.01;
@@ -46,7 +47,8 @@ void check_options(const HapticScene& scene, const std::vector<DeviceMapping>& m
             "HapticCoupling::damping must be >= 0");
   }
   for (const DeviceMapping& mapping : mappings) {
-    require(is_positive_number(mapping.scale), "DeviceMapping::scale must be > 0");
+    require(is_positive_number(mapping.scale) && mapping.scale <= kMostScale,
+            "DeviceMapping::scale must be > 0 and at most 1e6");
     require(is_positive_number(mapping.R_WD.squaredNorm()) &&
                 is_positive_number(mapping.X_DH.rotation.squaredNorm()) &&
                 mapping.X_DH.position.allFinite(),

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -56,6 +57,18 @@ struct SharedSession {
   std::deque<std::pair<HapticCycle, std::int64_t>> cycles;
   std::atomic<bool> is_over{false};
   std::atomic<bool> force_is_done{false};
+  std::array<std::exception_ptr, 2> failures;  // Of the force loop, of the contact loop.
+
+  /// Runs a thread's work; what it throws ends the session, and is the caller's.
+  template <class Work>
+  void guard(std::size_t thread, const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      failures[thread] = std::current_exception();
+      is_over = true;
+    }
+  }
 };
 
 /// The force loop's thread.
@@ -73,6 +86,16 @@ class ForceThread {
         report_(report) {}
 
   void run() {
+    shared_.guard(0, [this] { run_loop(); });
+    for (Device* device : devices_) {
+      device->command({}, steady_now_ns());
+    }
+    shared_.is_over = true;
+    shared_.force_is_done = true;
+  }
+
+ private:
+  void run_loop() {
     if (real_time_) {
       report_.granted.force_fifo = detail::take_real_time_priority(kForcePriority);
       report_.granted.force_processor = detail::bind_to_processor(0);
@@ -94,14 +117,8 @@ class ForceThread {
         next += skipped * period_ns_;
       }
     }
-    for (Device* device : devices_) {
-      device->command({}, steady_now_ns());
-    }
-    shared_.is_over = true;
-    shared_.force_is_done = true;
   }
 
- private:
   void run_empty() {
     std::int64_t next = steady_now_ns();
     const std::int64_t end = next + std::min(kEmptyNs, duration_ns_);
@@ -112,16 +129,26 @@ class ForceThread {
     }
   }
 
+  /// What is logged as the command is what the device can follow.
+  static void limit(ToolTick& tool, const DeviceCapabilities& capabilities) noexcept {
+    const ForceCommand allowed = limited(tool.command, capabilities);
+    if (allowed.force_D != tool.command.force_D || allowed.torque_D != tool.command.torque_D) {
+      tool.command = allowed;
+      tool.faults |= static_cast<std::uint32_t>(ForceFault::limited);
+    }
+  }
+
   void make_tick(std::int64_t now) {
     const std::int64_t cpu = cpu_now_ns();
     std::array<DeviceState, kMostTools> states;
     for (std::size_t k = 0; k < devices_.size(); ++k) {
       states[k] = devices_[k]->read(now);
     }
-    const ForceTick& tick =
+    ForceTick tick =
         loop_.tick(now, shared_.sets.newest(), std::span(states.data(), devices_.size()));
     HandedTargets handed{.sequence = ++sequence_, .time_ns = now};
     for (std::size_t k = 0; k < devices_.size(); ++k) {
+      limit(tick.tools[k], devices_[k]->capabilities());
       devices_[k]->command(tick.tools[k].command, now);
       handed.targets[k] = tick.tools[k].target;
     }
@@ -150,6 +177,11 @@ class ContactThread {
       : shared_(shared), loop_(loop), period_ns_(period_ns), wall_(wall), report_(report) {}
 
   void run() {
+    shared_.guard(1, [this] { run_loop(); });
+  }
+
+ private:
+  void run_loop() {
     if (wall_.real_time) {
       report_.granted.contact_fifo = detail::take_real_time_priority(kContactPriority);
       report_.granted.contact_processor = detail::bind_to_processor(1);
@@ -165,7 +197,6 @@ class ContactThread {
     }
   }
 
- private:
   void make_cycle(const HandedTargets& handed) {
     const std::int64_t cpu = cpu_now_ns();
     const std::int64_t begin = steady_now_ns();
@@ -195,7 +226,8 @@ class ContactThread {
 void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)>& on_tick,
                const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle) {
   ForceTick tick;
-  while (shared.ticks.pop(tick)) {
+  // No more than there is room for: whoever is too slow must still hear the stop.
+  for (std::size_t k = 0; k < kRing && shared.ticks.pop(tick); ++k) {
     if (on_tick) {
       on_tick(tick);
     }
@@ -240,8 +272,9 @@ WallSessionReport run_wall_session(
     const WallSessionOptions& wall, const std::function<void(const ForceTick&)>& on_tick,
     const std::function<void(const HapticCycle&, std::int64_t)>& on_cycle,
     const std::stop_token& stop) {
-  if (!(wall.duration > 0.0 && wall.duration < 1e9) || wall.contact_delay_ns < 0) {
-    throw std::invalid_argument("WallSessionOptions: the duration must be > 0, the delay >= 0");
+  if (!(wall.duration > 0.0 && wall.duration <= 1e9) || wall.contact_delay_ns < 0) {
+    throw std::invalid_argument(
+        "WallSessionOptions: the duration must be > 0 and at most 1e9 s, the delay >= 0");
   }
   if (devices.size() != scene.tools.size()) {
     throw std::invalid_argument("a device for each tool was expected");
@@ -269,6 +302,11 @@ WallSessionReport run_wall_session(
     }
   }
   hand_over(*shared, on_tick, on_cycle);
+  for (const std::exception_ptr& failure : shared->failures) {
+    if (failure) {
+      std::rethrow_exception(failure);
+    }
+  }
   report.unread_ticks = shared->ticks.dropped();
   if (report.granted.locked_memory) {
     detail::unlock_memory();

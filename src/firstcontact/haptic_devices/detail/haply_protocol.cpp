@@ -9,6 +9,7 @@
 
 #include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/json_tree.h>
+#include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
 #include <firstcontact/text/write_json.h>
 
@@ -37,13 +38,36 @@ class HaplyReader {
         read_device(*device, message);
       }
     }
-    if (const JsonObject* grip = first_grip(all, choice.grip_id)) {
-      read_grip(*grip, message);
-    }
+    take_grip(all, choice, message);
     return message;
   }
 
  private:
+  /// A grip that makes no sense does not take the position of the device with it.
+  void take_grip(const JsonObject& all, const HaplyChoice& choice, HaplyMessage& message) const {
+    try {
+      if (const JsonObject* grip = first_grip(all, choice.grip_id)) {
+        read_grip(*grip, message);
+      }
+    } catch (const ParseError& error) {
+      message.orientation.reset();
+      message.buttons = 0;
+      message.grip_problem = error.what();
+    }
+  }
+
+  /// Whether the service reports that a grip is there: one that is gone holds no button.
+  [[nodiscard]] bool is_there(const JsonObject& grip) const {
+    const JsonObject* status = part(grip, "status");
+    for (const char* key : {"connected", "ready"}) {
+      const JsonValue* is = status == nullptr ? nullptr : find(*status, key);
+      if (is != nullptr && !reader_.boolean(*is)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   [[nodiscard]] const JsonObject& object(const JsonValue& value) const {
     if (const auto* members = std::get_if<JsonObject>(&value.value)) {
       return *members;
@@ -129,7 +153,7 @@ class HaplyReader {
 
   void read_grip(const JsonObject& grip, HaplyMessage& message) const {
     const JsonObject* state = part(grip, "state");
-    if (state == nullptr) {
+    if (state == nullptr || !is_there(grip)) {
       return;
     }
     if (const JsonValue* orientation = find(*state, "orientation")) {

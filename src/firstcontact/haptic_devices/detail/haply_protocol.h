@@ -23,6 +23,7 @@ struct HaplyMessage {
   std::uint32_t buttons = 0;  ///< Of the grip, in the order of their names.
   bool ready = true;          ///< As its `status` reports.
   bool has_session = false;   ///< As messages of 3.5 have.
+  std::string grip_problem;   ///< Why the grip was left out; empty where nothing is wrong.
 };
 
 /// Which devices of a message are looked at. Empty for the first one.

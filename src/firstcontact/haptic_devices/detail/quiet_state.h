@@ -21,11 +21,14 @@ namespace firstcontact::detail {
   return sample;
 }
 
-/// Whether all numbers of a sample are finite and its quaternion is a rotation.
+/// [m, m/s and rad/s]  A device that is farther away or faster has lost its reading.
+inline constexpr double kMostOfSample = 1e6;
+
+/// Whether the numbers of a sample are those of a device, and its quaternion is a rotation.
 [[nodiscard]] inline bool makes_sense(const DeviceState& sample) noexcept {
   const double length = sample.X_DH.rotation.coeffs().norm();
-  return sample.X_DH.position.allFinite() && std::abs(length - 1.0) < 1e-3 &&
-         sample.linear_rate.allFinite() && sample.angular_rate.allFinite();
+  return sample.X_DH.position.norm() <= kMostOfSample && std::abs(length - 1.0) < 1e-3 &&
+         sample.linear_rate.norm() <= kMostOfSample && sample.angular_rate.norm() <= kMostOfSample;
 }
 
 }  // namespace firstcontact::detail

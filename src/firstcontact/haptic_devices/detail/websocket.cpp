@@ -225,6 +225,8 @@ std::optional<HttpHead> http_head(std::string_view bytes) {
       head.extensions = value;
     } else if (name == "origin") {
       head.origin = value;
+    } else if (name == "host") {
+      head.host = value;
     }
   }
   return head;

@@ -85,6 +85,7 @@ struct HttpHead {
   std::string version;     ///< Sec-WebSocket-Version.
   std::string extensions;  ///< Sec-WebSocket-Extensions.
   std::string origin;      ///< The page from which a browser connects.
+  std::string host;        ///< The name by which this side is called, with its port.
 };
 
 /// Parses the head of an HTTP message, or gives nothing until its empty line has come.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <firstcontact/haptic_devices/detail/quiet_state.h>
 #include <firstcontact/haptics/detail/god_object_plan.h>
 
 namespace firstcontact::detail {
@@ -19,9 +20,9 @@ bool has_button(const DeviceState& device, int button) noexcept {
 }
 
 bool is_sound(const DeviceState& device) noexcept {
-  return device.X_DH.position.allFinite() && device.X_DH.rotation.coeffs().allFinite() &&
-         device.X_DH.rotation.squaredNorm() > 0.0 && device.linear_rate.allFinite() &&
-         device.angular_rate.allFinite();
+  return device.X_DH.position.norm() <= kMostOfSample &&
+         device.X_DH.rotation.coeffs().allFinite() && device.X_DH.rotation.squaredNorm() > 0.0 &&
+         device.linear_rate.norm() <= kMostOfSample && device.angular_rate.norm() <= kMostOfSample;
 }
 
 Eigen::Quaterniond turn_by(const Vector3d& rotation_vector) noexcept {
