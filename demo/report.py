@@ -104,7 +104,8 @@ def of_session(folder: pathlib.Path, name: str, text: str) -> dict:
 
 
 def of_plan(name: str, path: dict, text: str) -> dict:
-    moves = path["moves"].get("robot") or path["moves"]["body"]
+    movers = path["moves"]
+    moves = movers.get("robot") or movers.get("body") or " and ".join(movers["robots"])
     proven = "json: proven: " in text
     tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
     clearance = f", apart by > {length(path['clearance'])}" if path["clearance"] else ""

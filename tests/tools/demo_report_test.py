@@ -95,6 +95,11 @@ class Report(unittest.TestCase):
         self.assertEqual(cards.links["contact"], ["contact.json"])
         self.assertEqual(set(cards.links["run"]), {"run.html", "run.jsonl"})
 
+    def test_names_all_that_moves_in_a_path(self):
+        for moves, title in (({"robot": "arm"}, "arm"), ({"robots": ["left", "right"]}, "left and right")):
+            facts = report.of_plan("path", {**PATH, "moves": moves}, "")
+            self.assertEqual(facts["title"], f"A path of {title}")
+
     def test_calls_a_path_verified_only_where_it_is(self):
         cards, _ = self.cards()
         for text in ("A path of a cart", "Planned, verified", "2 edges, apart by > 250 mm", "4 pairs tested"):
