@@ -219,18 +219,19 @@ TEST(Ompl, GivesALastValidStateThatIsProven) {
   EXPECT_GT(blocked, 50);
 }
 
-TEST(Ompl, PlansForABody) {
+/// Lets RRT-Connect lead a body through the window of a wall, and proves what it densifies.
+template <class Space>
+void expect_path_through_window(const PlanScene& scene, double turn) {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  const PlanScene scene = with_bar(thin_wall(0.4), {0.05, 0.3, 0.05});
   const Proven proven(scene, Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
   const OmplStates states(*proven.space, proven.edges->space());
   auto problem = std::make_shared<ob::ProblemDefinition>(proven.si);
-  ob::ScopedState<ob::SE3StateSpace> start(proven.space);
+  ob::ScopedState<Space> start(proven.space);
   start->setXYZ(-0.8, 1.0, 0.0);
   start->rotation().setIdentity();
-  ob::ScopedState<ob::SE3StateSpace> goal(proven.space);
+  ob::ScopedState<Space> goal(proven.space);
   goal->setXYZ(0.8, 1.0, 0.0);
-  goal->rotation().setAxisAngle(0.0, 0.0, 1.0, 0.5);
+  goal->rotation().setAxisAngle(0.0, 0.0, 1.0, turn);
   problem->setStartAndGoalStates(start, goal, 1e-6);
   og::RRTConnect planner(proven.si);
   planner.setProblemDefinition(problem);
@@ -238,6 +239,7 @@ TEST(Ompl, PlansForABody) {
   planner.solve(ob::timedPlannerTerminationCondition(10.0));
   ASSERT_TRUE(problem->hasExactSolution());
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+  path->interpolate();
   const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
   for (std::size_t k = 0; k + 1 < path->getStateCount(); ++k) {
     EXPECT_EQ(strict
@@ -246,6 +248,10 @@ TEST(Ompl, PlansForABody) {
                   .verdict,
               EdgeVerdict::free);
   }
+}
+
+TEST(Ompl, PlansForABody) {
+  expect_path_through_window<ob::SE3StateSpace>(with_bar(thin_wall(0.4), {0.05, 0.3, 0.05}), 0.5);
 }
 
 /// A small cube among bodies, whose edges are screws.
@@ -319,33 +325,7 @@ TEST(Screws, AreNoStraightEdges) {
 }
 
 TEST(Screws, LeadAPlannerThroughAWindow) {
-  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  const PlanScene scene = with_screws(thin_wall(0.4));
-  const Proven proven(scene, Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
-  const OmplStates states(*proven.space, proven.edges->space());
-  auto problem = std::make_shared<ob::ProblemDefinition>(proven.si);
-  ob::ScopedState<ScrewStateSpace> start(proven.space);
-  start->setXYZ(-0.8, 1.0, 0.0);
-  start->rotation().setIdentity();
-  ob::ScopedState<ScrewStateSpace> goal(proven.space);
-  goal->setXYZ(0.8, 1.0, 0.0);
-  goal->rotation().setAxisAngle(0.0, 0.0, 1.0, 2.5);
-  problem->setStartAndGoalStates(start, goal, 1e-6);
-  og::RRTConnect planner(proven.si);
-  planner.setProblemDefinition(problem);
-  planner.setup();
-  planner.solve(ob::timedPlannerTerminationCondition(10.0));
-  ASSERT_TRUE(problem->hasExactSolution());
-  const auto path = std::dynamic_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
-  path->interpolate();  // What is densified is proven, too.
-  const EdgeChecker strict(scene, {.tolerance = 1e-10, .extra_clearance = 0.0});
-  for (std::size_t k = 0; k + 1 < path->getStateCount(); ++k) {
-    EXPECT_EQ(strict
-                  .check(states.read(path->getState(static_cast<unsigned int>(k))),
-                         states.read(path->getState(static_cast<unsigned int>(k + 1))))
-                  .verdict,
-              EdgeVerdict::free);
-  }
+  expect_path_through_window<ScrewStateSpace>(with_screws(thin_wall(0.4)), 2.5);
 }
 
 TEST(Ompl, RefusesSpacesWhoseEdgesAreOthers) {

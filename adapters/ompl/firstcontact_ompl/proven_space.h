@@ -16,7 +16,6 @@
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 
-#include <firstcontact/motion/motion.h>
 #include <firstcontact/planning/configuration_space.h>
 
 #include "firstcontact_ompl/screw_space.h"
@@ -25,11 +24,11 @@ namespace firstcontact {
 
 /// Reads states of an OMPL space as configurations of a space here.
 ///
-/// A body has an SE3StateSpace: straight lines with slerp on both sides; or, where its edges are
-/// screws, a ScrewStateSpace. Joints have
-/// RealVectorStateSpaces, and SO2StateSpaces for those that go the short way round, in the order of
-/// the coordinates; several are joined by a CompoundStateSpace, whatever its weights. All other
-/// spaces, those that derive from these among them, are refused: their edges may be other curves.
+/// A body has an SE3StateSpace: straight lines with slerp on both sides. Where its edges are screws
+/// it has a ScrewStateSpace. Joints have RealVectorStateSpaces, and SO2StateSpaces for those that
+/// go the short way round, in the order of the coordinates; several are joined by a
+/// CompoundStateSpace, whatever its weights. All other spaces, those that derive from these among
+/// them, are refused: their edges may be other curves.
 class OmplStates {
  public:
   /// @throws std::invalid_argument  names the type of the space, or the coordinate, that does not

@@ -222,8 +222,8 @@ struct Haply::Data {
 
   /// Of the thread; the lock of the report is taken only where the problem is another one.
   void set_problem(const std::string& problem) {
-    if (problem != said) {
-      said = problem;
+    if (problem != reported) {
+      reported = problem;
       report.set_problem(problem);
     }
   }
@@ -362,8 +362,8 @@ struct Haply::Data {
   // In an order without gaps.
   MailSlot<DeviceState> states;
   MailSlot<TimedForce> commands;
-  DeviceState state;  // Of the thread.
-  std::string said;   // So, too: the problem of the report.
+  DeviceState state;     // Of the thread.
+  std::string reported;  // So, too: the problem of the report.
   HaplyOptions options;
   detail::HaplyChoice choice;
   DeviceCapabilities capabilities;

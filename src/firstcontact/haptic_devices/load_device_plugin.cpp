@@ -184,12 +184,12 @@ class PluginDevice : public Device {
     Sample sample{};
     functions_.read(device_, now_ns, &sample);
     const DeviceState state = plugin_state(sample);
-    said_.store(state.status, std::memory_order_relaxed);
+    newest_status_.store(state.status, std::memory_order_relaxed);
     if (state.status != DeviceStatus::live) {
       return detail::quiet(last_, state.status);
     }
     if (!sensible(state)) {
-      said_.store(DeviceStatus::silent, std::memory_order_relaxed);
+      newest_status_.store(DeviceStatus::silent, std::memory_order_relaxed);
       malformed_.fetch_add(1, std::memory_order_relaxed);
       return detail::quiet(last_, DeviceStatus::lost);
     }
@@ -215,7 +215,7 @@ class PluginDevice : public Device {
   }
 
   [[nodiscard]] std::string problem() const override {
-    switch (said_.load()) {
+    switch (newest_status_.load()) {
       case DeviceStatus::live:
         return {};
       case DeviceStatus::silent:
@@ -242,8 +242,8 @@ class PluginDevice : public Device {
   DeviceState last_;
   std::atomic<std::uint64_t> samples_{0};
   std::atomic<std::uint64_t> malformed_{0};
-  /// What the plug-in said last; silent where that made no sense.
-  std::atomic<DeviceStatus> said_{DeviceStatus::live};
+  /// That the plug-in gave; silent where its sample made no sense.
+  std::atomic<DeviceStatus> newest_status_{DeviceStatus::live};
 };
 
 }  // namespace

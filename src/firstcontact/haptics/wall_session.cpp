@@ -302,14 +302,14 @@ WallSessionReport run_wall_session(
     }
   }
   hand_over(*shared, on_tick, on_cycle);
+  report.unread_ticks = shared->ticks.dropped();
+  if (report.granted.locked_memory) {
+    detail::unlock_memory();
+  }
   for (const std::exception_ptr& failure : shared->failures) {
     if (failure) {
       std::rethrow_exception(failure);
     }
-  }
-  report.unread_ticks = shared->ticks.dropped();
-  if (report.granted.locked_memory) {
-    detail::unlock_memory();
   }
   return report;
 }

@@ -82,7 +82,9 @@ class FIRSTCONTACT_API ConfigurationSpace {
   ///
   /// @param names   of the robots; coordinates are called ROBOT/NAME
   /// @param spaces  of joints of one robot each, as many as names
-  /// @throws std::invalid_argument if there is no space, one for each name, or one is of a body
+  /// @throws std::invalid_argument if there are no spaces, or not one for each name; if a space is
+  /// of
+  ///         a body or of several robots
   static ConfigurationSpace joined(std::span<const std::string> names,
                                    std::span<const ConfigurationSpace> spaces);
 

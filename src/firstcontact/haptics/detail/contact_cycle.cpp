@@ -51,8 +51,8 @@ double ContactLoop::Implementation::gain_of(const detail::ToolDisplacements& way
 /// [s]  The part of a slot in which all courses are straight, to half the contact distance.
 double ContactLoop::Implementation::straight_slot(double slot) const {
   const double begin = time_ + now_;
-  const double from = std::min(1.0, begin / scene_.duration);
-  const double to = std::min(1.0, (begin + slot) / scene_.duration);
+  const double from = share(begin);
+  const double to = share(begin + slot);
   if (bends_.empty() || !(from < to)) {
     return slot;
   }
@@ -73,8 +73,8 @@ void ContactLoop::Implementation::set_courses(double slot) {
     courses_[m] = {};
     if (has_course(m)) {
       const Motion& course = *body_of(m).course;
-      const double from = std::min(1.0, (time_ + now_) / scene_.duration);
-      const double to = std::min(1.0, (time_ + now_ + slot) / scene_.duration);
+      const double from = share(time_ + now_);
+      const double to = share(time_ + now_ + slot);
       courses_[m].translation = course.pose(to).position - poses_[m].position;
       courses_[m].rotation_vector =
           detail::rotation_along(course, from, to, poses_[m].rotation.normalized());
@@ -286,7 +286,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
   begin_cycle(dt);
   const double least_gain = detail::kLeastGain * distance_;
   bool goes_on = true;
-  double share = 1.0;  // Of the time that courses go on in a round.
+  double part = 1.0;  // Of the time that courses go on in a round.
   for (std::size_t round = 0; round < options_.rounds && now_ < dt && goes_on; ++round) {
     if (deadline && round > 0 && std::chrono::steady_clock::now() >= *deadline) {
       cycle_.is_late = true;
@@ -296,7 +296,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     find_contacts();
     const bool is_last = round + 1 == options_.rounds;
     const double straight = straight_slot(left);
-    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * share * straight;
+    double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * part * straight;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
     detail::GodObjectPlan plan = plan_within_turn(ways);
@@ -306,14 +306,14 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
       cycle_.is_converged = true;
       break;
     }
-    if (!gains && slot < straight && share == 1.0) {  // Only the courses are left: all of them.
+    if (!gains && slot < straight && part == 1.0) {  // Only the courses are left: all of them.
       slot = straight;
       set_courses(slot);
       plan = plan_within_turn(ways);
     }
     if (are_courses_moving_ &&
         !detail::keeps_apart(plan, frames_, planned_, detail::kSlackOfRoom * distance_)) {
-      share *= detail::kShareWithoutRoom;
+      part *= detail::kShareWithoutRoom;
       continue;
     }
     const double made = execute(plan, slot, dt, deadline);

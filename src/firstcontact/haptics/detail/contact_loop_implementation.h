@@ -48,9 +48,8 @@ class ContactLoop::Implementation {
   [[nodiscard]] bool has_course(std::size_t member) const {
     return member >= tools() && body_of(member).course.has_value();
   }
-  [[nodiscard]] Pose on_course(std::size_t member, double time) const {
-    return body_of(member).course->pose(std::min(1.0, time / scene_.duration));
-  }
+  /// [-]  Of the courses, at a time of the session.
+  [[nodiscard]] double share(double time) const { return std::min(1.0, time / scene_.duration); }
   [[nodiscard]] Vector3d centre(std::size_t tool) const {
     return poses_[tool].position + poses_[tool].rotation.normalized() * scene_.tools[tool].p_BC;
   }

@@ -7,9 +7,10 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/motion/detail/turn.h>
+
 namespace firstcontact::detail {
 
-using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
@@ -29,15 +30,8 @@ constexpr double kOffCourse = 1e-3;
 /// [-]  Of a part: no division leaves less of it, as forces over no time are no forces.
 constexpr double kLeastShare = 0.01;
 
-Quaterniond turned(const Vector3d& rotation_vector, const Quaterniond& rotation) {
-  const double angle = rotation_vector.norm();
-  return angle > 0.0 ? Quaterniond(AngleAxisd(angle, rotation_vector / angle)) * rotation
-                     : rotation;
-}
-
 Vector3d shortest_turn(const Quaterniond& from, const Quaterniond& to) {
-  const AngleAxisd way(to * from.conjugate());
-  return way.angle() * way.axis();
+  return nearest_turn(to * from.conjugate(), Vector3d::Zero());
 }
 
 /// The straight piece, and how far a motion is from it.
@@ -59,7 +53,7 @@ class Chord {
     const double share = (t - from_) / length_;
     const Pose there = motion_.pose(t);
     return {(there.position - begin_.position - share * travel_).norm(),
-            there.rotation.angularDistance(turned(share * turn_, begin_.rotation))};
+            there.rotation.angularDistance(turn(share * turn_) * begin_.rotation)};
   }
 
   /// [rad per step]  The difference of the two rates in a piece of the motion.
@@ -125,7 +119,7 @@ Vector3d rotation_along(const Motion& motion, double from, double to, const Quat
   const Vector3d along = rotation_between(motion, from, to);
   const Quaterniond there = motion.pose(to).rotation;
   const double angle = along.norm();
-  const Vector3d beside = shortest_turn(turned(along, rotation), there);
+  const Vector3d beside = shortest_turn(turn(along) * rotation, there);
   if (angle < kShort || beside.norm() > kOffCourse) {
     return shortest_turn(rotation, there);
   }

@@ -24,8 +24,8 @@ struct ScriptedMotion {
 /// The rotation vector that leads a body to where its motion is, also from where it is that fell
 /// back behind it: then by the shortest way.
 ///
-/// A turn of less than 3 rad leads there but for rounding. Of a longer one, only what a body is
-/// beside its motion about the axis is made good.
+/// A turn of less than 3 rad leads there, but for rounding. A longer turn keeps its axis: it makes
+/// good where the body is behind or ahead about that axis, and nothing else.
 ///
 /// @param rotation  of the body now
 [[nodiscard]] Eigen::Vector3d rotation_along(const Motion& motion, double from, double to,

@@ -13,8 +13,8 @@
 
 namespace firstcontact::detail {
 
-/// Of each robot of the question: the joints that the question or a goal names, as the robot calls
-/// them, without those that mimic others.
+/// The joints that the question or a goal names, for each robot of the question. They have the
+/// names of the robot; joints that mimic others are left out.
 [[nodiscard]] std::vector<std::vector<std::string>> planned_joints(const Scene& scene,
                                                                    const PlanQuestion& question);
 
