@@ -27,16 +27,20 @@ HapticLive::HapticLive(const HapticSetup& setup, std::size_t tool) : setup_(setu
   for (const HapticTool& each : setup.scene.tools) {
     poses_.emplace_back(each.X_WB);
   }
-  poses_.resize(setup.bodies.size());
+  for (const HapticBody& body : setup.scene.bodies) {
+    poses_.push_back(body.course ? std::optional(body.course->pose(0.0)) : std::nullopt);
+  }
 }
 
 std::string HapticLive::page(const RunHeader& header, std::string_view page_template) const {
   RunPage still(header);
   RunStep step{.index = 1, .time = kStill, .lasted = kStill};
-  for (std::size_t k = 0; k < setup_.scene.tools.size(); ++k) {
-    const Pose& X_WB = setup_.scene.tools[k].X_WB;
-    step.bodies.push_back(
-        {.body = setup_.bodies[k], .pieces = {{.to = kStill, .X_WB = X_WB}}, .X_WB = X_WB});
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (poses_[k]) {
+      step.bodies.push_back({.body = setup_.bodies[k],
+                             .pieces = {{.to = kStill, .X_WB = *poses_[k]}},
+                             .X_WB = *poses_[k]});
+    }
   }
   still.add(step);
   ShapeCache cache;

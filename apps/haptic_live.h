@@ -40,7 +40,7 @@ class HapticLive {
 
   const HapticSetup& setup_;
   std::size_t tool_;
-  std::vector<std::optional<Pose>> poses_;  // X_WB of each member that has moved, and of tools.
+  std::vector<std::optional<Pose>> poses_;  // X_WB of tools, and of members that move.
   std::vector<HapticTouch> touches_;
   std::int64_t shown_ns_ = 0;
 };

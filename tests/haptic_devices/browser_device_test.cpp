@@ -1,7 +1,11 @@
 #include <firstcontact/haptic_devices/browser_device.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -130,6 +134,55 @@ TEST(BrowserDevice, AnswersToItsOwnNameOnly) {
   EXPECT_TRUE(get("").starts_with("HTTP/1.1 403"));
   EXPECT_TRUE(FakePage(device.port(), "http://evil.example" + port, "evil.example")
                   .answer.starts_with("HTTP/1.1 403"));
+}
+
+// Pictures that the page does not take must not hold back its poses.
+TEST(BrowserDevice, FollowsAPageThatTakesNoPictures) {
+  BrowserDevice device;
+  device.serve("a page");
+  FakePage page(device.port());
+  const std::string large(1'000'000, ' ');
+  for (std::uint64_t k = 1; k <= 50; ++k) {
+    device.show(large);
+    page.send(R"({"position": [1, 2, 3], "rotation": [1, 0, 0, 0]})");
+    ASSERT_TRUE(eventually([&] { return device.counts().samples == k; })) << k;
+  }
+  device.show("the last picture");
+  std::string seen;
+  while (seen.find("the last picture") == std::string::npos) {
+    seen = seen.substr(seen.size() - std::min<std::size_t>(seen.size(), 100));
+    const std::string more = page.receive();
+    ASSERT_FALSE(more.empty());
+    seen += more;
+  }
+}
+
+TEST(BrowserDevice, LeavesSidesThatSayNothing) {
+  BrowserDevice device;
+  device.serve("a page");
+  detail::StopSignal stop;
+  std::string problem;
+  std::vector<detail::FileDescriptor> silent;
+  for (int k = 0; k < 16; ++k) {
+    silent.push_back(detail::connect_tcp("localhost", device.port(), stop,
+                                         steady_now_ns() + 20'000'000'000, problem));
+    ASSERT_TRUE(silent.back().is_open()) << problem;
+  }
+  const FakePage page(device.port());
+  EXPECT_TRUE(page.answer.starts_with("HTTP/1.1 101")) << page.answer;
+}
+
+TEST(Sockets, EndALookUpOfAName) {
+  std::string problem;
+  detail::StopSignal stop;
+  EXPECT_FALSE(detail::connect_tcp("no-such-host.invalid", 1, stop,
+                                   steady_now_ns() + 20'000'000'000, problem)
+                   .is_open());
+  EXPECT_FALSE(problem.empty());
+  stop.set();
+  EXPECT_FALSE(detail::connect_tcp("127.0.0.1", 1, stop, steady_now_ns() + 20'000'000'000, problem)
+                   .is_open());
+  EXPECT_EQ(problem, "no answer about its name in time");
 }
 
 TEST(BrowserDevice, NamesAPortThatIsTaken) {

@@ -33,6 +33,8 @@ export class Run {
   readonly ends: Float64Array;
   /// [N] The greatest contact force of each step.
   readonly greatestForces: readonly number[];
+  /// Whether there was any energy or force: the way of a haptic tool has neither.
+  readonly hasDynamics: boolean;
   /// [W] Of all motors together in each step, negative where they brake; none without motors.
   readonly motorPowers: readonly number[] | null;
 
@@ -49,6 +51,9 @@ export class Run {
     this.all = contacts;
     this.ends = Float64Array.from(steps, ({ time }) => time / this.duration);
     this.greatestForces = steps.map((_, step) => this.greatestForce(step));
+    this.hasDynamics =
+      this.greatestForces.some(Boolean) ||
+      steps.some((step) => step.kinetic_energy !== 0 || step.potential_energy !== 0);
     this.impacts = steps.flatMap((_, step) => this.impactsIn(step)).sort((a, b) => a.t - b.t);
     const hasMotors = steps.some(({ robots }) =>
       robots?.some(({ efforts }) => efforts.some(Boolean)),

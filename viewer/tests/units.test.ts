@@ -8,6 +8,7 @@ import { momentOf } from "../src/link";
 import { sharedBeginnings } from "../src/names";
 import { noneOf, pairFacts, untestedText } from "../src/panels/pair_facts";
 import { runCharts } from "../src/panels/run_charts";
+import { verdictOf } from "../src/panels/verdict";
 import { Player } from "../src/player";
 import { Run } from "../src/run";
 import { featureEdges } from "../src/view/feature_edges";
@@ -55,7 +56,12 @@ describe("quantities", () => {
 });
 
 describe("a run", () => {
-  const run = (efforts: number[][], velocities: number[][], impulses: Vector3[] = []): Run =>
+  const run = (
+    efforts: number[][],
+    velocities: number[][],
+    impulses: Vector3[] = [],
+    energy = 1,
+  ): Run =>
     new Run({
       header: {
         scene: { simulation: { duration: 2, gravity: [0, 0, -9.81] } },
@@ -67,7 +73,7 @@ describe("a run", () => {
         lasted: 1,
         time_lost: 0,
         clearance: null,
-        kinetic_energy: 1,
+        kinetic_energy: energy,
         potential_energy: 0,
         linear_momentum: [0, 0, 0],
         angular_momentum: [0, 0, 0],
@@ -142,6 +148,19 @@ describe("a run", () => {
     const names = runCharts(free).map(({ name }) => name);
     expect(names).not.toContain("power of motors");
     expect(names).not.toContain("greatest impact");
+    expect(names).toContain("kinetic energy");
+  });
+
+  test("of a haptic tool has neither energy nor forces", () => {
+    const still = [[0], [0]];
+    const felt = run(still, still, [], 0);
+    expect(felt.hasDynamics).toBe(false);
+    const names = runCharts(felt).map(({ name }) => name);
+    expect(names).toContain("contacts");
+    expect(names).not.toContain("kinetic energy");
+    expect(names).not.toContain("greatest contact force");
+    expect(verdictOf({ result: null, run: felt } as never).text).toBe("Recorded");
+    expect(verdictOf({ result: null, run: run(still, still) } as never).text).toBe("Simulated");
   });
 });
 

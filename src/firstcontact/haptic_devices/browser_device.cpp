@@ -1,5 +1,6 @@
 #include <firstcontact/haptic_devices/browser_device.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <list>
@@ -28,10 +29,10 @@ using detail::JsonReader;
 using detail::JsonValue;
 using detail::WebSocketKind;
 
-constexpr std::int64_t kRoundNs = 4'000'000;     // Between looks at the connections.
-constexpr std::int64_t kPictureNs = 16'000'000;  // Between messages to the page.
-constexpr std::int64_t kSendNs = 500'000'000;    // Limit for one answer.
-constexpr std::size_t kMostMessage = 4096;       // [byte]  Of a pose.
+constexpr std::int64_t kRoundNs = 4'000'000;      // Between looks at the connections.
+constexpr std::int64_t kPictureNs = 16'000'000;   // Between messages to the page.
+constexpr std::int64_t kStillNs = 2'000'000'000;  // After which a side that takes nothing is left.
+constexpr std::size_t kMostMessage = 4096;        // [byte]  Of a pose.
 constexpr std::size_t kMostConnections = 16;
 
 const std::string& page_name() {
@@ -79,9 +80,14 @@ Pose handle_of(std::string_view text) {
 struct BrowserDevice::Data {
   struct Connection {
     detail::FileDescriptor socket;
-    std::string request;
-    std::optional<detail::WebSocketReader> reader;  // Once it is a WebSocket.
-    bool closed = false;
+    std::string request = {};
+    std::optional<detail::WebSocketReader> reader = {};  // Once it is a WebSocket.
+    std::string left = {};                               // To send.
+    std::int64_t moved_ns = steady_now_ns();             // When it last said or took something.
+    bool ends = false;                                   // Once all is sent.
+    bool closed = false;                                 // Nothing more is read or sent.
+
+    [[nodiscard]] bool is_page() const { return reader && !ends && !closed; }
   };
 
   explicit Data(const BrowserDeviceOptions& options) {
@@ -97,10 +103,6 @@ struct BrowserDevice::Data {
     report.set_problem("no page is open yet");
   }
 
-  bool send(const Connection& connection, std::string_view bytes) {
-    return detail::send_all(connection.socket, bytes, stop, steady_now_ns() + kSendNs);
-  }
-
   /// Whether a request is to this machine by its own name, through a tunnel or not, and from a page
   /// of this device or from a program. Other names may be those of pages that were led here.
   [[nodiscard]] static bool is_own(const detail::HttpHead& head) {
@@ -112,39 +114,36 @@ struct BrowserDevice::Data {
   }
 
   [[nodiscard]] bool has_page() const {
-    for (const Connection& connection : connections) {
-      if (connection.reader && !connection.closed) {
-        return true;
-      }
-    }
-    return false;
+    return std::ranges::any_of(connections, &Connection::is_page);
+  }
+
+  /// Ends a connection with an answer.
+  static void end(Connection& connection, const char* status, std::string_view text) {
+    connection.left += http_answer(status, text);
+    connection.ends = true;
   }
 
   void answer(Connection& connection, const detail::HttpHead& head) {
     if (!is_own(head)) {
-      connection.closed = true;
-      (void)send(connection,
-                 http_answer("403 Forbidden", "this page is for 127.0.0.1 and localhost only"));
+      end(connection, "403 Forbidden", "this page is for 127.0.0.1 and localhost only");
       return;
     }
     const auto shakes_hands = detail::websocket_answer(head);
-    if (head.first_line.starts_with("GET /live ") && shakes_hands) {
-      if (has_page()) {
-        connection.closed = true;
-        (void)send(connection, http_answer("403 Forbidden", "another page moves the tool"));
-        return;
-      }
-      connection.reader.emplace(detail::WebSocketSide::server, kMostMessage);
-      connection.reader->add(std::string_view(connection.request).substr(head.size));
-      connection.closed = !send(connection, *shakes_hands);
-      ++report.connections;
-      report.set_problem("the page has not moved the tool yet");
+    if (!head.first_line.starts_with("GET /live ") || !shakes_hands) {
+      const bool is_page = head.first_line.starts_with("GET / ");
+      end(connection, is_page ? "200 OK" : "404 Not Found",
+          is_page ? page : "there is a page at / only");
       return;
     }
-    connection.closed = true;
-    const bool is_page = head.first_line.starts_with("GET / ");
-    (void)send(connection, is_page ? http_answer("200 OK", page)
-                                   : http_answer("404 Not Found", "there is a page at / only"));
+    if (has_page()) {
+      end(connection, "403 Forbidden", "another page moves the tool");
+      return;
+    }
+    connection.reader.emplace(detail::WebSocketSide::server, kMostMessage);
+    connection.reader->add(std::string_view(connection.request).substr(head.size));
+    connection.left += *shakes_hands;
+    ++report.connections;
+    report.set_problem("the page has not moved the tool yet");
   }
 
   void take(const std::string& text) {
@@ -166,7 +165,11 @@ struct BrowserDevice::Data {
     std::array<char, 16'384> buffer{};
     const detail::Received received = detail::receive(connection.socket, buffer);
     const std::string_view bytes(buffer.data(), received.count);
+    if (connection.ends) {
+      return;  // A side that says no more may still take its answer.
+    }
     connection.closed = !received.open;
+    connection.moved_ns = received.count > 0 ? steady_now_ns() : connection.moved_ns;
     if (!connection.reader) {
       connection.request.append(bytes);
       if (const auto head = detail::http_head(connection.request)) {
@@ -181,7 +184,7 @@ struct BrowserDevice::Data {
       if (message->kind == WebSocketKind::text) {
         take(message->payload);
       } else if (message->kind == WebSocketKind::ping) {
-        (void)send(connection, detail::websocket_frame(WebSocketKind::pong, message->payload, {}));
+        connection.left += detail::websocket_frame(WebSocketKind::pong, message->payload, {});
       } else if (message->kind == WebSocketKind::close) {
         connection.closed = true;
       }
@@ -189,16 +192,36 @@ struct BrowserDevice::Data {
     connection.closed = connection.closed || !connection.reader->failure().empty();
   }
 
-  void show_newest() {
-    std::string text;
-    {
-      const std::lock_guard lock(mutex);
-      text = std::exchange(picture, {});
+  /// Sends what goes at once, and gives up a side that has taken or said nothing for long. An open
+  /// page may be silent.
+  static void send(Connection& connection) {
+    const std::int64_t now = steady_now_ns();
+    if (!connection.left.empty() && !connection.closed) {
+      const std::optional<std::size_t> sent = detail::send_some(connection.socket, connection.left);
+      connection.closed = !sent;
+      connection.left.erase(0, sent.value_or(0));
+      connection.moved_ns = sent.value_or(0) > 0 ? now : connection.moved_ns;
     }
+    const bool is_done = connection.left.empty();
+    const bool waits = !is_done || !connection.reader;
+    connection.closed = connection.closed || (connection.ends && is_done) ||
+                        (waits && now - connection.moved_ns > kStillNs);
+  }
+
+  /// Gives the newest picture to a page that has taken all before it.
+  void show_newest() {
     for (Connection& connection : connections) {
-      if (connection.reader && !connection.closed && !text.empty()) {
-        connection.closed =
-            !send(connection, detail::websocket_frame(WebSocketKind::text, text, {}));
+      if (!connection.is_page() || !connection.left.empty()) {
+        continue;
+      }
+      std::string text;
+      {
+        const std::lock_guard lock(mutex);
+        text = std::exchange(picture, {});
+      }
+      if (!text.empty()) {
+        connection.left = detail::websocket_frame(WebSocketKind::text, text, {});
+        connection.moved_ns = steady_now_ns();
       }
     }
   }
@@ -206,9 +229,11 @@ struct BrowserDevice::Data {
   void run() {
     std::int64_t shown_ns = steady_now_ns();
     while (detail::wait_for(stop, steady_now_ns() + kRoundNs) != detail::WaitEnd::stopped) {
-      detail::FileDescriptor socket = detail::accept_one(listener);
-      if (socket.is_open() && connections.size() < kMostConnections) {
-        connections.push_back({.socket = std::move(socket), .request = {}, .reader = {}});
+      if (connections.size() < kMostConnections) {  // Else they wait.
+        detail::FileDescriptor socket = detail::accept_one(listener);
+        if (socket.is_open()) {
+          connections.push_back({.socket = std::move(socket)});
+        }
       }
       const bool had_page = has_page();
       for (Connection& connection : connections) {
@@ -218,6 +243,7 @@ struct BrowserDevice::Data {
         shown_ns = steady_now_ns();
         show_newest();
       }
+      std::ranges::for_each(connections, send);
       if (had_page && !has_page()) {
         state = detail::quiet(state, DeviceStatus::lost);
         report.set_problem("the page was closed");

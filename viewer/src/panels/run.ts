@@ -29,9 +29,13 @@ function facts(model: Model, run: Run): [string, string][] {
     ...(impulses.length > 0
       ? [["Greatest impact", impulseText(most(impulses))] as [string, string]]
       : []),
-    ["Greatest contact force", forceText(most(run.greatestForces))],
-    ["Energy after step 1", energyText(energies[0]!)],
-    ["Energy at the end", energyText(energies.at(-1)!)],
+    ...(run.hasDynamics
+      ? ([
+          ["Greatest contact force", forceText(most(run.greatestForces))],
+          ["Energy after step 1", energyText(energies[0]!)],
+          ["Energy at the end", energyText(energies.at(-1)!)],
+        ] as [string, string][])
+      : []),
     ["Time lost", lost > 0 ? timeText(lost) : "none"],
     ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`],
     ["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")],

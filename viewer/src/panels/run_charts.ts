@@ -141,10 +141,17 @@ function power(run: Run): RunChart[] {
   return powers ? [amount(run, "power of motors", powerUnit, (_, k) => powers[k]!)] : [];
 }
 
+const dynamic = (run: Run): RunChart[] =>
+  run.hasDynamics
+    ? [
+        energy(run),
+        amount(run, "greatest contact force", forceUnit, (_, k) => run.greatestForces[k]!),
+      ]
+    : [];
+
 export const runCharts = (run: Run): RunChart[] => [
-  energy(run),
+  ...dynamic(run),
   amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
-  amount(run, "greatest contact force", forceUnit, (_, k) => run.greatestForces[k]!),
   amount(run, "impacts", ones, ({ events }) => events),
   ...impulse(run),
   ...power(run),

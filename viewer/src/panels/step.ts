@@ -35,11 +35,15 @@ function facts(run: Run, index: number): [string, string][] {
       step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
     ],
     ["Impacts", String(step.events)],
-    ["Greatest contact force", forceText(run.greatestForces[index]!)],
-    ["Kinetic energy", energyText(step.kinetic_energy)],
-    ["Potential energy", energyText(step.potential_energy)],
-    ["Momentum", sizeText(step.linear_momentum, "kg m/s")],
-    ["Angular momentum", sizeText(step.angular_momentum, "kg m²/s")],
+    ...(run.hasDynamics
+      ? ([
+          ["Greatest contact force", forceText(run.greatestForces[index]!)],
+          ["Kinetic energy", energyText(step.kinetic_energy)],
+          ["Potential energy", energyText(step.potential_energy)],
+          ["Momentum", sizeText(step.linear_momentum, "kg m/s")],
+          ["Angular momentum", sizeText(step.angular_momentum, "kg m²/s")],
+        ] as [string, string][])
+      : []),
     ["Residual", `${number(step.residual, 2)} m/s`],
   ];
 }

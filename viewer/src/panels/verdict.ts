@@ -23,10 +23,10 @@ export function verdictOf({ result, run }: Model): Verdict {
   if (result) {
     return { kind: result.verdict, text: words[result.verdict] };
   }
-  const isWhole = run?.isWhole ?? false;
-  return isWhole
-    ? { kind: "free", text: "Simulated" }
-    : { kind: "undecided", text: "Stopped early" };
+  if (!run?.isWhole) {
+    return { kind: "undecided", text: "Stopped early" };
+  }
+  return { kind: "free", text: run.hasDynamics ? "Simulated" : "Recorded" };
 }
 
 /// "98 pairs tested", "2 warnings"; a result of an earlier version does not count its pairs.

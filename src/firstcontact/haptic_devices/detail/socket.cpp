@@ -12,10 +12,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <memory>
 #include <system_error>
+#include <thread>
 
 #include <firstcontact/haptic_devices/device.h>
 
@@ -65,6 +68,41 @@ FileDescriptor connect_address(const addrinfo& address, const StopSignal& stop,
   const int on = 1;  // Small messages leave at once.
   ::setsockopt(socket.number(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   return socket;
+}
+
+/// The addresses of a host, once the event `done` can be read.
+struct HostLookup {
+  HostLookup() : done(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (!done.is_open()) {
+      throw std::system_error(errno, std::generic_category(), "eventfd");
+    }
+  }
+  ~HostLookup() {
+    if (addresses != nullptr) {
+      ::freeaddrinfo(addresses);
+    }
+  }
+  HostLookup(const HostLookup&) = delete;
+  HostLookup& operator=(const HostLookup&) = delete;
+
+  FileDescriptor done;
+  std::atomic<bool> is_done{false};
+  addrinfo* addresses = nullptr;
+  int error = 0;
+};
+
+/// Looks a host up on a thread of its own: the system gives no look-up that can be ended.
+std::shared_ptr<HostLookup> look_up(const std::string& host, std::uint16_t port) {
+  auto lookup = std::make_shared<HostLookup>();
+  std::thread([lookup, host, service = std::to_string(port)] {
+    addrinfo wanted{};
+    wanted.ai_socktype = SOCK_STREAM;
+    lookup->error = ::getaddrinfo(host.c_str(), service.c_str(), &wanted, &lookup->addresses);
+    lookup->is_done.store(true, std::memory_order_release);
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const ssize_t written = ::write(lookup->done.number(), &one, sizeof one);
+  }).detach();
+  return lookup;
 }
 
 }  // namespace
@@ -124,20 +162,27 @@ FileDescriptor connect_local(const std::string& path, std::string& problem) {
 
 FileDescriptor connect_tcp(const std::string& host, std::uint16_t port, const StopSignal& stop,
                            std::int64_t until_ns, std::string& problem) {
-  addrinfo wanted{};
-  wanted.ai_socktype = SOCK_STREAM;
-  addrinfo* addresses = nullptr;
-  const int error = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &addresses);
-  if (error != 0) {
-    problem = ::gai_strerror(error);
+  std::shared_ptr<HostLookup> lookup;
+  try {
+    lookup = look_up(host, port);
+  } catch (const std::system_error& error) {  // Neither a descriptor nor a thread is left.
+    problem = error.what();
+    return FileDescriptor();
+  }
+  if (wait_for(lookup->done, WaitFor::reading, stop, until_ns) != WaitEnd::ready ||
+      !lookup->is_done.load(std::memory_order_acquire)) {
+    problem = "no answer about its name in time";
+    return FileDescriptor();
+  }
+  if (lookup->error != 0) {
+    problem = ::gai_strerror(lookup->error);
     return FileDescriptor();
   }
   FileDescriptor socket;
-  for (const addrinfo* address = addresses; address != nullptr && !socket.is_open();
+  for (const addrinfo* address = lookup->addresses; address != nullptr && !socket.is_open();
        address = address->ai_next) {
     socket = connect_address(*address, stop, until_ns, problem);
   }
-  ::freeaddrinfo(addresses);
   return socket;
 }
 
@@ -166,17 +211,32 @@ FileDescriptor accept_one(const FileDescriptor& listener) noexcept {
       ::accept4(listener.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
 }
 
+std::optional<std::size_t> send_some(const FileDescriptor& socket,
+                                     std::string_view bytes) noexcept {
+  std::size_t sent = 0;
+  while (sent < bytes.size()) {
+    const ssize_t count =
+        ::send(socket.number(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (count > 0) {
+      sent += static_cast<std::size_t>(count);
+    } else if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      return sent;
+    } else if (count == 0 || errno != EINTR) {
+      return std::nullopt;
+    }
+  }
+  return sent;
+}
+
 bool send_all(const FileDescriptor& socket, std::string_view bytes, const StopSignal& stop,
               std::int64_t until_ns) noexcept {
   while (!bytes.empty()) {
-    const ssize_t count = ::send(socket.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (count > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    } else if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-      if (wait_for(socket, WaitFor::writing, stop, until_ns) != WaitEnd::ready) {
-        return false;
-      }
-    } else if (count == 0 || errno != EINTR) {
+    const std::optional<std::size_t> sent = send_some(socket, bytes);
+    if (!sent) {
+      return false;
+    }
+    bytes.remove_prefix(*sent);
+    if (!bytes.empty() && wait_for(socket, WaitFor::writing, stop, until_ns) != WaitEnd::ready) {
       return false;
     }
   }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,7 +62,8 @@ enum class WaitFor { reading, writing };
 /// has the reason.
 [[nodiscard]] FileDescriptor connect_local(const std::string& path, std::string& problem);
 
-/// Connects to a port of TCP, by all addresses that the host has.
+/// Connects to a port of TCP, by all addresses that the host has. A look-up of its name that takes
+/// longer is left to itself.
 [[nodiscard]] FileDescriptor connect_tcp(const std::string& host, std::uint16_t port,
                                          const StopSignal& stop, std::int64_t until_ns,
                                          std::string& problem);
@@ -73,6 +75,10 @@ enum class WaitFor { reading, writing };
 
 /// Takes a connection that waits; a closed descriptor if none does.
 [[nodiscard]] FileDescriptor accept_one(const FileDescriptor& listener) noexcept;
+
+/// Sends what goes without waiting: how many bytes; none if the other side is gone.
+[[nodiscard]] std::optional<std::size_t> send_some(const FileDescriptor& socket,
+                                                   std::string_view bytes) noexcept;
 
 /// Sends all bytes. False if the other side is gone, or the wait ended.
 [[nodiscard]] bool send_all(const FileDescriptor& socket, std::string_view bytes,
