@@ -18,9 +18,9 @@ namespace firstcontact::test {
 class OnInstructionSet : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override { choose(GetParam()); }
-  void TearDown() override { choose(0); }  // All that the processor has.
+  void TearDown() override { choose(0); }
 
- private:
+  /// 0 for all that the processor has.
   static void choose(std::int64_t targets) {
     hwy::SetSupportedTargetsForTest(targets);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
