@@ -26,7 +26,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
 #include "support/narrow_passages.h"

@@ -35,8 +35,7 @@
 #include <firstcontact/scene_files/write_planned_path.h>
 #include <firstcontact/verification/verify_path.h>
 
-#include "benchmarks/robot_check/straight_motion.h"
-#include "benchmarks/support/fcl_robot.h"
+#include "benchmarks/planning/fcl_places.h"
 #include "benchmarks/support/panda_problems.h"
 #include "tests/retiming/retiming_cases.h"
 
@@ -95,17 +94,7 @@ struct Counts {
 class Problem {
  public:
   Problem(ScenePlan scene, const Settings& settings, Counts& counts)
-      : scene_(std::move(scene)),
-        settings_(settings),
-        counts_(counts),
-        kinematics_(scene_.plan.space.model()) {
-    fill(peer_, scene_.plan.scene, sources_of(scene_.loaded.scene));
-    for (const Joint& joint : scene_.plan.space.model().joints()) {
-      const auto& state = scene_.loaded.scene.robots[0].state;
-      const auto found = state.find(joint.name);
-      rest_.push_back(found == state.end() ? default_position(joint) : found->second);
-    }
-  }
+      : scene_(std::move(scene)), settings_(settings), counts_(counts), places_(scene_) {}
 
   void run(std::uint64_t seed) {
     PlanOptions options = scene_.options;
@@ -132,41 +121,19 @@ class Problem {
   }
 
  private:
-  /// The configuration of all joints that a waypoint stands for.
-  [[nodiscard]] Configuration whole(const std::vector<double>& waypoint) const {
-    Configuration q = rest_;
-    const auto coordinates = scene_.plan.space.coordinates();
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      q[coordinates[k].joint] = waypoint[k];
-    }
-    return q;
-  }
-
   bool collides_at(const std::vector<double>& waypoint) {
     ++counts_.samples;
-    return peer_.collides(kinematics_.places(whole(waypoint)));
+    return places_.collide(waypoint);
   }
 
   bool collides(const PlannedPath& path) {
-    for (std::size_t edge = 0; edge + 1 < path.waypoints.size(); ++edge) {
-      const std::vector<double>& a = path.waypoints[edge];
-      const std::vector<double>& b = path.waypoints[edge + 1];
-      double longest = 0.0;
-      for (std::size_t k = 0; k < a.size(); ++k) {
-        longest = std::max(longest, std::abs(b[k] - a[k]));
-      }
-      const int steps = std::max(1, static_cast<int>(std::ceil(longest / kStep)));
-      for (int step = 0; step <= steps; ++step) {
-        std::vector<double> q = a;
-        for (std::size_t k = 0; k < a.size(); ++k) {
-          q[k] += (b[k] - a[k]) * step / steps;
-        }
-        if (collides_at(q)) {
-          return true;
-        }
-      }
+    const std::size_t before = places_.count();
+    bool any = false;
+    for (std::size_t edge = 0; edge + 1 < path.waypoints.size() && !any; ++edge) {
+      any = places_.collide(path.waypoints[edge], path.waypoints[edge + 1], kStep);
     }
-    return false;
+    counts_.samples += static_cast<int>(places_.count() - before);
+    return any;
   }
 
   void retime_all(const std::string& text) {
@@ -224,7 +191,7 @@ class Problem {
     const MemberGeometry& geometry = scene_.plan.scene.geometries(member).front();
     const auto& vertices = geometry.shape.mesh().vertices;
     const Eigen::Vector3d vertex = vertices[random.below(vertices.size())];
-    const Eigen::Isometry3d X_WL = kinematics_.places(whole(q))[link];
+    const Eigen::Isometry3d X_WL = places_.links(q)[link];
     const Eigen::Vector3d place =
         X_WL * Eigen::Vector3d(geometry.X_MG.position + geometry.X_MG.rotation * vertex);
     path.scene.bodies.push_back({.name = "a wall of 10 um",
@@ -247,9 +214,7 @@ class Problem {
   ScenePlan scene_;
   const Settings& settings_;
   Counts& counts_;
-  PlainKinematics kinematics_;
-  FclRobot peer_;
-  Configuration rest_;
+  FclPlaces places_;
   ShapeCache cache_;
 };
 

@@ -20,8 +20,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/scene/shape_cache.h>

@@ -51,9 +51,10 @@ set(public_headers
   firstcontact/scene/sample_gap.h
   firstcontact/scene/scene.h
   firstcontact/scene/version.h
-  firstcontact/planning/configuration_space.h
-  firstcontact/planning/edge_checker.h
-  firstcontact/planning/inverse_kinematics.h
+  firstcontact/edges/configuration_space.h
+  firstcontact/edges/edge_checker.h
+  firstcontact/edges/inverse_kinematics.h
+  firstcontact/planning/contact_ways.h
   firstcontact/planning/plan_path.h
   firstcontact/planning/plan_scene.h
   firstcontact/trajectory_files/read_trajectory.h

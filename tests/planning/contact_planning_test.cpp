@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/contact_motion.h>
@@ -19,7 +20,6 @@
 #include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
 #include "planning/plan_cases.h"

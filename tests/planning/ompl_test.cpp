@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -59,6 +58,7 @@
 #include <ompl/util/RandomNumbers.h>
 
 #include "firstcontact_ompl/proven_edges.h"
+#include "planning/ompl_planners.h"
 #include "planning/plan_cases.h"
 #include "support/random.h"
 
@@ -67,13 +67,6 @@ namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-using MakePlanner = std::function<ob::PlannerPtr(const ob::SpaceInformationPtr&)>;
-
-template <class Planner>
-std::pair<std::string, MakePlanner> planner(const std::string& name) {
-  return {name, [](const ob::SpaceInformationPtr& si) { return std::make_shared<Planner>(si); }};
-}
 
 /// Every geometric planner of OMPL 1.5.2 that needs nothing but a space.
 std::vector<std::pair<std::string, MakePlanner>> all_planners() {
@@ -125,10 +118,9 @@ std::vector<std::pair<std::string, MakePlanner>> all_planners() {
 
 /// A space of OMPL with proven edges.
 struct Proven {
-  explicit Proven(PlanScene scene, const Eigen::Vector3d& low = Eigen::Vector3d::Zero(),
-                  const Eigen::Vector3d& high = Eigen::Vector3d::Zero())
+  explicit Proven(PlanScene scene)
       : edges(std::make_shared<EdgeChecker>(std::move(scene))),
-        space(make_ompl_space(edges->space(), low, high)),
+        space(make_ompl_space(edges->space())),
         si(std::make_shared<ob::SpaceInformation>(space)),
         validator(std::make_shared<ProvenEdges>(si, edges)) {
     si->setStateValidityChecker(std::make_shared<ProvenStates>(si, edges));
@@ -223,7 +215,7 @@ TEST(Ompl, GivesALastValidStateThatIsProven) {
 template <class Space>
 void expect_path_through_window(const PlanScene& scene, double turn) {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-  const Proven proven(scene, Eigen::Vector3d::Constant(-1.5), Eigen::Vector3d::Constant(1.5));
+  const Proven proven(scene);
   const OmplStates states(*proven.space, proven.edges->space());
   auto problem = std::make_shared<ob::ProblemDefinition>(proven.si);
   ob::ScopedState<Space> start(proven.space);
@@ -290,8 +282,7 @@ TEST(Screws, AreEdgesOnAnArc) {
 
 TEST(Screws, AreTheSameInOmplToTheBit) {
   const PlanScene scene = with_screws(RobotScene());
-  const Eigen::Vector3d corner = Eigen::Vector3d::Constant(2.0);
-  const auto space = make_ompl_space(scene.space, -corner, corner);
+  const auto space = make_ompl_space(scene.space);
   const OmplStates states(*space, scene.space);
   const ob::StateSamplerPtr sampler = space->allocStateSampler();
   Random random(4);

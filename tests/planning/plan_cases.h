@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/primitives.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/robot_check/touching_links.h>

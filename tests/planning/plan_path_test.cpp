@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
 #include "planning/plan_cases.h"
@@ -194,7 +194,8 @@ TEST(PlanPath, RefusesWhatCannotBePlanned) {
             "a goal is outside of the box; widen the box");
   PlanScene none = scene;
   none.robots = {3};
-  EXPECT_NE(message_of(none, kBefore, {kBehind}).find("robot of the scene for each"), std::string::npos);
+  EXPECT_NE(message_of(none, kBefore, {kBehind}).find("robot of the scene for each"),
+            std::string::npos);
 }
 
 TEST(PlanPath, EndsWhenItIsStopped) {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/robot_check/robot_scene.h>

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/planning/edge_checker.h>
-#include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/edges/edge_checker.h>
+#include <firstcontact/edges/inverse_kinematics.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/scene/shape_cache.h>

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 
 namespace firstcontact::test {
 

@@ -12,7 +12,7 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 
 #include "firstcontact_ompl/proven_space.h"
 

@@ -3,8 +3,11 @@
 
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <typeinfo>
@@ -15,25 +18,42 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
+#include <ompl/base/spaces/WrapperStateSpace.h>
 
-#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/edges/configuration_space.h>
 
 #include "firstcontact_ompl/screw_space.h"
 
 namespace firstcontact {
 
-/// Reads states of an OMPL space as configurations of a space here.
+/// A space of OMPL whose states are those of another one, and whose edges are chains of its edges:
+/// ContactStateSpace.
+class ChainedStateSpace : public ompl::base::WrapperStateSpace {
+ public:
+  using WrapperStateSpace::WrapperStateSpace;
+};
+
+/// Reads states of an OMPL space as configurations of a space here, and writes them.
 ///
 /// A body has an SE3StateSpace: straight lines with slerp on both sides. Where its edges are screws
 /// it has a ScrewStateSpace. Joints have RealVectorStateSpaces, and SO2StateSpaces for those that
 /// go the short way round, in the order of the coordinates; several are joined by a
-/// CompoundStateSpace, whatever its weights. All other spaces, those that derive from these among
-/// them, are refused: their edges may be other curves.
+/// CompoundStateSpace, whatever its weights. A ChainedStateSpace is read as the one that it wraps.
+/// All other spaces, those that derive from these among them, are refused: their edges may be other
+/// curves.
 class OmplStates {
  public:
   /// @throws std::invalid_argument  names the type of the space, or the coordinate, that does not
   ///         fit
   OmplStates(const ompl::base::StateSpace& states, const ConfigurationSpace& places) {
+    if (const auto* chained = dynamic_cast<const ChainedStateSpace*>(&states)) {
+      if (dynamic_cast<const ChainedStateSpace*>(chained->getSpace().get()) != nullptr) {
+        refuse(states, "chains of edges are made of a space with edges of its own");
+      }
+      *this = OmplStates(*chained->getSpace(), places);
+      is_wrapped_ = true;
+      return;
+    }
     if (places.is_body()) {
       if (places.has_screws() && typeid(states) != typeid(ScrewStateSpace)) {
         refuse(states, "a body that moves on screws has a ScrewStateSpace");
@@ -52,6 +72,7 @@ class OmplStates {
   }
 
   [[nodiscard]] Configuration read(const ompl::base::State* state) const {
+    state = unwrapped(state);
     Configuration q;
     if (is_body_) {
       const auto* pose = state->as<ompl::base::SE3StateSpace::StateType>();
@@ -59,10 +80,7 @@ class OmplStates {
       return {pose->getX(), pose->getY(), pose->getZ(), r.w, r.x, r.y, r.z};
     }
     for (const Part& part : parts_) {
-      const ompl::base::State* found = state;
-      for (const std::size_t step : part.way) {
-        found = found->as<ompl::base::CompoundState>()->components[step];
-      }
+      const ompl::base::State* found = part.of(state);
       if (part.turns) {
         q.push_back(found->as<ompl::base::SO2StateSpace::StateType>()->value);
       } else {
@@ -73,12 +91,59 @@ class OmplStates {
     return q;
   }
 
+  /// Makes a state of a configuration. read() gives it back to the bit, but for angles of joints
+  /// that go the short way round: those beyond [-pi, pi) lose whole turns, rounded.
+  void write(const Configuration& q, ompl::base::State* state) const {
+    state = const_cast<ompl::base::State*>(unwrapped(state));
+    if (is_body_) {
+      auto* pose = state->as<ompl::base::SE3StateSpace::StateType>();
+      pose->setXYZ(q[0], q[1], q[2]);
+      auto& r = pose->rotation();
+      r.w = q[3];
+      r.x = q[4];
+      r.y = q[5];
+      r.z = q[6];
+      return;
+    }
+    std::size_t next = 0;
+    for (const Part& part : parts_) {
+      auto* found = const_cast<ompl::base::State*>(part.of(state));
+      if (part.turns) {
+        found->as<ompl::base::SO2StateSpace::StateType>()->value = within_a_turn(q[next]);
+      } else {
+        std::copy_n(&q[next], part.count,
+                    found->as<ompl::base::RealVectorStateSpace::StateType>()->values);
+      }
+      next += part.count;
+    }
+  }
+
  private:
   struct Part {
     std::vector<std::size_t> way;  // Through compound states.
     std::size_t count = 1;
     bool turns = false;
+
+    [[nodiscard]] const ompl::base::State* of(const ompl::base::State* state) const {
+      for (const std::size_t step : way) {
+        state = state->as<ompl::base::CompoundState>()->components[step];
+      }
+      return state;
+    }
   };
+
+  [[nodiscard]] const ompl::base::State* unwrapped(const ompl::base::State* state) const {
+    return is_wrapped_ ? state->as<ompl::base::WrapperStateSpace::StateType>()->getState() : state;
+  }
+
+  static double within_a_turn(double angle) {
+    constexpr double kHalf = std::numbers::pi;
+    if (-kHalf <= angle && angle < kHalf) {
+      return angle;
+    }
+    const double rest = std::remainder(angle, 2.0 * kHalf);
+    return rest < kHalf ? rest : -kHalf;
+  }
 
   [[noreturn]] static void refuse(const ompl::base::StateSpace& states, const std::string& why) {
     throw std::invalid_argument("OMPL space \"" + states.getName() + "\" of type " +
@@ -119,22 +184,19 @@ class OmplStates {
   std::vector<Part> parts_;
   std::size_t read_ = 0;
   bool is_body_ = false;
+  bool is_wrapped_ = false;
 };
 
-/// The OMPL space of a space here, with its limits as bounds: neighbouring joints with a long way
-/// share one RealVectorStateSpace.
-///
-/// @param low, high  [m]  of the origin of a body; of no meaning for joints
-inline ompl::base::StateSpacePtr make_ompl_space(
-    const ConfigurationSpace& places, const Eigen::Vector3d& low = Eigen::Vector3d::Zero(),
-    const Eigen::Vector3d& high = Eigen::Vector3d::Zero()) {
+/// The OMPL space of a space here, with its box or its limits as bounds: neighbouring joints with a
+/// long way share one RealVectorStateSpace.
+inline ompl::base::StateSpacePtr make_ompl_space(const ConfigurationSpace& places) {
   if (places.is_body()) {
     auto space = places.has_screws() ? std::make_shared<ScrewStateSpace>()
                                      : std::make_shared<ompl::base::SE3StateSpace>();
     ompl::base::RealVectorBounds bounds(3);
     for (unsigned int k = 0; k < 3; ++k) {
-      bounds.setLow(k, low[k]);
-      bounds.setHigh(k, high[k]);
+      bounds.setLow(k, places.low()[k]);
+      bounds.setHigh(k, places.high()[k]);
     }
     space->setBounds(bounds);
     return space;

@@ -14,6 +14,7 @@
 #include <firstcontact/planning/detail/contact_ends.h>
 #include <firstcontact/planning/detail/lazy_prm.h>
 #include <firstcontact/planning/detail/plan_in_time.h>
+#include <firstcontact/planning/detail/plan_range.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/rrt_connect.h>
 #include <firstcontact/planning/detail/shorten_path.h>
@@ -26,8 +27,6 @@ using detail::EdgePlace;
 using detail::FoundPath;
 using detail::PlanWork;
 
-constexpr double kShareOfRange = 0.2;  // [-]  Of the mean distance of samples.
-constexpr int kSamplesOfRange = 64;
 constexpr std::uint64_t kLessEffort = 20;
 constexpr int kWiderMargins = 12;  // Each twice as wide as the one before.
 
@@ -65,18 +64,8 @@ void require_places(const ConfigurationSpace& space, const Configuration& start,
                                " slides without limits; give it bounds");
 }
 
-double default_range(const ConfigurationSpace& space) {
-  RandomNumbers random(0);
-  double sum = 0.0;
-  for (int k = 0; k < kSamplesOfRange; ++k) {
-    const Configuration from = space.sample(random);
-    sum += space.distance(from, space.sample(random));
-  }
-  return kShareOfRange * sum / kSamplesOfRange;
-}
-
 /// In contact an edge is soon tried again, and its proven part is kept: there less effort is more.
-std::uint64_t effort_of_search(const PlanOptions& options) {
+std::uint64_t hasty_effort(const PlanOptions& options) {
   return options.contacts == ContactUse::none
              ? options.effort
              : std::max<std::uint64_t>(options.effort / kLessEffort, 1);
@@ -97,12 +86,14 @@ class PlanSearch {
         end_(begin_ + std::chrono::duration_cast<PlanWork::Clock::duration>(
                           std::chrono::duration<double>(std::min(options.time, 1e9)))),
         contacts_(std::move(contacts)),
-        checker_(scene, options_of_search(EdgePlace::inner)),
-        work_(checker_, options_, begin_, end_) {
+        checker_(scene, options_of_search(EdgePlace::inner, options.effort)),
+        hasty_(scene, options_of_search(EdgePlace::inner, hasty_effort(options))),
+        work_(checker_, hasty_, options_, begin_, end_) {
     for (const PathEnd at : {PathEnd::start, PathEnd::goal}) {
       if (contacts_.opens(at)) {
         at_end(at).emplace(scene, options_of_search(at == PathEnd::start ? EdgePlace::at_start
-                                                                         : EdgePlace::at_goal));
+                                                                         : EdgePlace::at_goal,
+                                                    options.effort));
       }
     }
   }
@@ -175,10 +166,10 @@ class PlanSearch {
     }
   }
 
-  [[nodiscard]] EdgeCheckOptions options_of_search(EdgePlace place) const {
+  [[nodiscard]] EdgeCheckOptions options_of_search(EdgePlace place, std::uint64_t effort) const {
     return {.tolerance = options_.tolerance,
             .extra_clearance = kept_by_search(options_),
-            .effort = effort_of_search(options_),
+            .effort = effort,
             .stop = options_.stop,
             .held = contacts_.held_in_search(place)};
   }
@@ -191,7 +182,7 @@ class PlanSearch {
 
   bool is_free(const Configuration& q, PathEnd at) {
     if (!at_end(at)) {
-      return work_.is_free(q);
+      return work_.thoroughly([&] { return work_.is_free(q); });
     }
     ++work_.counts().states_checked;
     return at_end(at)->is_free(q);
@@ -246,7 +237,8 @@ class PlanSearch {
     if (options_.planner == Planner::lazy_prm_star) {
       return detail::lazy_prm_star(work_, start, targets_, random);
     }
-    const double range = options_.range > 0.0 ? options_.range : default_range(scene_.space);
+    const double range =
+        options_.range > 0.0 ? options_.range : detail::default_range(scene_.space);
     return detail::rrt_connect(work_, start, targets_, range, random);
   }
 
@@ -344,6 +336,7 @@ class PlanSearch {
   PlanWork::Clock::time_point end_;
   detail::ContactEnds contacts_;
   EdgeChecker checker_;
+  EdgeChecker hasty_;                    // Of the search.
   std::optional<EdgeChecker> at_start_;  // Where pairs must open at that end.
   std::optional<EdgeChecker> at_goal_;
   PlanWork work_;
@@ -373,7 +366,7 @@ PlanResult plan_path(const PlanScene& scene, const Configuration& start,
                      !options.approximate,
                  "something else moves: there only the planner rrt_connect plans, with contacts "
                  "\"none\" and without an approximate answer");
-    const double range = options.range > 0.0 ? options.range : default_range(widened.space);
+    const double range = options.range > 0.0 ? options.range : detail::default_range(widened.space);
     return detail::plan_in_time(widened, start, goals, range, options);
   }
   detail::ContactEnds contacts(widened, start, goals, kept_by_search(options), options.tolerance);

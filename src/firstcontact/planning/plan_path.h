@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/scene/plan_question.h>
 
 namespace firstcontact {

@@ -5,9 +5,9 @@
 
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/plan_question.h>

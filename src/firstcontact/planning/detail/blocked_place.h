@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 
 namespace firstcontact::detail {
 

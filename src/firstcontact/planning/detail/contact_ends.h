@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/scene/contact_pair.h>
 

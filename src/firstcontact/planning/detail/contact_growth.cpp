@@ -125,6 +125,20 @@ std::optional<ContactGrowth::Followed> ContactGrowth::go(PlanTree& tree, std::si
   });
 }
 
+std::vector<std::array<Eigen::VectorXd, 2>> ContactGrowth::ways_out(const Configuration& from) {
+  return use_ == ContactUse::both ? steering_->ways_out(from)
+                                  : std::vector<std::array<Eigen::VectorXd, 2>>{};
+}
+
+std::optional<ContactGrowth::Left> ContactGrowth::leave(PlanTree& tree, std::size_t from,
+                                                        const Eigen::VectorXd& direction) {
+  ++work_.counts().contacts.pushes;
+  const Configuration begin = tree[from];
+  const ContactWay way = work_.thoroughly([&] { return steering_->push(begin, direction); });
+  const std::optional<std::size_t> end = take(tree, from, way);
+  return end ? std::optional(Left{*end, !way.is_near}) : std::nullopt;
+}
+
 std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& random) {
   if (turn_ != Turn::pushes || tree.marked().empty() || !is_due()) {
     return std::nullopt;

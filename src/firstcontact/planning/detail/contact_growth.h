@@ -3,11 +3,15 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
+#include <Eigen/Core>
+
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/contact_steering.h>
 #include <firstcontact/planning/detail/gap_sampler.h>
 #include <firstcontact/planning/detail/passage_trees.h>
@@ -39,6 +43,18 @@ class ContactGrowth {
   /// Follows a blocked edge from a node as far as contacts let it; none where that leads nowhere,
   /// or is not this edge's turn.
   std::optional<Followed> follow(PlanTree& tree, std::size_t from, const Configuration& target);
+
+  /// As ContactSteering::ways_out(), for ContactUse::both; else none.
+  [[nodiscard]] std::vector<std::array<Eigen::VectorXd, 2>> ways_out(const Configuration& from);
+
+  /// What a push out of contacts led to.
+  struct Left {
+    std::size_t node = 0;
+    bool is_out = false;  ///< It is out of contact.
+  };
+  /// Moves from a node in a direction, with all the effort that is allowed. None where that leads
+  /// nowhere.
+  std::optional<Left> leave(PlanTree& tree, std::size_t from, const Eigen::VectorXd& direction);
 
   /// Moves from a marked place in a random direction. The node at the end; none where that leads
   /// nowhere, or it is not its turn.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include <firstcontact/planning/detail/contact_motion.h>
+#include <firstcontact/planning/detail/loose_motions.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -21,10 +23,14 @@ constexpr std::size_t kMostSteps = 400;
 constexpr std::size_t kStepsToGain = 12;  // Steps after which something has to be gained.
 constexpr double kGain = 0.02;            // [-]  Of the way of these steps.
 constexpr double kMostTurn = 2.5;         // [rad]  Of one edge.
-constexpr double kRangesOfPush = 20.0;    // [-]  The longest push, in ranges.
+constexpr double kRangesOfPush = 100.0;   // [-]  The longest push, in ranges.
+constexpr std::size_t kFewContacts = 6;
+constexpr double kLooseBand = 4.0;  // [-]  Of the hover gap: contacts of ways_out().
 constexpr std::size_t kLongestWait = 16;
+constexpr std::size_t kLookEvery = 8;  // Steps of a screw.
 constexpr int kMostCentres = 32;
-constexpr double kSureTurn = 1.0;  // [rad]  After which a screw is known well enough.
+constexpr double kSureTurn = 1.0;    // [rad]  After which a screw is known well enough.
+constexpr double kLeastTurn = 0.05;  // [rad]  So, too, from the middle of the play to the middle.
 
 }  // namespace
 
@@ -46,9 +52,8 @@ class ContactSteering::Way {
   }
 
   ContactWay run() {
-    if (aim_.target == nullptr && centre()) {
-      trail_ = {q_};
-      screw_.setZero();
+    if (aim_.target == nullptr) {
+      begin_push();
     }
     for (std::size_t k = 0; k < kMostSteps && !s_.work_.is_over(); ++k) {
       const Eigen::VectorXd wanted = wanted_motion();
@@ -135,7 +140,11 @@ class ContactSteering::Way {
       step_ = std::min(2.0 * step_, s_.range_);
       return true;
     }
-    is_screw_ = false;
+    was_screw_ = std::exchange(is_screw_, false);
+    if (screw_on()) {
+      return true;
+    }
+    was_screw_ = false;
     const EdgeAnswer answer = s_.work_.check(q_, to);
     if (answer.verdict == EdgeVerdict::free) {
       take(std::move(to));
@@ -150,53 +159,57 @@ class ContactSteering::Way {
     return step_ >= least_step();
   }
 
-  /// [m]  The way along a direction behind which the least gap is the greatest, to first order.
-  [[nodiscard]] double middle_along(const Eigen::Vector3d& along, const ContactsAt& at) const {
-    const auto least_gap = [&](double way) {
-      double least = s_.hover_;
-      for (const NearContact& contact : at.contacts) {
-        const double sign = at.members[contact.members[1]].J.cols() > 0 ? 1.0 : -1.0;
-        least = std::min(least, contact.gap + sign * contact.n_AB_W.dot(along) * way);
-      }
-      return least;
-    };
-    double low = -2.0 * s_.hover_;
-    double high = 2.0 * s_.hover_;
-    for (int k = 0; k < 40; ++k) {  // A concave function.
-      const double a = low + (high - low) / 3.0;
-      const double b = high - (high - low) / 3.0;
-      const bool rises = least_gap(a) < least_gap(b);
-      (rises ? low : high) = rises ? a : b;
+  /// Begins in the middle of the play, by a screw about an axis of the mover if one is near.
+  void begin_push() {
+    if (const auto near = t_.screwed(q_, t_.in_world(q_, aim_.in_body))) {
+      aim_.in_body = t_.in_body(q_, t_.difference(q_, *near));
     }
-    return 0.5 * (low + high);
+    if (centre()) {
+      trail_ = {q_};
+      screw_.setZero();
+    }
   }
 
-  /// Goes to the middle between contacts along one axis of the mover, so that what is repeated
-  /// from there is not led astray by the play of a fit.
+  /// Goes to the middle between contacts along the axis of the mover that it turns about, so that
+  /// what is repeated from there is not led astray by the play of a fit.
   bool centre() {
     if (!s_.work_.space().is_body()) {
       return false;
     }
-    const Eigen::VectorXd turn = screw_.isZero(0.0) ? aim_.in_body : screw_;
+    const Eigen::Vector3d turn = (screw_.isZero(0.0) ? aim_.in_body : screw_).tail<3>();
+    if (turn.isZero(0.0)) {
+      return false;
+    }
     Eigen::Index axis = 0;
-    const bool turns = turn.size() == 6 && !turn.tail<3>().isZero(0.0);
-    if (!turns) {
+    turn.cwiseAbs().maxCoeff(&axis);
+    const Eigen::VectorXd along = 2.0 * s_.hover_ * Eigen::VectorXd::Unit(6, axis);
+    const double middle = 0.5 * (free_share(along) - free_share(-along));
+    if (!(std::abs(middle) * t_.length(along) > 0.1 * least_step())) {
       return false;
     }
-    turn.tail<3>().cwiseAbs().maxCoeff(&axis);
-    Eigen::VectorXd in_body = Eigen::VectorXd::Unit(6, axis);
-    const double along =
-        middle_along(t_.in_world(q_, in_body).head<3>(), contacts_within(2.0 * s_.hover_));
-    in_body *= along;
-    if (!(std::abs(along) > 0.1 * least_step())) {
-      return false;
-    }
-    Configuration to = t_.moved(q_, t_.in_world(q_, in_body));
+    Configuration to = t_.moved(q_, t_.in_world(q_, middle * along));
     if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
       return false;
     }
     take(std::move(to));
     return true;
+  }
+
+  /// [-]  How much of a motion from here is proven.
+  double free_share(const Eigen::VectorXd& in_body) {
+    return s_.work_.check(q_, t_.moved(q_, t_.in_world(q_, in_body))).fraction;
+  }
+
+  /// Goes on by the screw of all steps so far, from the middle of the play. Its pitch is the better
+  /// known the longer the way.
+  bool screw_on() {
+    if (aim_.target != nullptr || !was_screw_ || !(screw_.tail<3>().norm() > kLeastTurn)) {
+      return false;
+    }
+    (void)centre();
+    aim_.in_body = screw_ * (t_.length(aim_.in_body) / t_.length(screw_));
+    is_screw_ = true;
+    return repeat_screw();
   }
 
   /// Takes all that the trail has led to once more, if that is proven, and again.
@@ -224,29 +237,44 @@ class ContactSteering::Way {
   /// about one axis.
   bool repeat_screw() {
     bool any = false;
-    const double turn = screw_.tail<3>().norm();
-    if (!(turn > 0.0) || !is_screw_) {
-      return false;
-    }
-    Eigen::VectorXd in_body = screw_ * std::min(1.0, kMostTurn / turn);
-    int halvings = 0;
-    while (!s_.work_.is_over() && travelled_ < aim_.most) {
-      const Eigen::VectorXd dq = t_.in_world(q_, in_body);
+    double share = 1.0;  // Of the screw.
+    for (int halvings = 0; halvings <= 4 && !s_.work_.is_over() && travelled_ < aim_.most;) {
+      const double turn = screw_.tail<3>().norm();
+      if (!(turn > 0.0) || !is_screw_) {
+        break;
+      }
+      const Eigen::VectorXd dq =
+          t_.in_world(q_, screw_ * (share * std::min(1.0, kMostTurn / turn)));
       if (!(t_.product(dq, wanted_motion()) > 0.0)) {
         break;
       }
       Configuration to = t_.moved(q_, dq);
       if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
-        if (any || ++halvings > 4) {
+        share *= 0.5;
+        ++halvings;
+        if (any) {
           break;
         }
-        in_body *= 0.5;
         continue;
       }
       take(std::move(to));
       any = true;
+      if (is_out()) {
+        break;
+      }
     }
     return any;
+  }
+
+  /// Whether a push is out of contact, so that there is nothing to repeat; looked at now and then.
+  bool is_out() {
+    if (aim_.target != nullptr || way_.places.size() % kLookEvery != 0 ||
+        !contacts_within(kBand * t_.reach()).contacts.empty()) {
+      return false;
+    }
+    way_.is_near = false;
+    free_way_ = std::numeric_limits<double>::infinity();
+    return true;
   }
 
   bool repeat_while_free() {
@@ -274,6 +302,9 @@ class ContactSteering::Way {
       }
       take(std::move(to));
       any = true;
+      if (is_out()) {
+        break;
+      }
     }
     return any;
   }
@@ -331,7 +362,8 @@ class ContactSteering::Way {
   ContactsAt at_;
   double looked_within_ = -1.0;  // [m]  Of the contacts; below 0 where there are none yet.
   double free_way_ = 0.0;        // [m]  Since the last contact.
-  bool is_screw_ = false;        // The last step was one about an axis of it.
+  bool is_screw_ = false;        // The last step was one about an axis of it,
+  bool was_screw_ = false;       // and that before a step that was blocked.
   std::size_t wait_ = 0;         // Steps between two tries to repeat the trail.
   std::size_t waits_ = 0;        // Steps that are left until the next try.
   std::size_t looked_at_ = 0;
@@ -395,6 +427,26 @@ Eigen::VectorXd ContactSteering::direction(RandomNumbers& random) const {
   }
   const double length = tangents_.length(dq);
   return length > 0.0 ? Eigen::VectorXd(dq * (range_ / length)) : dq;
+}
+
+std::vector<std::array<Eigen::VectorXd, 2>> ContactSteering::ways_out(const Configuration& from) {
+  ContactsAt at = finder_.near(from, kLooseBand * hover_);
+  if (at.contacts.empty()) {
+    return {};
+  }
+  // Of features that are no nearest ones of their region, most are among the farther ones.
+  at.contacts.resize(
+      std::max((at.contacts.size() + 1) / 2, std::min(at.contacts.size(), kFewContacts)));
+  std::vector<std::array<Eigen::VectorXd, 2>> ways;
+  const auto add = [&](const Eigen::VectorXd& way) { ways.push_back({way, -way}); };
+  for (const Eigen::VectorXd& loose : loose_motions(tangents_, at)) {
+    add(tangents_.in_body(from, range_ * loose));
+  }
+  for (Eigen::Index k = 0; k < tangents_.size() && work_.space().is_body(); ++k) {
+    const double length = k < 3 ? range_ : range_ / tangents_.reach();
+    add(length * Eigen::VectorXd::Unit(tangents_.size(), k));
+  }
+  return ways;
 }
 
 }  // namespace firstcontact::detail

@@ -3,14 +3,15 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
@@ -51,6 +52,10 @@ class ContactSteering {
 
   /// A direction for push(): along, about, or both, of the length of the range.
   [[nodiscard]] Eigen::VectorXd direction(RandomNumbers& random) const;
+
+  /// Directions for push() out of contacts at a place, each in both senses: those that the contacts
+  /// hold back least, then along and about the axes of a body. Without contacts there is none.
+  [[nodiscard]] std::vector<std::array<Eigen::VectorXd, 2>> ways_out(const Configuration& from);
 
  private:
   /// What a way wants: a target, or a direction.

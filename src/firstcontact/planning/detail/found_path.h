@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/edges/configuration_space.h>
 
 namespace firstcontact::detail {
 

@@ -10,9 +10,9 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/edge_checker.h>
 
 namespace firstcontact::detail {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/found_path.h>
 #include <firstcontact/planning/detail/plan_work.h>
 

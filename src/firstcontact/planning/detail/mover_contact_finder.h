@@ -9,11 +9,11 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/many_bodies/pair_rules.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/tangent_space.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>

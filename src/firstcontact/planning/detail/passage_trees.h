@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 
 namespace firstcontact::detail {

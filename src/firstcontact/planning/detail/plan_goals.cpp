@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include <firstcontact/edges/detail/edge_question.h>
+#include <firstcontact/edges/inverse_kinematics.h>
 #include <firstcontact/planning/detail/blocked_place.h>
 #include <firstcontact/planning/detail/contact_ends.h>
-#include <firstcontact/planning/detail/edge_question.h>
-#include <firstcontact/planning/inverse_kinematics.h>
 #include <firstcontact/scene/detail/robot_name.h>
 #include <firstcontact/text/write_json.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/plan_question.h>

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/edges/detail/edge_question.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/detail/edge_question.h>
 #include <firstcontact/planning/detail/timed_connect.h>
 #include <firstcontact/planning/detail/timed_edges.h>
 #include <firstcontact/robot_check/check_robots.h>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/edges/configuration_space.h>
 
 namespace firstcontact::detail {
 

@@ -13,21 +13,21 @@ void PlanWork::count(const EdgeAnswer& answer) {
 
 EdgeAnswer PlanWork::check(const Configuration& from, const Configuration& to) {
   ++counts_.edges_checked;
-  EdgeAnswer answer = checker_.check(from, to);
+  EdgeAnswer answer = now_->check(from, to);
   count(answer);
   return answer;
 }
 
 bool PlanWork::is_free(const Configuration& from, const Configuration& to) {
   ++counts_.edges_checked;
-  const EdgeAnswer answer = checker_.check_quickly(from, to);
+  const EdgeAnswer answer = now_->check_quickly(from, to);
   count(answer);
   return answer.verdict == EdgeVerdict::free;
 }
 
 bool PlanWork::is_free(const Configuration& q) {
   ++counts_.states_checked;
-  const EdgeAnswer answer = checker_.check_quickly(q, q);
+  const EdgeAnswer answer = now_->check_quickly(q, q);
   count(answer);
   return answer.verdict == EdgeVerdict::free;
 }

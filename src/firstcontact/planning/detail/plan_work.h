@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
 namespace firstcontact::detail {
@@ -19,9 +19,18 @@ class PlanWork {
  public:
   using Clock = std::chrono::steady_clock;
 
+  /// @param hasty  of the same scene, with less effort: it checks outside of thoroughly()
+  PlanWork(const EdgeChecker& checker, const EdgeChecker& hasty, const PlanOptions& options,
+           Clock::time_point begin, Clock::time_point end)
+      : checker_(checker),
+        hasty_(hasty),
+        now_(&hasty),
+        options_(options),
+        begin_(begin),
+        end_(end) {}
   PlanWork(const EdgeChecker& checker, const PlanOptions& options, Clock::time_point begin,
            Clock::time_point end)
-      : checker_(checker), options_(options), begin_(begin), end_(end) {}
+      : PlanWork(checker, checker, options, begin, end) {}
 
   [[nodiscard]] const ConfigurationSpace& space() const { return checker_.space(); }
   [[nodiscard]] const PlanOptions& options() const { return options_; }
@@ -37,6 +46,15 @@ class PlanWork {
   bool is_free(const Configuration& from, const Configuration& to);
   bool is_free(const Configuration& q);
 
+  /// Does something with all the effort that checks may take.
+  template <class Call>
+  auto thoroughly(const Call& call) {
+    now_ = &checker_;
+    auto result = call();
+    now_ = &hasty_;
+    return result;
+  }
+
   /// Whether the time is over, or the search is to end.
   [[nodiscard]] bool is_over() const;
   [[nodiscard]] double seconds() const;
@@ -50,6 +68,8 @@ class PlanWork {
   void count(const EdgeAnswer& answer);
 
   const EdgeChecker& checker_;
+  const EdgeChecker& hasty_;
+  const EdgeChecker* now_;  // One of these.
   const PlanOptions& options_;
   Clock::time_point begin_;
   Clock::time_point end_;

@@ -35,6 +35,11 @@ class Connect {
         return joined({0, goal});
       }
     }
+    for (std::size_t tree = 0; tree < 2; ++tree) {
+      if (const auto met = leave(tree)) {
+        return joined(*met);
+      }
+    }
     std::size_t grows = 0;
     while (!work_.is_over()) {
       const std::size_t iteration = work_.counts().iterations++;
@@ -78,6 +83,29 @@ class Connect {
     }
     if (const auto followed = contact_.follow(tree, near, target)) {
       return meet(grows, followed->node);
+    }
+    return std::nullopt;
+  }
+
+  /// Pushes out of the contacts of the places where a tree begins, as an assembly is taken apart,
+  /// until one is out of contact. Extends the other tree towards each end.
+  std::optional<Meeting> leave(std::size_t grows) {
+    PlanTree& tree = trees_[grows];
+    const std::size_t roots = tree.size();
+    for (std::size_t root = 0; root < roots; ++root) {
+      bool is_out = false;
+      for (const auto& senses : contact_.ways_out(tree[root])) {
+        for (const Eigen::VectorXd& direction : senses) {
+          const auto left = contact_.leave(tree, root, direction);
+          is_out = is_out || (left && left->is_out);
+          if (const auto met = left ? meet(grows, left->node) : std::nullopt) {
+            return met;
+          }
+        }
+        if (is_out || work_.is_over()) {
+          break;
+        }
+      }
     }
     return std::nullopt;
   }

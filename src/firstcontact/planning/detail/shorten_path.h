@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/planning/detail/plan_work.h>
 
 namespace firstcontact::detail {

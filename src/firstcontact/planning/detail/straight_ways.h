@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/random_numbers.h>
-#include <firstcontact/planning/configuration_space.h>
 
 namespace firstcontact::detail {
 

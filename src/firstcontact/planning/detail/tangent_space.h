@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/edges/configuration_space.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/planning/configuration_space.h>
-#include <firstcontact/planning/edge_checker.h>
 
 namespace firstcontact::detail {
 

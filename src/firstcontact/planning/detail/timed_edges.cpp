@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include <firstcontact/planning/detail/edge_question.h>
+#include <firstcontact/edges/detail/edge_question.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include <firstcontact/planning/detail/edge_search.h>
+#include <firstcontact/edges/detail/edge_search.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/detail/timed_place.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
 namespace firstcontact::detail {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/edges/configuration_space.h>
 
 namespace firstcontact::detail {
 

@@ -1,6 +1,6 @@
 // Inverse kinematics against closed forms and against forward kinematics of its own.
 
-#include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/edges/inverse_kinematics.h>
 
 #include <algorithm>
 #include <cmath>

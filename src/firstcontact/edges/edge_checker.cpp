@@ -1,4 +1,4 @@
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 
 #include <algorithm>
 #include <array>
@@ -13,11 +13,11 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <firstcontact/edges/detail/edge_question.h>
+#include <firstcontact/edges/detail/edge_search.h>
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/parallel/parallel_for.h>
-#include <firstcontact/planning/detail/edge_question.h>
-#include <firstcontact/planning/detail/edge_search.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/robot_check/detail/robot_timeline.h>
 #include <firstcontact/text/write_json.h>

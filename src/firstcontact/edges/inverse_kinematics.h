@@ -10,9 +10,9 @@
 #include <stop_token>
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/motion/pose.h>
-#include <firstcontact/planning/configuration_space.h>
 
 namespace firstcontact {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/edge_search.h>
+#include <firstcontact/edges/detail/edge_search.h>
 
 #include <algorithm>
 #include <utility>

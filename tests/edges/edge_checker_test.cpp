@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/planning/edge_checker.h>
 #include <firstcontact/robot_check/check_robots.h>
 
 #include "planning/plan_cases.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <firstcontact/planning/edge_checker.h>
+#include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/robot_check/check_robots.h>
 #include <firstcontact/robot_check/robot_scene.h>
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include <firstcontact/edges/configuration_space.h>
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
-#include <firstcontact/planning/configuration_space.h>
 #include <firstcontact/query/outcome.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/contact_pair.h>

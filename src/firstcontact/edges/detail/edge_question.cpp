@@ -1,4 +1,4 @@
-#include <firstcontact/planning/detail/edge_question.h>
+#include <firstcontact/edges/detail/edge_question.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -145,6 +145,10 @@ class FIRSTCONTACT_API ConfigurationSpace {
   /// A place drawn evenly: within the limits; of poses within the box, turned in any way.
   [[nodiscard]] Configuration sample(RandomNumbers& random) const;
 
+  /// [m]  Corners of the box in which the origin of a body is sampled; 0 of joints.
+  [[nodiscard]] const Eigen::Vector3d& low() const { return low_; }
+  [[nodiscard]] const Eigen::Vector3d& high() const { return high_; }
+
   /// Whether the place of a body is in the box in which it is sampled; true of joints.
   [[nodiscard]] bool is_in_box(const Configuration& q) const;
 

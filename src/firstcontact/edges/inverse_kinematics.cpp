@@ -1,4 +1,4 @@
-#include <firstcontact/planning/inverse_kinematics.h>
+#include <firstcontact/edges/inverse_kinematics.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <firstcontact/planning/configuration_space.h>
+#include <firstcontact/edges/configuration_space.h>
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,447 @@
+// RRT-Connect of OMPL on proven edges and on edges that FCL samples, and how many paths of the
+// latter collide.
+//
+//   ompl_benchmark [--seeds N] [--every N] [--time SECONDS] [--plates N] [--thickness METRES]
+//                  [OUTPUT.json]
+//
+// MotionBenchMaker's 400 problems of the Panda, every N-th of them. All validators have the same
+// planner, sampler, range, seeds, geometries and tested pairs. FCL keeps its hierarchies, and tests
+// places of an edge by bisection, as OMPL's own validator does: every 1 or 5 degrees of the joint
+// that moves most, or every 1 % of the extent of the space, which is OMPL's default. Plates are put
+// at random where they leave start and goal free. Times are processor times of one thread; a run
+// without a path counts with the time that it was allowed. A path collides where an edge of it is
+// proven to. Needs FIRSTCONTACT_DATA_DIR.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <queue>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <ompl/base/PlannerTerminationCondition.h>
+#include <ompl/geometric/PathGeometric.h>
+#include <ompl/geometric/PathSimplifier.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <firstcontact/edges/edge_checker.h>
+#include <firstcontact/math/random_numbers.h>
+#include <firstcontact/planning/plan_scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/robot_question.h>
+#include <firstcontact_ompl/proven_edges.h>
+
+#include "benchmarks/planning/fcl_places.h"
+#include "benchmarks/support/panda_problems.h"
+
+namespace firstcontact::benchmarks {
+namespace {
+
+using nlohmann::json;
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Settings {
+  std::uint64_t seeds = 1;
+  int every = 1;
+  double time = 10.0;  // [s]
+  int plates = 0;
+  double thickness = 0.003;  // [m]
+  std::string output;
+};
+
+/// [ms]  Processor time that this thread has used.
+double thread_time() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    return std::nan("");
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// What validators spent and did.
+struct Spent {
+  double ms = 0.0;
+  std::size_t edges = 0;
+};
+
+/// Adds the time of a call.
+template <class Call>
+auto timed(Spent& spent, const Call& call) {
+  const double begin = thread_time();
+  auto answer = call();
+  spent.ms += thread_time() - begin;
+  ++spent.edges;
+  return answer;
+}
+
+class TimedProof : public ob::MotionValidator {
+ public:
+  TimedProof(const ob::SpaceInformationPtr& si, std::shared_ptr<const EdgeChecker> edges,
+             Spent& spent)
+      : MotionValidator(si), proven_(si, std::move(edges)), spent_(spent) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    return timed(spent_, [&] { return proven_.checkMotion(from, to); });
+  }
+  bool checkMotion(const ob::State* from, const ob::State* to,
+                   std::pair<ob::State*, double>& last) const override {
+    return timed(spent_, [&] { return proven_.checkMotion(from, to, last); });
+  }
+
+ private:
+  ProvenEdges proven_;
+  Spent& spent_;
+};
+
+/// Places of an edge by FCL: its end, then by bisection, breadth first.
+class SampledMotions : public ob::MotionValidator {
+ public:
+  /// @param count  how many steps an edge has
+  using Count = std::function<int(const ob::State*, const ob::State*)>;
+  SampledMotions(const ob::SpaceInformationPtr& si, OmplStates states, FclPlaces& places,
+                 Count count, Spent& spent)
+      : MotionValidator(si),
+        states_(std::move(states)),
+        places_(places),
+        count_(std::move(count)),
+        spent_(spent) {}
+
+  bool checkMotion(const ob::State* from, const ob::State* to) const override {
+    return timed(spent_, [&] { return is_free(from, to); });
+  }
+  bool checkMotion(const ob::State*, const ob::State*,
+                   std::pair<ob::State*, double>&) const override {
+    throw std::logic_error("RRT-Connect has no need of a last valid state");
+  }
+
+ private:
+  [[nodiscard]] bool is_free(const ob::State* from, const ob::State* to) const {
+    const Configuration a = states_.read(from);
+    const Configuration b = states_.read(to);
+    if (places_.collide(b)) {
+      return false;
+    }
+    const int count = count_(from, to);
+    std::queue<std::pair<int, int>> open;
+    if (count > 1) {
+      open.push({1, count - 1});
+    }
+    Configuration q = a;
+    while (!open.empty()) {
+      const auto [low, high] = open.front();
+      open.pop();
+      const int middle = (low + high) / 2;
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        q[k] = a[k] + (b[k] - a[k]) * middle / count;
+      }
+      if (places_.collide(q)) {
+        return false;
+      }
+      if (low < middle) {
+        open.push({low, middle - 1});
+      }
+      if (middle < high) {
+        open.push({middle + 1, high});
+      }
+    }
+    return true;
+  }
+
+  OmplStates states_;
+  FclPlaces& places_;
+  Count count_;
+  Spent& spent_;
+};
+
+class SampledStates : public ob::StateValidityChecker {
+ public:
+  SampledStates(const ob::SpaceInformationPtr& si, OmplStates states, FclPlaces& places)
+      : StateValidityChecker(si), states_(std::move(states)), places_(places) {}
+
+  bool isValid(const ob::State* state) const override {
+    return si_->satisfiesBounds(state) && !places_.collide(states_.read(state));
+  }
+
+ private:
+  OmplStates states_;
+  FclPlaces& places_;
+};
+
+/// The runs of one validator.
+struct Runs {
+  std::vector<double> solve_ms;  // Those without a path with the time that they were allowed.
+  std::size_t solved = 0;
+  std::size_t colliding = 0;
+  std::size_t colliding_simplified = 0;
+  std::size_t undecided = 0;  // Paths that are neither proven nor refuted.
+  double total_ms = 0.0;
+  Spent spent = {};
+
+  [[nodiscard]] json summary() const {
+    return {{"runs", solve_ms.size()},
+            {"solved", solved},
+            {"solve_ms_median", median(solve_ms)},
+            {"share_in_validation", spent.ms / std::max(total_ms, 1e-9)},
+            {"edges_per_s", 1e3 * static_cast<double>(spent.edges) / std::max(spent.ms, 1e-9)},
+            {"colliding", colliding},
+            {"colliding_simplified", colliding_simplified},
+            {"undecided", undecided}};
+  }
+};
+
+const std::vector<std::string>& validators() {
+  static const std::vector<std::string> names = {"proven", "FCL 1 degree", "FCL 5 degrees",
+                                                 "FCL 1 % of the extent"};
+  return names;
+}
+
+/// [%]  The ratio of medians of two lists of runs, and its 95 % interval by bootstrap.
+json ratio_of(const Runs& ours, const Runs& others) {
+  std::mt19937 random(1);
+  const auto drawn = [&](const std::vector<double>& values) {
+    std::uniform_int_distribution<std::size_t> any(0, values.size() - 1);
+    std::vector<double> again;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      again.push_back(values[any(random)]);
+    }
+    return median(std::move(again));
+  };
+  std::vector<double> ratios;
+  for (int k = 0; k < 1000; ++k) {
+    ratios.push_back(drawn(ours.solve_ms) / drawn(others.solve_ms));
+  }
+  std::sort(ratios.begin(), ratios.end());
+  return {{"ratio", median(ours.solve_ms) / median(others.solve_ms)},
+          {"low", ratios[25]},
+          {"high", ratios[975]}};
+}
+
+/// One problem with all validators.
+class Problem {
+ public:
+  Problem(const ScenePlan& scene, const Settings& settings)
+      : scene_(scene),
+        settings_(settings),
+        edges_(std::make_shared<EdgeChecker>(scene.plan)),
+        places_(scene) {}
+
+  void run(std::uint64_t seed, std::vector<Runs>& all) {
+    for (std::size_t which = 0; which < all.size(); ++which) {
+      run(which, seed, all[which]);
+    }
+  }
+
+ private:
+  void run(std::size_t which, std::uint64_t seed, Runs& runs) {
+    const ob::StateSpacePtr space = make_ompl_space(edges_->space());
+    const auto si = std::make_shared<ob::SpaceInformation>(space);
+    const OmplStates states(*space, edges_->space());
+    if (which == 0) {
+      si->setStateValidityChecker(std::make_shared<ProvenStates>(si, edges_));
+      si->setMotionValidator(std::make_shared<TimedProof>(si, edges_, runs.spent));
+    } else {
+      si->setStateValidityChecker(std::make_shared<SampledStates>(si, states, places_));
+      si->setMotionValidator(std::make_shared<SampledMotions>(
+          si, states, places_, count_of(which, *space, states), runs.spent));
+    }
+    si->setup();
+    const auto problem = std::make_shared<ob::ProblemDefinition>(si);
+    problem->setStartAndGoalStates(state(space, states, scene_.start),
+                                   state(space, states, scene_.goals.front()), 1e-9);
+    ompl::RNG::setSeed(seed);
+    og::RRTConnect planner(si);
+    planner.setProblemDefinition(problem);
+    planner.setup();
+    const double begin = thread_time();
+    planner.solve(ob::timedPlannerTerminationCondition(settings_.time));
+    const double took = thread_time() - begin;
+    runs.total_ms += took;
+    if (!problem->hasExactSolution()) {
+      runs.solve_ms.push_back(1e3 * settings_.time);
+      return;
+    }
+    ++runs.solved;
+    runs.solve_ms.push_back(took);
+    auto path = std::static_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
+    judge(*path, states, runs.colliding, runs.undecided);
+    const Spent before = runs.spent;
+    og::PathSimplifier(si).simplifyMax(*path);
+    runs.spent = before;
+    judge(*path, states, runs.colliding_simplified, runs.undecided);
+  }
+
+  SampledMotions::Count count_of(std::size_t which, const ob::StateSpace& space,
+                                 const OmplStates& states) const {
+    if (which == 3) {
+      return [&space](const ob::State* from, const ob::State* to) {
+        return static_cast<int>(space.validSegmentCount(from, to));
+      };
+    }
+    const double step = (which == 1 ? 1.0 : 5.0) * kDegree;
+    return [&states, step](const ob::State* from, const ob::State* to) {
+      const Configuration a = states.read(from);
+      const Configuration b = states.read(to);
+      double longest = 0.0;
+      for (std::size_t k = 0; k < a.size(); ++k) {
+        longest = std::max(longest, std::abs(b[k] - a[k]));
+      }
+      return static_cast<int>(std::ceil(longest / step));
+    };
+  }
+
+  static ob::ScopedState<> state(const ob::StateSpacePtr& space, const OmplStates& states,
+                                 const Configuration& q) {
+    ob::ScopedState<> made(space);
+    states.write(q, made.get());
+    return made;
+  }
+
+  /// Counts a path that is proven to collide.
+  void judge(og::PathGeometric& path, const OmplStates& states, std::size_t& colliding,
+             std::size_t& undecided) const {
+    bool is_undecided = false;
+    for (unsigned int k = 0; k + 1 < path.getStateCount(); ++k) {
+      const EdgeVerdict verdict =
+          judge_.check_quickly(states.read(path.getState(k)), states.read(path.getState(k + 1)))
+              .verdict;
+      if (verdict == EdgeVerdict::blocked) {
+        ++colliding;
+        return;
+      }
+      is_undecided = is_undecided || verdict == EdgeVerdict::undecided;
+    }
+    undecided += is_undecided ? 1 : 0;
+  }
+
+  const ScenePlan& scene_;
+  const Settings& settings_;
+  std::shared_ptr<EdgeChecker> edges_;
+  // Blocked is what is nearer than 0.1 um.
+  EdgeChecker judge_{scene_.plan, {.tolerance = 1e-7, .extra_clearance = 0.0}};
+  FclPlaces places_;
+};
+
+/// Puts plates before the robot that leave the start and the goals free.
+Scene with_plates(const Scene& scene, const Settings& settings, int problem, ShapeCache& cache) {
+  constexpr int kTries = 100;
+  Scene made = scene;
+  RandomNumbers random(static_cast<std::uint64_t>(problem));
+  for (int tried = 0, put = 0; put < settings.plates && tried < kTries; ++tried) {
+    Scene more = made;
+    const Eigen::Vector3d place(random.uniform(0.2, 0.9), random.uniform(-0.6, 0.6),
+                                random.uniform(0.1, 1.0));
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond(random.uniform(0.1, 1.0), random.uniform(-1.0, 1.0),
+                           random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0))
+            .normalized();
+    more.bodies.push_back({.name = "plate " + std::to_string(put),
+                           .shape = {.source = BoxShape{{0.2, 0.2, settings.thickness}}},
+                           .motion = FixedMotion{{place, turn}}});
+    const ScenePlan plan = make_scene_plan(more, question_of_trajectory(more), cache);
+    const EdgeChecker checker(plan.plan);
+    if (checker.is_free(plan.start) && checker.is_free(plan.goals.front())) {
+      made = std::move(more);
+      ++put;
+    }
+  }
+  return made;
+}
+
+int run(const Settings& settings) {
+  const char* data = std::getenv("FIRSTCONTACT_DATA_DIR");
+  if (data == nullptr) {
+    std::cerr << "ompl_benchmark: needs FIRSTCONTACT_DATA_DIR\n";
+    return 2;
+  }
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  std::vector<Runs> all(validators().size());
+  ShapeCache cache;
+  for (const char* family : kPandaFamilies) {
+    for (int problem = 1; problem <= kPandaProblems; problem += settings.every) {
+      Scene scene = read_robot_question(panda_problem(data, family, problem));
+      scene = with_plates(scene, settings, problem, cache);
+      const ScenePlan plan = make_scene_plan(scene, question_of_trajectory(scene), cache);
+      Problem work(plan, settings);
+      for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
+        work.run(seed, all);
+      }
+    }
+    std::cerr << family << " done\n";
+  }
+  json out = {{"seeds", settings.seeds},
+              {"every", settings.every},
+              {"plates", settings.plates},
+              {"thickness_m", settings.thickness}};
+  for (std::size_t which = 0; which < all.size(); ++which) {
+    out["validators"][validators()[which]] = all[which].summary();
+    if (which > 0) {
+      out["proven to"][validators()[which]] = ratio_of(all[0], all[which]);
+    }
+  }
+  std::cout << out.dump(2) << '\n';
+  if (!settings.output.empty()) {
+    std::ofstream(settings.output) << out.dump(2) << '\n';
+  }
+  return all[0].colliding + all[0].colliding_simplified == 0 ? 0 : 1;
+}
+
+Settings settings_of(int count, char** arguments) {
+  Settings settings;
+  for (int k = 1; k < count; ++k) {
+    const std::string name = arguments[k];
+    const bool is_option = name.starts_with("--") && k + 1 < count;
+    const std::string value = is_option ? arguments[++k] : "";
+    if (name == "--seeds") {
+      settings.seeds = std::stoull(value);
+    } else if (name == "--every") {
+      settings.every = std::max(1, std::stoi(value));
+    } else if (name == "--time") {
+      settings.time = std::stod(value);
+    } else if (name == "--plates") {
+      settings.plates = std::stoi(value);
+    } else if (name == "--thickness") {
+      settings.thickness = std::stod(value);
+    } else if (!name.starts_with("--")) {
+      settings.output = name;
+    } else {
+      throw std::invalid_argument("unknown option " + name);
+    }
+  }
+  return settings;
+}
+
+}  // namespace
+}  // namespace firstcontact::benchmarks
+
+int main(int count, char** arguments) {
+  try {
+    return firstcontact::benchmarks::run(firstcontact::benchmarks::settings_of(count, arguments));
+  } catch (const std::exception& error) {
+    std::cerr << "ompl_benchmark: " << error.what() << '\n';
+    return 2;
+  }
+}
