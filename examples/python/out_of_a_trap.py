@@ -27,6 +27,8 @@ del bug["pose"]
 bug["motion"] = {"type": "waypoints", "times": times.tolist(),
                  "poses": [{"position": place[:3].tolist(), "quaternion_wxyz": place[3:].tolist()}
                            for place in places]}
+walls = [body["name"] for body in scene["bodies"][:-1]]
+scene["pairs"] = {"groups": {"trap": walls}, "ignore": [["trap", "trap"]]}  # They touch each other.
 result = fc.check(scene, closest=True)
 print(f"as a motion: {result.verdict}, closest {1e3 * result.closest.distance:.3f} mm "
       f"from {' and '.join(result.closest.pair)}")
