@@ -106,11 +106,12 @@ def of_session(folder: pathlib.Path, name: str, text: str) -> dict:
 def of_plan(name: str, path: dict, text: str) -> dict:
     movers = path["moves"]
     moves = movers.get("robot") or movers.get("body") or " and ".join(movers["robots"])
-    proven = "json: proven: " in text
+    verified = "json: proven: " in text
+    proven = verified or ": a path to the goal, proven edge by edge" in text
     tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
     clearance = f", apart by > {length(path['clearance'])}" if path["clearance"] else ""
     return {"name": name, "title": f"A path of {moves}", "kind": "free" if proven else "undecided",
-            "word": "Planned, verified" if proven else "Planned",
+            "word": "Planned, verified" if verified else "Planned, proven" if proven else "Planned",
             "fact": plural(len(path["edges"]), "edge") + clearance,
             "tested": int(tested) if tested else None, "warnings": text.count("warning "), "data": f"{name}.json",
             "plot": ""}

@@ -107,6 +107,12 @@ class Report(unittest.TestCase):
         cards, _ = self.cards(verified=False)
         self.assertNotIn("verified", cards.texts["path"])
 
+    def test_calls_a_path_proven_where_only_its_planner_proved_it(self):
+        facts = report.of_plan("path", PATH, "nut.json: a path to the goal, proven edge by edge\n")
+        self.assertEqual((facts["word"], facts["kind"]), ("Planned, proven", "free"))
+        facts = report.of_plan("path", PATH, "nut.json: an approximate path, proven edge by edge\n")
+        self.assertEqual((facts["word"], facts["kind"]), ("Planned", "undecided"))
+
     def test_shows_the_force_of_a_haptic_session(self):
         cards, _ = self.cards()
         for text in ("Felt, verified", "2 steps, 1 s, at most 1.5 N", "Forces over time"):
