@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/contact_motion.h>
 #include <firstcontact/planning/detail/contact_steering.h>
+#include <firstcontact/planning/detail/loose_motions.h>
 #include <firstcontact/planning/detail/mover_contact_finder.h>
 #include <firstcontact/planning/detail/plan_work.h>
 #include <firstcontact/planning/detail/tangent_space.h>
@@ -26,6 +28,7 @@
 #include "support/narrow_passages.h"
 #include "support/random.h"
 #include "support/rounds.h"
+#include "support/thread_mesh.h"
 
 namespace firstcontact::test {
 namespace {
@@ -52,6 +55,8 @@ Configuration any_place(Random& random) {
 Configuration placed(const Vector3d& p, const Eigen::Quaterniond& r) {
   return {p.x(), p.y(), p.z(), r.w(), r.x(), r.y(), r.z()};
 }
+
+const Configuration kAssembled = {0, 0, 0, 1, 0, 0, 0};
 
 /// A cube of 0.2 m above the floor z = 0.
 PlanScene cube_above_floor() {
@@ -81,6 +86,85 @@ struct Steered {
   PlanWork work;
   ContactSteering steering;
 };
+
+/// A body in another one, to be taken out of it.
+PlanScene assembly(const Shape& fixed, const Shape& moved) {
+  RobotScene scene;
+  scene.add_body("fixed", fixed);
+  ConfigurationSpace space = ConfigurationSpace::of_body("moved", moved, Vector3d::Constant(-5.0),
+                                                         Vector3d::Constant(5.0));
+  const std::size_t robot = scene.add_robot("moved", space.motion(kAssembled, kAssembled));
+  return {.scene = std::move(scene), .robots = {robot}, .space = std::move(space)};
+}
+
+/// A nut on its rod, 0.5 m a turn.
+PlanScene nut_on_rod(int segments, int turns) {
+  return assembly(make_thread({.segments = segments, .turns = turns + 1}),
+                  make_thread({.segments = segments, .turns = turns, .wider = 0.06, .shift = 1.0}));
+}
+
+/// A tube in another one: threads of no depth.
+PlanScene tube_in_tube(int segments, int turns) {
+  return assembly(
+      make_thread({.segments = segments, .turns = 2 * turns, .depth = 0.0, .wider = 0.03}),
+      make_thread({.segments = segments, .turns = turns, .depth = 0.0}));
+}
+
+std::vector<VectorXd> loose_at_start(const PlanScene& scene) {
+  const TangentSpace tangents(scene);
+  MoverContactFinder finder(scene, tangents, 2e-6);
+  ContactsAt at = finder.near(kAssembled, 0.04 * tangents.reach());
+  at.contacts.resize((at.contacts.size() + 1) / 2);
+  EXPECT_GT(at.contacts.size(), 5u);
+  std::vector<VectorXd> loose;
+  for (const VectorXd& dq : detail::loose_motions(tangents, at)) {
+    EXPECT_NEAR(tangents.product(dq, dq), 1.0, 1e-12);
+    loose.push_back(tangents.in_body(kAssembled, dq));
+  }
+  return loose;
+}
+
+TEST(LooseMotions, GiveTheScrewOfAThread) {
+  const std::vector<VectorXd> loose = loose_at_start(nut_on_rod(48, 3));
+  ASSERT_FALSE(loose.empty());
+  const VectorXd& screw = loose.front();
+  EXPECT_LT(screw.segment<2>(3).norm(), 0.02 * std::abs(screw[5]));
+  // The facets of the two tilt normals.
+  EXPECT_NEAR(screw[2] / screw[5], 0.5 / (2.0 * std::numbers::pi), 0.015);
+}
+
+TEST(LooseMotions, GiveTheAxisOfAHole) {
+  const std::vector<VectorXd> loose = loose_at_start(tube_in_tube(48, 3));
+  ASSERT_GE(loose.size(), 2u);  // Along the axis and about it, mixed in any way.
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT(loose[k].head<2>().norm(), 0.05) << k;
+    EXPECT_LT(loose[k].segment<2>(3).norm(), 0.05) << k;
+  }
+}
+
+/// A proven path in contact, each way.
+void expect_out_and_in(const PlanScene& scene, double least_turns) {
+  const Configuration outside = {4.0, 0.0, 1.0, 1, 0, 0, 0};
+  for (const bool is_out : {true, false}) {
+    const PlanResult result =
+        plan_path(scene, is_out ? kAssembled : outside, {is_out ? outside : kAssembled},
+                  {.contacts = ContactUse::both, .time = 60.0, .shortcuts = 0});
+    ASSERT_EQ(result.verdict, PlanVerdict::proven) << is_out;
+    double turn = 0.0;
+    for (std::size_t k = 0; k + 1 < result.path.size(); ++k) {
+      const auto turn_of = [&](std::size_t at) {
+        const Configuration& q = result.path[at];
+        return Eigen::Quaterniond(q[3], q[4], q[5], q[6]);
+      };
+      turn += turn_of(k).angularDistance(turn_of(k + 1));
+    }
+    EXPECT_GE(turn, least_turns * 2.0 * std::numbers::pi) << is_out;
+  }
+}
+
+TEST(Assemblies, ATubeComesOutOfATubeAndGoesIn) { expect_out_and_in(tube_in_tube(32, 2), 0.0); }
+
+TEST(Assemblies, ANutComesOffItsRodAndGoesOn) { expect_out_and_in(nut_on_rod(32, 2), 1.0); }
 
 TEST(TangentSpace, LeadsFromOnePlaceToTheOther) {
   const PlanScene scene = cube_above_floor();
