@@ -107,7 +107,9 @@ def of_plan(name: str, path: dict, text: str) -> dict:
     movers = path["moves"]
     moves = movers.get("robot") or movers.get("body") or " and ".join(movers["robots"])
     verified = "json: proven: " in text
-    proven = verified or ": a path to the goal, proven edge by edge" in text
+    # What was not verified at all is as its planner proved it.
+    others = re.search(r"json: (?!a path to the goal, proven edge by edge)", text)
+    proven = verified or (not others and "json: a path to the goal, proven edge by edge" in text)
     tested = next((line.split()[1] for line in text.splitlines() if line.split()[:1] == ["tested"]), None)
     clearance = f", apart by > {length(path['clearance'])}" if path["clearance"] else ""
     return {"name": name, "title": f"A path of {moves}", "kind": "free" if proven else "undecided",

@@ -197,7 +197,7 @@ struct Runs {
   std::size_t solved = 0;
   std::size_t colliding = 0;
   std::size_t colliding_simplified = 0;
-  std::size_t undecided = 0;  // Paths that are neither proven nor refuted.
+  std::size_t undecided = 0;  // Paths, simplified or not, that are neither proven nor refuted.
   double total_ms = 0.0;
   Spent spent = {};
 
@@ -222,17 +222,17 @@ const std::vector<std::string>& validators() {
 /// [%]  The ratio of medians of two lists of runs, and its 95 % interval by bootstrap.
 json ratio_of(const Runs& ours, const Runs& others) {
   std::mt19937 random(1);
-  const auto drawn = [&](const std::vector<double>& values) {
-    std::uniform_int_distribution<std::size_t> any(0, values.size() - 1);
-    std::vector<double> again;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      again.push_back(values[any(random)]);
-    }
-    return median(std::move(again));
-  };
+  std::uniform_int_distribution<std::size_t> any(0, ours.solve_ms.size() - 1);
   std::vector<double> ratios;
-  for (int k = 0; k < 1000; ++k) {
-    ratios.push_back(drawn(ours.solve_ms) / drawn(others.solve_ms));
+  for (int draw = 0; draw < 1000; ++draw) {
+    std::vector<double> a;
+    std::vector<double> b;
+    for (std::size_t k = 0; k < ours.solve_ms.size(); ++k) {
+      const std::size_t run = any(random);  // The same problem and seed of both.
+      a.push_back(ours.solve_ms[run]);
+      b.push_back(others.solve_ms[run]);
+    }
+    ratios.push_back(median(std::move(a)) / median(std::move(b)));
   }
   std::sort(ratios.begin(), ratios.end());
   return {{"ratio", median(ours.solve_ms) / median(others.solve_ms)},
@@ -247,10 +247,14 @@ class Problem {
       : scene_(scene),
         settings_(settings),
         edges_(std::make_shared<EdgeChecker>(scene.plan)),
-        places_(scene) {}
+        places_(scene) {
+    (void)edges_->is_free(scene.start);  // The memory of the thread, as FCL has its hierarchies.
+  }
 
+  /// Each validator in turn, another one first each time.
   void run(std::uint64_t seed, std::vector<Runs>& all) {
-    for (std::size_t which = 0; which < all.size(); ++which) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::size_t which = (k + seed + all[0].solve_ms.size()) % all.size();
       run(which, seed, all[which]);
     }
   }
@@ -288,10 +292,12 @@ class Problem {
     runs.solve_ms.push_back(took);
     auto path = std::static_pointer_cast<og::PathGeometric>(problem->getSolutionPath());
     judge(*path, states, runs.colliding, runs.undecided);
+    std::size_t undecided_simplified = 0;
     const Spent before = runs.spent;
     og::PathSimplifier(si).simplifyMax(*path);
     runs.spent = before;
-    judge(*path, states, runs.colliding_simplified, runs.undecided);
+    judge(*path, states, runs.colliding_simplified, undecided_simplified);
+    runs.undecided += undecided_simplified;
   }
 
   SampledMotions::Count count_of(std::size_t which, const ob::StateSpace& space,

@@ -110,6 +110,9 @@ class Report(unittest.TestCase):
     def test_calls_a_path_proven_where_only_its_planner_proved_it(self):
         facts = report.of_plan("path", PATH, "nut.json: a path to the goal, proven edge by edge\n")
         self.assertEqual((facts["word"], facts["kind"]), ("Planned, proven", "free"))
+        text = "nut.json: a path to the goal, proven edge by edge\npath.json: not proven\n"
+        facts = report.of_plan("path", PATH, text)
+        self.assertEqual((facts["word"], facts["kind"]), ("Planned", "undecided"))
         facts = report.of_plan("path", PATH, "nut.json: an approximate path, proven edge by edge\n")
         self.assertEqual((facts["word"], facts["kind"]), ("Planned", "undecided"))
 

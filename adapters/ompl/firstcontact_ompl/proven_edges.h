@@ -58,7 +58,7 @@ class ProvenEdges : public ompl::base::MotionValidator {
         edges_(std::move(edges)) {}
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override {
-    return count(edges_->check(states_.read(from), states_.read(to)));
+    return count(edges_->check_quickly(states_.read(from), states_.read(to)));
   }
 
   /// The state of `last` may be null, or `to` itself.

@@ -26,7 +26,7 @@ struct ContactWays::Data {
   struct Worker {
     Worker(const EdgeChecker& edges, const PlanOptions& options, double range)
         : work(edges, options, detail::PlanWork::Clock::now(),
-               detail::PlanWork::Clock::time_point::max()),
+               edges.options().deadline.value_or(detail::PlanWork::Clock::time_point::max())),
           steering(work, edges.scene(), range) {}
 
     detail::PlanWork work;
@@ -74,6 +74,7 @@ ContactWays::ContactWays(std::shared_ptr<const EdgeChecker> edges, double range)
                                 " slides without limits; give it bounds, or give a range");
   }
   data_->range = range > 0.0 ? range : detail::default_range(edges->space());
+  data_->options.stop = edges->options().stop;
   data_->edges = std::move(edges);
 }
 

@@ -87,8 +87,11 @@ class PlanSearch {
                           std::chrono::duration<double>(std::min(options.time, 1e9)))),
         contacts_(std::move(contacts)),
         checker_(scene, options_of_search(EdgePlace::inner, options.effort)),
-        hasty_(scene, options_of_search(EdgePlace::inner, hasty_effort(options))),
-        work_(checker_, hasty_, options_, begin_, end_) {
+        hasty_(hasty_effort(options) < options.effort
+                   ? std::make_optional<EdgeChecker>(
+                         scene, options_of_search(EdgePlace::inner, hasty_effort(options)))
+                   : std::nullopt),
+        work_(checker_, hasty_ ? *hasty_ : checker_, options_, begin_, end_) {
     for (const PathEnd at : {PathEnd::start, PathEnd::goal}) {
       if (contacts_.opens(at)) {
         at_end(at).emplace(scene, options_of_search(at == PathEnd::start ? EdgePlace::at_start
@@ -336,7 +339,7 @@ class PlanSearch {
   PlanWork::Clock::time_point end_;
   detail::ContactEnds contacts_;
   EdgeChecker checker_;
-  EdgeChecker hasty_;                    // Of the search.
+  std::optional<EdgeChecker> hasty_;     // Of the search, where that has less effort.
   std::optional<EdgeChecker> at_start_;  // Where pairs must open at that end.
   std::optional<EdgeChecker> at_goal_;
   PlanWork work_;

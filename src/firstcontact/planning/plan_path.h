@@ -55,7 +55,7 @@ struct BlockingPair {
 /// The work of a planner in contact; all 0 where it was not to.
 struct ContactStatistics {
   std::size_t slides = 0;      ///< Ways along contacts towards a target.
-  std::size_t pushes = 0;      ///< Ways along contacts in a random direction.
+  std::size_t pushes = 0;      ///< Ways along contacts in a direction.
   std::size_t nodes = 0;       ///< Places of trees that they ended at.
   std::size_t in_contact = 0;  ///< Of these: no farther from contact than the gap that is kept.
   std::size_t active = 0;      ///< Contacts that held the last steps back, of all of these.

@@ -52,7 +52,7 @@ bool ContactGrowth::is_due() const {
   if (!steering_ || is_stuck_) {
     return steering_.has_value();
   }
-  const std::size_t others = work_.counts().edges_checked - spent_;
+  const std::size_t others = work_.counts().edges_checked - spent_ - leaving_;
   double allowed = 0.0;
   std::size_t from = 0;
   for (const Ration& ration : kRations) {
@@ -133,10 +133,12 @@ std::vector<std::array<Eigen::VectorXd, 2>> ContactGrowth::ways_out(const Config
 std::optional<ContactGrowth::Left> ContactGrowth::leave(PlanTree& tree, std::size_t from,
                                                         const Eigen::VectorXd& direction) {
   ++work_.counts().contacts.pushes;
+  const std::size_t before = work_.counts().edges_checked;
   const Configuration begin = tree[from];
   const ContactWay way = work_.thoroughly([&] { return steering_->push(begin, direction); });
   const std::optional<std::size_t> end = take(tree, from, way);
-  return end ? std::optional(Left{*end, !way.is_near}) : std::nullopt;
+  leaving_ += work_.counts().edges_checked - before;
+  return end ? std::optional(Left{*end, !steering_->is_near(tree[*end])}) : std::nullopt;
 }
 
 std::optional<std::size_t> ContactGrowth::push(PlanTree& tree, RandomNumbers& random) {

@@ -96,7 +96,8 @@ class ContactGrowth {
   PassageTrees passages_;
   std::size_t draws_ = 0;  // Of gaps.
   bool is_stuck_ = false;
-  std::size_t spent_ = 0;  // Edges that were checked in contact.
+  std::size_t spent_ = 0;    // Edges that were checked in contact,
+  std::size_t leaving_ = 0;  // and those of leave(), which are not rationed.
 };
 
 }  // namespace firstcontact::detail

@@ -23,13 +23,14 @@ constexpr std::size_t kMostSteps = 400;
 constexpr std::size_t kStepsToGain = 12;  // Steps after which something has to be gained.
 constexpr double kGain = 0.02;            // [-]  Of the way of these steps.
 constexpr double kMostTurn = 2.5;         // [rad]  Of one edge.
-constexpr double kRangesOfPush = 100.0;   // [-]  The longest push, in ranges.
+constexpr double kRangesOfPush = 20.0;    // [-]  The longest push, in ranges.
 constexpr std::size_t kFewContacts = 6;
 constexpr double kLooseBand = 4.0;  // [-]  Of the hover gap: contacts of ways_out().
 constexpr std::size_t kLongestWait = 16;
 constexpr std::size_t kLookEvery = 8;  // Steps of a screw.
 constexpr int kMostCentres = 32;
 constexpr double kSureTurn = 1.0;    // [rad]  After which a screw is known well enough.
+constexpr double kTurns = 0.05;      // [-]  A motion that turns less, with the reach, slides.
 constexpr double kLeastTurn = 0.05;  // [rad]  So, too, from the middle of the play to the middle.
 
 }  // namespace
@@ -45,7 +46,7 @@ class ContactSteering::Way {
         step_(kFirstStep * t_.reach()),
         trail_{from},
         screw_(Eigen::VectorXd::Zero(t_.size())),
-        place_before_(from) {
+        screw_before_(screw_) {
     if (aim_.target != nullptr) {
       before_ = t_.length(t_.difference(q_, *aim_.target));
     }
@@ -95,7 +96,7 @@ class ContactSteering::Way {
   void take(Configuration to) {
     const Eigen::VectorXd dq = t_.difference(q_, to);
     travelled_ += t_.length(dq);
-    screw_ += t_.in_body(q_, dq);
+    screw_ += t_.twist(q_, to);
     q_ = std::move(to);
     looked_within_ = -1.0;
     way_.places.push_back(q_);
@@ -161,8 +162,8 @@ class ContactSteering::Way {
 
   /// Begins in the middle of the play, by a screw about an axis of the mover if one is near.
   void begin_push() {
-    if (const auto near = t_.screwed(q_, t_.in_world(q_, aim_.in_body))) {
-      aim_.in_body = t_.in_body(q_, t_.difference(q_, *near));
+    if (const auto screw = t_.about_an_axis(aim_.in_body)) {
+      aim_.in_body = *screw;
     }
     if (centre()) {
       trail_ = {q_};
@@ -173,11 +174,12 @@ class ContactSteering::Way {
   /// Goes to the middle between contacts along the axis of the mover that it turns about, so that
   /// what is repeated from there is not led astray by the play of a fit.
   bool centre() {
-    if (!s_.work_.space().is_body()) {
+    if (!s_.work_.space().is_body() || s_.work_.is_over()) {
       return false;
     }
-    const Eigen::Vector3d turn = (screw_.isZero(0.0) ? aim_.in_body : screw_).tail<3>();
-    if (turn.isZero(0.0)) {
+    const Eigen::VectorXd& way = screw_.isZero(0.0) ? aim_.in_body : screw_;
+    const Eigen::Vector3d turn = way.tail<3>();
+    if (!(t_.reach() * turn.norm() > kTurns * way.head<3>().norm())) {
       return false;
     }
     Eigen::Index axis = 0;
@@ -207,9 +209,16 @@ class ContactSteering::Way {
       return false;
     }
     (void)centre();
-    aim_.in_body = screw_ * (t_.length(aim_.in_body) / t_.length(screw_));
+    const Eigen::VectorXd better = screw_ * (t_.length(aim_.in_body) / t_.length(screw_));
+    const bool leads_on = t_.product(t_.in_world(q_, better), t_.in_world(q_, aim_.in_body)) > 0.0;
+    const Eigen::VectorXd before = std::exchange(aim_.in_body, better);
     is_screw_ = true;
-    return repeat_screw();
+    if (leads_on && repeat_screw()) {
+      return true;
+    }
+    is_screw_ = false;
+    aim_.in_body = before;
+    return false;
   }
 
   /// Takes all that the trail has led to once more, if that is proven, and again.
@@ -225,6 +234,9 @@ class ContactSteering::Way {
         break;
       }
       any = true;
+      if (free_way_ > s_.range_) {
+        break;
+      }
     }
     wait_ = any ? 0 : std::min(2 * wait_ + 1, kLongestWait);
     waits_ = wait_;
@@ -238,7 +250,7 @@ class ContactSteering::Way {
   bool repeat_screw() {
     bool any = false;
     double share = 1.0;  // Of the screw.
-    for (int halvings = 0; halvings <= 4 && !s_.work_.is_over() && travelled_ < aim_.most;) {
+    for (int halvings = 0; halvings <= 4 && !s_.work_.is_over();) {
       const double turn = screw_.tail<3>().norm();
       if (!(turn > 0.0) || !is_screw_) {
         break;
@@ -248,7 +260,7 @@ class ContactSteering::Way {
       if (!(t_.product(dq, wanted_motion()) > 0.0)) {
         break;
       }
-      Configuration to = t_.moved(q_, dq);
+      Configuration to = t_.screwed(q_, dq).value_or(t_.moved(q_, dq));
       if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
         share *= 0.5;
         ++halvings;
@@ -338,11 +350,11 @@ class ContactSteering::Way {
     const double way = travelled_ - travelled_before_;
     const double gain = aim_.target != nullptr
                             ? before_ - t_.length(t_.difference(q_, *aim_.target))
-                            : t_.length(t_.difference(place_before_, q_));
+                            : t_.length(screw_ - screw_before_);
     const bool leads_on = gain > kGain * way;
     looked_at_ = way_.places.size();
     travelled_before_ = travelled_;
-    place_before_ = q_;
+    screw_before_ = screw_;
     if (aim_.target != nullptr) {
       before_ = t_.length(t_.difference(q_, *aim_.target));
     }
@@ -369,7 +381,7 @@ class ContactSteering::Way {
   std::size_t looked_at_ = 0;
   double travelled_before_ = 0.0;
   double before_ = 0.0;
-  Configuration place_before_;
+  Eigen::VectorXd screw_before_;
 };
 
 ContactSteering::ContactSteering(PlanWork& work, const PlanScene& scene, double range)
@@ -429,7 +441,14 @@ Eigen::VectorXd ContactSteering::direction(RandomNumbers& random) const {
   return length > 0.0 ? Eigen::VectorXd(dq * (range_ / length)) : dq;
 }
 
+bool ContactSteering::is_near(const Configuration& q) {
+  return !finder_.near(q, kLooseBand * hover_).contacts.empty();
+}
+
 std::vector<std::array<Eigen::VectorXd, 2>> ContactSteering::ways_out(const Configuration& from) {
+  if (!work_.space().is_body()) {
+    return {};
+  }
   ContactsAt at = finder_.near(from, kLooseBand * hover_);
   if (at.contacts.empty()) {
     return {};
@@ -442,7 +461,7 @@ std::vector<std::array<Eigen::VectorXd, 2>> ContactSteering::ways_out(const Conf
   for (const Eigen::VectorXd& loose : loose_motions(tangents_, at)) {
     add(tangents_.in_body(from, range_ * loose));
   }
-  for (Eigen::Index k = 0; k < tangents_.size() && work_.space().is_body(); ++k) {
+  for (Eigen::Index k = 0; k < tangents_.size(); ++k) {
     const double length = k < 3 ? range_ : range_ / tangents_.reach();
     add(length * Eigen::VectorXd::Unit(tangents_.size(), k));
   }

@@ -50,11 +50,14 @@ class ContactSteering {
   /// Leaves contacts as far as the hover gap.
   [[nodiscard]] ContactWay lift(const Configuration& from);
 
+  /// Whether something is about as near as contacts that ways_out() looks at.
+  [[nodiscard]] bool is_near(const Configuration& q);
+
   /// A direction for push(): along, about, or both, of the length of the range.
   [[nodiscard]] Eigen::VectorXd direction(RandomNumbers& random) const;
 
-  /// Directions for push() out of contacts at a place, each in both senses: those that the contacts
-  /// hold back least, then along and about the axes of a body. Without contacts there is none.
+  /// Directions for push() of a body out of contacts, each in both senses: those that the contacts
+  /// hold back least, then along and about its axes. None without contacts, and of robots.
   [[nodiscard]] std::vector<std::array<Eigen::VectorXd, 2>> ways_out(const Configuration& from);
 
  private:

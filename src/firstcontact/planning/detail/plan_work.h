@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
@@ -49,10 +50,13 @@ class PlanWork {
   /// Does something with all the effort that checks may take.
   template <class Call>
   auto thoroughly(const Call& call) {
-    now_ = &checker_;
-    auto result = call();
-    now_ = &hasty_;
-    return result;
+    struct Restore {
+      const EdgeChecker*& now;
+      const EdgeChecker* before;
+      ~Restore() { now = before; }
+    };
+    const Restore restore{now_, std::exchange(now_, &checker_)};
+    return call();
   }
 
   /// Whether the time is over, or the search is to end.

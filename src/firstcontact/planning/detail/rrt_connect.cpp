@@ -13,7 +13,7 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr std::size_t kTriesToLeave = 8;   // Iterations before a tree without edges is stuck.
+constexpr std::size_t kTriesToLeave = 8;   // Iterations before pushes, and before a tree is stuck.
 constexpr std::size_t kReportEvery = 256;  // Iterations.
 
 class Connect {
@@ -35,18 +35,21 @@ class Connect {
         return joined({0, goal});
       }
     }
-    for (std::size_t tree = 0; tree < 2; ++tree) {
-      if (const auto met = leave(tree)) {
-        return joined(*met);
-      }
-    }
+    roots_ = {trees_[0].size(), trees_[1].size()};
     std::size_t grows = 0;
     while (!work_.is_over()) {
       const std::size_t iteration = work_.counts().iterations++;
       if (iteration % kReportEvery == kReportEvery - 1) {
         work_.report(size(), std::nullopt);
       }
-      contact_.next(iteration >= kTriesToLeave && trees_[grows].size() == 1, random);
+      for (std::size_t tree = 0; tree < 2 && iteration == kTriesToLeave; ++tree) {
+        if (const auto met = leave(tree)) {
+          return joined(*met);
+        }
+      }
+      const bool is_stuck =
+          iteration >= kTriesToLeave && trees_[grows].size() == roots_[grows] + pushed_[grows];
+      contact_.next(is_stuck, random);
       if (const auto met = grow(grows, work_.space().sample(random))) {
         return joined(*met);
       }
@@ -91,18 +94,23 @@ class Connect {
   /// until one is out of contact. Extends the other tree towards each end.
   std::optional<Meeting> leave(std::size_t grows) {
     PlanTree& tree = trees_[grows];
-    const std::size_t roots = tree.size();
-    for (std::size_t root = 0; root < roots; ++root) {
+    for (std::size_t root = 0; root < roots_[grows] && !work_.is_over(); ++root) {
       bool is_out = false;
       for (const auto& senses : contact_.ways_out(tree[root])) {
         for (const Eigen::VectorXd& direction : senses) {
+          if (work_.is_over()) {
+            return std::nullopt;
+          }
+          const std::size_t before = tree.size();
           const auto left = contact_.leave(tree, root, direction);
+          pushed_[grows] += tree.size() - before;
+          work_.report(size(), std::nullopt);
           is_out = is_out || (left && left->is_out);
           if (const auto met = left ? meet(grows, left->node) : std::nullopt) {
             return met;
           }
         }
-        if (is_out || work_.is_over()) {
+        if (is_out) {
           break;
         }
       }
@@ -205,6 +213,8 @@ class Connect {
   PlanWork& work_;
   double range_;
   std::array<PlanTree, 2> trees_;
+  std::array<std::size_t, 2> roots_ = {};
+  std::array<std::size_t, 2> pushed_ = {};  // Nodes of pushes from roots.
   ContactGrowth contact_;
 };
 

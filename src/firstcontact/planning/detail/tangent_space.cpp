@@ -136,14 +136,21 @@ Eigen::VectorXd TangentSpace::in_world(const Configuration& q, const Eigen::Vect
   return turned;
 }
 
-std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
-                                                   const Eigen::VectorXd& dq) const {
+Eigen::VectorXd TangentSpace::twist(const Configuration& from, const Configuration& to) const {
+  Eigen::VectorXd twist = in_body(from, difference(from, to));
+  if (space_.is_body()) {
+    const Eigen::Vector3d v = turn_of(from).conjugate() * (place_of(to) - place_of(from));
+    twist.head<3>() = v + Eigen::Vector3d(twist.tail<3>()).cross(p_BC_);
+  }
+  return twist;
+}
+
+std::optional<Eigen::VectorXd> TangentSpace::about_an_axis(const Eigen::VectorXd& in_body) const {
   if (!space_.is_body()) {
     return std::nullopt;
   }
-  const Eigen::VectorXd in_body_axes = in_body(q, dq);
-  const Eigen::Vector3d w = in_body_axes.tail<3>();
-  const Eigen::Vector3d v = in_body_axes.head<3>() - w.cross(p_BC_);  // Of the origin.
+  const Eigen::Vector3d w = in_body.tail<3>();
+  const Eigen::Vector3d v = in_body.head<3>() - w.cross(p_BC_);  // Of the origin.
   const bool turns = reach_ * w.norm() > kNearScrew * v.norm();
   const Eigen::Vector3d& way = turns ? w : v;
   Eigen::Index axis = 0;
@@ -154,10 +161,25 @@ std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
       (turns && beside.norm() > kNearScrew * reach_ * along)) {
     return std::nullopt;
   }
+  const Eigen::Vector3d turn = turns ? Eigen::Vector3d(w[axis] * unit) : Eigen::Vector3d::Zero();
+  Eigen::VectorXd screw(6);
+  screw << v[axis] * unit + turn.cross(p_BC_), turn;
+  return screw;
+}
+
+std::optional<Configuration> TangentSpace::screwed(const Configuration& q,
+                                                   const Eigen::VectorXd& dq) const {
+  const std::optional<Eigen::VectorXd> screw =
+      space_.is_body() ? about_an_axis(in_body(q, dq)) : std::nullopt;
+  if (!screw) {
+    return std::nullopt;
+  }
+  const Eigen::Vector3d turn = screw->tail<3>();
+  const Eigen::Vector3d slide = screw->head<3>() - turn.cross(p_BC_);  // Of the origin.
   const Eigen::Quaterniond begin = turn_of(q);
-  const Eigen::Vector3d place = place_of(q) + begin * Eigen::Vector3d(v[axis] * unit);
+  const Eigen::Vector3d place = place_of(q) + begin * slide;
   const Eigen::Quaterniond end =
-      turns ? (begin * rotation_from_vector(Eigen::Vector3d(w[axis] * unit))).normalized() : begin;
+      turn.isZero(0.0) ? begin : (begin * rotation_from_vector(turn)).normalized();
   return Configuration{place.x(), place.y(), place.z(), end.w(), end.x(), end.y(), end.z()};
 }
 

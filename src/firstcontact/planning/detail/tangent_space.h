@@ -55,6 +55,14 @@ class TangentSpace {
   [[nodiscard]] Eigen::VectorXd in_body(const Configuration& q, const Eigen::VectorXd& dq) const;
   [[nodiscard]] Eigen::VectorXd in_world(const Configuration& q, const Eigen::VectorXd& dq) const;
 
+  /// The motion between two places in axes that go with the mover, as rates of a screw: where a
+  /// body turns about an axis of its frame, all steps of one screw are alike.
+  [[nodiscard]] Eigen::VectorXd twist(const Configuration& from, const Configuration& to) const;
+
+  /// The screw about or along an axis of the body's frame that is near a motion, both in axes that
+  /// go with the body; none where it is near none, or of a robot.
+  [[nodiscard]] std::optional<Eigen::VectorXd> about_an_axis(const Eigen::VectorXd& in_body) const;
+
   /// The place to which the screw leads that is near a motion, about or along an axis of the
   /// body's frame; none where the motion is near none, or of a robot.
   ///
