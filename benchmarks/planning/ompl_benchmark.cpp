@@ -253,8 +253,9 @@ class Problem {
 
   /// Each validator in turn, another one first each time.
   void run(std::uint64_t seed, std::vector<Runs>& all) {
+    const std::size_t first = seed + all[0].solve_ms.size();
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const std::size_t which = (k + seed + all[0].solve_ms.size()) % all.size();
+      const std::size_t which = (first + k) % all.size();
       run(which, seed, all[which]);
     }
   }
