@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -29,6 +28,7 @@
 #include <firstcontact/edges/edge_checker.h>
 #include <firstcontact/planning/plan_path.h>
 
+#include "benchmarks/support/timing.h"
 #include "support/narrow_passages.h"
 
 namespace firstcontact::benchmarks {
@@ -45,13 +45,6 @@ struct Settings {
   double time = 60.0;  // [s]
   std::string output;
 };
-
-/// [s]  Processor time that this thread has used.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// A time after which something was seen, or up to which it was not.
 struct Observation {
@@ -110,7 +103,7 @@ class Campaign {
     ContactStatistics counts;
     json runs = json::array();
     for (std::uint64_t seed = 1; seed <= settings_.seeds; ++seed) {
-      const double begin = thread_seconds();
+      const double begin = thread_time();
       const PlanResult result =
           plan_path(passage.scene, passage.start, {passage.goal},
                     {.contacts = static_cast<ContactUse>(use - kContactUseWords.begin()),
@@ -118,7 +111,7 @@ class Campaign {
                      .time = settings_.time,
                      .shortcuts = 0,
                      .threads = 1});
-      const double seconds = thread_seconds() - begin;
+      const double seconds = 1e-6 * (thread_time() - begin);
       const bool is_solved = result.verdict == PlanVerdict::proven;
       seen.push_back({seconds, is_solved});
       take(result, passage, counts);

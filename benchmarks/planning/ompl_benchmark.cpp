@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -47,6 +46,7 @@
 
 #include "benchmarks/planning/fcl_places.h"
 #include "benchmarks/support/panda_problems.h"
+#include "benchmarks/support/timing.h"
 
 namespace firstcontact::benchmarks {
 namespace {
@@ -66,21 +66,7 @@ struct Settings {
   std::string output;
 };
 
-/// [ms]  Processor time that this thread has used.
-double thread_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) {
-    return std::nan("");
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 /// What validators spent and did.
 struct Spent {
@@ -93,7 +79,7 @@ template <class Call>
 auto timed(Spent& spent, const Call& call) {
   const double begin = thread_time();
   auto answer = call();
-  spent.ms += thread_time() - begin;
+  spent.ms += 1e-3 * (thread_time() - begin);
   ++spent.edges;
   return answer;
 }
@@ -283,7 +269,7 @@ class Problem {
     planner.setup();
     const double begin = thread_time();
     planner.solve(ob::timedPlannerTerminationCondition(settings_.time));
-    const double took = thread_time() - begin;
+    const double took = 1e-3 * (thread_time() - begin);  // [ms]
     runs.total_ms += took;
     if (!problem->hasExactSolution()) {
       runs.solve_ms.push_back(1e3 * settings_.time);

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -28,6 +27,7 @@
 #include <firstcontact/scene_files/robot_question.h>
 
 #include "benchmarks/support/panda_problems.h"
+#include "benchmarks/support/timing.h"
 
 namespace firstcontact::benchmarks {
 namespace {
@@ -47,22 +47,6 @@ struct Settings {
   std::string only;
   std::string output;
 };
-
-/// [us]  Processor time that this thread has used.
-double thread_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) {
-    return std::nan("");
-  }
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::ceil(q * last))];
-}
 
 json summary_of(const std::vector<double>& values) {
   return {{"count", values.size()},

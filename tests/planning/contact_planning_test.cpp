@@ -9,11 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <firstcontact/edges/edge_checker.h>
+#include <firstcontact/geometry/mesh.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/math/random_numbers.h>
 #include <firstcontact/planning/detail/contact_motion.h>
@@ -139,6 +141,33 @@ TEST(LooseMotions, GiveTheAxisOfAHole) {
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_LT(loose[k].head<2>().norm(), 0.05) << k;
     EXPECT_LT(loose[k].segment<2>(3).norm(), 0.05) << k;
+  }
+}
+
+// A body whose middle is off its frame's axes: steps of one screw are one twist all the same.
+TEST(TangentSpace, TellsScrewsOfABodyBesideItsAxis) {
+  Mesh beside = make_box({0.2, 0.4, 0.6}).mesh();
+  for (Vector3d& vertex : beside.vertices) {
+    vertex += Vector3d(0.7, 0.2, -0.3);
+  }
+  const PlanScene scene = assembly(make_box({1, 1, 1}), Shape(std::move(beside)));
+  const TangentSpace tangents(scene);
+  const Vector3d centre(0.7, 0.2, -0.3);
+  Random random(6);
+  for (int k = 0; k < 200; ++k) {
+    const Vector3d axis = Vector3d::Unit(k % 3);
+    const Vector3d turn = (k % 2 == 0 ? 1.0 : -1.0) * random.uniform(0.3, 2.5) * axis;
+    VectorXd screw(6);
+    screw << random.uniform(-1.0, 1.0) * axis + turn.cross(centre), turn;
+    ASSERT_TRUE(tangents.about_an_axis(screw)) << k;
+    EXPECT_LT((*tangents.about_an_axis(screw) - screw).norm(), 1e-12) << k;
+    const Configuration from = any_place(random);
+    const std::optional<Configuration> to = tangents.screwed(from, tangents.in_world(from, screw));
+    ASSERT_TRUE(to) << k;
+    EXPECT_LT((tangents.twist(from, *to) - screw).norm(), 1e-9) << k;
+    VectorXd other = screw;
+    other.tail<3>() += 0.2 * turn.norm() * Vector3d::Unit((k + 1) % 3);
+    EXPECT_FALSE(tangents.about_an_axis(other)) << k;
   }
 }
 

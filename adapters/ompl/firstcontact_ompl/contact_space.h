@@ -68,8 +68,9 @@ class ContactStateSpace : public ChainedStateSpace {
     return way.empty() ? way : within_bounds(way, nullptr);
   }
 
-  /// The place at a share of the way between two states. Of a new way it is the place to which the
-  /// slide towards the straight edge's place leads: `from` where that is nowhere.
+  /// The place at a share of the way between two states. Where no way is known yet, the mover
+  /// slides towards the place at that share of the straight edge. The state is where this slide
+  /// ends: `from` if it leads nowhere.
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double share,
                    ompl::base::State* state) const override {
     if (share <= 0.0 || share >= 1.0) {

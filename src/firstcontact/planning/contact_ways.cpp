@@ -15,12 +15,6 @@
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
-namespace {
-
-constexpr double kShortOfContact = 0.98;  // [-]  Of what is proven of a blocked edge.
-
-}  // namespace
-
 struct ContactWays::Data {
   /// What one thread needs.
   struct Worker {
@@ -93,8 +87,8 @@ ProvenWay ContactWays::follow(const Configuration& from, const Configuration& ta
   }
   ProvenWay way{{from}, false};
   if (straight.fraction > 0.0) {
-    Configuration at_contact =
-        data_->edges->space().interpolate(from, target, kShortOfContact * straight.fraction);
+    Configuration at_contact = data_->edges->space().interpolate(
+        from, target, detail::kShortOfContact * straight.fraction);
     if (data_->is_free(from, at_contact)) {
       way.places.push_back(std::move(at_contact));
     }

@@ -53,8 +53,8 @@ class FIRSTCONTACT_API ContactWays {
   /// Draws a way through a narrow gap of what rests. At one place of it a thin part of the mover
   /// stands in the gap. From there it leads along the gap in both senses until contacts hold it.
   ///
-  /// What is drawn depends on earlier draws of the same thread. Without places where none was
-  /// found, and of robots with joints.
+  /// A thread's earlier draws change what it draws later. The way has no places where no gap was
+  /// found, and for robots with joints.
   [[nodiscard]] ProvenWay passage(RandomNumbers& random) const;
 
  private:

@@ -7,9 +7,8 @@
 namespace firstcontact::detail {
 namespace {
 
-constexpr double kSamePassage = 0.02;     // [-]  Of the range: two places so near are one.
-constexpr std::size_t kFirstDraws = 64;   // Of gaps; later ones are drawn more seldom.
-constexpr double kShortOfContact = 0.98;  // [-]  Of what is proven of a blocked edge.
+constexpr double kSamePassage = 0.02;    // [-]  Of the range: two places so near are one.
+constexpr std::size_t kFirstDraws = 64;  // Of gaps; later ones are drawn more seldom.
 
 /// Edges in contact that are allowed for each other one, until so many others were checked.
 struct Ration {

@@ -24,8 +24,8 @@ constexpr std::size_t kStepsToGain = 12;  // Steps after which something has to 
 constexpr double kGain = 0.02;            // [-]  Of the way of these steps.
 constexpr double kMostTurn = 2.5;         // [rad]  Of one edge.
 constexpr double kRangesOfPush = 20.0;    // [-]  The longest push, in ranges.
-constexpr std::size_t kFewContacts = 6;
-constexpr double kLooseBand = 4.0;  // [-]  Of the hover gap: contacts of ways_out().
+constexpr std::size_t kFewContacts = 6;   // Of which none is left out of ways_out().
+constexpr double kLooseBand = 4.0;        // [-]  Of the hover gap: contacts of ways_out().
 constexpr std::size_t kLongestWait = 16;
 constexpr std::size_t kLookEvery = 8;  // Steps of a screw.
 constexpr int kMostCentres = 32;
@@ -262,11 +262,11 @@ class ContactSteering::Way {
       }
       Configuration to = t_.screwed(q_, dq).value_or(t_.moved(q_, dq));
       if (!s_.work_.space().holds(to) || !s_.work_.is_free(q_, to)) {
-        share *= 0.5;
-        ++halvings;
         if (any) {
           break;
         }
+        share *= 0.5;
+        ++halvings;
         continue;
       }
       take(std::move(to));

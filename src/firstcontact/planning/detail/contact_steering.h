@@ -18,6 +18,9 @@
 
 namespace firstcontact::detail {
 
+/// [-]  Of what is proven of a blocked edge: where slides begin.
+inline constexpr double kShortOfContact = 0.98;
+
 /// A way along contacts.
 struct ContactWay {
   std::vector<Configuration> places;  ///< Behind the place where it begins; edges are proven.
