@@ -82,9 +82,9 @@ struct Scene {
   std::vector<BodyPair> allowed_pairs = {};
   SceneOptions options;
   std::optional<Simulation> simulation = {};
-  std::optional<PlanQuestion> plan = {};  ///< write_scene() leaves it out.
+  std::optional<PlanQuestion> plan = {};       ///< write_scene() leaves it out.
   std::optional<HapticQuestion> haptics = {};  ///< Likewise.
-  double duration = 1.0;                  ///< [s]  Of the step; t = 1 there.
+  double duration = 1.0;                       ///< [s]  Of the step; t = 1 there.
   /// SHA-256, in hexadecimal, of the text that was read and of the trajectory files that it names,
   /// which write_scene() writes out; may be empty.
   std::string text_digest;
