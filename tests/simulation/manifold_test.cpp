@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 #include <algorithm>
 #include <cmath>

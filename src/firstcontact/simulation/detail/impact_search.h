@@ -14,8 +14,8 @@
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_plan.h>
-#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/seams.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/swept_hull.h>
 

@@ -11,7 +11,7 @@
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/record/run_step.h>
 #include <firstcontact/simulation/detail/island_robots.h>
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 
 namespace firstcontact::detail {

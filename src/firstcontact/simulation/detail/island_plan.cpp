@@ -17,36 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-ContactPoint moved(const ContactPoint& contact, const MovedContact& to) {
-  ContactPoint there = contact;
-  there.arm_A = to.arms[0];
-  there.arm_B = to.arms[1];
-  there.frame = to.frame;
-  return there;
-}
-
-/// The contact for a plan in which the mean of the velocities at both ends leads (the midpoint
-/// rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006, II.1.1):
-/// impulses act halfway. What is held is so at the end, J_end v_end = 0: then the mean goes along
-/// the surface halfway. Of J_end v_end the part J_half v_end is unknown, and the rest is near to
-/// that of now.
-ContactPoint by_mean(const ActingContact& acting) {
-  ContactPoint contact = moved(acting.now, acting.halfway);
-  contact.least_normal_velocity = acting.least;
-  if (acting.is_held) {
-    contact.least_normal_velocity = kBackToRest * acting.least - acting.change[0];
-    contact.sticking_velocity -= acting.change.tail<2>();
-  }
-  return contact;
-}
-
-/// The contact for the way of a plan that one velocity leads from its begin to its end.
-ContactPoint along_way(const ActingContact& acting) {
-  ContactPoint contact = moved(acting.now, acting.halfway);
-  contact.least_normal_velocity = acting.least;
-  return contact;
-}
-
 std::size_t count_touches(const std::map<BodyPair, Manifold>& manifolds) {
   return std::transform_reduce(manifolds.begin(), manifolds.end(), std::size_t{0}, std::plus{},
                                [](const auto& entry) { return entry.second.touches.size(); });
@@ -195,11 +165,12 @@ void IslandPlanner::set_bodies() {
 
 ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side) const {
   const std::size_t body = touch.bodies[side];
-  const ContactBody& moving = bodies_.bodies()[bodies_.place(body)];
+  const std::size_t place = bodies_.place(body);
+  const ContactBody& moving = bodies_.bodies()[place];
   return {&state_.model.bodies[body],
-          touch.rolls[side] ? state_.model.round_sides[body].get() : nullptr,
+          touch.round[side],
           state_.pose_of(body).rotation.normalized().toRotationMatrix(),
-          bodies_.centre(bodies_.place(body)),
+          bodies_.centre(place),
           moving.v,
           moving.w};
 }
@@ -208,6 +179,7 @@ ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side)
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
   const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
+  made.is_round = is_round(sides[0]) || is_round(sides[1]);
   made.now = state_.contact(touch, bodies_, least);
   made.now.guess *= span_ / state_.start.h;
   made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
@@ -262,6 +234,9 @@ std::optional<std::size_t> IslandPlanner::find(const PredictedContact& ahead) co
 }
 
 void IslandPlanner::add(const PredictedContact& ahead) {
+  if (lifts(ahead)) {
+    return;
+  }
   const BodyPair& pair = ahead.touch.bodies;
   state_.add_others(pair, bodies_);
   set_bodies();
@@ -309,6 +284,9 @@ Plan IslandPlanner::plan() {
     choose_rules();
   }
   solve();
+  for (int pass = 0; pass < kPassesOfCurves && !by_end_ && follow_curves(); ++pass) {
+    solve();
+  }
   by_end_ = by_end_ || !mean_is_allowed();
   if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
     solve();
@@ -332,6 +310,7 @@ Plan IslandPlanner::plan() {
   made.ties = ties_.impulses(solution.ties);
   made.robots = state_.robots.plan(problem_, solution, flights_, by_end, changes,
                                    state_.start.time + state_.reached, span_);
+  keep_on_curves(made);
   push_apart(made);
   settle_ties(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
@@ -375,6 +354,9 @@ bool IslandPlanner::mean_is_allowed() const {
   }
   const double slack = slack_of_mean();
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    if (is_on_curve(k)) {
+      continue;  // Displacements keep it.
+    }
     if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k) - slack)) {
       return false;
     }

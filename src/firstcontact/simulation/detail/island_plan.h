@@ -14,12 +14,12 @@
 #include <firstcontact/simulation/detail/island.h>
 #include <firstcontact/simulation/detail/island_response.h>
 #include <firstcontact/simulation/detail/island_robots.h>
-#include <firstcontact/simulation/detail/manifold.h>
-#include <firstcontact/simulation/detail/moving_contact.h>
 #include <firstcontact/simulation/detail/plan_ties.h>
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/moving_contact.h>
 
 namespace firstcontact::detail {
 
@@ -41,7 +41,19 @@ struct ActingContact {
   bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
   double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
   bool is_replaced = false;  ///< By a predicted contact of the same features.
+  bool is_round = false;     ///< On a curved surface.
+  int lifts = 0;             ///< [tolerances]  By so many it has to be farther apart.
 };
+
+/// The contact for a plan in which the mean of the velocities at both ends leads (the midpoint
+/// rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006, II.1.1):
+/// impulses act halfway. What is held is so at the end, J_end v_end = 0: then the mean goes along
+/// the surface halfway. Of J_end v_end the part J_half v_end is unknown, and the rest is near to
+/// that of now.
+[[nodiscard]] ContactPoint by_mean(const ActingContact& acting);
+
+/// The contact for the way of a plan that one velocity leads from its begin to its end.
+[[nodiscard]] ContactPoint along_way(const ActingContact& acting);
 
 /// The motions of the bodies over the plan's span: the rest of the step, or less.
 struct Plan {
@@ -110,6 +122,14 @@ class IslandPlanner {
   [[nodiscard]] std::vector<bool> led_by_end() const;
   void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,
                  Plan& plan) const;
+  [[nodiscard]] bool is_on_curve(std::size_t k) const;
+  [[nodiscard]] std::array<ContactSide, 2> mean_sides(std::size_t k,
+                                                      const std::vector<ContactBody>& at_end) const;
+  [[nodiscard]] bool follow_curves();
+  [[nodiscard]] bool lifts(const PredictedContact& ahead);
+  void keep_on_curves(Plan& plan) const;
+  [[nodiscard]] double missing_on_curve(std::size_t k, const Plan& plan) const;
+  void set_at_rest(ContactProblem& problem) const;
   void push_apart(Plan& plan);
   void limit_push(ContactSolution& push) const;
   void keep_push_from(const ContactPoint& contact);

@@ -63,6 +63,21 @@ void IslandPlanner::keep_push_from(const ContactPoint& contact) {
   }
 }
 
+/// Gives a problem the bodies, robots, stops and ties of displacements.
+void IslandPlanner::set_at_rest(ContactProblem& problem) const {
+  problem.bodies = bodies_.bodies();
+  for (ContactBody& body : problem.bodies) {
+    body.v.setZero();
+    body.w.setZero();
+  }
+  state_.robots.add_mechanisms(problem);
+  for (ContactMechanism& mechanism : problem.mechanisms) {
+    mechanism.velocity.setZero();
+  }
+  state_.robots.add_stops(problem);
+  problem.ties = rigid_rows(state_, bodies_);
+}
+
 /// Displacements, in metres in place of metres per second: least in the kinetic metric, and
 /// without velocity, so that they add no energy of motion.
 ContactSolution IslandPlanner::find_push() const {
@@ -89,17 +104,7 @@ ContactSolution IslandPlanner::find_push() const {
     problem.contacts.push_back(
         {.bodies = ahead.bodies, .arm_A = ahead.arm_A, .arm_B = ahead.arm_B, .frame = ahead.frame});
   }
-  problem.bodies = bodies_.bodies();
-  for (ContactBody& body : problem.bodies) {
-    body.v.setZero();
-    body.w.setZero();
-  }
-  state_.robots.add_mechanisms(problem);
-  for (ContactMechanism& mechanism : problem.mechanisms) {
-    mechanism.velocity.setZero();
-  }
-  state_.robots.add_stops(problem);
-  problem.ties = rigid_rows(state_, bodies_);
+  set_at_rest(problem);
   if (problem.mechanisms.empty() &&
       problem.ties.empty()) {  // Most have room: only those around move.
     ProjectionOptions around_options = options;

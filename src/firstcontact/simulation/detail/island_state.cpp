@@ -121,15 +121,15 @@ void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Works
   const auto at_rest = [&](std::size_t body) -> const RestingBody& {
     return resting.try_emplace(body, model.bodies[body], pose_of(body)).first->second;
   };
-  for_each_pair(boxes, model.distances.band, 0.0, [&](const BodyPair& pair, double margin) {
+  for_each_pair(boxes, model.distances.near, 0.0, [&](const BodyPair& pair, double margin) {
     const RestingBody& A = at_rest(pair[0]);
     const RestingBody& B = at_rest(pair[1]);
-    if (stays_apart(A.hull, B.hull, margin + model.distances.band,
+    if (stays_apart(A.hull, B.hull, margin + model.distances.near,
                     (B.hull.p_WC - A.hull.p_WC).normalized())) {
       return;
     }
     Manifold manifold = finder.find(pair, A.shape, B.shape, margin);
-    if (manifold.gap <= model.distances.band) {
+    if (manifold.gap <= model.distances.band || !manifold.touches.empty()) {
       carry_impulses(before, smaller_reach(model, pair), manifold);
       manifolds.emplace_hint(manifolds.end(), pair, std::move(manifold));  // By far most are last.
     }

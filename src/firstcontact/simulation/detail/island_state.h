@@ -17,8 +17,8 @@
 #include <firstcontact/geometry/detail/overlap_tree.h>
 #include <firstcontact/query/workspace.h>
 #include <firstcontact/simulation/detail/island_robots.h>
-#include <firstcontact/simulation/detail/manifold.h>
 #include <firstcontact/simulation/detail/response.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>

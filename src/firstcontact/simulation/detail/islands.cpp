@@ -116,7 +116,7 @@ class Islands {
     for (const std::size_t b : free_) {
       moves.push_back(inertial_move(b));
       boxes.push_back(widened(swept_box(model_.bodies[b], start_.states[b].X_WB, moves.back()),
-                              model_.distances.band));
+                              model_.distances.near));
     }
     for (const auto& [i, k] : overlapping_pairs(boxes)) {
       const std::size_t a = free_[i];
@@ -141,7 +141,7 @@ class Islands {
   [[nodiscard]] bool are_near(std::size_t a, std::size_t b) const {
     const auto box_of = [&](std::size_t body) {
       return widened(swept_box(model_.bodies[body], start_.states[body].X_WB, {}),
-                     model_.distances.band);
+                     model_.distances.near);
     };
     return box_of(a).intersects(box_of(b));
   }
@@ -151,7 +151,7 @@ class Islands {
                              const Move& move_b) const {
     const SweptHull A(model_.bodies[a], start_.states[a].X_WB, move_a);
     const SweptHull B(model_.bodies[b], start_.states[b].X_WB, move_b);
-    return stays_apart(A, B, model_.distances.band, (B.p_WC - A.p_WC).normalized());
+    return stays_apart(A, B, model_.distances.near, (B.p_WC - A.p_WC).normalized());
   }
 
   /// Advances the sets that are new. Returns false if it was stopped.

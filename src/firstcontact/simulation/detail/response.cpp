@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -11,7 +11,7 @@
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
-#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/round_contact.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -48,11 +48,11 @@ Vector3d nearest_in_polar_cone(const Vector3d& v, const std::vector<Vector3d>& d
 }
 
 /// Where a body touches along a new normal.
-Vector3d point_towards(const SimBody& body, const RoundSide* round, const Pose& pose,
+Vector3d point_towards(const SimBody& body, const RoundFeature& round, const Pose& pose,
                        const Vector3d& before, const Vector3d& outwards_before,
                        const Vector3d& outwards) {
-  if (round != nullptr) {
-    return nearest_on_side({&body.shape, round, pose}, before, outwards);
+  if (round.circle != nullptr) {
+    return nearest_on_circle(pose, round, before, outwards);
   }
   return before + body.shape.radius() * (outwards - outwards_before);
 }
@@ -155,8 +155,9 @@ bool SeamFinder::lean(ManifoldPoint& touch, std::size_t side) {
   const std::size_t body = touch.bodies[side];
   const Feature& feature = side == 0 ? touch.feature_A : touch.feature_B;
   const Feature& opposite = side == 0 ? touch.feature_B : touch.feature_A;
-  const bool is_beside_face = opposite.type == FeatureType::face && !touch.rolls[1 - side];
-  if (feature.type == FeatureType::face || is_beside_face || touch.rolls[side] ||
+  const bool is_beside_face =
+      opposite.type == FeatureType::face && touch.round[1 - side].circle == nullptr;
+  if (feature.type == FeatureType::face || is_beside_face || touch.round[side].circle != nullptr ||
       state_.model.bodies[body].shape.radius() > 0.0) {
     return false;
   }
@@ -195,8 +196,8 @@ bool SeamFinder::take_normal(const Vector3d& outwards, std::size_t side, Manifol
   const SimBody& its = state_.model.bodies[body];
   const Feature& feature = other == 0 ? touch.feature_A : touch.feature_B;
   const Pose pose = pose_of_(body);
-  const RoundSide* round = touch.rolls[other] ? state_.model.round_sides[body].get() : nullptr;
-  if (round == nullptr && its.shape.radius() == 0.0 &&
+  const RoundFeature& round = touch.round[other];
+  if (round.circle == nullptr && its.shape.radius() == 0.0 &&
       !state_.model.neighbours[body]->is_outermost(
           feature, pose.rotation.normalized().conjugate() * -outwards)) {
     return false;

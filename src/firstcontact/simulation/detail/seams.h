@@ -13,7 +13,7 @@
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact::detail {
 

@@ -55,7 +55,7 @@ bool moves(const Move& move) { return move.translation.any() || move.rotation_ve
 /// Whether anything scripted that moves in the step may get near the body.
 bool is_disturbed(const SimulationModel& model, const StepStart& start, const Obstacles& around,
                   std::size_t body) {
-  const double reach = model.distances.band + model.laws.greatest_margin();
+  const double reach = model.distances.near + model.laws.greatest_margin();
   const AlignedBox3d box =
       widened(swept_box(model.bodies[body], start.states[body].X_WB, {}), reach);
   bool found = false;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <firstcontact/simulation/detail/island.h>
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact::detail {
 

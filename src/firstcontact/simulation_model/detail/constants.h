@@ -53,7 +53,11 @@ inline constexpr double kSamePlace = 1e-3;
 inline constexpr double kSameNormal = 1.0 - 1e-5;
 /// [-]  A touch takes the impulse of one of the step before that is nearer than this.
 inline constexpr double kCloseBy = 0.01;
-/// [-]  Facets of a round side within this cosine of the nearest line of its circle are that line.
+/// [-]  A regular polygon is a circle if its edges are no farther inside of it, by its radius: one
+/// of 64 corners. Larger: what is meant to have corners rolls. Smaller: meshes of round parts bump
+/// over their edges.
+inline constexpr double kSagOfRadius = 1.25e-3;
+/// [-]  Edges of a circle within this cosine of its nearest point are that point.
 inline constexpr double kNearLine = 0.94;
 /// [contacts]  A pair with more of them keeps the nearest one of each neighbourhood...
 inline constexpr std::size_t kVeryManyContacts = 500;
@@ -146,6 +150,11 @@ inline constexpr int kSweepsOfWay = 50;
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
 inline constexpr double kBackToRest = 0.5;
+/// [-]  So often is a plan solved with contacts where its solution before leads them.
+inline constexpr int kPassesOfCurves = 2;
+/// [-]  So often does a polygon that stands out lift the contact of its circle in a plan, before
+/// it becomes a contact of its own.
+inline constexpr int kMostLifts = 8;
 
 // Pushing apart what is too near.
 

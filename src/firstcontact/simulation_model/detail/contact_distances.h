@@ -18,7 +18,8 @@ struct ContactDistances {
         tolerance(kToleranceOfDistance * contact_distance),
         touching(kTouchingOfDistance * contact_distance),
         band(kBandOfDistance * contact_distance),
-        pushed(kPushedOfDistance * contact_distance) {}
+        pushed(kPushedOfDistance * contact_distance),
+        near(band) {}
 
   /// [m]  How much nearer a touch may come before its pair rests.
   ///
@@ -29,16 +30,20 @@ struct ContactDistances {
   /// @param gap     [m]  of the touch
   /// @param lowest  [m]  the least gap of the pair's touches
   [[nodiscard]] double way_to_rest(double gap, double lowest) const {
-    const double at_rest = lowest <= touching ? lowest : least + kRestOfTolerance * tolerance;
-    const double way = gap - at_rest;
+    const double resting = lowest <= touching ? lowest : at_rest();
+    const double way = gap - resting;
     return way > kSameGap * least ? way : 0.0;
   }
+
+  /// [m]  Where pairs come to rest.
+  [[nodiscard]] double at_rest() const { return least + kRestOfTolerance * tolerance; }
 
   double least;      ///< [m]
   double tolerance;  ///< [m]  A contact is found at least .. least + tolerance.
   double touching;   ///< [m]  Impacts act on pairs within it.
   double band;       ///< [m]  Constraints act on pairs within it.
   double pushed;     ///< [m]  Pairs below it are pushed apart.
+  double near;       ///< [m]  Of pairs beyond it not even circles are within the band.
 };
 
 /// How a pair is asked for first contact, which was this far apart at the start.

@@ -28,18 +28,16 @@ std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours_of(
 }
 
 /// Facets that stand out by less than the tolerance of contacts make no polygon.
-std::vector<std::shared_ptr<const RoundSide>> round_sides_of(const std::vector<SimBody>& bodies,
-                                                             double sag) {
-  std::unordered_map<const Hierarchy*, std::shared_ptr<const RoundSide>> known;
-  std::vector<std::shared_ptr<const RoundSide>> all;
+std::vector<std::shared_ptr<const RoundCircles>> round_circles_of(
+    const std::vector<SimBody>& bodies, double sag) {
+  std::unordered_map<const Hierarchy*, std::shared_ptr<const RoundCircles>> known;
+  std::vector<std::shared_ptr<const RoundCircles>> all;
   for (const SimBody& body : bodies) {
-    const auto [entry, is_new] = known.try_emplace(&body.shape.hierarchy());
-    if (is_new) {
-      if (std::optional<RoundSide> side = find_round_side(body.shape, sag)) {
-        entry->second = std::make_shared<const RoundSide>(std::move(*side));
-      }
+    auto& entry = known[&body.shape.hierarchy()];
+    if (!entry) {
+      entry = std::make_shared<const RoundCircles>(body.shape, sag);
     }
-    all.push_back(entry->second);
+    all.push_back(entry);
   }
   return all;
 }
@@ -65,12 +63,18 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       laws(linked.loaded),
       distances(contact_distance_of(*loaded.scene.simulation, bodies)),
       neighbours(neighbours_of(bodies, distances.band)),
-      round_sides(round_sides_of(bodies, distances.tolerance)),
+      round_circles(round_circles_of(bodies, distances.tolerance)),
       gravity(loaded.scene.simulation->gravity),
       impacts(loaded.scene.simulation->impacts),
       events(loaded.scene.simulation->events),
       ties(make_sim_ties(linked.loaded, bodies, distances.least)),
-      ties_of(ties_of_bodies(ties, bodies.size())) {}
+      ties_of(ties_of_bodies(ties, bodies.size())) {
+  double sag = 0.0;
+  for (const auto& circles : round_circles) {
+    sag = std::max(sag, circles->sag());
+  }
+  distances.near += 2.0 * sag;  // Of both bodies.
+}
 
 double smaller_reach(const SimulationModel& model, const BodyPair& bodies) {
   return std::min(model.bodies[bodies[0]].reach, model.bodies[bodies[1]].reach);

@@ -12,7 +12,7 @@
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
-#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/round_circles.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>
 #include <firstcontact/simulation_model/detail/sim_tie.h>
@@ -33,7 +33,7 @@ struct SimulationModel {
   PairLaws laws;
   ContactDistances distances;
   std::vector<std::shared_ptr<const SurfaceNeighbours>> neighbours;  ///< Of each body.
-  std::vector<std::shared_ptr<const RoundSide>> round_sides;         ///< Of each body; null: none.
+  std::vector<std::shared_ptr<const RoundCircles>> round_circles;    ///< Of each body.
   Eigen::Vector3d gravity;                                           ///< [m/s^2]
   ImpactLaw impacts;
   std::size_t events;  ///< In a step, at most.

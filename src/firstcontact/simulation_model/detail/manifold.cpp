@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/constants.h>
-#include <firstcontact/simulation_model/detail/round_side.h>
+#include <firstcontact/simulation_model/detail/round_contact.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
@@ -128,27 +128,24 @@ struct TouchMaker {
              double its_margin)
       : bodies(pair), margin(its_margin) {
     for (std::size_t s = 0; s < 2; ++s) {
-      round[s] = {&model.bodies[pair[s]].shape, model.round_sides[pair[s]].get(), poses[s]};
+      placed[s] = {&model.bodies[pair[s]].shape, model.round_circles[pair[s]].get(), poses[s]};
     }
   }
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
-    std::array<bool, 2> rolls{false, false};
-    if (round[0].side != nullptr || round[1].side != nullptr) {
-      rolls = make_round(round, contact);
-    }
+    const std::array<RoundFeature, 2> round = make_round(placed, contact);
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,
             .point = 0.5 * (contact.p_WA + contact.p_WB),
             .normal = *contact.n_AB_W,
             .gap = contact.distance - margin,
-            .rolls = rolls};
+            .round = round};
   }
 
   BodyPair bodies;
   double margin;  // [m]
-  std::array<PlacedRoundSide, 2> round;
+  std::array<PlacedRound, 2> placed;
 };
 
 /// Which of some contacts count where there are very many: of those beside each other that face
@@ -238,6 +235,14 @@ bool same_features(const ManifoldPoint& x, const ManifoldPoint& y) {
          x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
 }
 
+bool share_circle(const ManifoldPoint& x, const ManifoldPoint& y) {
+  const auto is_shared = [&](std::size_t side) {
+    return x.round[side].circle != nullptr && x.round[side].circle == y.round[side].circle &&
+           x.round[side].is_hole == y.round[side].is_hole;
+  };
+  return is_shared(0) || is_shared(1);
+}
+
 std::vector<ManifoldPoint> touches_among(const SimulationModel& model, const BodyPair& bodies,
                                          const std::array<Pose, 2>& poses, double margin,
                                          const std::vector<Contact>& contacts) {
@@ -286,12 +291,17 @@ double least_gap(const Manifold& manifold) {
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  close_features(A, B, margin + model_.distances.band, workspace_, contacts_,
+  close_features(A, B, margin + model_.distances.near, workspace_, contacts_,
                  kNeighbourhood * smaller_reach(model_, bodies));
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
   }
   manifold.touches = touches_among(model_, bodies, {A.pose(), B.pose()}, margin, contacts_);
+  std::erase_if(manifold.touches,
+                [&](const ManifoldPoint& touch) { return touch.gap > model_.distances.band; });
+  if (manifold.touches.empty()) {
+    manifold.gap = std::numeric_limits<double>::infinity();
+  }
   return manifold;
 }
 

@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/moving_contact.h>
+#include <firstcontact/simulation_model/detail/moving_contact.h>
 
 #include <algorithm>
 #include <optional>
@@ -7,7 +7,6 @@
 
 #include <firstcontact/motion/detail/turn.h>
 #include <firstcontact/simulation_model/detail/constants.h>
-#include <firstcontact/simulation_model/detail/round_side.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 
 namespace firstcontact::detail {
@@ -22,7 +21,7 @@ struct SurfaceThere {
   Vector3d centre;                     // [m]  p_CP_W: of the point that goes with the body.
   double radius = 0.0;                 // [m]  Of the surface about it, and half of the gap beyond.
   std::optional<Vector3d> along = {};  // Of an edge.
-  double ring = 0.0;                   // [m]  Radius about that line, towards the other body.
+  double ring = 0.0;                   // [m]  Radius about that line; negative: of a hole.
   bool is_face = false;
 };
 
@@ -34,10 +33,10 @@ Vector3d across(Vector3d v, const std::optional<Vector3d>& along) {
 SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const Vector3d& arm,
                         const Vector3d& outwards, double distance) {
   const Shape& shape = side.body->shape;
-  if (side.round != nullptr) {
-    const Vector3d axis = side.R_WB * side.round->axis_B;
+  if (side.round.circle != nullptr) {
+    const Vector3d axis = side.R_WB * side.round.circle->axis_B;
     SurfaceThere found{
-        .centre = arm, .radius = 0.5 * distance, .along = axis, .ring = side.round->radius};
+        .centre = arm, .radius = 0.5 * distance, .along = axis, .ring = side.round.radius()};
     found.centre -= found.radius * outwards + found.ring * across(outwards, axis).normalized();
     return found;
   }
@@ -58,10 +57,11 @@ SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const V
 /// @param faces     whether the normal goes with A, with B
 /// @param by        of each body
 /// @param apart     [m]  from the centre on A to that on B, there
-/// @param is_round  whether either has a radius
+/// @param radius    [m]  of both surfaces, negative where the larger one is a hole; 0: neither has
+///                  one
 Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
                       const std::array<SurfaceThere, 2>& now, const std::array<Quaterniond, 2>& by,
-                      const Vector3d& apart, bool is_round) {
+                      const Vector3d& apart, double radius) {
   for (std::size_t s = 0; s < 2; ++s) {
     if (now[s].is_face || faces[s]) {
       return by[s] * n;
@@ -80,15 +80,18 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
       return (before.dot(n) < 0.0 ? -after : after).stableNormalized();
     }
   }
-  if (!is_round) {
+  if (radius == 0.0) {
     return n;
   }
-  const Vector3d between = across(across(apart, along[0]), along[1]);
+  // From the centre of a hole what is within it is in the direction out of it.
+  Vector3d between = across(across(apart, along[0]), along[1]);
+  between = radius < 0.0 ? Vector3d(-between) : between;
   return between.dot(n) > 0.0 ? between.stableNormalized() : n;
 }
 
-bool is_round(const ContactSide& side) {
-  return side.round != nullptr || side.body->shape.radius() > 0.0;
+/// [m]  Of the surface at a contact; 0: it is flat.
+double radius_of(const ContactSide& side) {
+  return side.round.circle != nullptr ? side.round.radius() : side.body->shape.radius();
 }
 
 }  // namespace
@@ -96,6 +99,8 @@ bool is_round(const ContactSide& side) {
 Vector3d MovedContact::velocity(const std::array<ContactSide, 2>& sides) const {
   return frame * (sides[1].v + sides[1].w.cross(arms[1]) - sides[0].v - sides[0].w.cross(arms[0]));
 }
+
+bool is_round(const ContactSide& side) { return radius_of(side) != 0.0; }
 
 double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
                    double time) {
@@ -126,20 +131,23 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
     by[s] = turn(time * sides[s].w);
     centres[s] = by[s] * now[s].centre;
   }
-  const Vector3d apart = sides[1].p_WC + time * sides[1].v + centres[1] -
-                         (sides[0].p_WC + time * sides[0].v + centres[0]);
-  const bool any_round = is_round(sides[0]) || is_round(sides[1]);
-  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, any_round);
+  const auto centre_there = [&](std::size_t s) -> Vector3d {
+    return sides[s].p_WC + time * sides[s].v + centres[s];
+  };
+  const Vector3d apart = centre_there(1) - centre_there(0);
+  const double radius = radius_of(sides[0]) + radius_of(sides[1]);
+  const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, radius);
   const Matrix3d turned = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
   std::array<Vector3d, 2> arms;
   for (std::size_t s = 0; s < 2; ++s) {
     const Vector3d outwards = s == 0 ? n_there : Vector3d(-n_there);
     arms[s] = centres[s] + now[s].radius * outwards;
-    if (now[s].ring > 0.0) {
+    if (now[s].ring != 0.0) {
       arms[s] += now[s].ring * across(outwards, by[s] * *now[s].along).normalized();
     }
   }
-  return {arms, contact.frame * turned.transpose()};
+  const Vector3d between = apart + arms[1] - centres[1] - (arms[0] - centres[0]);
+  return {arms, contact.frame * turned.transpose(), n_there.dot(between)};
 }
 
 }  // namespace firstcontact::detail

@@ -13,6 +13,7 @@
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>
+#include <firstcontact/simulation_model/detail/round_contact.h>
 
 namespace firstcontact::detail {
 
@@ -26,13 +27,16 @@ struct ManifoldPoint {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
-  std::array<bool, 2> rolls = {false, false};  ///< Whether it is on the round side of A, of B.
+  std::array<RoundFeature, 2> round = {};             ///< On which circle of A, of B it is.
   std::array<bool, 2> faces = {false, false};  ///< Whether its normal goes with A, with B, as if
                                                ///< it were that of a face.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 
 [[nodiscard]] bool same_features(const ManifoldPoint& x, const ManifoldPoint& y);
+
+/// Whether both are on one circle of one of the bodies.
+[[nodiscard]] bool share_circle(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
 /// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without

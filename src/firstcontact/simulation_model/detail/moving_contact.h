@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/contact_solver/contact_problem.h>
-#include <firstcontact/simulation/detail/manifold.h>
+#include <firstcontact/simulation_model/detail/manifold.h>
 
 namespace firstcontact {
 struct Pose;
@@ -16,33 +16,36 @@ struct Pose;
 
 namespace firstcontact::detail {
 
-struct RoundSide;
 struct SimBody;
 
 /// A body of a contact as the contact finds it.
 struct ContactSide {
   const SimBody* body = nullptr;
-  const RoundSide* round = nullptr;  ///< Where the contact is on it; null elsewhere.
+  RoundFeature round = {};  ///< Where the contact is on one.
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();     ///< [m/s]    Of C, now.
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();     ///< [rad/s]  Now.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();     ///< [m/s]    Of C.
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();     ///< [rad/s]
 };
 
 /// Where a contact is after both bodies moved.
 struct MovedContact {
   std::array<Eigen::Vector3d, 2> arms = {};             ///< [m]  From the centres of mass there.
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  ///< Rows: normal, two tangents.
+  double opened = 0.0;                                  ///< [m]  Its gap became so much larger.
 
-  /// [m/s]  The velocity of B's point relative to A's there, in the frame, with those of now.
+  /// [m/s]  The velocity of B's point relative to A's there, in the frame, with these velocities.
   [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
 };
+
+/// Whether the surface of a body is curved at a contact.
+[[nodiscard]] bool is_round(const ContactSide& side);
 
 /// [m/s]  A bound of how much moving a contact for a time [s] changes the velocity at it.
 [[nodiscard]] double most_change(const ContactPoint& contact,
                                  const std::array<ContactSide, 2>& sides, double time);
 
-/// Moves a contact with the velocities that its bodies have now.
+/// Moves a contact with the velocities of its bodies.
 ///
 /// A point of a body goes on its circle. A round surface (a ball, a capsule, the side of a cylinder
 /// and its rim) keeps its centre or

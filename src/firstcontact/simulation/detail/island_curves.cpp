@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/simulation/detail/island_plan.h>
+#include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/contact_distances.h>
+#include <firstcontact/simulation_model/detail/simulation_model.h>
+
+namespace firstcontact::detail {
+namespace {
+
+ContactPoint moved(const ContactPoint& contact, const MovedContact& to) {
+  ContactPoint there = contact;
+  there.arm_A = to.arms[0];
+  there.arm_B = to.arms[1];
+  there.frame = to.frame;
+  return there;
+}
+
+}  // namespace
+
+ContactPoint by_mean(const ActingContact& acting) {
+  ContactPoint contact = moved(acting.now, acting.halfway);
+  contact.least_normal_velocity = acting.least;
+  if (acting.is_held) {
+    contact.least_normal_velocity = kBackToRest * acting.least - acting.change[0];
+    contact.sticking_velocity -= acting.change.tail<2>();
+  }
+  return contact;
+}
+
+ContactPoint along_way(const ActingContact& acting) {
+  ContactPoint contact = moved(acting.now, acting.halfway);
+  contact.least_normal_velocity = acting.least;
+  return contact;
+}
+
+/// Whether a contact is held on a curved surface: where it is when its bodies have moved is known.
+bool IslandPlanner::is_on_curve(std::size_t k) const {
+  return acts(k) && acting_[k].is_round && acting_[k].is_held;
+}
+
+/// The bodies of a contact with the velocities that lead through the plan: the mean of those at its
+/// begin and these at its end.
+std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
+                                                     const std::vector<ContactBody>& at_end) const {
+  const ManifoldPoint& touch = touches_[k];
+  std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const ContactBody& end = at_end[bodies_.place(touch.bodies[s])];
+    sides[s].v = 0.5 * (sides[s].v + end.v);
+    sides[s].w = 0.5 * (sides[s].w + end.w);
+  }
+  return sides;
+}
+
+/// Lets contacts on curved surfaces turn with the velocities of the last solution in place of those
+/// of now. Returns whether that changes any of them.
+bool IslandPlanner::follow_curves() {
+  const double slack = kSlackOfMean * state_.model.distances.least / span_;
+  const std::vector<ContactBody>& at_end = last_->velocities.bodies;
+  bool is_changed = false;
+  for (std::size_t k = 0; k < first_ahead_; ++k) {
+    if (!is_on_curve(k)) {
+      continue;
+    }
+    ActingContact& acting = acting_[k];
+    std::array<ContactSide, 2> sides = mean_sides(k, at_end);
+    const double distance =
+        touches_[k].gap + state_.model.laws.margin(touches_[k].bodies).value_or(0.0);
+    const MovedContact there = moved_contact(touches_[k], acting.now, distance, sides, span_);
+    acting.halfway = moved_contact(touches_[k], acting.now, distance, sides, 0.5 * span_);
+    for (std::size_t s = 0; s < 2; ++s) {
+      const ContactBody& end = at_end[bodies_.place(touches_[k].bodies[s])];
+      sides[s].v = end.v;
+      sides[s].w = end.w;
+    }
+    acting.change = there.velocity(sides) - acting.halfway.velocity(sides);
+    ContactPoint contact = by_mean(acting);
+    contact.guess = problem_.contacts[k].guess;
+    const double was = problem_.contacts[k].least_normal_velocity;
+    const double is_now = normal_velocity(contact, at_end) - contact.least_normal_velocity;
+    const double before = normal_velocity(problem_.contacts[k], at_end) - was;
+    if (std::abs(is_now - before) > slack) {
+      changed_.push_back(k);
+      is_changed = true;
+    }
+    problem_.contacts[k] = contact;
+  }
+  return is_changed;
+}
+
+/// Whether a touch ahead is on the surface of a contact that follows its curve. Then the polygon of
+/// a circle stands out there, and a displacement leads away from it.
+bool IslandPlanner::lifts(const PredictedContact& ahead) {
+  const auto is_of_one_surface = [&](std::size_t k) {
+    return touches_[k].bodies == ahead.touch.bodies && is_on_curve(k) &&
+           touches_[k].normal.dot(ahead.touch.normal) >= kNearLine &&
+           (share_circle(touches_[k], ahead.touch) || same_features(touches_[k], ahead.touch));
+  };
+  std::optional<std::size_t> nearest;
+  double least = 0.0;
+  for (std::size_t k = 0; k < first_ahead_ && !by_end_; ++k) {
+    const double apart = (touches_[k].point - ahead.touch.point).norm();
+    if (is_of_one_surface(k) && (!nearest || apart < least)) {
+      nearest = k;
+      least = apart;
+    }
+  }
+  if (!nearest || acting_[*nearest].lifts == kMostLifts) {
+    return false;
+  }
+  ++acting_[*nearest].lifts;
+  return true;
+}
+
+/// Adds displacements that keep pressed contacts on their curves: the plan's motion is along a
+/// line, and the mean of velocities only nearly along the chord.
+void IslandPlanner::keep_on_curves(Plan& plan) const {
+  if (by_end_) {
+    return;
+  }
+  const double tolerance = kPushTolerance * state_.model.distances.least;
+  ContactProblem problem;
+  bool is_any = false;
+  for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
+    const ContactPoint& contact = problem_.contacts[k];
+    ContactPoint kept{.bodies = contact.bodies,
+                      .arm_A = contact.arm_A,
+                      .arm_B = contact.arm_B,
+                      .frame = contact.frame};
+    const bool is_pressed = last_->velocities.impulses[k][0] > 0.0;
+    if (is_pressed && is_on_curve(k)) {
+      kept.least_normal_velocity = missing_on_curve(k, plan);
+      is_any = is_any || std::abs(kept.least_normal_velocity) > tolerance;
+      problem.contacts.push_back(kept);
+      // And not more than that.
+      kept.frame.topRows<2>() *= -1.0;
+      kept.least_normal_velocity *= -1.0;
+    }
+    problem.contacts.push_back(kept);
+  }
+  if (!is_any) {
+    return;
+  }
+  set_at_rest(problem);
+  const ContactSolution kept =
+      project_on_contacts(problem, {.tolerance = tolerance,
+                                    .enough = kPushEnough * state_.model.distances.least,
+                                    .sweeps = kPushSweeps});
+  state_.robots.displace(kept.mechanisms, plan.robots);
+  for (std::size_t k = 0; k < state_.size(); ++k) {
+    plan.moves[k].translation += kept.bodies[k].v;
+    plan.moves[k].rotation_vector += kept.bodies[k].w;
+  }
+}
+
+/// [m]  How much farther apart a contact has to be after the plan.
+double IslandPlanner::missing_on_curve(std::size_t k, const Plan& plan) const {
+  const ManifoldPoint& touch = touches_[k];
+  std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::size_t place = bodies_.place(touch.bodies[s]);
+    if (place < state_.size()) {
+      sides[s].v = plan.moves[place].translation / span_;
+      sides[s].w = plan.moves[place].rotation_vector / span_;
+    }
+  }
+  const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
+  const double opened = moved_contact(touch, acting_[k].now, distance, sides, span_).opened;
+  return kBackToRest * span_ * acting_[k].least - opened +
+         acting_[k].lifts * state_.model.distances.tolerance;
+}
+
+}  // namespace firstcontact::detail

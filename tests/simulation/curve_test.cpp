@@ -1,0 +1,160 @@
+// Contacts on polygons that stand for circles go round as those do, however small the contact
+// distance: rings on pins, balls in tubes, discs on their rims.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "simulation/simulated_run.h"
+
+#include <firstcontact/record/run_step.h>
+
+namespace firstcontact {
+namespace {
+
+using test::ball;
+using test::body;
+using test::numbers;
+using test::run;
+using test::settings;
+using test::simulator;
+using test::verify;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// A tube about z of rectangular section, with polygons of n sides.
+std::string tube(int n, double inner, double outer, double length) {
+  const std::array<std::array<double, 2>, 4> section{{{inner, -0.5 * length},
+                                                      {outer, -0.5 * length},
+                                                      {outer, 0.5 * length},
+                                                      {inner, 0.5 * length}}};
+  std::ostringstream vertices;
+  std::ostringstream triangles;
+  vertices.precision(17);
+  for (int k = 0; k < n; ++k) {
+    for (int s = 0; s < 4; ++s) {
+      const auto& [r, z] = section[static_cast<std::size_t>(s)];
+      vertices << (k + s > 0 ? ", [" : "[") << r * std::cos(kTurn * k / n) << ", "
+               << r * std::sin(kTurn * k / n) << ", " << z << "]";
+      const int a = 4 * k + s;
+      const int b = 4 * k + (s + 1) % 4;
+      const int c = 4 * ((k + 1) % n) + (s + 1) % 4;
+      const int d = 4 * ((k + 1) % n) + s;
+      triangles << (k + s > 0 ? ", [" : "[") << a << ", " << d << ", " << c << "], [" << a << ", "
+                << c << ", " << b << "]";
+    }
+  }
+  return R"({"vertices": [)" + vertices.str() + R"(], "triangles": [)" + triangles.str() + "]}";
+}
+
+const std::string kAboutY = "[1.5707963267948966, 0, 0]";  // Turns z to -y.
+
+std::string turned_to_y(const std::string& name, const std::string& shape,
+                        const std::vector<double>& position, const std::string& more) {
+  return R"({"name": ")" + name + R"(", "shape": )" + shape + R"(, "pose": {"position": )" +
+         numbers(position) + R"(, "rpy": )" + kAboutY + "}" + more + "}";
+}
+
+/// The greatest change of energy in a run, and what verify says of it.
+struct Kept {
+  double worst = 0.0;  // [J]
+  double swing = 0.0;  // [J]  The greatest kinetic energy.
+  bool is_proven = false;
+};
+
+Kept kept_energy(Simulator simulator, std::size_t steps) {
+  const std::vector<RunStep> made = run(simulator, steps);
+  Kept kept;
+  const double first = made.front().kinetic_energy + made.front().potential_energy;
+  for (const RunStep& step : made) {
+    kept.swing = std::max(kept.swing, step.kinetic_energy);
+    kept.worst =
+        std::max(kept.worst, std::abs(step.kinetic_energy + step.potential_energy - first));
+  }
+  kept.is_proven = verify(simulator.header(), made).verdict == RunVerdict::proven;
+  return kept;
+}
+
+// A ring hangs on a pin and swings from 60 degrees. A step goes over up to eight of its sides.
+TEST(Curve, ARingOnAPinKeepsItsSwing) {
+  for (const int sides : {64, 180, 360}) {
+    for (const double step : {0.01, 0.005}) {
+      constexpr double kGap = 1e-5;
+      const double away = 0.48 * std::cos(0.5 * kTurn / sides) - 0.02 - kGap - 0.5e-4;
+      const double lean = kTurn / 6.0;
+      const Kept kept = kept_energy(
+          simulator(turned_to_y("pin", R"({"capsule": {"radius": 0.02, "length": 0.5}})",
+                                {0.0, 0.0, 0.0}, "") +
+                        ", " +
+                        turned_to_y("ring", tube(sides, 0.48, 0.52, 0.05),
+                                    {away * std::sin(lean), 0.0, -away * std::cos(lean)},
+                                    R"(, "dynamics": {"density": 1000, "locked_translation":
+                                    [false, true, false], "locked_rotation": [true, false, true]})"),
+                    settings(step, 0.0, kGap)),
+          static_cast<std::size_t>(std::lround(1.0 / step)));
+      EXPECT_LT(kept.worst, 0.01 * kept.swing) << sides << " " << step;
+      EXPECT_TRUE(kept.is_proven) << sides << " " << step;
+    }
+  }
+}
+
+// The other way round: a ball, and a pin of 200 sides, slide in a fixed tube.
+TEST(Curve, WhatSlidesInATubeKeepsItsEnergy) {
+  const std::string pin = tube(200, 0.01, 0.05, 0.1);
+  for (const std::string& slider : {ball("0.05"), pin}) {
+    for (const double step : {0.01, 0.005, 0.0025}) {
+      constexpr double kGap = 2e-5;
+      const double away = 0.3 * std::cos(0.5 * kTurn / 240) - 0.05 - 1e-4;
+      const double lean = 0.9;
+      const Kept kept = kept_energy(
+          simulator(turned_to_y("tube", tube(240, 0.3, 0.35, 1.0), {0.0, 0.0, 0.0}, "") + ", " +
+                        turned_to_y("slider", slider,
+                                    {away * std::sin(lean), 0.0, -away * std::cos(lean)},
+                                    R"(, "dynamics": {"density": 1000})"),
+                    settings(step, 0.0, kGap)),
+          static_cast<std::size_t>(std::lround(1.0 / step)));
+      EXPECT_LT(kept.worst, 0.01 * kept.swing) << step << slider.substr(0, 20);
+      EXPECT_TRUE(kept.is_proven) << step;
+    }
+  }
+}
+
+// A disc rolls round on its rim without friction, its centre at rest (H. K. Moffatt, "Euler's disk
+// and its finite-time singularity", Nature 404, 2000): a thin disc of radius R that leans by a goes
+// round at the rate W, W^2 = 4 g / (R sin a), and turns about the line to its lowest point at
+// W sin a. Each step goes over more than two of its sides.
+TEST(Curve, ADiscThatRollsOnItsRimKeepsItsEnergy) {
+  constexpr double kRadius = 0.05;
+  constexpr double kLean = 0.25;
+  constexpr double kGap = 1e-6;
+  const double I1 = 0.25 * kRadius * kRadius;  // [m^2]  Over the mass.
+  const double rate = std::sqrt(9.81 / (I1 / kRadius * std::sin(kLean)));
+  for (const double step : {0.001, 0.0005}) {
+    const double height = kRadius * std::sin(kLean) + 5e-4 * std::cos(kLean) + 5e-6;
+    std::ostringstream dynamics;
+    dynamics.precision(17);
+    dynamics << R"(, "dynamics": {"mass": 0.05, "centre_of_mass": [0, 0, 0], "inertia": [[)"
+             << 0.05 * I1 << ", 0, 0], [0, " << 0.05 * I1 << ", 0], [0, 0, " << 0.1 * I1
+             << R"(]], "angular_velocity": [)" << -rate * std::sin(kLean) * std::cos(kLean)
+             << ", 0, " << rate * std::sin(kLean) * std::sin(kLean) << "]}";
+    const Kept kept =
+        kept_energy(simulator(test::kFloor + R"(, {"name": "disc", "shape": )" +
+                                  tube(256, 0.01, kRadius, 1e-3) + R"(, "pose": {"position": )" +
+                                  numbers({0.0, 0.0, height}) + R"(, "rpy": [0, 0.25, 0]})" +
+                                  dynamics.str() + "}",
+                              settings(step, 0.0, kGap)),
+                    static_cast<std::size_t>(std::lround(0.3 / step)));
+    EXPECT_LT(kept.worst, 0.02 * kept.swing) << step;
+    EXPECT_TRUE(kept.is_proven) << step;
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact
