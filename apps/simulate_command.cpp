@@ -43,6 +43,7 @@ struct Arguments {
   std::string animation;
   std::optional<double> duration;  // [s]
   std::optional<double> step;      // [s]
+  int threads = 0;
   bool resume = false;
   bool force = false;
   bool lenient = false;
@@ -72,7 +73,9 @@ Simulator load(const Arguments& arguments) {
   }
   try {
     ShapeCache cache;
-    return Simulator(load_scene(std::move(scene), cache));
+    Simulator simulator(load_scene(std::move(scene), cache));
+    simulator.set_threads(arguments.threads);
+    return simulator;
   } catch (const std::invalid_argument& error) {
     throw ParseError(arguments.scene, error.what());
   }
@@ -305,6 +308,10 @@ void add_simulate_command(CLI::App& app, ExitStatus& status) {
              "Seconds to simulate, in place of the scene's; scripted bodies keep their speed");
   add_number(*command, "--step", arguments->step, Range::positive,
              "Seconds of a step, in place of the scene's");
+  command
+      ->add_option("--threads", arguments->threads,
+                   "At most so many; 0, the default, for one on each core. The run is the same")
+      ->check(CLI::Range(0, 1024));
   command->add_flag("--lenient", arguments->lenient,
                     "Names in files that nobody knows are warnings, not errors");
   CLI::Option* resume =

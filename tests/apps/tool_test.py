@@ -212,6 +212,18 @@ class Simulate(ToolTest):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(cut.read_bytes(), text)
 
+    def test_has_the_same_bits_for_any_number_of_threads(self):
+        balls = [self.BALL | {"name": f"ball{k}", "pose": {"position": [2.0 * k, 0.0, 0.5 + 0.1 * k]}} for k in range(4)]
+        scene = self.scene({"firstcontact": 1, "simulation": {"duration": 0.5}, "bodies": [*balls, self.FLOOR]})
+        runs = []
+        for threads in ("1", "2", "0"):
+            run = self.folder / f"run{threads}.jsonl"
+            done = self.run_tool("simulate", scene, "-o", str(run), "--threads", threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            runs.append(run.read_bytes())
+        self.assertEqual(runs[0], runs[1])
+        self.assertEqual(runs[0], runs[2])
+
     def test_begins_anew_where_the_header_was_cut_off(self):
         scene = self.scene({"firstcontact": 1, "simulation": {"duration": 0.02}, "bodies": [self.BALL, self.FLOOR]})
         run = self.folder / "run.jsonl"

@@ -80,7 +80,7 @@ void require_positive(const char* name, std::optional<double> seconds) {
 }
 
 std::unique_ptr<HeldSimulator> make(const py::object& scene, std::optional<double> duration,
-                                    std::optional<double> step, bool lenient) {
+                                    std::optional<double> step, bool lenient, int threads) {
   require_positive("duration", duration);
   require_positive("step", step);
   const auto held = py::module_::import("firstcontact._check")
@@ -97,7 +97,9 @@ std::unique_ptr<HeldSimulator> make(const py::object& scene, std::optional<doubl
     set_simulation_duration(changed, *duration);
   }
   changed.simulation->step = step.value_or(changed.simulation->step);
-  return std::make_unique<HeldSimulator>(held->sharing(std::move(changed))->loaded());
+  auto made = std::make_unique<HeldSimulator>(held->sharing(std::move(changed))->loaded());
+  made->idle().set_threads(threads);
+  return made;
 }
 
 const Simulation& simulation_of(HeldSimulator& held) {
@@ -421,9 +423,10 @@ of it. The same on every run, and as the tool's `firstcontact simulate`. Rows of
 in the scene's order, then the geometries of robots' links; arrays are new ones at each look.)");
   type.def(
       py::init(&make), py::arg("scene"), py::kw_only(), py::arg("duration") = py::none(),
-      py::arg("step") = py::none(), py::arg("lenient") = false,
+      py::arg("step") = py::none(), py::arg("lenient") = false, py::arg("threads") = 0,
       R"(scene: as check takes it, with "dynamics" of bodies; or the path of a fixture of Rigid IPC.
-duration, step: [s] in place of the scene's. lenient: as of load_scene. ValueError where two bodies meet at the start, or a mass
+duration, step: [s] in place of the scene's. lenient: as of load_scene. threads: at most so many; 0
+for one on each core; the run is the same. ValueError where two bodies meet at the start, or a mass
 cannot be found.)");
   bind_state(type);
   bind_commands(type);

@@ -2,20 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include <firstcontact/geometry/detail/overlap_tree.h>
-#include <firstcontact/query/distance.h>
 #include <firstcontact/record/detail/joined_steps.h>
 #include <firstcontact/scene/links_as_bodies.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/simulation_duration.h>
 #include <firstcontact/scene/version.h>
+#include <firstcontact/simulation/detail/island_threads.h>
 #include <firstcontact/simulation/detail/islands.h>
+#include <firstcontact/simulation/detail/meeting.h>
 #include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
 #include <firstcontact/simulation_model/detail/script.h>
@@ -227,6 +228,13 @@ class Simulator::Implementation {
     wake();
   }
 
+  void set_threads(int threads) {
+    if (threads < 0) {
+      throw std::invalid_argument("set_threads: a number of threads must not be negative");
+    }
+    threads_ = std::make_unique<detail::IslandThreads>(threads);
+  }
+
   void resume(const RunStep& step) {
     std::vector<MechanismState> robots = robots_of(step);
     std::vector<RigidState> states = state_.states;
@@ -400,31 +408,14 @@ class Simulator::Implementation {
   }
 
   /// All pairs with a body that `concerns` says yes to.
-  template <class Concerns>
-  void require_apart(const std::vector<RigidState>& states, const Concerns& concerns) {
-    std::vector<Eigen::AlignedBox3d> boxes;
-    const Vector3d slack = Vector3d::Constant(0.5 * model_.laws.greatest_margin());
-    for (std::size_t b = 0; b < states.size(); ++b) {
-      const Eigen::AlignedBox3d box = detail::swept_box(model_.bodies[b], states[b].X_WB, {});
-      boxes.emplace_back(box.min() - slack, box.max() + slack);
-    }
-    for (const auto& [a, b] : detail::overlapping_pairs(boxes)) {
-      const bool is_held =
-          model_.bodies[a].kind != BodyKind::free && model_.bodies[b].kind != BodyKind::free;
-      const std::optional<double> margin = model_.laws.margin({a, b});
-      if (is_held || !margin || !(concerns(a) || concerns(b))) {
-        continue;
-      }
-      const Motion A = Motion::fixed(states[a].X_WB);
-      const Motion B = Motion::fixed(states[b].X_WB);
-      const DistanceResult found =
-          distance({model_.bodies[a].shape, A}, {model_.bodies[b].shape, B}, 0.0, workspace_);
-      if (!(found.lower_bound > *margin)) {
-        const auto& bodies = loaded_.scene.bodies;
-        throw std::invalid_argument("bodies \"" + bodies[a].name + "\" and \"" + bodies[b].name +
-                                    "\" meet at the start; move them apart, or ignore the pair in "
-                                    "\"pairs\"");
-      }
+  void require_apart(const std::vector<RigidState>& states,
+                     const std::function<bool(std::size_t)>& concerns) {
+    if (const auto pair = detail::find_meeting(model_, states, concerns, threads_->workspace())) {
+      const auto& bodies = loaded_.scene.bodies;
+      throw std::invalid_argument("bodies \"" + bodies[(*pair)[0]].name + "\" and \"" +
+                                  bodies[(*pair)[1]].name +
+                                  "\" meet at the start; move them apart, or ignore the pair in "
+                                  "\"pairs\"");
     }
   }
 
@@ -437,7 +428,7 @@ class Simulator::Implementation {
                           .robots = state_.robots,
                           .rests = state_.rests};
     std::optional<std::vector<IslandTrack>> tracks =
-        detail::advance_islands(model_, start, guesses(), workspace_, stop);
+        detail::advance_islands(model_, start, guesses(), *threads_, stop);
     if (!tracks) {
       return std::nullopt;
     }
@@ -451,7 +442,7 @@ class Simulator::Implementation {
   RunHeader header_;
   detail::SimulationState state_;
   std::vector<std::size_t> applied_;  // Bodies whose last forces are for the next step alone.
-  Workspace workspace_;
+  std::unique_ptr<detail::IslandThreads> threads_ = std::make_unique<detail::IslandThreads>(0);
 };
 
 Simulator::Simulator(const LoadedScene& loaded)
@@ -491,6 +482,7 @@ void Simulator::set_surface(std::size_t body, const Surface& surface) {
 void Simulator::set_pair_surface(const BodyPair& bodies, const Surface& surface) {
   implementation_->set_pair_surface(bodies, surface);
 }
+void Simulator::set_threads(int threads) { implementation_->set_threads(threads); }
 void Simulator::resume(const RunStep& step) { implementation_->resume(step); }
 std::optional<RunStep> Simulator::step(const std::stop_token& stop) {
   return implementation_->step(stop);

@@ -119,6 +119,12 @@ class FIRSTCONTACT_API Simulator {
   /// @throws std::invalid_argument likewise, and for a velocity, which pairs have not
   void set_pair_surface(const BodyPair& bodies, const Surface& surface);
 
+  /// Limits the threads that islands of bodies advance on. The bits of a run do not depend on it.
+  ///
+  /// @param threads  0 for one on each core, as without this call
+  /// @throws std::invalid_argument if it is negative
+  void set_threads(int threads);
+
   /// Goes on after a step of a run with the same header.
   ///
   /// On the same kind of processor it goes on bit for bit as the run did. A record has no commands:

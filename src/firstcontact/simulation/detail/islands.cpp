@@ -9,6 +9,7 @@
 #include <firstcontact/math/disjoint_sets.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/simulation/detail/island_state.h>
+#include <firstcontact/simulation/detail/island_threads.h>
 #include <firstcontact/simulation/detail/sleeping.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/contact_distances.h>
@@ -27,13 +28,13 @@ using Eigen::Vector3d;
 class Islands {
  public:
   Islands(const SimulationModel& model, const StepStart& start,
-          const std::vector<ManifoldPoint>& guesses, Workspace& workspace,
+          const std::vector<ManifoldPoint>& guesses, IslandThreads& threads,
           const std::stop_token& stop)
       : model_(model),
         start_(start),
         around_(model, start),
         step_{model, start, around_, guesses, stop},
-        workspace_(workspace),
+        threads_(threads),
         sets_(model.bodies.size()) {
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       if (model.bodies[b].kind == BodyKind::free) {
@@ -162,6 +163,7 @@ class Islands {
     }
     tracks_.resize(model_.bodies.size());
     is_new_.assign(model_.bodies.size(), false);
+    std::vector<std::size_t> awake;
     for (std::size_t s = 0; s < members.size(); ++s) {
       if (tracks_[s] && tracks_[s]->members == members[s]) {
         continue;
@@ -171,14 +173,17 @@ class Islands {
         continue;
       }
       is_new_[s] = true;
-      tracks_[s] = stays_asleep(step_, members[s])
-                       ? track_asleep(step_, std::move(members[s]))
-                       : advance_island(step_, std::move(members[s]), workspace_);
-      if (!tracks_[s]) {
-        return false;
+      if (stays_asleep(step_, members[s])) {
+        tracks_[s] = track_asleep(step_, std::move(members[s]));
+      } else {
+        awake.push_back(s);
       }
     }
-    return true;
+    threads_.for_each(awake.size(), [&](std::size_t k, Workspace& workspace) {
+      const std::size_t s = awake[k];
+      tracks_[s] = advance_island(step_, std::move(members[s]), workspace);
+    });
+    return std::ranges::all_of(awake, [&](std::size_t s) { return tracks_[s].has_value(); });
   }
 
   /// Robots without geometry touch nothing: each moves by itself. Returns false if it was stopped.
@@ -191,7 +196,7 @@ class Islands {
     }
     for (std::size_t r = 0; r < model_.robots.size(); ++r) {
       if (!has_link_bodies[r]) {
-        std::optional<IslandTrack> track = advance_island(step_, {}, workspace_, {r});
+        std::optional<IslandTrack> track = advance_island(step_, {}, threads_.workspace(), {r});
         if (!track) {
           return false;
         }
@@ -244,7 +249,7 @@ class Islands {
     const Motion A = motion_over_step(pair[0]);
     const Motion B = motion_over_step(pair[1]);
     return first_contact({model_.bodies[pair[0]].shape, A}, {model_.bodies[pair[1]].shape, B},
-                         workspace_, options)
+                         threads_.workspace(), options)
                .verdict != Verdict::free;
   }
 
@@ -289,7 +294,7 @@ class Islands {
   const StepStart& start_;
   Obstacles around_;
   StepContext step_;
-  Workspace& workspace_;
+  IslandThreads& threads_;
   DisjointSets sets_;  // Of bodies; an island is named after its least member.
   std::vector<std::size_t> free_;
   std::vector<std::optional<IslandTrack>> tracks_;  // Of each set, at its name.
@@ -302,9 +307,9 @@ class Islands {
 std::optional<std::vector<IslandTrack>> advance_islands(const SimulationModel& model,
                                                         const StepStart& start,
                                                         const std::vector<ManifoldPoint>& guesses,
-                                                        Workspace& workspace,
+                                                        IslandThreads& threads,
                                                         const std::stop_token& stop) {
-  return Islands(model, start, guesses, workspace, stop).run();
+  return Islands(model, start, guesses, threads, stop).run();
 }
 
 }  // namespace firstcontact::detail

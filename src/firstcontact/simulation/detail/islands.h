@@ -13,15 +13,18 @@
 
 namespace firstcontact::detail {
 
+class IslandThreads;
 struct StepStart;
 struct SimulationModel;
 
 /// Advances every free body. Two islands of which the motions found bring bodies of both into
 /// contact were one: they are joined and advanced anew, until no two meet.
 ///
+/// Islands advance side by side; what each does is the same on any thread.
+///
 /// @returns  nothing if it was stopped
 [[nodiscard]] std::optional<std::vector<IslandTrack>> advance_islands(
     const SimulationModel& model, const StepStart& start, const std::vector<ManifoldPoint>& guesses,
-    Workspace& workspace, const std::stop_token& stop);
+    IslandThreads& threads, const std::stop_token& stop);
 
 }  // namespace firstcontact::detail

@@ -38,7 +38,7 @@ class JoinedVertices {
       }
     }
     std::ranges::sort(pairs);
-    pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     for (const auto& [from, to] : pairs) {
       ++first_[from + 1];
       to_.push_back(to);

@@ -1,0 +1,26 @@
+/// @file
+/// Bodies that meet where they are put.
+
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <firstcontact/contact_solver/kinetics.h>
+#include <firstcontact/many_bodies/pair_rules.h>
+#include <firstcontact/query/workspace.h>
+
+namespace firstcontact::detail {
+
+struct SimulationModel;
+
+/// A pair that is not proven apart by its margin, of which `concerns` says yes to one and not both
+/// are held where they are.
+[[nodiscard]] std::optional<BodyPair> find_meeting(const SimulationModel& model,
+                                                   const std::vector<RigidState>& states,
+                                                   const std::function<bool(std::size_t)>& concerns,
+                                                   Workspace& workspace);
+
+}  // namespace firstcontact::detail
