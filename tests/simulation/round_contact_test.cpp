@@ -66,6 +66,15 @@ TEST(RoundCircles, AreNotWhatHasCorners) {
   EXPECT_TRUE(RoundCircles(make_ring(60, 0.05, 0.1, 0.02), 1e-6).circles().empty());
 }
 
+// Files of few digits: each coordinate is off by half of the last one.
+TEST(RoundCircles, AreFoundWhereFilesHaveSixDigits) {
+  Mesh mesh = make_ring(64, 0.25, 0.3, 0.1, {0.0, 2.0, 0.0}).mesh();
+  for (Vector3d& vertex : mesh.vertices) {
+    vertex = (vertex * 1e6).array().round().matrix() / 1e6;
+  }
+  EXPECT_EQ(RoundCircles(Shape(std::move(mesh)), 1e-9).circles().size(), 4u);
+}
+
 TEST(RoundCircles, AreThoseOfARingWhereverItIs) {
   const Vector3d offset(3.0, -2.0, 0.5);
   const Shape ring = make_ring(180, 0.05, 0.1, 0.02, offset);

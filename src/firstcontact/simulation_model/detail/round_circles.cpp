@@ -19,7 +19,7 @@ using Vertex = std::uint32_t;
 
 /// [-]  Corners are on a circle if they are as near to it, by its radius and by their coordinates:
 /// files have few digits.
-constexpr double kOnCircle = 2e-6;
+constexpr double kOnCircle = 1e-5;
 constexpr double kOnCircleOfCoordinates = 0x1p-23;
 /// [-]  Edges of a polygon differ by less, by their length.
 constexpr double kSameEdge = 0.01;
