@@ -212,9 +212,19 @@ class PathProof {
     claim.held = held_along(edge);
     claim.from = share(edge);
     claim.last = share(edge + 1);
-    take(proof_.prove_free(claim), edge, claim, "");
     const std::optional<double>& clearance =
         path_.clearances.empty() ? path_.clearance : path_.clearances[edge];
+    const bool is_claimed = clearance && *clearance >= 0.0 && !courses_.has_tracking_errors();
+    if (is_claimed && result_.verdict == ProofVerdict::proven) {
+      // Mostly both hold, and one proof is of both.
+      FreeClaim both = claim;
+      both.clearance = clearance;
+      both.has_margins = true;
+      if (proof_.prove_free(both).verdict == ProofVerdict::proven) {
+        return;
+      }
+    }
+    take(proof_.prove_free(claim), edge, claim, "");
     if (!clearance) {
       if (result_.tested > claim.held.size()) {
         throw BrokenPath("Edge " + std::to_string(edge) + " has no clearance.");
@@ -224,7 +234,7 @@ class PathProof {
     if (!(*clearance >= 0.0)) {
       throw BrokenPath("The clearance of edge " + std::to_string(edge) + " is not a distance.");
     }
-    if (result_.verdict == ProofVerdict::proven && !courses_.has_tracking_errors()) {
+    if (result_.verdict == ProofVerdict::proven && is_claimed) {
       claim.clearance = clearance;
       take(proof_.prove_free(claim), edge, claim, "The clearance of the edge does not hold. ");
     }

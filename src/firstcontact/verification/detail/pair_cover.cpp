@@ -221,10 +221,14 @@ class Cover {
 
   /// [m]  A bound that shows the promise.
   [[nodiscard]] double enough(const Setting& s) const {
-    return options_.promise == Promise::exceeded
-               ? std::nextafter(s.promised, std::numeric_limits<double>::infinity())
-               : std::max(std::numeric_limits<double>::denorm_min(),
-                          s.promised * (1.0 - kPromiseError) - 2.0 * s.error);
+    const auto beyond = [](double distance) {
+      return std::nextafter(distance, std::numeric_limits<double>::infinity());
+    };
+    if (options_.promise == Promise::exceeded) {
+      return beyond(s.promised);
+    }
+    const double kept = s.promised * (1.0 - kPromiseError) - 2.0 * s.error;
+    return std::max(kept, beyond(options_.exceeded.value_or(0.0)));
   }
 
   /// [m]  The bodies are apart by their triangles' gap less this.
@@ -351,11 +355,23 @@ class Cover {
 
     [[nodiscard]] Vector3d edge(std::size_t k) const { return corners[(k + 1) % 3] - corners[k]; }
     [[nodiscard]] Vector3d normal() const { return edge(0).cross(edge(1)).normalized(); }
+    [[nodiscard]] Vector3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
   };
 
   bool prove_triangles(const BoxNode& a, const BoxNode& b, const Setting& s) {
     const PlacedTriangle A(s.A, A_.tree.triangles[a.first], a.reach);
     const PlacedTriangle B(s.B, B_.tree.triangles[b.first], b.reach);
+    if (!options_.finds_least) {
+      // Most triangles that slide along each other stay beside the plane of one of them.
+      const GapBound gap = beside_a_face(A, B, s);
+      if (gap.least() >= s.enough) {
+        accept(gap.least());
+        return true;
+      }
+      if (gap.middle >= s.enough && s.can_split) {
+        return false;  // Shorter windows are all that it takes.
+      }
+    }
     const PointPair closest = closest_estimate(A.corners, B.corners);
     const double seen = std::max(0.0, closest.distance + s.error - thickness());
     if (seen < result_.seen) {
@@ -375,6 +391,22 @@ class Cover {
     }
     accept(bound);
     return true;
+  }
+
+  /// Along the normals of both faces, until one shows what was promised.
+  [[nodiscard]] GapBound beside_a_face(const PlacedTriangle& A, const PlacedTriangle& B,
+                                       const Setting& s) const {
+    const Vector3d between = B.middle() - A.middle();
+    GapBound best;
+    for (const PlacedTriangle* face : {&A, &B}) {
+      const Vector3d n = face->normal();
+      const GapBound gap = triangle_gap_along(n.dot(between) < 0.0 ? Vector3d(-n) : n, A, B, s);
+      best = gap.least() > best.least() ? gap : best;
+      if (best.least() >= s.enough) {
+        break;
+      }
+    }
+    return best;
   }
 
   [[nodiscard]] bool is_closer(const PlacedTriangle& A, const PlacedTriangle& B,

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stop_token>
 
@@ -33,6 +34,8 @@ enum class Promise {
 struct CoverOptions {
   Promise promise = Promise::kept;
   double promised = 0.0;  ///< [m]  The distance that was claimed.
+  /// [m]  Beside a promise that is kept: this one is exceeded.
+  std::optional<double> exceeded = {};
   /// [m]  Some pair of the run is known to come this close: what stays farther is of no interest
   /// beyond the promise.
   double known = std::numeric_limits<double>::infinity();

@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kWindows = 8;
 constexpr std::size_t kManyWindows = 32;
 constexpr std::size_t kManyShapes = 50;
+constexpr std::size_t kFewShapes = 8;
 
 /// Pairs are proven side by side in batches of at least as many: all threads have work, and the
 /// first finding does not depend on them.
@@ -68,18 +69,28 @@ void take(const ProofFinding& found, ProofFinding& kept) {
 SceneProof::SceneProof(const SceneCourses& courses, SceneProofOptions options)
     : courses_(courses), options_(std::move(options)) {}
 
-std::vector<TimeSpan> SceneProof::windows() const {
+/// Those of the times of a claim.
+std::vector<TimeSpan> SceneProof::windows(const FreeClaim& claim) const {
   const std::vector<double>& breaks = courses_.breaks();
-  const std::size_t least = courses_.geometries().size() > kManyShapes ? kManyWindows : kWindows;
-  const std::size_t spans = breaks.size() - 1;
-  const std::size_t parts = (least + spans - 1) / spans;
+  std::vector<TimeSpan> spans;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const TimeSpan span{std::max(breaks[k], claim.from), std::min(breaks[k + 1], claim.last)};
+    if (span.from < span.to) {
+      spans.push_back(span);
+    }
+  }
+  const std::size_t shapes = courses_.geometries().size();
+  const std::size_t of_all = breaks.size() - 1;
+  const std::size_t least = shapes > kManyShapes ? kManyWindows : kWindows;
+  // Few shapes: those of a claim alone are work for all threads.
+  const std::size_t among = shapes <= kFewShapes ? std::max<std::size_t>(spans.size(), 1) : of_all;
+  const std::size_t parts = (least + among - 1) / among;
   std::vector<TimeSpan> windows;
-  for (std::size_t k = 0; k < spans; ++k) {
-    double from = breaks[k];
+  for (const TimeSpan& span : spans) {
+    double from = span.from;
     for (std::size_t part = 1; part <= parts; ++part) {
       const double share = static_cast<double>(part) / static_cast<double>(parts);
-      const double to =
-          part == parts ? breaks[k + 1] : breaks[k] + share * (breaks[k + 1] - breaks[k]);
+      const double to = part == parts ? span.to : span.from + share * (span.to - span.from);
       if (from < to) {
         windows.push_back({from, to});
         from = to;
@@ -102,13 +113,12 @@ std::vector<BodyPair> SceneProof::near(const TimeSpan& window, double reach) con
   return pairs;
 }
 
-double SceneProof::promised(const FreeClaim& claim, double margin) const {
-  return claim.clearance.value_or(margin + claim.extra);
-}
-
 /// [m]  No pair is claimed to keep a greater distance.
 double SceneProof::reach_of(const FreeClaim& claim) const {
-  double reach = promised(claim, courses_.pairs().greatest_margin());
+  double reach = claim.clearance.value_or(0.0);
+  if (!claim.clearance || claim.has_margins) {
+    reach = std::max(reach, courses_.pairs().greatest_margin() + claim.extra);
+  }
   for (const auto& [members, distance] : claim.held) {
     reach = std::max(reach, distance);
   }
@@ -123,23 +133,30 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
     const std::optional<double> margin = courses_.pairs().margin(members);
     const auto held =
         claim.held.find({std::min(members[0], members[1]), std::max(members[0], members[1])});
-    if (!margin || (claim.clearance && held != claim.held.end())) {
+    if (!margin) {
       continue;
     }
-    // Curved bodies keep a clearance if the triangles around them keep that much less.
-    const double around =
-        claim.clearance ? enclosure(geometries[pair[0]], geometries[pair[1]]) : 0.0;
-    const double distance =
-        held != claim.held.end() ? held->second : promised(claim, *margin) - around;
-    if (claim.clearance && distance <= *margin) {
-      continue;  // The margin shows it already.
+    const bool is_held = held != claim.held.end();
+    Job job{.a = pair[0], .b = pair[1], .margin = is_held ? held->second : *margin + claim.extra};
+    if (claim.clearance) {
+      // Curved bodies keep a clearance if the triangles around them keep that much less.
+      const double kept = *claim.clearance - enclosure(geometries[pair[0]], geometries[pair[1]]);
+      const bool is_shown = is_held || kept <= *margin;  // It is, by the margin.
+      if (is_shown && !claim.has_margins) {
+        continue;
+      }
+      if (!is_shown) {
+        job.promise = Promise::kept;
+        job.exceeded = claim.has_margins ? std::optional(job.margin) : std::nullopt;
+        job.margin = kept;
+      }
     }
     const double until = claim.until(members);
     for (const TimeSpan& span : courses_.pairs().spans(members)) {
-      const TimeSpan tested{std::max(window.from, span.from),
-                            std::min({window.to, span.to, until})};
-      if (tested.from < tested.to) {
-        jobs.push_back({pair[0], pair[1], tested, distance, tested.to == until, {}});
+      job.window = {std::max(window.from, span.from), std::min({window.to, span.to, until})};
+      if (job.window.from < job.window.to) {
+        job.is_last = job.window.to == until;
+        jobs.push_back(job);
       }
     }
   }
@@ -147,14 +164,10 @@ void SceneProof::add_jobs(const FreeClaim& claim, const TimeSpan& window,
 
 ProofFinding SceneProof::prove_free(const FreeClaim& claim) const {
   ProofFinding finding;
-  if (!claim.clearance && claim.from == 0.0) {
+  if ((!claim.clearance || claim.has_margins) && claim.from == 0.0) {
     finding = prove_outside(claim);
   }
-  std::vector<TimeSpan> all = windows();
-  for (TimeSpan& window : all) {
-    window = {std::max(window.from, claim.from), std::min(window.to, claim.last)};
-  }
-  std::erase_if(all, [](const TimeSpan& window) { return !(window.from < window.to); });
+  const std::vector<TimeSpan> all = windows(claim);
   std::vector<Job> jobs;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (finding.verdict == ProofVerdict::refuted) {
@@ -191,8 +204,9 @@ ProofFinding SceneProof::prove(const FreeClaim& claim, const Job& job) const {
   const auto geometries = courses_.geometries();
   const CourseGeometry& A = geometries[job.a];
   const CourseGeometry& B = geometries[job.b];
-  CoverOptions asked{.promise = claim.clearance ? Promise::kept : Promise::exceeded,
+  CoverOptions asked{.promise = job.promise,
                      .promised = job.margin,
+                     .exceeded = job.exceeded,
                      .finds_least = false,
                      .from = job.window.from,
                      .to = job.window.to,

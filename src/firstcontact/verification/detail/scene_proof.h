@@ -42,6 +42,8 @@ struct FreeClaim {
   /// [m]  In place of the margins: a distance that pairs keep, but for 2^-20 of it and twice the
   /// rounding.
   std::optional<double> clearance = {};
+  /// Whether a clearance is claimed beside the margins; then a proof is of both.
+  bool has_margins = false;
   /// Whether the claim of a pair ends where the pair may touch: then the last moment may be left
   /// open (ProofFinding::left_open).
   bool ends_in_contact = false;
@@ -71,13 +73,14 @@ class SceneProof {
     std::size_t b = 0;
     TimeSpan window = {};
     double margin = 0.0;
+    std::optional<double> exceeded = {};  // [m]  Beside a clearance.
+    Promise promise = Promise::exceeded;
     bool is_last = false;  // Its window ends where the claim of the pair does.
     ProofFinding finding = {};
   };
 
-  [[nodiscard]] std::vector<TimeSpan> windows() const;
+  [[nodiscard]] std::vector<TimeSpan> windows(const FreeClaim& claim) const;
   [[nodiscard]] std::vector<BodyPair> near(const TimeSpan& window, double reach) const;
-  [[nodiscard]] double promised(const FreeClaim& claim, double margin) const;
   [[nodiscard]] double reach_of(const FreeClaim& claim) const;
   void add_jobs(const FreeClaim& claim, const TimeSpan& window, std::vector<Job>& jobs) const;
   [[nodiscard]] ProofFinding prove(const FreeClaim& claim, std::vector<Job>& jobs) const;
