@@ -220,7 +220,12 @@ class PathProof {
       FreeClaim both = claim;
       both.clearance = clearance;
       both.has_margins = true;
-      if (proof_.prove_free(both).verdict == ProofVerdict::proven) {
+      const ProofFinding found = proof_.prove_free(both);
+      if (found.verdict == ProofVerdict::proven) {
+        return;
+      }
+      if (found.reason == detail::ProofReason::stopped) {
+        take(found, edge, claim, "");
         return;
       }
     }

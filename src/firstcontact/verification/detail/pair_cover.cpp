@@ -29,6 +29,9 @@ constexpr double kPrecision = 0.05;
 constexpr int kFineDepth = 24;
 constexpr int kDeepest = 50;
 
+/// [-]  A gap falls in half of a window by this part of what it falls in all of it, or less.
+constexpr double kLossOfHalf = 0.5;
+
 /// So many tests of boxes or triangles come between two looks at the stop token.
 constexpr std::size_t kStopInterval = 4096;
 
@@ -38,6 +41,12 @@ constexpr double kVelocityError = 0x1p-44;
 
 /// Covers the roundings of a position, and of a product with a direction: sums of a few terms.
 constexpr double kRounding = 64.0 * 0x1p-53;
+
+/// A unit vector but for rounding, or zero, along which no gap is wide enough.
+Vector3d unit(const Vector3d& v) {
+  const Vector3d n = v.stableNormalized();
+  return std::abs(n.squaredNorm() - 1.0) <= kRounding ? n : Vector3d(Vector3d::Zero());
+}
 
 /// How far a bound falls within a window, and what it is in its middle. [m]
 struct GapBound {
@@ -228,7 +237,7 @@ class Cover {
       return beyond(s.promised);
     }
     const double kept = s.promised * (1.0 - kPromiseError) - 2.0 * s.error;
-    return std::max(kept, beyond(options_.exceeded.value_or(0.0)));
+    return std::max(kept, beyond(std::max(0.0, options_.exceeded.value_or(0.0))));
   }
 
   /// [m]  The bodies are apart by their triangles' gap less this.
@@ -354,7 +363,7 @@ class Cover {
     }
 
     [[nodiscard]] Vector3d edge(std::size_t k) const { return corners[(k + 1) % 3] - corners[k]; }
-    [[nodiscard]] Vector3d normal() const { return edge(0).cross(edge(1)).normalized(); }
+    [[nodiscard]] Vector3d normal() const { return unit(edge(0).cross(edge(1))); }
     [[nodiscard]] Vector3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
   };
 
@@ -368,8 +377,8 @@ class Cover {
         accept(gap.least());
         return true;
       }
-      if (gap.middle >= s.enough && s.can_split) {
-        return false;  // Shorter windows are all that it takes.
+      if (gap.middle - kLossOfHalf * gap.loss >= s.enough && s.can_split) {
+        return false;  // Half of the window is all that it takes.
       }
     }
     const PointPair closest = closest_estimate(A.corners, B.corners);
@@ -466,7 +475,7 @@ class Cover {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
-        const Vector3d n = A.edge(i).cross(B.edge(j)).normalized();
+        const Vector3d n = unit(A.edge(i).cross(B.edge(j)));
         offer(n);
         offer(-n);
       }

@@ -69,7 +69,7 @@ void take(const ProofFinding& found, ProofFinding& kept) {
 SceneProof::SceneProof(const SceneCourses& courses, SceneProofOptions options)
     : courses_(courses), options_(std::move(options)) {}
 
-/// Those of the times of a claim.
+/// The times of a claim, cut into parts that are proven side by side.
 std::vector<TimeSpan> SceneProof::windows(const FreeClaim& claim) const {
   const std::vector<double>& breaks = courses_.breaks();
   std::vector<TimeSpan> spans;

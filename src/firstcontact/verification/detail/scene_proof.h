@@ -39,8 +39,8 @@ struct FreeClaim {
   /// [m]  Pairs that keep a distance of their own in place of their margin and `extra`, strictly; a
   /// claim of a clearance is not about them.
   std::map<BodyPair, double> held = {};
-  /// [m]  In place of the margins: a distance that pairs keep, but for 2^-20 of it and twice the
-  /// rounding.
+  /// [m]  In place of the margins, or beside them: a distance that pairs keep, but for 2^-20 of it
+  /// and twice the rounding.
   std::optional<double> clearance = {};
   /// Whether a clearance is claimed beside the margins; then a proof is of both.
   bool has_margins = false;
@@ -54,8 +54,8 @@ class SceneProof {
   /// @param courses  outlives this
   SceneProof(const SceneCourses& courses, SceneProofOptions options);
 
-  /// Proves that each tested pair is farther apart than its margin. The first finding that
-  /// contradicts it, else the first that leaves it open.
+  /// Proves that each tested pair is farther apart than its margin, or keeps the clearance that is
+  /// claimed. The first finding that contradicts it, else the first that leaves it open.
   [[nodiscard]] ProofFinding prove_free(const FreeClaim& claim) const;
 
   /// Proves that two members are no farther apart than margin + tolerance at a time, for their
