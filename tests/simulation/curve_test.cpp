@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -154,6 +155,53 @@ TEST(Curve, ADiscThatRollsOnItsRimKeepsItsEnergy) {
     EXPECT_LT(kept.worst, 0.02 * kept.swing) << step;
     EXPECT_TRUE(kept.is_proven) << step;
   }
+}
+
+/// [J]  The most that a coin of 64 corners gains above the lowest energy before, and its energy.
+std::array<double, 2> most_gained(double lean, double friction, double rate, double step) {
+  std::ostringstream pose;
+  pose.precision(17);
+  pose << R"({"position": [0, 0, )" << 0.0102 + 0.1 * std::sin(lean) << R"(], "rpy": [)" << lean
+       << ", 0, 0]}";
+  Simulator s = simulator(test::kFloor + R"(, {"name": "coin", "shape": )" +
+                              tube(64, 0.01, 0.1, 0.02) + R"(, "pose": )" + pose.str() +
+                              R"(, "dynamics": {"density": 1000, "angular_velocity": [0, )" +
+                              std::to_string(rate) + ", 0]}}",
+                          settings(step, friction, 1e-4));
+  double lowest = std::numeric_limits<double>::infinity();
+  std::array<double, 2> most{0.0, 0.0};
+  for (const RunStep& at : run(s, static_cast<std::size_t>(std::lround(1.0 / step)))) {
+    const double energy = at.kinetic_energy + at.potential_energy;
+    lowest = std::min(lowest, energy);
+    most = {std::max(most[0], energy - lowest), std::max(most[1], energy)};
+  }
+  return most;
+}
+
+// The lowest point of a coin that settles runs round faster and faster. Nothing may drive it.
+TEST(Curve, ACoinThatSettlesGainsNothing) {
+  for (const auto& [lean, friction, rate, step] :
+       {std::array{0.05, 0.3, 1.0, 0.005}, std::array{0.05, 0.0, 1.0, 0.005},
+        std::array{0.05, 0.3, 3.0, 0.005}, std::array{0.1, 0.5, 2.0, 0.005},
+        std::array{0.3, 0.5, 2.0, 0.005}, std::array{0.3, 0.0, 2.0, 0.002}}) {
+    const auto& [gained, energy] = most_gained(lean, friction, rate, step);
+    EXPECT_LT(gained, 2e-3 * energy) << lean << " " << friction << " " << rate << " " << step;
+  }
+}
+
+// A ball lands on the rim of a fixed disc, its centre beyond the end, and slides off.
+TEST(Curve, ABallBesideARimSlidesOff) {
+  Simulator s = simulator(
+      turned_to_y("disc", tube(64, 0.02, 0.1, 0.04), {0.0, 0.0, 0.0}, "") + ", " +
+          body("ball", ball("0.1"), "[0, 0.028, 0.21]", R"(, "dynamics": {"density": 1000})"),
+      settings(0.005, 0.0, 1e-4));
+  const std::vector<RunStep> steps = run(s, 80);
+  const double first = steps.front().kinetic_energy + steps.front().potential_energy;
+  for (const RunStep& at : steps) {
+    EXPECT_LT(at.kinetic_energy + at.potential_energy, first * (1.0 + 1e-3));
+  }
+  EXPECT_GT(steps.back().bodies[0].linear_velocity.y(), 0.3);
+  EXPECT_LT(steps.back().bodies[0].X_WB.position.z(), 0.15);
 }
 
 }  // namespace

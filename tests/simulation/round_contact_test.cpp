@@ -63,7 +63,7 @@ TEST(RoundCircles, AreNotWhatHasCorners) {
   EXPECT_TRUE(RoundCircles(make_box({0.1, 0.1, 0.1}), 1e-5).circles().empty());
   EXPECT_TRUE(RoundCircles(make_capsule(0.1, 0.2), 1e-3).circles().empty());
   EXPECT_TRUE(RoundCircles(make_ring(6, 0.05, 0.1, 0.02), 1e-5).circles().empty());
-  EXPECT_TRUE(RoundCircles(make_ring(60, 0.05, 0.1, 0.02), 1e-6).circles().empty());
+  EXPECT_TRUE(RoundCircles(make_ring(63, 0.05, 0.1, 0.02), 1e-6).circles().empty());
 }
 
 // Files of few digits: each coordinate is off by half of the last one.
@@ -73,6 +73,37 @@ TEST(RoundCircles, AreFoundWhereFilesHaveSixDigits) {
     vertex = (vertex * 1e6).array().round().matrix() / 1e6;
   }
   EXPECT_EQ(RoundCircles(Shape(std::move(mesh)), 1e-9).circles().size(), 4u);
+}
+
+/// A height map: smooth lines of edges of nearly one length, that never close.
+Shape make_waves(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t k = 0; k <= n; ++k) {
+      const double x = 6.0 * i / n;
+      const double y = 6.0 * k / n;
+      mesh.vertices.emplace_back(x, y, 0.3 * std::sin(x) + 0.3 * std::cos(0.8 * y));
+      if (i < n && k < n) {
+        const std::uint32_t v = (n + 1) * i + k;
+        mesh.triangles.push_back({v, v + n + 1, v + n + 2});
+        mesh.triangles.push_back({v, v + n + 2, v + 1});
+      }
+    }
+  }
+  return Shape(std::move(mesh));
+}
+
+TEST(RoundCircles, AreNotOnSmoothSurfaces) {
+  EXPECT_TRUE(RoundCircles(make_waves(200), 1e-3).circles().empty());
+}
+
+TEST(RoundCircles, KnowOnWhichSideTheSurfaceIs) {
+  const Shape ring = make_ring(90, 0.05, 0.1, 0.02);
+  const RoundCircles found(ring, 1e-9);
+  for (const RoundCircle& circle : found.circles()) {
+    EXPECT_EQ(circle.is_hole, circle.outer < 0.06);
+    EXPECT_EQ(circle.is_rim, circle.outer > 0.06);
+  }
 }
 
 TEST(RoundCircles, AreThoseOfARingWhereverItIs) {
@@ -101,7 +132,9 @@ TEST(RoundCircles, HaveTheSidesAndTheRimsOnly) {
     const auto& v = ring.mesh().vertices;
     const Vector3d normal = (v[b] - v[a]).cross(v[c] - v[a]).normalized();
     const bool is_side = std::abs(normal.z()) < 0.5;
-    EXPECT_EQ(found.at(ring, {FeatureType::face, t, t}) != nullptr, is_side) << t;
+    const OnCircle on = found.at(ring, {FeatureType::face, t, t});
+    EXPECT_EQ(on.circle != nullptr, is_side) << t;
+    EXPECT_EQ(on.is_side, is_side) << t;
   }
 }
 
@@ -130,7 +163,8 @@ TEST(RoundContacts, TouchAPlaneInTheirLowestLine) {
     contact.n_AB_W = -Vector3d::UnitZ();
     contact.distance = contact.p_WA.z();
     const PlacedRound on_floor{&floor, nullptr, {{0.0, 0.0, -0.5}, Eigen::Quaterniond::Identity()}};
-    const auto round = make_round({PlacedRound{&cylinder, &circles, lying}, on_floor}, contact);
+    const auto round =
+        make_round({PlacedRound{&cylinder, &circles, lying}, on_floor}, 1.0, contact);
     EXPECT_NE(round[0].circle, nullptr);
     EXPECT_FALSE(round[0].is_hole);
     EXPECT_EQ(round[1].circle, nullptr);
@@ -175,7 +209,7 @@ struct HangingRing {
     }
     contact.feature_A = {FeatureType::edge, 0, 0};
     const Pose upright{Vector3d::Zero(), Eigen::Quaterniond::Identity()};
-    return make_round({PlacedRound{&pin, nullptr, upright}, PlacedRound{&ring, &circles, X}},
+    return make_round({PlacedRound{&pin, nullptr, upright}, PlacedRound{&ring, &circles, X}}, 1.0,
                       contact);
   }
 };

@@ -407,7 +407,7 @@ class Simulator::Implementation {
         model_.bodies, [](const SimBody& body) { return body.kind != BodyKind::fixed; }));
   }
 
-  /// All pairs with a body that `concerns` says yes to.
+  /// Throws std::invalid_argument where a pair meets with a body that `concerns` says yes to.
   void require_apart(const std::vector<RigidState>& states,
                      const std::function<bool(std::size_t)>& concerns) {
     if (const auto pair = detail::find_meeting(model_, states, concerns, threads_->workspace())) {

@@ -112,11 +112,23 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
       least = apart;
     }
   }
-  if (!nearest || acting_[*nearest].lifts == kMostLifts) {
+  const bool presses = nearest && last_ && last_->velocities.impulses[*nearest][0] > 0.0;
+  if (!presses || acting_[*nearest].lifts == kMostLifts) {
     return false;
   }
   ++acting_[*nearest].lifts;
   return true;
+}
+
+/// [m]  A displacement keeps a contact on its curve if it has no longer way: that of an arc from
+/// its chord, and a contact distance.
+double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
+                                      const std::array<ContactSide, 2>& sides) const {
+  const ContactPoint& now = acting_[k].now;
+  const double turn = (there.frame.row(0) - now.frame.row(0)).norm();
+  const double way = span_ * (sides[0].v.norm() + sides[0].w.norm() * now.arm_A.norm() +
+                              sides[1].v.norm() + sides[1].w.norm() * now.arm_B.norm());
+  return state_.model.distances.least + way * turn;
 }
 
 /// Adds displacements that keep pressed contacts on their curves: the plan's motion is along a
@@ -127,6 +139,7 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
   }
   const double tolerance = kPushTolerance * state_.model.distances.least;
   ContactProblem problem;
+  double most = 0.0;  // [m]
   bool is_any = false;
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     const ContactPoint& contact = problem_.contacts[k];
@@ -135,9 +148,11 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
                       .arm_B = contact.arm_B,
                       .frame = contact.frame};
     const bool is_pressed = last_->velocities.impulses[k][0] > 0.0;
-    if (is_pressed && is_on_curve(k)) {
-      kept.least_normal_velocity = missing_on_curve(k, plan);
-      is_any = is_any || std::abs(kept.least_normal_velocity) > tolerance;
+    const OffCurve off = is_pressed && is_on_curve(k) ? off_curve(k, plan) : OffCurve{};
+    if (off.most > 0.0) {
+      is_any = is_any || std::abs(off.missing) > tolerance;
+      most = std::max(most, off.most);
+      kept.least_normal_velocity = off.missing;
       problem.contacts.push_back(kept);
       // And not more than that.
       kept.frame.topRows<2>() *= -1.0;
@@ -149,10 +164,11 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
     return;
   }
   set_at_rest(problem);
-  const ContactSolution kept =
+  ContactSolution kept =
       project_on_contacts(problem, {.tolerance = tolerance,
                                     .enough = kPushEnough * state_.model.distances.least,
                                     .sweeps = kPushSweeps});
+  limit_push(most, kept);
   state_.robots.displace(kept.mechanisms, plan.robots);
   for (std::size_t k = 0; k < state_.size(); ++k) {
     plan.moves[k].translation += kept.bodies[k].v;
@@ -160,8 +176,9 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
   }
 }
 
-/// [m]  How much farther apart a contact has to be after the plan.
-double IslandPlanner::missing_on_curve(std::size_t k, const Plan& plan) const {
+/// How much farther apart a contact has to be after the plan. Nothing where the plan leads it too
+/// far from its curve to tell.
+IslandPlanner::OffCurve IslandPlanner::off_curve(std::size_t k, const Plan& plan) const {
   const ManifoldPoint& touch = touches_[k];
   std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   for (std::size_t s = 0; s < 2; ++s) {
@@ -171,10 +188,16 @@ double IslandPlanner::missing_on_curve(std::size_t k, const Plan& plan) const {
       sides[s].w = plan.moves[place].rotation_vector / span_;
     }
   }
+  if (!follows_curve(acting_[k].now, sides, span_)) {
+    return {};
+  }
   const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
-  const double opened = moved_contact(touch, acting_[k].now, distance, sides, span_).opened;
-  return kBackToRest * span_ * acting_[k].least - opened +
-         acting_[k].lifts * state_.model.distances.tolerance;
+  const MovedContact there = moved_contact(touch, acting_[k].now, distance, sides, span_);
+  const double missing = kBackToRest * span_ * acting_[k].least - there.opened +
+                         acting_[k].lifts * state_.model.distances.tolerance;
+  const double most =
+      most_from_curve(there, k, sides) + acting_[k].lifts * state_.model.distances.tolerance;
+  return std::abs(missing) <= most ? OffCurve{missing, most} : OffCurve{};
 }
 
 }  // namespace firstcontact::detail

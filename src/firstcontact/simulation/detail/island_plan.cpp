@@ -177,10 +177,14 @@ ContactSide IslandPlanner::side_of(const ManifoldPoint& touch, std::size_t side)
 
 /// Its guess is the impulse of the touch, of a whole step.
 ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) const {
-  const std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
+  std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
-  made.is_round = is_round(sides[0]) || is_round(sides[1]);
   made.now = state_.contact(touch, bodies_, least);
+  made.is_round = follows_curve(made.now, sides, span_);
+  if (!made.is_round) {  // It goes with what it touches of the polygon.
+    sides[0].round = {};
+    sides[1].round = {};
+  }
   made.now.guess *= span_ / state_.start.h;
   made.halfway = {{made.now.arm_A, made.now.arm_B}, made.now.frame};
   made.is_held = least == 0.0 || made.now.guess[0] > 0.0;
@@ -353,11 +357,11 @@ bool IslandPlanner::mean_is_allowed() const {
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
   const double slack = slack_of_mean();
+  const double kept = state_.model.distances.least / span_;  // By displacements.
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
-    if (is_on_curve(k)) {
-      continue;  // Displacements keep it.
-    }
-    if (!(normal_velocity(problem_.contacts[k], mean) >= least_of_mean(k) - slack)) {
+    const bool is_kept = is_on_curve(k) && last_->velocities.impulses[k][0] > 0.0;
+    const double least = least_of_mean(k) - (is_kept ? kept : slack);
+    if (!(normal_velocity(problem_.contacts[k], mean) >= least)) {
       return false;
     }
   }

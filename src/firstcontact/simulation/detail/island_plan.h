@@ -94,6 +94,12 @@ class IslandPlanner {
     std::vector<Eigen::Vector3d> rotation_vectors;
   };
 
+  /// How far a plan leads a contact from its curve.
+  struct OffCurve {
+    double missing = 0.0;  // [m]  So much farther apart it has to be.
+    double most = 0.0;     // [m]  A displacement for it is no longer; 0: there is none.
+  };
+
   [[nodiscard]] FreeFlight free_flight() const;
   [[nodiscard]] bool acts(std::size_t k) const;
   [[nodiscard]] double slack_of_mean() const;
@@ -128,10 +134,12 @@ class IslandPlanner {
   [[nodiscard]] bool follow_curves();
   [[nodiscard]] bool lifts(const PredictedContact& ahead);
   void keep_on_curves(Plan& plan) const;
-  [[nodiscard]] double missing_on_curve(std::size_t k, const Plan& plan) const;
+  [[nodiscard]] OffCurve off_curve(std::size_t k, const Plan& plan) const;
+  [[nodiscard]] double most_from_curve(const MovedContact& there, std::size_t k,
+                                       const std::array<ContactSide, 2>& sides) const;
   void set_at_rest(ContactProblem& problem) const;
   void push_apart(Plan& plan);
-  void limit_push(ContactSolution& push) const;
+  void limit_push(double most, ContactSolution& push) const;
   void keep_push_from(const ContactPoint& contact);
   [[nodiscard]] ContactSolution find_push() const;
 

@@ -19,7 +19,7 @@ void IslandPlanner::push_apart(Plan& plan) {
   }
   if (!push_) {
     push_ = find_push();
-    limit_push(*push_);
+    limit_push(state_.model.distances.least, *push_);
   }
   state_.robots.displace(push_->mechanisms, plan.robots);
   for (std::size_t k = 0; k < state_.size(); ++k) {
@@ -28,16 +28,17 @@ void IslandPlanner::push_apart(Plan& plan) {
   }
 }
 
-/// A displacement takes no time: no point moves by more than the contact distance. Where parts jam
-/// a long way sideways may gain little, as in a chain that is nearly taut. A share of a
-/// displacement is one that the constraints allow, too.
-void IslandPlanner::limit_push(ContactSolution& push) const {
+/// A displacement takes no time: no point moves by more than a distance, the contact distance where
+/// parts are pushed. Where parts jam a long way sideways may gain little, as in a chain that is
+/// nearly taut. A share of a displacement is one that the constraints allow, too.
+///
+/// @param most  [m]
+void IslandPlanner::limit_push(double most, ContactSolution& push) const {
   double greatest = 0.0;  // [m]
   for (std::size_t k = 0; k < state_.size(); ++k) {
     const ContactBody& body = push.bodies[k];
     greatest = std::max(greatest, body.v.norm() + state_.member(k).reach * body.w.norm());
   }
-  const double most = state_.model.distances.least;
   if (greatest <= most) {
     return;
   }

@@ -124,7 +124,7 @@ void IslandState::find_manifolds(const std::vector<ManifoldPoint>& before, Works
   for_each_pair(boxes, model.distances.near, 0.0, [&](const BodyPair& pair, double margin) {
     const RestingBody& A = at_rest(pair[0]);
     const RestingBody& B = at_rest(pair[1]);
-    if (stays_apart(A.hull, B.hull, margin + model.distances.near,
+    if (stays_apart(A.hull, B.hull, margin + near_of(model, pair),
                     (B.hull.p_WC - A.hull.p_WC).normalized())) {
       return;
     }

@@ -181,6 +181,9 @@ class Islands {
     }
     threads_.for_each(awake.size(), [&](std::size_t k, Workspace& workspace) {
       const std::size_t s = awake[k];
+      if (step_.stop.stop_requested()) {
+        return;
+      }
       tracks_[s] = advance_island(step_, std::move(members[s]), workspace);
     });
     return std::ranges::all_of(awake, [&](std::size_t s) { return tracks_[s].has_value(); });

@@ -56,7 +56,10 @@ inline constexpr double kCloseBy = 0.01;
 /// [-]  A regular polygon is a circle if its edges are no farther inside of it, by its radius: one
 /// of 64 corners. Larger: what is meant to have corners rolls. Smaller: meshes of round parts bump
 /// over their edges.
-inline constexpr double kSagOfRadius = 1.25e-3;
+inline constexpr double kSagOfRadius = 1.21e-3;
+/// [-]  Nor may they be, by the reach of the smaller of two bodies that touch: the rim of a large
+/// floor is a polygon to a small box.
+inline constexpr double kMostSagOfReach = 0.02;
 /// [-]  Edges of a circle within this cosine of its nearest point are that point.
 inline constexpr double kNearLine = 0.94;
 /// [contacts]  A pair with more of them keeps the nearest one of each neighbourhood...
@@ -150,6 +153,9 @@ inline constexpr int kSweepsOfWay = 50;
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
 inline constexpr double kBackToRest = 0.5;
+/// [-]  A contact follows its circle in a plan if the normal turns against its axis by less than
+/// this, by the sine between both. Larger: the lowest point of a nearly flat disc runs too far.
+inline constexpr double kTurnOfCurve = 0.2;
 /// [-]  So often is a plan solved with contacts where its solution before leads them.
 inline constexpr int kPassesOfCurves = 2;
 /// [-]  So often does a polygon that stands out lift the contact of its circle in a plan, before

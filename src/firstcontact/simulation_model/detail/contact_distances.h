@@ -43,7 +43,7 @@ struct ContactDistances {
   double touching;   ///< [m]  Impacts act on pairs within it.
   double band;       ///< [m]  Constraints act on pairs within it.
   double pushed;     ///< [m]  Pairs below it are pushed apart.
-  double near;       ///< [m]  Of pairs beyond it not even circles are within the band.
+  double near;       ///< [m]  Beyond it not even circles of any pair are within the band.
 };
 
 /// How a pair is asked for first contact, which was this far apart at the start.

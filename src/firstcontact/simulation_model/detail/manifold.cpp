@@ -126,14 +126,14 @@ class FacingBodies {
 struct TouchMaker {
   TouchMaker(const SimulationModel& model, const BodyPair& pair, const std::array<Pose, 2>& poses,
              double its_margin)
-      : bodies(pair), margin(its_margin) {
+      : bodies(pair), margin(its_margin), most_sag(most_sag_of(model, pair)) {
     for (std::size_t s = 0; s < 2; ++s) {
       placed[s] = {&model.bodies[pair[s]].shape, model.round_circles[pair[s]].get(), poses[s]};
     }
   }
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
-    const std::array<RoundFeature, 2> round = make_round(placed, contact);
+    const std::array<RoundFeature, 2> round = make_round(placed, most_sag, contact);
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,
@@ -144,7 +144,8 @@ struct TouchMaker {
   }
 
   BodyPair bodies;
-  double margin;  // [m]
+  double margin;    // [m]
+  double most_sag;  // [m]
   std::array<PlacedRound, 2> placed;
 };
 
@@ -291,7 +292,7 @@ double least_gap(const Manifold& manifold) {
 Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, const PlacedShape& B,
                               double margin) {
   Manifold manifold{.bodies = bodies, .gap = std::numeric_limits<double>::infinity()};
-  close_features(A, B, margin + model_.distances.near, workspace_, contacts_,
+  close_features(A, B, margin + near_of(model_, bodies), workspace_, contacts_,
                  kNeighbourhood * smaller_reach(model_, bodies));
   for (const Contact& contact : contacts_) {
     manifold.gap = std::min(manifold.gap, contact.distance - margin);
@@ -299,7 +300,7 @@ Manifold ManifoldFinder::find(const BodyPair& bodies, const PlacedShape& A, cons
   manifold.touches = touches_among(model_, bodies, {A.pose(), B.pose()}, margin, contacts_);
   std::erase_if(manifold.touches,
                 [&](const ManifoldPoint& touch) { return touch.gap > model_.distances.band; });
-  if (manifold.touches.empty()) {
+  if (manifold.touches.empty() && manifold.gap > model_.distances.band) {
     manifold.gap = std::numeric_limits<double>::infinity();
   }
   return manifold;

@@ -94,13 +94,29 @@ double radius_of(const ContactSide& side) {
   return side.round.circle != nullptr ? side.round.radius() : side.body->shape.radius();
 }
 
+bool is_round(const ContactSide& side) { return radius_of(side) != 0.0; }
+
 }  // namespace
 
 Vector3d MovedContact::velocity(const std::array<ContactSide, 2>& sides) const {
   return frame * (sides[1].v + sides[1].w.cross(arms[1]) - sides[0].v - sides[0].w.cross(arms[0]));
 }
 
-bool is_round(const ContactSide& side) { return radius_of(side) != 0.0; }
+bool follows_curve(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
+                   double time) {
+  const Vector3d n = contact.frame.row(0).transpose();
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (sides[s].round.circle == nullptr) {
+      continue;
+    }
+    const Vector3d axis = sides[s].R_WB * sides[s].round.circle->axis_B;
+    const double turn = sides[s].w.cross(axis).norm() + sides[1 - s].w.cross(n).norm();
+    if (!(time * turn <= kTurnOfCurve * axis.cross(n).norm())) {
+      return false;
+    }
+  }
+  return is_round(sides[0]) || is_round(sides[1]);
+}
 
 double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
                    double time) {

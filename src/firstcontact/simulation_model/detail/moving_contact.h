@@ -38,8 +38,10 @@ struct MovedContact {
   [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
 };
 
-/// Whether the surface of a body is curved at a contact.
-[[nodiscard]] bool is_round(const ContactSide& side);
+/// Whether a surface is curved at a contact, and the contact stays near its place on it for a time
+/// [s]: on a circle that lies nearly flat it does not.
+[[nodiscard]] bool follows_curve(const ContactPoint& contact,
+                                 const std::array<ContactSide, 2>& sides, double time);
 
 /// [m/s]  A bound of how much moving a contact for a time [s] changes the velocity at it.
 [[nodiscard]] double most_change(const ContactPoint& contact,

@@ -1,6 +1,7 @@
 #include <firstcontact/simulation_model/detail/round_circles.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -21,10 +22,13 @@ using Vertex = std::uint32_t;
 /// files have few digits.
 constexpr double kOnCircle = 1e-5;
 constexpr double kOnCircleOfCoordinates = 0x1p-23;
-/// [-]  Edges of a polygon differ by less, by their length.
+/// [-]  Edges of a polygon differ by less, by their length; and the angles between them, by theirs.
 constexpr double kSameEdge = 0.01;
-/// [rad]  Edges that turn by less are straight.
+/// [rad]  Edges that turn by less are straight; by more are no circle.
 constexpr double kStraight = 1e-4;
+constexpr double kSharp = 0.5;
+/// [-]  A surface faces away from an axis if the cosine between its normal and the radius is more.
+constexpr double kFacesAway = 0.3;
 
 /// The vertices that edges join to each vertex.
 class JoinedVertices {
@@ -76,11 +80,14 @@ class PolygonFinder {
     const Eigen::AngleAxisd turn(angle, normal.normalized());
     const auto most =
         static_cast<std::size_t>(2.0 * std::numbers::pi / angle * (1.0 + kSameEdge)) + 1;
+    // What bends otherwise, as a smooth surface and a helix do, ends after a few edges.
+    const double off = kSameEdge * angle * length +
+                       4.0 * kOnCircleOfCoordinates * vertices_[b].cwiseAbs().maxCoeff();
     std::vector<Vertex> corners{a, b, c};
     while (corners.size() <= most) {
       const Vertex last = corners.back();
       const Vector3d step = vertices_[last] - vertices_[corners[corners.size() - 2]];
-      const std::optional<Vertex> next = nearest(last, vertices_[last] + turn * step, length);
+      const std::optional<Vertex> next = nearest(last, vertices_[last] + turn * step, off);
       if (!next) {
         return {};
       }
@@ -123,7 +130,7 @@ class PolygonFinder {
  private:
   /// Whether such edges are as near to their circle as they must be.
   [[nodiscard]] bool is_fine(double length, double angle) const {
-    if (!(angle > kStraight && angle < 0.5)) {
+    if (!(angle > kStraight && angle < kSharp)) {
       return false;
     }
     const double radius = 0.5 * length / std::sin(0.5 * angle);
@@ -132,9 +139,9 @@ class PolygonFinder {
 
   /// The vertex at a place that an edge joins to another one.
   [[nodiscard]] std::optional<Vertex> nearest(Vertex from, const Vector3d& place,
-                                              double length) const {
+                                              double off) const {
     std::optional<Vertex> found;
-    double least = kSameEdge * length;
+    double least = off;
     for (const Vertex v : joined_.of(from)) {
       const double distance = (vertices_[v] - place).norm();
       if (distance < least) {
@@ -199,51 +206,72 @@ RoundCircles::RoundCircles(const Shape& shape, double sag) {
       }
     }
   }
+  find_sides(mesh);
+}
+
+/// On which sides of the circles there is a surface.
+void RoundCircles::find_sides(const Mesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
+    const auto& v = mesh.vertices;
+    const Vector3d normal =
+        (v[triangle[1]] - v[triangle[0]]).cross(v[triangle[2]] - v[triangle[0]]).stableNormalized();
+    for (const Vertex corner : triangle) {
+      if (of_vertex_[corner] >= 0) {
+        RoundCircle& circle = circles_[static_cast<std::size_t>(of_vertex_[corner])];
+        const double cosine = normal.dot(v[corner] - circle.centre_B) / circle.outer;
+        circle.is_rim = circle.is_rim || cosine > kFacesAway;
+        circle.is_hole = circle.is_hole || cosine < -kFacesAway;
+      }
+    }
+  }
 }
 
 double RoundCircles::sag() const {
   double greatest = 0.0;
   for (const RoundCircle& circle : circles_) {
-    greatest = std::max(greatest, circle.outer - circle.inner);
+    greatest = std::max(greatest, circle.sag());
   }
   return greatest;
 }
 
-const RoundCircle* RoundCircles::around(std::uint32_t a, std::uint32_t b) const {
-  const std::int32_t of_a = of_vertex_[a];
-  const std::int32_t of_b = of_vertex_[b];
-  if (of_a < 0 || of_b < 0) {
-    return nullptr;
+/// Of an edge or a triangle.
+OnCircle RoundCircles::between(const Shape& shape, std::span<const std::uint32_t> corners) const {
+  const auto& v = shape.mesh().vertices;
+  Vector3d middle = Vector3d::Zero();
+  bool is_side = false;
+  for (const std::uint32_t corner : corners) {
+    if (of_vertex_[corner] < 0) {
+      return {};
+    }
+    middle += v[corner] / static_cast<double>(corners.size());
+    is_side = is_side || of_vertex_[corner] != of_vertex_[corners[0]];
   }
-  const RoundCircle& circle = circles_[static_cast<std::size_t>(of_a)];
-  const bool is_round =
-      of_a == of_b || are_of_one_cylinder(circle, circles_[static_cast<std::size_t>(of_b)]);
-  return is_round ? &circle : nullptr;
+  const RoundCircle& circle = circles_[static_cast<std::size_t>(of_vertex_[corners[0]])];
+  for (const std::uint32_t corner : corners) {
+    const RoundCircle& other = circles_[static_cast<std::size_t>(of_vertex_[corner])];
+    if (&other != &circle && !are_of_one_cylinder(circle, other)) {
+      return {};
+    }
+  }
+  const bool is_round = is_outside(circle, middle) && (is_side || corners.size() < 3);
+  return is_round ? OnCircle{&circle, is_side} : OnCircle{};
 }
 
-const RoundCircle* RoundCircles::at(const Shape& shape, const Feature& feature) const {
+OnCircle RoundCircles::at(const Shape& shape, const Feature& feature) const {
   if (circles_.empty()) {
-    return nullptr;
+    return {};
   }
   switch (feature.type) {
-    case FeatureType::vertex: {
-      const auto v = static_cast<std::uint32_t>(feature.index);
-      return around(v, v);
-    }
-    case FeatureType::edge: {
-      const auto [a, b] = shape.edge(feature.index);
-      const RoundCircle* circle = around(a, b);
-      const auto& v = shape.mesh().vertices;
-      return circle != nullptr && is_outside(*circle, 0.5 * (v[a] + v[b])) ? circle : nullptr;
-    }
+    case FeatureType::vertex:
+      return of_vertex_[feature.index] < 0
+                 ? OnCircle{}
+                 : OnCircle{&circles_[static_cast<std::size_t>(of_vertex_[feature.index])], false};
+    case FeatureType::edge:
+      return between(shape, shape.edge(feature.index));
     case FeatureType::face:
       break;
   }
-  const auto& [a, b, c] = shape.mesh().triangles[feature.index];
-  if (of_vertex_[a] == of_vertex_[b] && of_vertex_[b] == of_vertex_[c]) {
-    return nullptr;  // Of a disc.
-  }
-  return around(a, b) != nullptr && around(b, c) != nullptr ? around(a, b) : nullptr;
+  return between(shape, shape.mesh().triangles[feature.index]);
 }
 
 }  // namespace firstcontact::detail

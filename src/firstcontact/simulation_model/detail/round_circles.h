@@ -4,7 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,13 +20,26 @@ struct RoundCircle {
   Eigen::Vector3d axis_B = Eigen::Vector3d::UnitZ();   ///< [-]
   double outer = 0.0;                                  ///< [m]  Radius through the corners.
   double inner = 0.0;                                  ///< [m]  Radius that the edges touch.
+  bool is_rim = false;   ///< A surface around it faces away from the axis,
+  bool is_hole = false;  ///< or towards it.
+
+  [[nodiscard]] double sag() const { return outer - inner; }  ///< [m]
+};
+
+/// The circle that a feature is part of.
+struct OnCircle {
+  const RoundCircle* circle = nullptr;  ///< Null: the feature is flat.
+  /// Whether the feature lies between two equal circles about one axis: it is part of the side of a
+  /// cylinder, and `circle` is one of them. Else it is part of the circle itself.
+  bool is_side = false;
 };
 
 /// The circles of a shape: rims of cylinders and of discs, holes, rings, necks.
 ///
 /// A polygon is one if all its edges have one length and turn by one angle, and are not farther
 /// inside of the circle through the corners than `sag` or kSagOfRadius. A corner is on one circle
-/// at most. A thickened shape has none.
+/// at most, the first that is found: of a sphere's mesh some are parallels, or a meridian is one. A
+/// thickened shape has none.
 class RoundCircles {
  public:
   /// @param sag  [m]
@@ -37,13 +50,11 @@ class RoundCircles {
   /// [m]  How much nearer a circle may be than its polygon.
   [[nodiscard]] double sag() const;
 
-  /// The circle that a feature is part of, or one of those at the ends of the cylinder that it is
-  /// part of; null where it is flat.
-  [[nodiscard]] const RoundCircle* at(const Shape& shape, const Feature& feature) const;
+  [[nodiscard]] OnCircle at(const Shape& shape, const Feature& feature) const;
 
  private:
-  /// The circle of corners whose features are between equal circles of one axis; null: of others.
-  [[nodiscard]] const RoundCircle* around(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] OnCircle between(const Shape& shape, std::span<const std::uint32_t> corners) const;
+  void find_sides(const Mesh& mesh);
 
   std::vector<RoundCircle> circles_;
   std::vector<std::int32_t> of_vertex_;  // Index of its circle; -1: none.

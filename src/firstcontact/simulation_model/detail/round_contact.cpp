@@ -14,23 +14,36 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [-]  Beyond this cosine between normal and axis a contact on a side is one of its rim.
+/// [-]  The cosine between the normal and the axis of a circle that lies along the other body is
+/// less.
 constexpr double kAlongSide = 0.1;
-/// [-]  A normal with a smaller part across the axis is along it.
-constexpr double kAcrossAxis = 2e-6;
+/// [-]  Of places and radii: corners are on their circles but for this.
+constexpr double kRoundingOfCircles = 2e-5;
+/// [-]  The sine between the normal at a face and the axis of a circle on it is more. A disc that
+/// lies nearly flat has no lowest point: with the least turn it runs all around.
+constexpr double kLeastAcross = 0.05;
 
 Vector3d across_axis(const Vector3d& v, const Vector3d& axis) { return v - v.dot(axis) * axis; }
 
 /// One body of a contact in the world.
 struct Side {
-  RoundFeature feature = {};
+  RoundFeature feature = {};            // The circle that may be in place of it.
+  bool is_side = false;                 // Of a cylinder, not of a rim alone.
+  bool is_face = false;                 // And flat.
   Vector3d axis = Vector3d::UnitZ();    // [-]  Of the circle.
   Vector3d on_axis = Vector3d::Zero();  // [m]  The point of the axis beside the contact.
+  Vector3d radial = Vector3d::Zero();   // [m]  From there to the polygon.
   Vector3d core = Vector3d::Zero();     // [m]  The closest point, without the radius around it.
   double thickness = 0.0;               // [m]  That radius.
-  std::optional<Vector3d> edge = {};    // [-]  The direction of an edge.
+  std::optional<Vector3d> line = {};    // [-]  The direction of an edge, or of the axis.
 
   [[nodiscard]] bool is_round() const { return feature.circle != nullptr; }
+
+  /// A part of a rim counts as the edge or the corner that it is.
+  void make_plain(const std::optional<Vector3d>& edge) {
+    feature = {};
+    line = edge;
+  }
 };
 
 std::optional<Vector3d> edge_direction(const PlacedRound& body, const Feature& feature) {
@@ -44,27 +57,49 @@ std::optional<Vector3d> edge_direction(const PlacedRound& body, const Feature& f
 
 /// @param point     [m]
 /// @param outwards  [-]  unit, out of the body
+/// @param most_sag  [m]  of a circle
 Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& point,
-             const Vector3d& outwards) {
-  Side side{.thickness = body.shape->radius(), .edge = edge_direction(body, feature)};
+             const Vector3d& outwards, double most_sag) {
+  Side side{.is_face = feature.type == FeatureType::face,
+            .thickness = body.shape->radius(),
+            .line = edge_direction(body, feature)};
   side.core = point - side.thickness * outwards;
-  side.feature.circle = body.circles != nullptr ? body.circles->at(*body.shape, feature) : nullptr;
-  if (side.is_round()) {
-    const Eigen::Quaterniond R = body.pose.rotation.normalized();
-    side.axis = R * side.feature.circle->axis_B;
-    const Vector3d centre = body.pose.position + R * side.feature.circle->centre_B;
-    side.on_axis = centre + (point - centre).dot(side.axis) * side.axis;
-    side.feature.is_hole = (point - side.on_axis).dot(outwards) < 0.0;
+  const OnCircle on = body.circles != nullptr ? body.circles->at(*body.shape, feature) : OnCircle{};
+  if (on.circle == nullptr || on.circle->sag() > most_sag) {
+    return side;
+  }
+  const Eigen::Quaterniond R = body.pose.rotation.normalized();
+  side.axis = R * on.circle->axis_B;
+  const Vector3d centre = body.pose.position + R * on.circle->centre_B;
+  side.on_axis = centre + (point - centre).dot(side.axis) * side.axis;
+  side.radial = point - side.on_axis;
+  const bool is_hole = side.radial.dot(outwards) < 0.0;
+  if (is_hole ? on.circle->is_hole : on.circle->is_rim) {
+    side.feature = {on.circle, is_hole};
+    side.is_side = on.is_side;
+    side.is_face = false;
+    side.line = side.axis;
   }
   return side;
 }
 
-/// The normal out of a round side, where both bodies lie along each other or cross.
+/// Whether a contact is where a circle is known to be: on a cylinder, on a rim that stands on a
+/// face, or on a rim along a line that is parallel to its axis.
+bool may_be_round(const Side& side, const Side& other, const Vector3d& n) {
+  if (side.is_side) {
+    return true;
+  }
+  if (other.is_face) {
+    return across_axis(n, side.axis).norm() >= kLeastAcross;
+  }
+  return other.line && std::abs(n.dot(side.axis)) <= kAlongSide &&
+         side.axis.cross(*other.line).norm() <= kCrossingEdges;
+}
+
+/// The normal out of a round side, where no face gives it.
 Vector3d outwards_of(const Side& side, const Side& other, const Vector3d& before) {
-  const std::optional<Vector3d> line =
-      other.is_round() ? std::optional<Vector3d>(other.axis) : other.edge;
-  if (line) {
-    const Vector3d crossing = side.axis.cross(*line);
+  if (other.line) {
+    const Vector3d crossing = side.axis.cross(*other.line);
     if (crossing.norm() > kCrossingEdges) {
       if (side.feature.is_hole) {
         return before;
@@ -78,17 +113,28 @@ Vector3d outwards_of(const Side& side, const Side& other, const Vector3d& before
   return away.dot(before) > 0.0 ? away.normalized() : before;
 }
 
-/// [m]  Where a circle is nearest to the other body, from its axis; nothing where the contact is
-/// elsewhere on it.
-std::optional<Vector3d> nearest_from_axis(const Side& side, const Vector3d& outwards) {
+/// The nearest point of a circle, and how far from there the polygon touches.
+struct OnRound {
+  Vector3d radial = Vector3d::Zero();  // [m]  From the axis.
+  double depth = 0.0;                  // [m]  Across the chord between both, and the sag.
+  double along = 0.0;                  // [m]  The chord.
+  double side = 0.0;                   // [m]  An edge of the polygon.
+};
+
+/// Nothing where the contact is elsewhere on the circle.
+std::optional<OnRound> nearest_from_axis(const Side& side, const Vector3d& outwards) {
   const Vector3d across = across_axis(outwards, side.axis);
-  const Vector3d radial = side.core - side.on_axis;
-  const Vector3d nearest = side.feature.is_hole ? Vector3d(-across) : across;
-  if (across.norm() < kAcrossAxis ||
-      radial.dot(nearest) < kNearLine * radial.norm() * nearest.norm()) {
+  const Vector3d radial = side.feature.radius() * across.stableNormalized();
+  const double cosine = side.radial.dot(radial) / (side.radial.norm() * radial.norm());
+  if (!(cosine >= kNearLine)) {
     return std::nullopt;
   }
-  return side.feature.radius() * across.normalized();
+  const RoundCircle& circle = *side.feature.circle;
+  const double depth = circle.outer * std::max(0.0, 1.0 - cosine);
+  return OnRound{.radial = radial,
+                 .depth = circle.sag() + depth,
+                 .along = std::sqrt(2.0 * circle.outer * depth),
+                 .side = 2.0 * std::sqrt(2.0 * circle.outer * circle.sag())};
 }
 
 }  // namespace
@@ -102,43 +148,62 @@ Vector3d nearest_on_circle(const Pose& pose, const RoundFeature& feature, const 
          feature.radius() * across_axis(outwards, axis).normalized();
 }
 
-std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies, Contact& contact) {
+std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies, double most_sag,
+                                       Contact& contact) {
   Vector3d n = *contact.n_AB_W;
-  std::array<Side, 2> sides{side_of(bodies[0], contact.feature_A, contact.p_WA, n),
-                            side_of(bodies[1], contact.feature_B, contact.p_WB, -n)};
   const std::array<Feature, 2> features{contact.feature_A, contact.feature_B};
+  std::array<Side, 2> sides{side_of(bodies[0], contact.feature_A, contact.p_WA, n, most_sag),
+                            side_of(bodies[1], contact.feature_B, contact.p_WB, -n, most_sag)};
+  std::array<bool, 2> is_round{};
   for (std::size_t s = 0; s < 2; ++s) {
-    const std::size_t other = 1 - s;
-    if (!sides[s].is_round() ||
-        (features[other].type == FeatureType::face && !sides[other].is_round()) ||
-        std::abs(n.dot(sides[s].axis)) > kAlongSide) {
-      continue;  // A face beside it has the normal already.
-    }
-    const double sign = s == 0 ? 1.0 : -1.0;
-    n = sign * outwards_of(sides[s], sides[other], sign * n);
+    is_round[s] = sides[s].is_round() && may_be_round(sides[s], sides[1 - s], n);
   }
-  std::array<RoundFeature, 2> round;
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (!is_round[s] && sides[s].is_round()) {
+      sides[s].make_plain(edge_direction(bodies[s], features[s]));
+    }
+  }
+  if (!is_round[0] && !is_round[1]) {
+    return {};
+  }
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (is_round[s] && !sides[1 - s].is_face && std::abs(n.dot(sides[s].axis)) <= kAlongSide) {
+      n = s == 0 ? outwards_of(sides[0], sides[1], n)
+                 : Vector3d(-outwards_of(sides[1], sides[0], -n));
+    }
+  }
   std::array<Vector3d, 2> points;
+  double nearer = 0.0;  // [m]  Than the polygons, at most.
+  double beside = 0.0;  // [m]  Of the points of two circles, at most.
   for (std::size_t s = 0; s < 2; ++s) {
     const Vector3d outwards = s == 0 ? n : Vector3d(-n);
     points[s] = sides[s].core + sides[s].thickness * outwards;
-    if (!sides[s].is_round()) {
-      continue;
-    }
-    if (const std::optional<Vector3d> radial = nearest_from_axis(sides[s], outwards)) {
-      round[s] = sides[s].feature;
-      points[s] = sides[s].on_axis + *radial;
+    const std::optional<OnRound> nearest =
+        is_round[s] ? nearest_from_axis(sides[s], outwards) : std::nullopt;
+    is_round[s] = nearest.has_value();
+    if (nearest) {
+      points[s] = sides[s].on_axis + nearest->radial;
+      const double around = sides[1 - s].thickness + std::max(0.0, contact.distance);
+      nearer += nearest->depth;
+      nearer += sides[1 - s].thickness > 0.0 ? 0.5 * nearest->along * nearest->along / around : 0.0;
+      beside += nearest->side;
     }
   }
-  if (round[0].circle != nullptr || round[1].circle != nullptr) {
-    contact.n_AB_W = n;
-    contact.distance = n.dot(points[1] - points[0]);
-    contact.p_WA =
-        round[0].circle != nullptr ? points[0] : Vector3d(points[1] - contact.distance * n);
-    contact.p_WB =
-        round[1].circle != nullptr ? points[1] : Vector3d(points[0] + contact.distance * n);
+  const double distance = n.dot(points[1] - points[0]);
+  const double rounding = kRoundingOfCircles * (points[0].norm() + points[1].norm() + nearer);
+  const bool meet = !is_round[0] || !is_round[1] ||
+                    (points[1] - points[0] - distance * n).norm() <= beside + rounding;
+  const bool is_possible = meet && distance >= contact.distance - nearer - rounding &&
+                           distance <= contact.distance + rounding;
+  if ((!is_round[0] && !is_round[1]) || !is_possible) {
+    return {};
   }
-  return round;
+  contact.n_AB_W = n;
+  contact.distance = distance;
+  contact.p_WA = is_round[0] ? points[0] : Vector3d(points[1] - distance * n);
+  contact.p_WB = is_round[1] ? points[1] : Vector3d(points[0] + distance * n);
+  return {is_round[0] ? sides[0].feature : RoundFeature{},
+          is_round[1] ? sides[1].feature : RoundFeature{}};
 }
 
 }  // namespace firstcontact::detail

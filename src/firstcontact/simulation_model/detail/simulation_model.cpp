@@ -1,7 +1,6 @@
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 #include <algorithm>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -70,10 +69,25 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
       ties(make_sim_ties(linked.loaded, bodies, distances.least)),
       ties_of(ties_of_bodies(ties, bodies.size())) {
   double sag = 0.0;
-  for (const auto& circles : round_circles) {
-    sag = std::max(sag, circles->sag());
+  double reach = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    sag = std::max(sag, round_circles[b]->sag());
+    reach = std::max(reach, bodies[b].kind == BodyKind::free ? bodies[b].reach : 0.0);
   }
-  distances.near += 2.0 * sag;  // Of both bodies.
+  distances.near += 2.0 * std::min(sag, kMostSagOfReach * reach + distances.tolerance);
+}
+
+double most_sag_of(const SimulationModel& model, const BodyPair& bodies) {
+  return kMostSagOfReach * smaller_reach(model, bodies) + model.distances.tolerance;
+}
+
+double near_of(const SimulationModel& model, const BodyPair& bodies) {
+  const double most = most_sag_of(model, bodies);
+  double near = model.distances.band;
+  for (const std::size_t body : bodies) {
+    near += std::min(model.round_circles[body]->sag(), most);
+  }
+  return near;
 }
 
 double smaller_reach(const SimulationModel& model, const BodyPair& bodies) {

@@ -41,6 +41,12 @@ struct SimulationModel {
   std::vector<std::vector<std::size_t>> ties_of;  ///< Of each body; empty without any ties.
 };
 
+/// [m]  A polygon of two bodies is a circle in their contacts if it has no greater sag.
+[[nodiscard]] double most_sag_of(const SimulationModel& model, const BodyPair& bodies);
+
+/// [m]  Of two bodies beyond this distance not even circles are within the band.
+[[nodiscard]] double near_of(const SimulationModel& model, const BodyPair& bodies);
+
 /// [m]  Of two bodies, how far the smaller one reaches.
 [[nodiscard]] double smaller_reach(const SimulationModel& model, const BodyPair& bodies);
 

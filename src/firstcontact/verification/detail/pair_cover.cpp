@@ -12,6 +12,7 @@
 
 #include <firstcontact/verification/detail/closest_on_triangles.h>
 #include <firstcontact/verification/detail/triangles_meet.h>
+#include <firstcontact/verification/detail/window_body.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -37,84 +38,6 @@ constexpr std::size_t kStopInterval = 4096;
 
 /// Covers the roundings of a velocity and of what follows from it.
 constexpr double kUp = 1.0 + 0x1p-40;
-constexpr double kVelocityError = 0x1p-44;
-
-/// Covers the roundings of a position, and of a product with a direction: sums of a few terms.
-constexpr double kRounding = 64.0 * 0x1p-53;
-
-/// A unit vector but for rounding, or zero, along which no gap is wide enough.
-Vector3d unit(const Vector3d& v) {
-  const Vector3d n = v.stableNormalized();
-  return std::abs(n.squaredNorm() - 1.0) <= kRounding ? n : Vector3d(Vector3d::Zero());
-}
-
-/// How far a bound falls within a window, and what it is in its middle. [m]
-struct GapBound {
-  double middle = -std::numeric_limits<double>::infinity();
-  double loss = 0.0;
-
-  [[nodiscard]] double least() const { return middle - loss; }
-};
-
-/// One body in the middle of a window.
-struct Moving {
-  BodyInstant now;
-  double reach = 0.0;  // [m]  Of the whole body from its pivot.
-  double speed = 0.0;  // [m/s]  No point is faster.
-
-  Moving(const BodyInstant& instant, double whole_reach)
-      : now(instant),
-        reach(whole_reach),
-        speed(now.velocity.norm() + now.spin.norm() * whole_reach) {}
-
-  [[nodiscard]] Vector3d position(const Vector3d& y) const { return now.pivot + now.R * y; }
-  /// The velocity of a point at Y = R y.
-  [[nodiscard]] Vector3d velocity(const Vector3d& Y) const {
-    return now.velocity + now.spin.cross(Y);
-  }
-  /// [m]  Of a stored point, and of the sums that place it.
-  [[nodiscard]] double error() const {
-    return now.pivot_error + now.turn_error * reach + kRounding * (now.pivot.norm() + reach);
-  }
-  /// [m/s^2]  No point within `from_pivot` accelerates along n faster. Derivation, with constant
-  /// rates: the acceleration is -w^2 y', y' from the axis and across it, and
-  /// |n . y'| <= |n x w| / w |y'|.
-  [[nodiscard]] double bend(const Vector3d& n, double from_pivot) const {
-    return now.constant_rates
-               ? now.spin.norm() * now.spin.cross(n).norm() * (from_pivot + now.lever)
-               : now.acceleration + now.turn_acceleration * from_pivot;
-  }
-  /// [m]  What unknown errors of the velocities of points add up to.
-  [[nodiscard]] double drift(double half) const {
-    return half * (speed * (kVelocityError + now.turn_error) + now.velocity_error +
-                   now.spin_error * reach);
-  }
-  /// [m]  Any point may be so far off its nominal place.
-  [[nodiscard]] double tracking() const { return now.tracking + now.turn_tracking * reach; }
-};
-
-/// A box in the middle of a window, as the world sees it.
-struct PlacedBox {
-  const Moving& body;
-  const BoxNode& node;
-  Vector3d lever;     // R centre
-  Vector3d centre;    // From the origin.
-  Vector3d velocity;  // Of the centre.
-
-  PlacedBox(const Moving& moving, const BoxNode& box)
-      : body(moving),
-        node(box),
-        lever(moving.now.R * box.centre),
-        centre(moving.now.pivot + lever),
-        velocity(moving.velocity(lever)) {}
-
-  /// [m]  No point is farther from the centre along n.
-  [[nodiscard]] double support(const Vector3d& n) const {
-    return node.extent.dot((body.now.R.transpose() * n).cwiseAbs());
-  }
-  /// [m/s]  No point moves along n faster than the centre by more: n . (w x y) = (n x w) . y.
-  [[nodiscard]] double spread(const Vector3d& n) const { return support(n.cross(body.now.spin)); }
-};
 
 class Cover {
  public:
@@ -167,8 +90,8 @@ class Cover {
   };
   /// What holds for a whole window.
   struct Setting {
-    Moving A;
-    Moving B;
+    WindowBody A;
+    WindowBody B;
     double time = 0.0;      // [s]  Its middle.
     double half = 0.0;      // [s]
     double error = 0.0;     // [m]  Of every gap along a direction, thickness and jumps included.
@@ -210,15 +133,16 @@ class Cover {
     const double time = std::clamp(0.5 * (window.from + window.to), window.from, window.to);
     const double half = kUp * std::max(time - window.from, window.to - time);
     const Vector3d& origin = A.position();
-    Setting s{Moving(A.around(time, half, origin), A_.tree.nodes[0].reach),
-              Moving(B.around(time, half, origin), B_.tree.nodes[0].reach)};
+    Setting s{WindowBody(A.around(time, half, origin), A_.tree.nodes[0].reach),
+              WindowBody(B.around(time, half, origin), B_.tree.nodes[0].reach)};
     s.time = time;
     s.half = half;
     const double size = s.A.now.pivot.norm() + s.A.reach + s.B.now.pivot.norm() + s.B.reach;
     const double turn_errors = s.A.now.turn_error + s.B.now.turn_error;
     const double tracking = s.A.tracking() + s.B.tracking();
     // The directions are unit vectors but for as much.
-    const double rounding = s.A.error() + s.B.error() + (kRounding + 2.0 * turn_errors) * size;
+    const double rounding =
+        s.A.error() + s.B.error() + (kPositionRounding + 2.0 * turn_errors) * size;
     s.error = rounding + A_.jump + B_.jump + (options_.nominal ? 0.0 : kUp * tracking);
     s.drift = s.A.drift(half) + s.B.drift(half);
     s.promised = options_.promised + (options_.nominal ? tracking : 0.0);
@@ -319,7 +243,7 @@ class Cover {
 
   /// Along the line of the centres, then along the axes of both boxes, until it is as wanted. The
   /// one that says most.
-  [[nodiscard]] GapBound box_gap(const PlacedBox& a, const PlacedBox& b, const Setting& s,
+  [[nodiscard]] GapBound box_gap(const WindowBox& a, const WindowBox& b, const Setting& s,
                                  double wanted) const {
     const Vector3d between = b.centre - a.centre;
     GapBound best = box_gap_along(between.normalized(), a, b, s);
@@ -334,7 +258,7 @@ class Cover {
     return best;
   }
 
-  [[nodiscard]] GapBound box_gap_along(const Vector3d& n, const PlacedBox& a, const PlacedBox& b,
+  [[nodiscard]] GapBound box_gap_along(const Vector3d& n, const WindowBox& a, const WindowBox& b,
                                        const Setting& s) const {
     const double rate = std::abs(n.dot(b.velocity - a.velocity)) + a.spread(n) + b.spread(n);
     const double bend = s.A.bend(n, a.node.reach) + s.B.bend(n, b.node.reach);
@@ -353,7 +277,7 @@ class Cover {
     TrianglePoints velocities;
     double reach = 0.0;
 
-    PlacedTriangle(const Moving& body, const TrianglePoints& triangle, double from_pivot)
+    PlacedTriangle(const WindowBody& body, const TrianglePoints& triangle, double from_pivot)
         : reach(from_pivot) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Vector3d lever = body.now.R * triangle[k];
@@ -363,7 +287,7 @@ class Cover {
     }
 
     [[nodiscard]] Vector3d edge(std::size_t k) const { return corners[(k + 1) % 3] - corners[k]; }
-    [[nodiscard]] Vector3d normal() const { return unit(edge(0).cross(edge(1))); }
+    [[nodiscard]] Vector3d normal() const { return unit_or_zero(edge(0).cross(edge(1))); }
     [[nodiscard]] Vector3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
   };
 
@@ -438,10 +362,10 @@ class Cover {
                           enclosed(s.B, B_.tree.triangles[b.first], b.reach));
   }
 
-  static IntervalTriangle enclosed(const Moving& body, const TrianglePoints& triangle,
+  static IntervalTriangle enclosed(const WindowBody& body, const TrianglePoints& triangle,
                                    double from_pivot) {
     const double error = kUp * (body.now.pivot_error + body.now.turn_error * from_pivot +
-                                kRounding * (body.now.pivot.norm() + from_pivot));
+                                kPositionRounding * (body.now.pivot.norm() + from_pivot));
     IntervalTriangle corners;
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = inflated(enclose(body.position(triangle[k])), error);
@@ -475,7 +399,7 @@ class Cover {
     }
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) {
-        const Vector3d n = unit(A.edge(i).cross(B.edge(j)));
+        const Vector3d n = unit_or_zero(A.edge(i).cross(B.edge(j)));
         offer(n);
         offer(-n);
       }
