@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/timed_motion.h>
 #include <firstcontact/retiming/waypoint_path.h>
 #include <firstcontact/scene/gap_bound.h>
@@ -150,8 +151,11 @@ Scene scene_in_motion(const PlannedPath& path) {
   return scene;
 }
 
-Scene scene_in_motion(Scene scene, std::size_t robot, const TimedMotion& motion) {
-  scene.robots.at(robot).trajectory = trajectory_of(motion);
+Scene scene_in_motion(Scene scene, const RetimingScene& where, const TimedMotion& motion) {
+  const std::vector<TimedMotion> parts = split_motion(motion, where);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    scene.robots.at(where.robots[k]).trajectory = trajectory_of(parts[k]);
+  }
   scene.duration = motion.duration();
   return scene;
 }

@@ -11,6 +11,7 @@
 
 namespace firstcontact {
 struct PlannedPath;
+struct RetimingScene;
 struct TimedMotion;
 }  // namespace firstcontact
 
@@ -20,8 +21,9 @@ namespace firstcontact::app {
 /// edge for as long as its way is.
 [[nodiscard]] Scene scene_in_motion(const PlannedPath& path);
 
-/// The scene in which a robot follows a timed motion.
-[[nodiscard]] Scene scene_in_motion(Scene scene, std::size_t robot, const TimedMotion& motion);
+/// The scene in which the robots of a retiming follow their motion.
+[[nodiscard]] Scene scene_in_motion(Scene scene, const RetimingScene& where,
+                                    const TimedMotion& motion);
 
 /// Checks a scene once more and writes the page of the answer, with the gap over time.
 ///

@@ -18,7 +18,9 @@
 #include <firstcontact/retiming/joint_limits.h>
 #include <firstcontact/retiming/retime.h>
 #include <firstcontact/retiming/retiming_path.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/write_trajectory.h>
+#include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/trajectory.h>
@@ -70,10 +72,20 @@ RetimingPath read_input(const Arguments& arguments) {
                            ? retiming_path_of(read_robot_scene(arguments.robot, reading))
                            : read_retiming_path(arguments.path, arguments.which, reading);
   if (!arguments.path.empty() && arguments.robot.tracking_error) {
-    SceneRobot& robot = input.scene.robots.at(input.robot);
-    robot.tracking_error = joint_errors(robot.model, *arguments.robot.tracking_error);
+    for (const std::size_t moving : input.robots) {
+      SceneRobot& robot = input.scene.robots.at(moving);
+      robot.tracking_error = joint_errors(robot.model, *arguments.robot.tracking_error);
+    }
   }
   return input;
+}
+
+/// @param model  of all robots that move
+std::vector<RateLimits> read_limits(const Arguments& arguments, const RetimingPath& input,
+                                    const RobotModel& model) {
+  const auto given = arguments.limits.empty() ? std::map<std::string, GivenLimits>{}
+                                              : read_joint_limits(arguments.limits, model);
+  return limits_of(model, input.path.joint_names, given, arguments.others);
 }
 
 /// Puts the answer into lines.
@@ -81,7 +93,11 @@ class Report {
  public:
   Report(const Arguments& arguments, const RetimingPath& input, const RetimingScene& where,
          const RetimedMotion& retimed)
-      : arguments_(arguments), input_(input), where_(where), retimed_(retimed) {}
+      : arguments_(arguments),
+        input_(input),
+        where_(where),
+        model_(joined_model(where)),
+        retimed_(retimed) {}
 
   std::string proven(const ExecutedProof& proof) {
     text_ = fmt::format("{}: {}\n", visible(input_name(arguments_)), "proven");
@@ -111,8 +127,10 @@ class Report {
            fmt::format("at {} of {}{}", time_text(proof.contact_time()), time_text(proof.duration),
                        deciding_pair(proof)));
     }
-    for (const LimitViolation& violation : proof.positions) {
-      line("limit", describe(input_.scene.robots.at(input_.robot), violation, proof.duration));
+    for (const SceneLimits& left : proof.positions) {
+      for (const LimitViolation& violation : left.violations) {
+        line("limit", describe(input_.scene.robots.at(left.robot), violation, proof.duration));
+      }
     }
     if (const auto use = rate_beyond_limit(proof.rates)) {
       line("limit", describe(*use, joint(use->joint), is_prismatic(use->joint)));
@@ -145,9 +163,8 @@ class Report {
   }
 
   [[nodiscard]] bool is_prismatic(std::size_t index) const {
-    const RobotModel& model = input_.scene.robots.at(input_.robot).model;
-    const JointCoordinate which = find_coordinate(model, joint(index));
-    const JointType type = model.joints()[which.joint].type;
+    const JointCoordinate which = find_coordinate(model_, joint(index));
+    const JointType type = model_.joints()[which.joint].type;
     return type == JointType::prismatic || (type == JointType::planar && which.index < 2);
   }
 
@@ -198,6 +215,7 @@ class Report {
   const Arguments& arguments_;
   const RetimingPath& input_;
   const RetimingScene& where_;
+  const RobotModel model_;  // Of all robots that move.
   const RetimedMotion& retimed_;
   std::string text_;
 };
@@ -224,14 +242,10 @@ ExitStatus retime_path(const Arguments& arguments) {
     progress.doing("reading");
     const RetimingPath input = read_input(arguments);
     require_no_input(outputs, files_of(input.scene));
-    const RobotModel& model = input.scene.robots.at(input.robot).model;
-    const std::map<std::string, GivenLimits> given =
-        arguments.limits.empty() ? std::map<std::string, GivenLimits>{}
-                                 : read_joint_limits(arguments.limits, model);
-    const std::vector<RateLimits> limits =
-        limits_of(model, input.path.joint_names, given, arguments.others);
     ShapeCache cache;
     const LoadedRetimingScene scene = load_retiming_scene(input, cache);
+    const RobotModel model = joined_model(scene.where);
+    const std::vector<RateLimits> limits = read_limits(arguments, input, model);
     progress.doing("retiming");
     RetimingOptions options{.mode = mode_of(arguments.mode)};
     options.proof.tolerance = arguments.tolerance.value_or(input.scene.options.tolerance);
@@ -258,7 +272,7 @@ ExitStatus retime_path(const Arguments& arguments) {
     write_file(arguments.output, text);
     if (!arguments.page.empty()) {
       write_motion_page(
-          arguments.page, viewer, scene_in_motion(input.scene, input.robot, retimed.motion),
+          arguments.page, viewer, scene_in_motion(input.scene, scene.where, retimed.motion),
           interrupt.token(), [&](const std::string& what) { progress.doing("page: " + what); });
     }
     say(report.proven(proof));
@@ -310,8 +324,10 @@ void add_retime_command(CLI::App& app, ExitStatus& status) {
                    "blends that are proven free. time_optimal: so too, in the least time")
       ->check(CLI::IsMember(
           std::vector<std::string>(kRetimingModeWords.begin(), kRetimingModeWords.end())));
-  add_file(*command, "--limits", arguments->limits,
-           "joint_limits.yaml of MoveIt: velocities, accelerations, jerks");
+  add_file(
+      *command, "--limits", arguments->limits,
+      "joint_limits.yaml of MoveIt: velocities, accelerations, jerks. Joints are ROBOT/NAME for "
+      "a path of several robots");
   add_number(*command, "--max-velocity", arguments->others.velocity, Range::positive,
              "[rad/s or m/s] Of joints for which neither --limits nor the URDF has a limit");
   add_number(*command, "--max-acceleration", arguments->others.acceleration, Range::positive,

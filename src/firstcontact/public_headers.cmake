@@ -133,6 +133,7 @@ set(supporting_headers
   firstcontact/scene/trajectory.h
   firstcontact/retiming/executed_proof.h
   firstcontact/retiming/rate_report.h
+  firstcontact/retiming/retiming_scene.h
   firstcontact/retiming/timed_motion.h
   firstcontact/retiming/waypoint_path.h
   firstcontact/record/run.h

@@ -1,14 +1,17 @@
 """`firstcontact retime` as a user meets it: what it writes, what it refuses, and its exit status.
 
-    retime_test.py TOOL [unittest arguments]
+    retime_test.py TOOL SOURCE_DIR [unittest arguments]
 """
 
+import csv
 import json
 import pathlib
 import sys
 import unittest
 
 import tool_test
+
+SOURCE = pathlib.Path()
 
 URDF = """<robot name="arm"><link name="base"/>
   <link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision></link>
@@ -141,6 +144,91 @@ class Retime(tool_test.ToolTest):
         self.assertFalse((self.folder / "out.yaml").exists())
 
 
+class RetimeSeveralRobots(tool_test.ToolTest):
+    """Two Pandas that change sides around a post: one motion of 14 coordinates."""
+
+    ACCELERATIONS = [3.75, 1.875, 2.5, 3.125, 3.75, 5, 5]  # [rad/s^2]
+    NAMES = [f"{robot}/panda_joint{k}" for robot in ("left", "right") for k in range(1, 8)]
+
+    def setUp(self):
+        super().setUp()
+        self.scene = json.loads((SOURCE / "demo/plans/two_pandas.json").read_text())
+        folder = SOURCE / "demo/plans"
+        self.scene["package_roots"] = [str(folder / root) for root in self.scene["package_roots"]]
+        for robot in self.scene["robots"]:
+            robot.update({key: str(folder / robot[key]) for key in ("urdf", "srdf")})
+        self.file("scene.json", self.scene)
+        plan = self.run_tool("plan", "scene.json", "-o", "path.json")
+        self.assertEqual(plan.returncode, 0, plan)
+        self.limits = self.file("limits.yaml", self.limits_of(self.NAMES))
+
+    def limits_of(self, names: list) -> str:
+        lines = [f"  {name}: {{max_acceleration: {most}, max_jerk: {100 * most}}}"
+                 for name, most in zip(names, 2 * self.ACCELERATIONS)]
+        return "\n".join(["joint_limits:", *lines, ""])
+
+    def retime(self, *more: str, out: str = "out.csv"):
+        return self.run_tool("retime", "path.json", "-o", out, *more)
+
+    def verdict_of_parts(self, table: str, late: dict) -> int:
+        """The exit status of `check` for the trajectory of each robot alone, `late` by seconds."""
+        rows = list(csv.reader((self.folder / table).read_text().splitlines()))
+        for robot in self.scene["robots"]:
+            begin = robot["name"] + "/"
+            columns = [0] + [k for k, name in enumerate(rows[0]) if name.startswith(begin)]
+            part = [[row[k] for k in columns] for row in rows]
+            part[0] = [name.removeprefix(begin) for name in part[0]]
+            for row in part[1:]:
+                row[0] = str(float(row[0]) + late.get(robot["name"], 0))
+            robot["trajectory"] = self.file(robot["name"] + ".csv", "\n".join(map(",".join, part)))
+            robot["state"] = {"panda_finger_joint1": 0}
+        self.file("parts.json", {key: value for key, value in self.scene.items() if key != "plan"})
+        return self.run_tool("check", "parts.json").returncode
+
+    def test_writes_one_motion_that_is_free(self):
+        durations = []
+        for mode in ["stop", "blend", "time_optimal"]:
+            for ending in ["yaml", "json", "csv"]:
+                out = f"{mode}.{ending}"
+                result = self.retime("--limits", self.limits, "--mode", mode, out=out)
+                self.assertEqual(result.returncode, 0, result)
+                self.assertIn("path.json: proven", result.stdout)
+            message = json.loads((self.folder / f"{mode}.json").read_text())
+            self.assertEqual(message["joint_names"], self.NAMES)
+            self.assertEqual(message["points"][0]["positions"][:2], [0.6, 0.1])
+            last = message["points"][-1]["time_from_start"]
+            durations.append(last["sec"] + 1e-9 * last["nanosec"])
+            self.assertEqual(self.verdict_of_parts(f"{mode}.csv", {}), 0)
+        self.assertLess(durations[1], durations[0])
+        self.assertLessEqual(durations[2], durations[1])
+        # The arms go out of each other's way: alone late, one is in it.
+        self.assertEqual(self.verdict_of_parts("blend.csv", {"left": 1}), 1)
+
+    def test_tracking_error_is_of_all_robots(self):
+        self.assertEqual(self.retime("--limits", self.limits, "--tracking-error", "0.0001").returncode, 0)
+        (self.folder / "out.csv").unlink()
+        result = self.retime("--limits", self.limits, "--tracking-error", "0.05", "--mode", "blend")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("contact", result.stdout)
+        self.assertFalse((self.folder / "out.csv").exists())
+
+    def test_says_what_is_wrong(self):
+        self.assert_refused(self.retime(),
+                            'path.json: joint "left/panda_joint1": expected a limit of the acceleration, got none')
+        bare = self.file("bare.yaml", self.limits_of([name.split("/")[1] for name in self.NAMES[:7]]))
+        self.assert_refused(self.retime("--limits", bare),
+                            'bare.yaml:2: joint_limits.panda_joint1: expected a joint of robot "left and right", '
+                            'got "panda_joint1"; did you mean "left/panda_joint1"?')
+        of_one = self.file("left.yaml", self.limits_of(self.NAMES[:7]))
+        self.assert_refused(self.retime("--limits", of_one),
+                            'path.json: joint "right/panda_joint1": expected a limit of the acceleration, got none')
+        self.assert_refused(self.retime("--limits", self.limits, "--which", "left"),
+                            'path.json: expected a path of robot "left" alone, got one that moves "left", "right"; '
+                            "plan that robot alone, or time them together without its name")
+        self.assertFalse((self.folder / "out.csv").exists())
+
+
 if __name__ == "__main__":
     tool_test.TOOL = str(pathlib.Path(sys.argv[1]).resolve())
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
+    SOURCE = pathlib.Path(sys.argv[2]).resolve()
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -110,8 +110,7 @@ TEST(ProveMotion, RefusesABaseThatTurns) {
   RetimingScene where;
   const Motion turning =
       Motion::screw({}, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 4.0 * std::numbers::pi, 0.0);
-  where.robot =
-      where.scene.add_robot("arm", planar_motion({CoordinatePath::constant(0.0)}, turning));
+  where.scene.add_robot("arm", planar_motion({CoordinatePath::constant(0.0)}, turning));
   const TimedMotion motion{{"j0"}, {{0, {0.0}, {0.0}}, {1'000'000'000, {0.5}, {0.0}}}};
   EXPECT_THROW((void)prove_motion(motion, kLoose, where), std::invalid_argument);
 }

@@ -114,7 +114,7 @@ inline ControllerState controller_state(const TimedMotion& motion, std::size_t j
 inline RetimingScene arm_beside_plate(std::size_t bars, double angle) {
   RetimingScene where;
   std::vector<CoordinatePath> rest(bars, CoordinatePath::constant(0.0));
-  where.robot = where.scene.add_robot("arm", planar_motion(rest));
+  where.scene.add_robot("arm", planar_motion(rest));
   const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
   Pose pose;
   pose.position = turn * Eigen::Vector3d(1.0, 0.0, 0.0);
@@ -145,8 +145,7 @@ struct Post {
 };
 inline RetimingScene gantry_among(const std::vector<Post>& posts) {
   RetimingScene where;
-  where.robot = where.scene.add_robot(
-      "gantry", RobotMotion(gantry(), {{"x", ramp(0, 0)}, {"y", ramp(0, 0)}}));
+  where.scene.add_robot("gantry", RobotMotion(gantry(), {{"x", ramp(0, 0)}, {"y", ramp(0, 0)}}));
   for (std::size_t k = 0; k < posts.size(); ++k) {
     where.scene.add_body("post" + std::to_string(k), make_sphere(posts[k].radius),
                          Motion::fixed({{posts[k].place.x(), posts[k].place.y(), 0.0},

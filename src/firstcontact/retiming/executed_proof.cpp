@@ -100,10 +100,13 @@ JointPositions start_positions(const RobotMotion& motion) {
   return positions;
 }
 
+/// [s]  Of the check: also a motion of one point takes a while.
+double step_of(const TimedMotion& motion) { return std::max(motion.duration(), 1e-9); }
+
 RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before) {
   const RobotModel& model = before.model();
-  TrajectoryMotion joints = joint_motions(model, trajectory_of(motion), start_positions(before),
-                                          std::max(motion.duration(), 1e-9));
+  TrajectoryMotion joints =
+      joint_motions(model, trajectory_of(motion), start_positions(before), step_of(motion));
   for (std::size_t joint = 0; joint < model.joints().size(); ++joint) {
     const std::optional<JointMotion> given = before.given(joint);
     if (given && std::holds_alternative<Motion>(*given)) {
@@ -111,6 +114,21 @@ RobotMotion robot_motion_of(const TimedMotion& motion, const RobotMotion& before
     }
   }
   return {model, std::move(joints.joints), before.base()};
+}
+
+/// The limits that a robot leaves, but for those of which rate_report() tells, and of joints that
+/// rest where the scene has them: no retiming changes these.
+///
+/// @param motion  its points, with the robot's own names
+std::vector<LimitViolation> violations_of(const TimedMotion& motion, const RobotMotion& robot) {
+  std::vector<LimitViolation> violations = limit_report(robot, step_of(motion));
+  std::erase_if(violations, [&](const LimitViolation& violation) {
+    const std::string& name = robot.model().joints()[violation.joint].name;
+    const bool is_named = std::ranges::find(motion.joint_names, name) != motion.joint_names.end();
+    return is_named ? violation.what == JointLimit::velocity
+                    : is_constant(robot.coordinate(violation.joint));
+  });
+  return violations;
 }
 
 /// Bounds what the rounding of times, velocities and accelerations to those of the step puts a
@@ -172,20 +190,17 @@ bool takes_a_point_once(const Trajectory& trajectory) {
 
 void require_resting_surroundings(const RetimingScene& where) {
   const RobotScene& scene = where.scene;
-  if (where.robot >= scene.robot_count()) {
-    throw std::invalid_argument("expected a robot of the scene, got number " +
-                                std::to_string(where.robot));
-  }
+  (void)joined_model(where);  // Refuses numbers that are no robots, and a robot that stands twice.
   require_held_all_the_time(scene);
   for (std::size_t robot = 0; robot < scene.robot_count(); ++robot) {
     const RobotMotion& motion = scene.robot_motion(robot);
+    const bool is_moved = std::ranges::find(where.robots, robot) != where.robots.end();
     if (!is_constant(motion.base())) {
       refuse_moving("the base of robot " + detail::in_quotes(scene.robot_name(robot)));
     }
     for (std::size_t joint = 0; joint < motion.model().joints().size(); ++joint) {
       const std::optional<JointMotion> given = motion.given(joint);
-      const bool may_move =
-          robot == where.robot && coordinate_count(motion.model().joints()[joint].type) > 0;
+      const bool may_move = is_moved && coordinate_count(motion.model().joints()[joint].type) > 0;
       if (given && !may_move && !is_constant(*given)) {
         refuse_moving("robot " + detail::in_quotes(scene.robot_name(robot)));
       }
@@ -205,21 +220,17 @@ ExecutedProof prove_motion(const TimedMotion& motion, const std::vector<RateLimi
                                 std::string("proven in double precision"));
   }
   RobotScene scene = where.scene;
-  RobotMotion robot_motion = robot_motion_of(motion, scene.robot_motion(where.robot));
-  const RobotModel model = robot_motion.model();
-  for (LimitViolation& violation : limit_report(robot_motion, std::max(proof.duration, 1e-9))) {
-    const bool is_named =
-        std::find(motion.joint_names.begin(), motion.joint_names.end(),
-                  model.joints()[violation.joint].name) != motion.joint_names.end();
-    if (!is_named && is_constant(robot_motion.coordinate(violation.joint))) {
-      continue;  // It rests where the scene has it, which no retiming changes.
+  const std::vector<TimedMotion> parts = split_motion(motion, where);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::size_t robot = where.robots[k];
+    RobotMotion moved = robot_motion_of(parts[k], scene.robot_motion(robot));
+    std::vector<LimitViolation> violations = violations_of(parts[k], moved);
+    if (!violations.empty()) {
+      proof.positions.push_back({robot, std::move(violations)});
     }
-    if (violation.what != JointLimit::velocity || !is_named) {  // rate_report() has the others.
-      proof.positions.push_back(std::move(violation));
-    }
+    scene.set_motion(robot, std::move(moved));
+    add_rounding_allowance(scene, robot);
   }
-  scene.set_motion(where.robot, std::move(robot_motion));
-  add_rounding_allowance(scene, where.robot);
   proof.contact = check_robots(scene, {.tolerance = options.tolerance,
                                        .budget = options.budget,
                                        .threads = options.threads,

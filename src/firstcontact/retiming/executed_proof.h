@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -11,23 +10,12 @@
 
 #include <firstcontact/math/export.h>
 #include <firstcontact/retiming/rate_report.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/timed_motion.h>
-#include <firstcontact/retiming/waypoint_path.h>
-#include <firstcontact/robot/limit_report.h>
 #include <firstcontact/robot_check/check_robots.h>
-#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
 
 namespace firstcontact {
-
-/// The robot that moves, and all around it, which rests.
-///
-/// The robot's joints that the motion does not name rest where they are in the scene at t = 0.
-/// Bodies that it holds all the time move with it. Tracking errors of the scene are the
-/// controller's tolerance.
-struct RetimingScene {
-  RobotScene scene;
-  std::size_t robot = 0;
-};
 
 /// Refuses a scene in which something else moves: then the time of the motion would matter.
 ///
@@ -39,9 +27,9 @@ struct ExecutedProof {
   /// First contact over the motion; t = 1 is its last point. Margins contain the tracking errors,
   /// and `kRoundingAllowance` for each joint.
   SceneResult contact = {};
-  /// Positions beyond the limits of the URDF by more than 1e-9, and velocities of joints that mimic
-  /// others. Joints that rest, and that the motion does not name, are left out.
-  std::vector<LimitViolation> positions = {};
+  /// The robots with positions beyond the limits of the URDF by more than 1e-9, or velocities of
+  /// joints that mimic others. Joints that rest, and that the motion does not name, are left out.
+  std::vector<SceneLimits> positions = {};
   std::vector<RateUse> rates = {};  ///< As rate_report().
   double duration = 0.0;            ///< [s]
 
@@ -70,8 +58,10 @@ struct ProofOptions {
 
 /// Proves a motion: the controller's interpolation between its points.
 ///
+/// Several robots move at once: the pairs of one with another are tested, too.
+///
 /// @param limits  of each joint name of the motion
-/// @throws std::invalid_argument  names the joint that the robot does not have, or what else moves
+/// @throws std::invalid_argument  names the joint that no robot has, or what else moves
 [[nodiscard]] FIRSTCONTACT_API ExecutedProof prove_motion(const TimedMotion& motion,
                                                           const std::vector<RateLimits>& limits,
                                                           const RetimingScene& where,
@@ -83,6 +73,7 @@ struct ProofOptions {
 /// are times that are no whole nanoseconds, and a trajectory that begins later than at 0.
 ///
 /// @param source  names the text in errors; its extension gives the format
+/// @param robot   as joined_model() where several robots move
 /// @throws ParseError
 [[nodiscard]] FIRSTCONTACT_API TimedMotion parse_timed_motion(std::string_view text,
                                                               const std::filesystem::path& source,

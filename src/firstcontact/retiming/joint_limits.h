@@ -31,6 +31,7 @@ struct GivenLimits {
 /// factors are for requests, and are left out.
 ///
 /// @param source  names the text in errors; its extension gives the format
+/// @param robot   as joined_model() where several robots move: joints are then ROBOT/NAME
 /// @throws ParseError  names the joint: it is not of the robot, or a limit is not > 0
 [[nodiscard]] FIRSTCONTACT_API std::map<std::string, GivenLimits> parse_joint_limits(
     std::string_view text, const std::filesystem::path& source, const RobotModel& robot);

@@ -1,5 +1,5 @@
 /// @file
-/// Retiming: from a path of a robot to a trajectory that is proven as its controller executes it.
+/// Retiming: from a path of robots to a trajectory that is proven as its controller executes it.
 
 #pragma once
 

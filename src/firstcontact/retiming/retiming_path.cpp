@@ -4,14 +4,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/robot/coordinate_path.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_scene.h>
+#include <firstcontact/text/json_reader.h>
 #include <firstcontact/text/json_tree.h>
 #include <firstcontact/text/parse_error.h>
 #include <firstcontact/text/parse_json.h>
@@ -30,6 +34,22 @@ std::size_t robot_named(const Scene& scene, const std::string& name) {
   throw std::invalid_argument("expected a robot of the scene, got " + detail::in_quotes(name));
 }
 
+/// Refuses the name of a robot that is not all that a path moves.
+///
+/// @param robot  may be empty
+/// @param file   names the path in errors
+void require_mover(const RetimingPath& path, const std::string& robot, const std::string& file) {
+  std::vector<std::string_view> names;
+  for (const std::size_t moving : path.robots) {
+    names.push_back(path.scene.robots[moving].name);
+  }
+  if (!robot.empty() && names != std::vector<std::string_view>{robot}) {
+    throw ParseError(file, "expected a path of robot " + detail::in_quotes(robot) +
+                               " alone, got one that moves " + detail::listed(names) +
+                               "; plan that robot alone, or time them together without its name");
+  }
+}
+
 }  // namespace
 
 RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
@@ -38,11 +58,6 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
   if (!path.body.empty()) {
     throw ParseError(name, "expected the path of a robot, got that of body " +
                                detail::in_quotes(path.body) + ", which has no joints");
-  }
-  if (path.robots.size() > 1) {
-    throw ParseError(name, "expected the path of one robot, got that of " +
-                               std::to_string(path.robots.size()) +
-                               ", which are only free of each other at the same share of an edge");
   }
   if (!path.times.empty()) {
     throw ParseError(name,
@@ -66,7 +81,10 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
     turns_short.push_back(turning == Turning::shortest);
   }
   try {
-    result.robot = robot_named(result.scene, path.robots.front());
+    result.robots.clear();
+    for (const std::string& robot : path.robots) {
+      result.robots.push_back(robot_named(result.scene, robot));
+    }
     require_path(result.path);
   } catch (const std::invalid_argument& error) {
     throw ParseError(name, error.what());
@@ -84,8 +102,8 @@ RetimingPath retiming_path_of(Scene scene, const std::string& name) {
                                 std::to_string(scene.robots.size()));
   }
   RetimingPath result;
-  result.robot = name.empty() ? 0 : robot_named(scene, name);
-  const SceneRobot& robot = scene.robots[result.robot];
+  result.robots = {name.empty() ? 0 : robot_named(scene, name)};
+  const SceneRobot& robot = scene.robots[result.robots.front()];
   const Trajectory& trajectory = robot.trajectory;
   if (trajectory.joint_names.empty()) {
     throw std::invalid_argument("robot " + detail::in_quotes(robot.name) +
@@ -113,7 +131,9 @@ RetimingPath read_retiming_path(const std::filesystem::path& file, const std::st
   const detail::JsonValue root = detail::parse_json(text, name);
   const auto* members = std::get_if<detail::JsonObject>(&root.value);
   if (members != nullptr && find(*members, "firstcontact_path") != nullptr) {
-    return parse_retiming_path(text, name, options);
+    RetimingPath path = parse_retiming_path(text, name, options);
+    require_mover(path, robot, name);
+    return path;
   }
   try {
     return retiming_path_of(parse_scene(text, file, 1, options), robot);
@@ -128,7 +148,7 @@ LoadedRetimingScene load_retiming_scene(const RetimingPath& input, ShapeCache& c
     throw std::invalid_argument(
         "a file of the scene has changed since the path was planned; plan it again");
   }
-  RetimingScene where{.scene = *loaded.robots, .robot = input.robot};
+  RetimingScene where{.scene = *loaded.robots, .robots = input.robots};
   require_resting_surroundings(where);
   return {.loaded = std::move(loaded), .where = std::move(where)};
 }

@@ -7,20 +7,22 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <firstcontact/math/export.h>
-#include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/waypoint_path.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
 
-/// A path of a robot in a scene.
+/// A path of one robot or several in a scene.
 struct RetimingPath {
   Scene scene = {};
-  std::size_t robot = 0;          ///< Of the scene.
-  WaypointPath path = {};         ///< Its numbers go the way that the joints turn.
+  std::vector<std::size_t> robots = {0};  ///< That move, of the scene.
+  /// Its numbers go the way that the joints turn. Joints are ROBOT/NAME where several robots move.
+  WaypointPath path = {};
   std::string input_digest = {};  ///< Of all that the path was planned with; may be empty.
   bool is_approximate = false;    ///< It ends before its goal.
 };
@@ -42,8 +44,8 @@ struct RetimingPath {
 
 /// Reads a path file, or the path of a robot from a scene file.
 ///
-/// @param robot  as retiming_path_of(); of a path file without meaning
-/// @throws ParseError
+/// @param robot  as retiming_path_of(); of a path file empty, or the one robot that it moves
+/// @throws ParseError  also where the path moves others than `robot`
 [[nodiscard]] FIRSTCONTACT_API RetimingPath read_retiming_path(const std::filesystem::path& file,
                                                                const std::string& robot = {},
                                                                const ReadingOptions& options = {});
@@ -57,7 +59,7 @@ struct LoadedRetimingScene {
 /// Loads the scene of a path.
 ///
 /// @throws std::invalid_argument if a file of the scene has changed since the path was planned, or
-///         something else than the robot moves
+///         something else than its robots moves
 [[nodiscard]] FIRSTCONTACT_API LoadedRetimingScene load_retiming_scene(const RetimingPath& input,
                                                                        ShapeCache& cache);
 

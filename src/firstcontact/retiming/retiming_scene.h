@@ -1,0 +1,43 @@
+/// @file
+/// The robots that one motion moves, the scene around them, and the names of all their joints.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <firstcontact/math/export.h>
+#include <firstcontact/retiming/timed_motion.h>
+#include <firstcontact/robot/robot_model.h>
+#include <firstcontact/robot_check/robot_scene.h>
+
+namespace firstcontact {
+
+/// The robots that move, and all around them, which rests.
+///
+/// Several robots are one motion with one clock. The robots' joints that the motion does not name
+/// rest where they are in the scene at t = 0. Bodies that a robot holds all the time move with it.
+/// Tracking errors of the scene are the controller's tolerance.
+struct RetimingScene {
+  RobotScene scene;
+  std::vector<std::size_t> robots = {0};  ///< Of the scene; one or more, each once.
+};
+
+/// The robots that move as one model: limits and files of their joints are read by it.
+///
+/// One robot is its own model. With several, joint NAME of robot ROBOT is called ROBOT/NAME, as in
+/// path files, and has the limits of that joint. Their links then have no geometry, and hang on a
+/// common root.
+///
+/// @throws std::invalid_argument if there is no such robot, or two joints have one name
+[[nodiscard]] FIRSTCONTACT_API RobotModel joined_model(const RetimingScene& where);
+
+/// Splits a motion into those of the robots, whose joints have the robots' own names.
+///
+/// @returns in the order of `where.robots`, all with the times of the motion; without joints where
+///          the motion names none of the robot
+/// @throws std::invalid_argument as joined_model(), or names the joint that no robot has
+[[nodiscard]] FIRSTCONTACT_API std::vector<TimedMotion> split_motion(const TimedMotion& motion,
+                                                                     const RetimingScene& where);
+
+}  // namespace firstcontact
