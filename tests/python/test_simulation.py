@@ -53,6 +53,20 @@ def test_free_fall_is_exact(simulator):
     assert step.contacts.points.shape == step.contacts.impulses.shape == (0, 3)
 
 
+def test_threads_change_nothing():
+    scene = box_scene()
+    for k in range(3):
+        other = copy.deepcopy(scene["bodies"][1])
+        other["name"] = f"box {k}"
+        other["pose"]["position"] = [k - 1.5, 1, 0.2 + 0.1 * k]
+        scene["bodies"].append(other)
+    one, all_cores = fc.Simulator(scene, threads=1), fc.Simulator(scene)
+    for _ in range(40):
+        np.testing.assert_array_equal(one.step().positions, all_cores.step().positions)
+    with pytest.raises(ValueError, match="negative"):
+        fc.Simulator(scene, threads=-1)
+
+
 def test_state_is_that_of_the_step(simulator):
     step = simulator.step()
     for of_all, of_moving in ((simulator.positions, step.positions),
