@@ -49,11 +49,10 @@ struct MovedContact {
 
 /// Moves a contact with the velocities of its bodies.
 ///
-/// A point of a body goes on its circle. A round surface (a ball, a capsule, the side of a cylinder
-/// and its rim) keeps its centre or
-/// axis, and the contact stays where the normal leaves it. The normal turns with the face that it
-/// belongs to, with both of two edges that cross, or with the line between two centres. So the
-/// result is right to first order in the time.
+/// A point of a body goes round with it. A round surface (a ball, a capsule, a cylinder, a rim, a
+/// hole) keeps its centre or axis, and the contact stays where the normal leaves it. The normal
+/// turns with the face that it belongs to, with both of two edges that cross, or with the line
+/// between two centres. So the result is right to first order in the time.
 ///
 /// Between two corners, or a corner and an edge, without radius the normal stays: it would turn
 /// about a point at the distance of the gap.
