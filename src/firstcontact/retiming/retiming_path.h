@@ -44,8 +44,8 @@ struct RetimingPath {
 
 /// Reads a path file, or the path of a robot from a scene file.
 ///
-/// @param robot  as retiming_path_of(); of a path file empty, or the one robot that it moves
-/// @throws ParseError  also where the path moves others than `robot`
+/// @param robot  as retiming_path_of(). For a path file: empty, or the one robot that it moves.
+/// @throws ParseError  The path may move another robot than `robot`, or several.
 [[nodiscard]] FIRSTCONTACT_API RetimingPath read_retiming_path(const std::filesystem::path& file,
                                                                const std::string& robot = {},
                                                                const ReadingOptions& options = {});
@@ -59,7 +59,7 @@ struct LoadedRetimingScene {
 /// Loads the scene of a path.
 ///
 /// @throws std::invalid_argument if a file of the scene has changed since the path was planned, or
-///         something else than its robots moves
+///         anything but its robots moves
 [[nodiscard]] FIRSTCONTACT_API LoadedRetimingScene load_retiming_scene(const RetimingPath& input,
                                                                        ShapeCache& cache);
 

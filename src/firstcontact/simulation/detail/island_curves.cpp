@@ -45,6 +45,11 @@ bool IslandPlanner::is_on_curve(std::size_t k) const {
   return acts(k) && acting_[k].is_round && acting_[k].is_held;
 }
 
+/// [m]  Between the surfaces, the pair's margin included.
+double IslandPlanner::distance_of(const ManifoldPoint& touch) const {
+  return touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
+}
+
 /// The bodies of a contact with the velocities that lead through the plan: the mean of those at its
 /// begin and these at its end.
 std::array<ContactSide, 2> IslandPlanner::mean_sides(std::size_t k,
@@ -71,8 +76,7 @@ bool IslandPlanner::follow_curves() {
     }
     ActingContact& acting = acting_[k];
     std::array<ContactSide, 2> sides = mean_sides(k, at_end);
-    const double distance =
-        touches_[k].gap + state_.model.laws.margin(touches_[k].bodies).value_or(0.0);
+    const double distance = distance_of(touches_[k]);
     const MovedContact there = moved_contact(touches_[k], acting.now, distance, sides, span_);
     acting.halfway = moved_contact(touches_[k], acting.now, distance, sides, 0.5 * span_);
     for (std::size_t s = 0; s < 2; ++s) {
@@ -83,10 +87,10 @@ bool IslandPlanner::follow_curves() {
     acting.change = there.velocity(sides) - acting.halfway.velocity(sides);
     ContactPoint contact = by_mean(acting);
     contact.guess = problem_.contacts[k].guess;
-    const double was = problem_.contacts[k].least_normal_velocity;
-    const double is_now = normal_velocity(contact, at_end) - contact.least_normal_velocity;
-    const double before = normal_velocity(problem_.contacts[k], at_end) - was;
-    if (std::abs(is_now - before) > slack) {
+    const auto excess = [&](const ContactPoint& row) {
+      return normal_velocity(row, at_end) - row.least_normal_velocity;
+    };
+    if (std::abs(excess(contact) - excess(problem_.contacts[k])) > slack) {
       changed_.push_back(k);
       is_changed = true;
     }
@@ -120,8 +124,9 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
   return true;
 }
 
-/// [m]  A displacement keeps a contact on its curve if it has no longer way: that of an arc from
-/// its chord, and a contact distance.
+/// [m]  A displacement keeps a contact on its curve if it is no longer: the way of the contact
+/// times the turn of its normal, and a contact distance. An arc is an eighth of the former from its
+/// chord.
 double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
                                       const std::array<ContactSide, 2>& sides) const {
   const ContactPoint& now = acting_[k].now;
@@ -169,11 +174,7 @@ void IslandPlanner::keep_on_curves(Plan& plan) const {
                                     .enough = kPushEnough * state_.model.distances.least,
                                     .sweeps = kPushSweeps});
   limit_push(most, kept);
-  state_.robots.displace(kept.mechanisms, plan.robots);
-  for (std::size_t k = 0; k < state_.size(); ++k) {
-    plan.moves[k].translation += kept.bodies[k].v;
-    plan.moves[k].rotation_vector += kept.bodies[k].w;
-  }
+  displace(kept, plan);
 }
 
 /// How much farther apart a contact has to be after the plan. Nothing where the plan leads it too
@@ -191,7 +192,7 @@ IslandPlanner::OffCurve IslandPlanner::off_curve(std::size_t k, const Plan& plan
   if (!follows_curve(acting_[k].now, sides, span_)) {
     return {};
   }
-  const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
+  const double distance = distance_of(touch);
   const MovedContact there = moved_contact(touch, acting_[k].now, distance, sides, span_);
   const double missing = kBackToRest * span_ * acting_[k].least - there.opened +
                          acting_[k].lifts * state_.model.distances.tolerance;

@@ -192,7 +192,7 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   if (most_change(made.now, sides, span_) <= kLeastTolerance) {
     return made;
   }
-  const double distance = touch.gap + state_.model.laws.margin(touch.bodies).value_or(0.0);
+  const double distance = distance_of(touch);
   made.halfway = moved_contact(touch, made.now, distance, sides, 0.5 * span_);
   made.change = moved_contact(touch, made.now, distance, sides, span_).velocity(sides) -
                 made.halfway.velocity(sides);

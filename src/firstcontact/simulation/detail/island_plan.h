@@ -36,20 +36,21 @@ struct PredictedContact {
 struct ActingContact {
   ContactPoint now = {};
   MovedContact halfway = {};
-  /// [m/s]  How much the geometry changes the velocities of now from halfway to the end.
+  /// [m/s]  How much the geometry changes a velocity from halfway to the end: of those of now, or
+  /// on a curve of those that the last solution has at the end.
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
   bool is_held = false;      ///< It presses, or bodies rest there: it goes on with them.
   double least = 0.0;        ///< [m/s]  Of the mean normal velocity over the plan.
   bool is_replaced = false;  ///< By a predicted contact of the same features.
-  bool is_round = false;     ///< On a curved surface.
+  bool is_round = false;     ///< On a curved surface that it follows in the plan.
   int lifts = 0;             ///< [tolerances]  By so many it has to be farther apart.
 };
 
 /// The contact for a plan in which the mean of the velocities at both ends leads (the midpoint
 /// rule; E. Hairer, C. Lubich, G. Wanner, "Geometric Numerical Integration", 2006, II.1.1):
-/// impulses act halfway. What is held is so at the end, J_end v_end = 0: then the mean goes along
-/// the surface halfway. Of J_end v_end the part J_half v_end is unknown, and the rest is near to
-/// that of now.
+/// impulses act halfway. A held contact has J_end v_end = 0 at the end. Then the mean of the
+/// velocities goes along the surface halfway. The solution finds J_half v_end; the rest of
+/// J_end v_end is `change`.
 [[nodiscard]] ContactPoint by_mean(const ActingContact& acting);
 
 /// The contact for the way of a plan that one velocity leads from its begin to its end.
@@ -129,6 +130,8 @@ class IslandPlanner {
   void set_moves(const std::vector<bool>& by_end, const std::vector<ContactBody>& after,
                  Plan& plan) const;
   [[nodiscard]] bool is_on_curve(std::size_t k) const;
+  [[nodiscard]] double distance_of(const ManifoldPoint& touch) const;
+  void displace(const ContactSolution& displacement, Plan& plan) const;
   [[nodiscard]] std::array<ContactSide, 2> mean_sides(std::size_t k,
                                                       const std::vector<ContactBody>& at_end) const;
   [[nodiscard]] bool follow_curves();

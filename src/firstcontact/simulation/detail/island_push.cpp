@@ -21,10 +21,15 @@ void IslandPlanner::push_apart(Plan& plan) {
     push_ = find_push();
     limit_push(state_.model.distances.least, *push_);
   }
-  state_.robots.displace(push_->mechanisms, plan.robots);
+  displace(*push_, plan);
+}
+
+/// Adds displacements to the motions of a plan.
+void IslandPlanner::displace(const ContactSolution& displacement, Plan& plan) const {
+  state_.robots.displace(displacement.mechanisms, plan.robots);
   for (std::size_t k = 0; k < state_.size(); ++k) {
-    plan.moves[k].translation += push_->bodies[k].v;
-    plan.moves[k].rotation_vector += push_->bodies[k].w;
+    plan.moves[k].translation += displacement.bodies[k].v;
+    plan.moves[k].rotation_vector += displacement.bodies[k].w;
   }
 }
 

@@ -18,9 +18,6 @@ class IslandThreads {
   /// @param threads  at most; 0 for one on each core
   explicit IslandThreads(int threads) : threads_(threads), workers_(threads) {}
 
-  /// [threads]  As asked for.
-  [[nodiscard]] int threads() const { return threads_; }
-
   /// Memory for the calling thread.
   [[nodiscard]] Workspace& workspace() { return workspaces_.local(); }
 

@@ -36,10 +36,10 @@ struct OnCircle {
 
 /// The circles of a shape: rims of cylinders and of discs, holes, rings, necks.
 ///
-/// A polygon is one if all its edges have one length and turn by one angle, and are not farther
-/// inside of the circle through the corners than `sag` or kSagOfRadius. A corner is on one circle
-/// at most, the first that is found: of a sphere's mesh some are parallels, or a meridian is one. A
-/// thickened shape has none.
+/// A polygon is one if all its edges have one length and turn by one angle. Its edges lie inside of
+/// the circle through the corners by `sag` at most, or by kSagOfRadius. A corner is on one circle
+/// at most, the first that is found. So of a sphere's mesh some parallels are circles, or one
+/// meridian is. A thickened shape has none.
 class RoundCircles {
  public:
   /// @param sag  [m]
@@ -50,6 +50,7 @@ class RoundCircles {
   /// [m]  How much nearer a circle may be than its polygon.
   [[nodiscard]] double sag() const;
 
+  /// @param shape  of which these are the circles
   [[nodiscard]] OnCircle at(const Shape& shape, const Feature& feature) const;
 
  private:
