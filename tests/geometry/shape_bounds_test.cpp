@@ -24,10 +24,10 @@ using Vector3L = Eigen::Matrix<Long, 3, 1>;
 
 Vector3L exact(const Vector3d& v) { return v.cast<Long>(); }
 
-void expect_holds(const Shape& shape, std::uint64_t seed) {
-  const ShapeBounds& bounds = shape.bounds();
+void expect_hold(const ShapeBounds& bounds, const std::vector<Vector3d>& places,
+                 std::uint64_t seed) {
   const Eigen::Matrix<Long, 3, 3> axes = bounds.axes.cast<Long>();
-  for (const Vector3d& vertex : shape.mesh().vertices) {
+  for (const Vector3d& vertex : places) {
     const Vector3L p = exact(vertex) - exact(bounds.centre);
     const Vector3L local = axes * p;
     for (int k = 0; k < 3; ++k) {
@@ -39,12 +39,16 @@ void expect_holds(const Shape& shape, std::uint64_t seed) {
   for (int i = 0; i < 50; ++i) {
     const Vector3L n = exact(random.direction());
     Long vertices = -std::numeric_limits<Long>::infinity();
-    for (const Vector3d& vertex : shape.mesh().vertices) {
+    for (const Vector3d& vertex : places) {
       vertices = std::max(vertices, n.dot(exact(vertex) - exact(bounds.centre)));
     }
     const Long corners = (bounds.corners.cast<Long>() * n).maxCoeff();
     ASSERT_LE(vertices, corners + static_cast<Long>(bounds.error)) << seed;
   }
+}
+
+void expect_holds(const Shape& shape, std::uint64_t seed) {
+  expect_hold(shape.bounds(), shape.mesh().vertices, seed);
 }
 
 /// A handful of triangles: round, flat, or a needle; anywhere.
@@ -69,6 +73,27 @@ TEST(ShapeBounds, HoldAllTriangles) {
     const double far = seed % 4 == 0 ? 0.0 : random.logarithmic(1e-3, 1e6);
     const int count = seed % 3 == 0 ? 1 : 1 + static_cast<int>(random.uniform(0.0, 60.0));
     expect_holds(Shape(soup(random, far, count)), seed);
+  }
+}
+
+/// Seen from the centre that its motion carries.
+TEST(ShapeBounds, HoldAShapeThatDeformsAtAllTimes) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    const Shape shape(soup(random, seed % 4 == 0 ? 0.0 : 10.0, 1 + static_cast<int>(seed % 40)));
+    std::vector<Vector3d> to;
+    for (const Vector3d& vertex : shape.mesh().vertices) {
+      to.push_back(vertex + random.vector(0.0, 3.0));
+    }
+    const Vector3d translation = random.vector(0.0, 2.0);
+    const Shape deforming = shape.deforming(to, translation);
+    for (const double t : {0.0, 0.25, 0.8, 1.0}) {
+      std::vector<Vector3d> places;
+      for (std::size_t k = 0; k < to.size(); ++k) {
+        places.push_back((1.0 - t) * shape.mesh().vertices[k] + t * (to[k] - translation));
+      }
+      expect_hold(deforming.bounds(), places, seed);
+    }
   }
 }
 

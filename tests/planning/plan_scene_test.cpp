@@ -39,10 +39,7 @@ constexpr const char* kPegOverWall = R"({
 
 Scene scene_of(const std::string& text) { return parse_scene(text, "scene.json", 1, {}); }
 
-std::string refusal(const std::string& plan) {
-  std::string text = kPegOverWall;
-  const std::size_t begin = text.find("\"plan\"");
-  text = text.substr(0, begin) + "\"plan\": " + plan + "}";
+std::string refusal_of(const std::string& text) {
   try {
     const Scene scene = scene_of(text);
     ShapeCache cache;
@@ -53,6 +50,11 @@ std::string refusal(const std::string& plan) {
     return error.what();
   }
   return "";
+}
+
+std::string refusal(const std::string& plan) {
+  const std::string text = kPegOverWall;
+  return refusal_of(text.substr(0, text.find("\"plan\"")) + "\"plan\": " + plan + "}");
 }
 
 TEST(ScenePlan, PlansABodyAndWritesItsPath) {
@@ -105,6 +107,14 @@ TEST(ScenePlan, RefusesWhatIsNoPlan) {
   EXPECT_NE(refusal(R"({"body": "peg", "goal": {"position": [0, 0, 1]}, "joints": ["a"]})")
                 .find("is of a robot"),
             std::string::npos);
+  EXPECT_EQ(
+      refusal_of(R"({"firstcontact": 1, "bodies": [
+      {"name": "peg", "shape": {"sphere": {"radius": 1}}},
+      {"name": "cloth", "shape": {"vertices": [[3, 0, 0], [4, 0, 0], [3, 1, 0]],
+       "triangles": [[0, 1, 2]]},
+       "motion": {"type": "vertices", "to": [[3, 0, 0], [4, 0, 0], [3, 2, 0]]}}],
+      "plan": {"body": "peg", "goal": {"position": [0, 0, 9]}}})"),
+      "body \"cloth\" deforms; expected rigid bodies, among which a path can be proven again");
 }
 
 TEST(PlannedPath, NamesWhatIsNoPathFile) {

@@ -221,8 +221,10 @@ def test_bad_arguments_are_errors(arm, scene):
         fc.RobotScene(arm, state=3)
     flag = fc.move_vertices(fc.Shape(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])),
                             [[0, 0, 1], [1, 0, 1], [0, 1, 1]])
-    with pytest.raises(ValueError, match="got one that deforms"):
-        scene.add_body("flag", flag.shape)
+    scene.add_body("flag", flag.shape, flag.motion)
+    scene.attach("flag", "tip")
+    with pytest.raises(ValueError, match="'flag' deforms; a link holds rigid bodies only"):
+        scene.check(fc.Trajectory(["elbow"], [0, 1], [[0], [1]]))
 
 
 @pytest.mark.parametrize(("make", "complaint"), [

@@ -102,18 +102,32 @@ RelativeLinkMotion link_motions(const RobotCase& c) {
   return {A.link(c.A.link), to_robot_motion(c.robots[c.B.robot]).link(c.B.link)};
 }
 
+/// A shape and its motion in the frame that both share.
+struct Moving {
+  Shape shape;
+  LinkMotion X_FS;
+};
+
+Moving moving(const MovingSoup& soup, const LinkMotion& X_FL) {
+  if (soup.to.empty()) {
+    return {to_shape(soup), X_FL};
+  }
+  DeformingBody body = to_body(soup);
+  return {std::move(body.shape), LinkMotion(body.X_WS)};
+}
+
 }  // namespace
 
 FirstContactResult ask_library(const RobotCase& c, bool swapped, Workspace& workspace) {
   const RelativeLinkMotion motions = link_motions(c);
-  const Shape A = to_shape(c.A.soup);
-  const Shape B = to_shape(c.B.soup);
+  const Moving A = moving(c.A.soup, motions.A);
+  const Moving B = moving(c.B.soup, motions.B);
   FirstContactOptions options;
   options.margin = c.margin;
   options.tolerance = c.tolerance;
   options.contacts = ContactState::none;
-  const MovingLink first{A, motions.A};
-  const MovingLink second{B, motions.B};
+  const MovingLink first{A.shape, A.X_FS};
+  const MovingLink second{B.shape, B.X_FS};
   return swapped ? first_contact(second, first, workspace, options)
                  : first_contact(first, second, workspace, options);
 }

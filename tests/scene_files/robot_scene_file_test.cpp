@@ -136,6 +136,24 @@ TEST_F(RobotSceneFile, FindsEveryContactInTime) {
   EXPECT_NEAR(leave, left, 4e-3 + 1e-5);
 }
 
+/// A sheet whose middle is pulled into the arm's plane, and a link that cannot hold it.
+TEST_F(RobotSceneFile, ChecksBodiesThatDeform) {
+  const auto with_sheet = [](const std::string& robot) {
+    return R"({"firstcontact": 1, "bodies": [{"name": "sheet", "shape": {"vertices": [[2, 0, 1],
+      [-2, 2, 1], [-2, -2, 1], [0, 0, 1]], "triangles": [[0, 1, 3], [1, 2, 3], [2, 0, 3]]},
+      "motion": {"type": "vertices", "to": [[2, 0, 1], [-2, 2, 1], [-2, -2, 1], [0, 0, -1]]}}],
+      "robots": [{"name": "arm", "urdf": "arm.urdf")" +
+           robot + "}]}";
+  };
+  const SceneResult result = check(load(parse(with_sheet(""))));
+  ASSERT_EQ(result.verdict, Verdict::contact);
+  EXPECT_LE(result.t, 0.5);
+  EXPECT_GT(result.t, 0.4);  // The arm is 0.1 thick at most.
+  EXPECT_EQ(error_of(with_sheet(R"(, "attached": [{"body": "sheet", "link": "tip"}])")),
+            "s.json:4: robots[0].attached[0].body: expected a rigid body, got one that deforms: "
+            "its motion is \"vertices\"");
+}
+
 TEST_F(RobotSceneFile, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(with_ball(R"(, "trajectori": 1)")),
             "s.json:2: robots[0].trajectori: unknown key; did you mean \"trajectory\"?");

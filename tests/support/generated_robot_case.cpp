@@ -76,6 +76,8 @@ class Generator {
       graze(c);
     } else if (family_ == RobotFamily::ends) {
       touch_at_end(c);
+    } else if (family_ == RobotFamily::link_and_cloth) {
+      deform(c);
     } else {
       meet(c);
     }
@@ -255,7 +257,7 @@ class Generator {
     }
     RobotInput body;
     const bool moves = family_ == RobotFamily::link_and_body || random_.chance(0.2);
-    if (moves && family_ != RobotFamily::link_and_rest) {
+    if (moves && family_ != RobotFamily::link_and_rest && family_ != RobotFamily::link_and_cloth) {
       body.base = motion(false, 4.0);
     }
     c.robots.push_back(std::move(body));
@@ -356,6 +358,35 @@ class Generator {
     corner_and_face(c, t, apex, n, small_gap());
   }
 
+  /// Lets the vertices of B go ways of their own, so that it may meet A; or so that a face turns
+  /// while a corner of A slides along it, at the margin.
+  void deform(RobotCase& c) {
+    const double t = random_.uniform(0.2, 1.0);
+    const Vec n = random_.unit();
+    const bool slides = random_.chance(0.4);
+    Vec shared{};
+    if (slides) {
+      const Vec apex = random_.in_box(0.3 * scale_);
+      constexpr double dt = 0x1p-12;
+      shared = (0.5 / dt) * (sight(c, t + dt).in_B(apex) - sight(c, t - dt).in_B(apex));
+      corner_and_face(c, t, apex, n, small_gap());
+    } else {
+      const Vec offset = random_.vector(0.0, 0.5 * scale_);
+      const Vec by = sight(c, t).in_B(c.A.soup.vertices[0]) + offset;
+      for (Vec& v : c.B.soup.vertices) {
+        v = v + by;
+      }
+    }
+    for (Vec& v : c.B.soup.vertices) {
+      Vec way = shared + random_.vector(0.0, scale_);
+      if (slides) {
+        way = way + (dot(n, shared) - dot(n, way)) * n;
+      }
+      c.B.soup.to.push_back(v + (1.0 - t) * way);
+      v = v + (-t) * way;
+    }
+  }
+
   RobotFamily family_;
   PortableRandom random_;
   double scale_ = 1.0;
@@ -429,6 +460,9 @@ class Digest {
     add(link.link);
     add(link.soup.vertices);
     add(link.soup.radius);
+    if (!link.soup.to.empty()) {
+      add(link.soup.to);
+    }
   }
 
   [[nodiscard]] std::uint32_t value() const { return static_cast<std::uint32_t>(hash_ >> 16); }
@@ -443,7 +477,7 @@ std::string name(RobotFamily family) {
   constexpr std::array<const char*, kRobotFamilyCount> kNames = {
       "link_and_rest",    "link_and_body", "own_links", "two_robots",
       "high_polynomials", "mimics",        "poses",     "many_turns",
-      "far_away",         "grazing",       "ends"};
+      "far_away",         "grazing",       "ends",      "link_and_cloth"};
   return kNames.at(static_cast<std::size_t>(family));
 }
 

@@ -24,9 +24,10 @@ enum class RobotFamily {
   far_away,          ///< The world's origin is 1e6 sizes away.
   grazing,           ///< A corner passes a face at the margin, up to 1e-2 to 1e-10 of the size.
   ends,              ///< A corner is that near to the margin at t = 0 or 1.
+  link_and_cloth,    ///< A link against a mesh whose vertices each move on a line.
 };
 
-inline constexpr int kRobotFamilyCount = static_cast<int>(RobotFamily::ends) + 1;
+inline constexpr int kRobotFamilyCount = static_cast<int>(RobotFamily::link_and_cloth) + 1;
 
 std::string name(RobotFamily family);
 

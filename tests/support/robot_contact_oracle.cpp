@@ -33,11 +33,15 @@ struct Placed {
   std::vector<Vector3<double>> velocity;
 };
 
-Placed place(const MovingSoup& soup, const ExactLinkState& state, const ExactLinkState& from) {
+Placed place(const MovingSoup& soup, const ExactLinkState& state, const Wide& t,
+             const ExactLinkState& from) {
   Placed result;
-  for (const Vector3<double>& v : soup.vertices) {
-    result.place.push_back(nearest(state.place(v) - from.origin));
-    result.velocity.push_back(nearest(state.rate(v) - from.velocity));
+  for (std::size_t k = 0; k < soup.vertices.size(); ++k) {
+    const Vector3<double>& v = soup.vertices[k];
+    const bool deforms = !soup.to.empty();
+    const Vector3<Wide> way = deforms ? exact(soup.to[k]) - exact(v) : Vector3<Wide>{};
+    result.place.push_back(nearest((deforms ? exact(v) + t * way : state.place(v)) - from.origin));
+    result.velocity.push_back(nearest((deforms ? way : state.rate(v)) - from.velocity));
   }
   return result;
 }
@@ -130,9 +134,10 @@ class RobotContactOracle::Search {
   }
 
   [[nodiscard]] Instant instant(double t) const {
-    const ExactLinkState A = paths_[0].state(Wide(t));
-    const ExactLinkState B = paths_[1].state(Wide(t));
-    Instant at{place(case_.A.soup, A, A), place(case_.B.soup, B, A), 0.0, 0.0};
+    const Wide time(t);
+    const ExactLinkState A = paths_[0].state(time);
+    const ExactLinkState B = paths_[1].state(time);
+    Instant at{place(case_.A.soup, A, time, A), place(case_.B.soup, B, time, A), 0.0, 0.0};
     at.size = greatest(at.A.place) + greatest(at.B.place);
     at.speed = greatest(at.A.velocity) + greatest(at.B.velocity);
     return at;

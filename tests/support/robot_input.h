@@ -65,7 +65,8 @@ struct RobotInput {
   std::vector<JointInput> joints;
 };
 
-/// A mesh fixed in a link; its own motion is of no meaning.
+/// A mesh fixed in a link; its own motion is of no meaning. Or one whose vertices move on lines in
+/// the world (MovingSoup::to): its robot is a free body that rests.
 struct LinkInput {
   std::size_t robot = 0;
   std::size_t link = 0;

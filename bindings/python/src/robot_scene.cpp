@@ -256,9 +256,6 @@ void HeldRobotScene::add(const std::string& name, const Shape& shape, const Reco
     throw py::value_error("name: expected one that no body and no robot has, got " +
                           std::string(py::repr(py::str(name))));
   }
-  if (shape.hierarchy().deforms()) {
-    throw py::value_error("shape: expected a rigid body beside robots, got one that deforms");
-  }
   const BodyMotion motion = body_motion_of(X_WB);
   if (std::holds_alternative<WaypointMotion>(motion)) {
     in_step_time_.insert(scene_.bodies.size());

@@ -411,7 +411,6 @@ const FeatureTable& Shape::feature_table() const {
 }
 
 const ShapeBounds& Shape::bounds() const {
-  assert(!data_->hierarchy.deforms());
   std::call_once(data_->bounds->found,
                  [&] { data_->bounds->bounds = shape_bounds(data_->hierarchy); });
   return data_->bounds->bounds;

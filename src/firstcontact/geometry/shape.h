@@ -134,7 +134,7 @@ class FIRSTCONTACT_API Shape {
   /// Only for a shape of few triangles (FeatureTable::kMostTriangles).
   [[nodiscard]] const FeatureTable& feature_table() const;
 
-  /// A box and a polytope around the triangles of a shape that does not deform; computed when first
+  /// A box and a polytope around the triangles, at all times of the step; computed when first
   /// needed.
   [[nodiscard]] const ShapeBounds& bounds() const;
 

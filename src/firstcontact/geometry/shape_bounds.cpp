@@ -30,10 +30,18 @@ double rounding_error(const Hierarchy& hierarchy) {
   return kRounding * (hierarchy.centre.norm() + hierarchy.radius);
 }
 
-ShapeBounds box_around(const Hierarchy& hierarchy, const Matrix3d& axes) {
+/// [m]  The places of all vertices at both ends of the step, from the centre.
+std::vector<Vector3d> places_of(const Hierarchy& hierarchy) {
+  std::vector<Vector3d> places = hierarchy.vertices;
+  places.insert(places.end(), hierarchy.vertices_to.begin(), hierarchy.vertices_to.end());
+  return places;
+}
+
+ShapeBounds box_around(const Hierarchy& hierarchy, const std::vector<Vector3d>& places,
+                       const Matrix3d& axes) {
   Eigen::AlignedBox3d range;
-  for (const Vector3d& vertex : hierarchy.vertices) {
-    range.extend(axes * vertex);
+  for (const Vector3d& place : places) {
+    range.extend(axes * place);
   }
   ShapeBounds bounds;
   bounds.axes = axes;
@@ -51,17 +59,19 @@ PointRows corners_of_box(const ShapeBounds& box) {
   return corners;
 }
 
-PointRows corners_of(const Hierarchy& hierarchy, const ShapeBounds& box) {
-  if (hierarchy.vertices.size() > kMostVertices) {
+/// @param to_centre  [m]  from the centre of the hierarchy to that of the box
+PointRows corners_of(const std::vector<Vector3d>& places, const ShapeBounds& box,
+                     const Vector3d& to_centre) {
+  if (places.size() > kMostVertices) {
     return corners_of_box(box);
   }
-  const std::vector<Vector3d> hull = convex_hull(hierarchy.vertices).vertices;
+  const std::vector<Vector3d> hull = convex_hull(places).vertices;
   if (hull.size() > kMostCorners) {
     return corners_of_box(box);
   }
   PointRows corners(hull.size(), 3);
   for (std::size_t k = 0; k < hull.size(); ++k) {
-    corners.row(static_cast<Eigen::Index>(k)) = hull[k] - (box.centre - hierarchy.centre);
+    corners.row(static_cast<Eigen::Index>(k)) = hull[k] - to_centre;
   }
   return corners;
 }
@@ -69,21 +79,22 @@ PointRows corners_of(const Hierarchy& hierarchy, const ShapeBounds& box) {
 }  // namespace
 
 ShapeBounds shape_bounds(const Hierarchy& hierarchy) {
-  ShapeBounds best = box_around(hierarchy, Matrix3d::Identity());
+  const std::vector<Vector3d> places = places_of(hierarchy);
+  ShapeBounds best = box_around(hierarchy, places, Matrix3d::Identity());
   const HierarchyNode& root = hierarchy.nodes.front();
   for (unsigned slots = root.used(); slots != 0; slots &= slots - 1) {
-    ShapeBounds box = box_around(hierarchy, box_axes(root, std::countr_zero(slots)));
+    ShapeBounds box = box_around(hierarchy, places, box_axes(root, std::countr_zero(slots)));
     if (surface(box.half_extents) < surface(best.half_extents)) {
       best = std::move(box);
     }
   }
   const Vector3d to_centre = best.centre - hierarchy.centre;
-  for (const Vector3d& vertex : hierarchy.vertices) {
-    best.reach = std::max(best.reach, (vertex - to_centre).norm());
+  for (const Vector3d& place : places) {
+    best.reach = std::max(best.reach, (place - to_centre).norm());
   }
   best.error = rounding_error(hierarchy);
   best.reach = (best.reach + best.error) * kUp;
-  best.corners = corners_of(hierarchy, best);
+  best.corners = corners_of(places, best, to_centre);
   return best;
 }
 

@@ -14,7 +14,8 @@ struct Hierarchy;
 /// Points, one per row [m]: sums run along the columns.
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// A box and a polytope around all triangles, without the thickening; in the body frame.
+/// A box and a polytope around all triangles, without the thickening; in the body frame. Of a shape
+/// that deforms they hold the triangles at all times of the step.
 struct ShapeBounds {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  Of the box.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< [-]  Of the box, one per row.
@@ -24,12 +25,13 @@ struct ShapeBounds {
   double error = 0.0;  ///< [m]  Of the corners: the hull has to be thickened by it.
 };
 
-/// Finds the bounds of a shape that does not deform.
+/// Finds the bounds of a shape.
+///
+/// Each vertex of a shape that deforms moves on a line, seen from its centre. So the hull of the
+/// places of all vertices at both ends holds the shape throughout the step.
 ///
 /// The box is the smallest of those with the axes of the body frame and of the root's boxes. The
 /// corners are those of the convex hull where it has few, else those of the box.
-///
-/// @param hierarchy  of a shape that does not deform
 [[nodiscard]] FIRSTCONTACT_API ShapeBounds shape_bounds(const Hierarchy& hierarchy);
 
 }  // namespace firstcontact

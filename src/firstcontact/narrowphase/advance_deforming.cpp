@@ -1,7 +1,6 @@
 #include <firstcontact/narrowphase/advance_deforming.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -51,14 +50,16 @@ MovingCorners corners(const BodyState& body, const Triangle& position, const Tri
 double advance_deforming(const RelativeState& state, const TrianglePair& pair,
                          const TrianglePair& rates, const ClosestFeatures& closest,
                          const Vector3d& n, double threshold, double error, double t_end) {
-  assert(state.drift == 0.0 && state.bend_of(1.0, 1.0) == 0.0);
   const double time_left = t_end - state.t;
   const double enough = time_left * (1.0 + 0x1p-40) + 0x1p-100;
   const double offset = state.p_AB.norm();
   const BodyState body_A{state.axis_A, state.rate_A, state.p_AQa, Vector3d::Zero()};
   const BodyState body_B{state.axis_B, state.rate_B, state.p_AQb, state.pivot_velocity};
   const MovingCorners A = corners(body_A, pair.A, rates.A, offset, time_left);
-  const MovingCorners B = corners(body_B, pair.B, rates.B, offset, time_left);
+  MovingCorners B = corners(body_B, pair.B, rates.B, offset, time_left);
+  // What is between the two counts as B's.
+  B.slip += state.drift;
+  B.bend = state.bend_of(longest(pair.A, state.p_AQa), longest(pair.B, state.p_AQb)) * kUp;
   return detail::time_apart_along(A, B, closest, threshold + error, n, enough);
 }
 

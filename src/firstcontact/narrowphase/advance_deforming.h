@@ -23,12 +23,13 @@ namespace firstcontact {
 ///   n(tau) . (b - a)(tau) > threshold |n(tau)|,  |n(tau)| <= 1 + tau n . n' + tau^2 |n'|^2 / 2,
 /// for each corner a of A and b of B. With b - a = e + tau e' + r the left side is
 ///   n . e + tau (n . e' + n' . e) + tau^2 n' . e' + n(tau) . r,
-/// exactly; r is bounded by the accelerations. Every n' is valid; two are tried. n' = 0 has the
-/// least terms of second order. The n' that keeps n across the edges of the closest features lets
-/// the gaps of all their corners begin at the same rate: a corner that slides along a turning face
-/// is advanced with a loss of second order, as in the frame of a rigid one.
+/// exactly; r is bounded by the accelerations, and by the state's drift and bend. Every n' is
+/// valid; two are tried. n' = 0 has the least terms of second order. The n' that keeps n across the
+/// edges of the closest features lets the gaps of all their corners begin at the same rate: a
+/// corner that slides along a turning face is advanced with a loss of second order, as in the frame
+/// of a rigid one.
 ///
-/// @param state    of motions that are their models: without drift and bend
+/// @param state    the motion of a body that deforms is its model: drift and bend are the other's
 /// @param pair     positions at the state's time t
 /// @param rates    [m per step]  of the corners as their bodies see them, in world axes
 /// @param closest  of the pair; chooses n', and has no part in the claim

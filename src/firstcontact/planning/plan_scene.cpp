@@ -119,6 +119,10 @@ Scene resting_scene(Scene scene, const PlanQuestion& question) {
   rest_at_start(question, scene);
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     Body& body = scene.bodies[k];
+    if (std::holds_alternative<VertexMotion>(body.motion)) {
+      refuse_plan("body " + in_quotes(body.name) +
+                  " deforms; expected rigid bodies, among which a path can be proven again");
+    }
     body.free.reset();
     if (question.body == k && question.start_pose) {
       body.motion = FixedMotion{*question.start_pose};

@@ -14,7 +14,7 @@
 namespace firstcontact {
 
 /// Two shapes and how they move against each other. The motion's points C are the centres of the
-/// shapes' hierarchies. Of a shape that deforms, both motions have constant rates.
+/// shapes' hierarchies. The motion of a shape that deforms has constant rates.
 struct ShapePair {
   const Shape& A;
   const Shape& B;

@@ -42,13 +42,23 @@ bool in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window
   return true;
 }
 
+void require_body_where_it_deforms(const MovingLink& link) {
+  const auto pieces = link.X_FS.pieces();
+  const auto has_constant_rates = [](const LinkPath& piece) {
+    return piece.constant_rates() != nullptr;
+  };
+  if (link.shape.hierarchy().deforms() &&
+      !std::all_of(pieces.begin(), pieces.end(), has_constant_rates)) {
+    throw std::invalid_argument("queries of links: a shape deforms; links are rigid");
+  }
+}
+
 /// Calls ask(ShapePair) with the two in order; whether they were swapped for that.
 template <class Ask>
 bool ask_in_order(const MovingLink& A, const MovingLink& B, const TimeWindow& window,
                   LinkScratch& scratch, const Ask& ask) {
-  if (A.shape.hierarchy().deforms() || B.shape.hierarchy().deforms()) {
-    throw std::invalid_argument("queries of links: a shape deforms; links are rigid");
-  }
+  require_body_where_it_deforms(A);
+  require_body_where_it_deforms(B);
   const FloatEnvironmentGuard guard;
   const bool swapped = !in_order(A, B, window);
   const MovingLink& first = swapped ? B : A;

@@ -28,7 +28,10 @@ struct MovingLink {
 /// The search is that of docs/algorithm.md, over windows of time in which no point's path bends by
 /// more than about half of itself (LinkPairMotion). The same for A and B swapped, up to the swap.
 ///
-/// @throws std::invalid_argument if an option is outside its range, or a shape deforms
+/// A shape may deform whose motion has constant rates (LinkPath::constant_rates): a body, not a
+/// link.
+///
+/// @throws std::invalid_argument if an option is outside its range, or the shape of a link deforms
 FIRSTCONTACT_API void first_contact(const MovingLink& A, const MovingLink& B, Workspace& workspace,
                                     const FirstContactOptions& options, FirstContactResult& result);
 [[nodiscard]] FIRSTCONTACT_API FirstContactResult

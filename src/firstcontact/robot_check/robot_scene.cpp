@@ -104,13 +104,10 @@ void RobotScene::require_new(const std::string& name) const {
 
 std::size_t RobotScene::add_body(std::string name, Shape shape, Motion X_WB) {
   require_new(name);
-  if (shape.hierarchy().deforms()) {
-    refuse("body '" + name + "' deforms; only rigid bodies are checked");
-  }
   const FloatEnvironmentGuard guard;
   Member body{.name = std::move(name), .geometries = {}, .link = {}};
   body.geometries.push_back({std::move(shape), {}});
-  body.rests = is_at_rest(X_WB);
+  body.rests = !body.geometries.front().shape.hierarchy().deforms() && is_at_rest(X_WB);
   for (std::size_t k = 0; k + 1 < X_WB.breaks().size(); ++k) {
     body.paths.push_back(std::make_shared<const JointPath>(
         JointPath::of_motion({}, X_WB.path(k, Eigen::Vector3d::Zero()))));
@@ -173,6 +170,9 @@ void RobotScene::attach(Attachment attachment) {
   const std::string& body = members_[attachment.body].name;
   if (members_[attachment.body].link) {
     refuse("'" + body + "' is a link; only bodies are attached");
+  }
+  if (geometries(attachment.body).front().shape.hierarchy().deforms()) {
+    refuse("'" + body + "' deforms; a link holds rigid bodies only");
   }
   if (!members_[attachment.link].link) {
     refuse("'" + members_[attachment.link].name + "' is no link; it cannot hold '" + body + "'");

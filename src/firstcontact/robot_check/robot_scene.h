@@ -85,7 +85,8 @@ class FIRSTCONTACT_API RobotScene {
  public:
   explicit RobotScene(PairRules rules = PairRules()) : rules_(std::move(rules)) {}
 
-  /// Adds a body and returns its number as a member. Shapes that deform are refused.
+  /// Adds a body and returns its number as a member. One that deforms (move_vertices) cannot be
+  /// attached to a link.
   std::size_t add_body(std::string name, Shape shape, Motion X_WB = Motion::fixed());
 
   /// Adds a robot and returns its number, from 0.

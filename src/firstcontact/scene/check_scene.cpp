@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/robot_check/check_robots.h>
+#include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/text/write_json.h>
 
 namespace firstcontact {
@@ -43,20 +45,32 @@ ManyBodiesOptions query_options(const Scene& scene, const CheckOptions& options)
 
 /// [m]  Of any two bodies: of those whose triangles are asked. Curved ones are asked by theirs
 /// where a partner deforms.
-double greatest_enclosure_error(const BodySet& bodies) {
-  bool any_deforms = false;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    any_deforms = any_deforms || bodies.shape(k).hierarchy().deforms();
-  }
+double greatest_enclosure_error(std::span<const Shape* const> shapes) {
+  const bool any_deforms = std::any_of(shapes.begin(), shapes.end(), [](const Shape* shape) {
+    return shape->hierarchy().deforms();
+  });
   double greatest = 0.0;
   double second = 0.0;
-  for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const Shape& shape = bodies.shape(k);
-    const double error = shape.is_curved() && !any_deforms ? 0.0 : shape.enclosure_error();
+  for (const Shape* shape : shapes) {
+    const double error = shape->is_curved() && !any_deforms ? 0.0 : shape->enclosure_error();
     second = std::max(second, std::min(error, greatest));
     greatest = std::max(greatest, error);
   }
   return greatest + second;
+}
+
+/// Of all bodies and links.
+std::vector<const Shape*> shapes_of(const LoadedScene& loaded) {
+  std::vector<const Shape*> shapes;
+  for (std::size_t k = 0; !loaded.robots && k < loaded.bodies.size(); ++k) {
+    shapes.push_back(&loaded.bodies.shape(k));
+  }
+  for (std::size_t member = 0; loaded.robots && member < loaded.robots->size(); ++member) {
+    for (const MemberGeometry& geometry : loaded.robots->geometries(member)) {
+      shapes.push_back(&geometry.shape);
+    }
+  }
+  return shapes;
 }
 
 SceneResult result_of(std::vector<PairAnswer> pairs, double tolerance) {
@@ -75,12 +89,10 @@ SceneResult result_of(std::vector<PairAnswer> pairs, double tolerance) {
 SceneResult check_bodies(const LoadedScene& loaded, ManyBodiesWorkspace& workspace,
                          const CheckOptions& options) {
   const ManyBodiesOptions query = query_options(loaded.scene, options);
-  SceneResult result = answers_each_pair(loaded, options)
-                           ? result_of(answer_each_pair(loaded.bodies, workspace, query),
-                                       loaded.scene.options.tolerance)
-                           : first_contact(loaded.bodies, workspace, query);
-  result.enclosure_error = greatest_enclosure_error(loaded.bodies);
-  return result;
+  return answers_each_pair(loaded, options)
+             ? result_of(answer_each_pair(loaded.bodies, workspace, query),
+                         loaded.scene.options.tolerance)
+             : first_contact(loaded.bodies, workspace, query);
 }
 
 SceneResult check_with_robots(const LoadedScene& loaded, const CheckOptions& options) {
@@ -130,10 +142,10 @@ bool answers_each_pair(const LoadedScene& loaded, const CheckOptions& options) {
 
 SceneResult check_scene(const LoadedScene& loaded, ManyBodiesWorkspace& workspace,
                         const CheckOptions& options) {
-  if (loaded.robots) {
-    return check_with_robots(loaded, options);
-  }
-  return check_bodies(loaded, workspace, options);
+  SceneResult result =
+      loaded.robots ? check_with_robots(loaded, options) : check_bodies(loaded, workspace, options);
+  result.enclosure_error = greatest_enclosure_error(shapes_of(loaded));
+  return result;
 }
 
 }  // namespace firstcontact

@@ -113,11 +113,11 @@ double time_apart_along(const MovingCorners& A, const MovingCorners& B,
     return fixed;
   }
   const double turned = gap.time_open(n, turning, enough);
-  if (A.rate == 0.0 && B.rate == 0.0) {
+  if (A.rate == 0.0 && B.rate == 0.0 && A.bend == 0.0 && B.bend == 0.0) {
     return std::max(fixed, turned);
   }
-  // The accelerations of bodies that turn grow with the time that they have to cover: a shorter one
-  // may pay.
+  // The accelerations of bodies that turn, or bend, grow with the time that they have to cover: a
+  // shorter one may pay.
   const double shorter = std::min(enough, 8.0 * std::max(turned, fixed));
   return std::max({fixed, turned, gap.time_open(n, turning, shorter)});
 }

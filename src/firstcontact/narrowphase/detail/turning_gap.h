@@ -22,6 +22,7 @@ struct MovingCorners {
   Triangle velocity;
   std::size_t count = 3;  ///< Of corners that differ; a vertex or an edge has fewer.
   double slip = 0.0;      ///< [m per step]  Error of a velocity.
+  double bend = 0.0;  ///< [m per step^2]  Acceleration in any direction, beside that of the turn.
 
   // The turn of a body; else all zero.
   double rate = 0.0;
@@ -30,11 +31,11 @@ struct MovingCorners {
   double speed = 0.0;  ///< [m per step]  Of any corner as its body sees it.
 
   /// Bounds the acceleration of any corner along n(tau), which has turned by `turned`: w |n x u|
-  /// (w |rho| + 2 |d|), errors of the axis included.
+  /// (w |rho| + 2 |d|) and the bend, errors of the axis included.
   [[nodiscard]] double acceleration(const Eigen::Vector3d& n, double turned) const {
     constexpr double kUp = 1.0 + 0x1p-40;
     const double across = n.cross(axis).norm() + turned + kGapRounding;
-    return rate * across * (rate * reach + 2.0 * speed) * kUp;
+    return (rate * across * (rate * reach + 2.0 * speed) + bend * (1.0 + turned)) * kUp;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include <firstcontact/narrowphase/triangle_distance.h>
@@ -14,6 +15,14 @@ namespace {
 
 const Shape& shape_of(const RobotTimeline& timeline, std::size_t geometry) {
   return *timeline.geometries()[geometry].shape;
+}
+
+/// [m]  Of a vertex in the shape's frame.
+Eigen::Vector3d vertex_at(const Shape& shape, std::uint32_t vertex, double t) {
+  const Eigen::Vector3d& from = shape.mesh().vertices[vertex];
+  const std::span<const Eigen::Vector3d> to = shape.vertices_to();
+  return to.empty() ? from
+                    : Eigen::Vector3d((1.0 - t) * from + t * (to[vertex] - shape.translation_to()));
 }
 
 }  // namespace
@@ -93,10 +102,9 @@ double GeometrySearch::distance_of_triangles(const Contact& contact, double t) {
   }
   const auto placed = [t](const Shape& shape, const LinkMotion& X_FS, std::uint32_t triangle) {
     const LinkPose pose = X_FS.at(t).pose(t);
-    const Mesh& mesh = shape.mesh();
     Triangle corners;
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = pose.p_OL + pose.R_FL * mesh.vertices[mesh.triangles[triangle][k]];
+      corners[k] = pose.p_OL + pose.R_FL * vertex_at(shape, shape.mesh().triangles[triangle][k], t);
     }
     return corners;
   };

@@ -19,7 +19,7 @@
 
 namespace firstcontact::detail {
 
-/// One geometry of a member, with its bounds.
+/// One geometry of a member, with its bounds: at all times of the step, where it deforms.
 struct BoundedGeometry {
   std::size_t member = 0;
   std::size_t index = 0;  ///< Among the geometries of the member.
@@ -27,7 +27,7 @@ struct BoundedGeometry {
   RoundedBox ball;     ///< Around the shape, thickening included, in its frame S.
   RoundedBox box;      ///< So too.
   double reach = 0.0;  ///< [m]  Of the thickened shape, from the centre of the box.
-  bool rests = false;  ///< Over the whole step.
+  bool rests = false;  ///< Its frame S, and so its bounds, over the whole step.
 };
 
 /// Two members that are tested, but for the times of `pauses`.

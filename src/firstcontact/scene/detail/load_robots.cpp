@@ -11,6 +11,7 @@
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/detail/add_report.h>
+#include <firstcontact/scene/detail/load_body.h>
 #include <firstcontact/scene/whole_turn_jumps.h>
 #include <firstcontact/text/brief_list.h>
 #include <firstcontact/text/parse_error.h>
@@ -65,18 +66,8 @@ class RobotLoader {
   [[nodiscard]] ReadingOptions reading() const { return {.lenient = scene_.options.lenient}; }
 
   void add(const Body& body) {
-    if (std::holds_alternative<VertexMotion>(body.motion)) {
-      throw std::invalid_argument("body " + in_quotes(body.name) +
-                                  ": expected a rigid motion in a scene with robots, got "
-                                  "\"vertices\"");
-    }
-    CachedShape cached = cache_.load(body.shape, reading());
-    digests_ += cached.digest.empty() ? "" : cached.digest + '\n';
-    if (cached.report) {
-      add_report(*cached.report, loaded_);
-    }
-    robots_.add_body(body.name, std::move(cached.shape),
-                     normalised_motion(body.motion, scene_.duration));
+    DeformingBody moved = load_body(body, scene_, cache_, digests_, loaded_);
+    robots_.add_body(body.name, std::move(moved.shape), std::move(moved.X_WS));
   }
 
   void add(const SceneRobot& robot) {

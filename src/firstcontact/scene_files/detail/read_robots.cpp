@@ -238,6 +238,10 @@ class RobotReader {
       read_.fail(read_.member(value, "body"),
                  "expected a body without \"dynamics\": the link carries it");
     }
+    if (std::holds_alternative<VertexMotion>(scene_.bodies[attachment.body].motion)) {
+      read_.fail(read_.member(value, "body"),
+                 "expected a rigid body, got one that deforms: its motion is \"vertices\"");
+    }
     if (const JsonValue* from = find(object, "from_time")) {
       attachment.from_time = read_.not_negative(*from);
     }
