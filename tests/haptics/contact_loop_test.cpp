@@ -82,6 +82,32 @@ TEST(ContactLoop, RestsOnTheFloorWithinTheContactDistance) {
 }
 
 // 5 m/s through a plate of 0.1 mm, at a thousand cycles a second: 5 mm a cycle.
+
+/// A needle that is turned while it is pressed flat onto a plate: its ends touch in turn.
+TEST(ContactLoop, KeepsItsDistanceWhereATurningToolIsPressedFlat) {
+  HapticScene scene;
+  HapticTool needle{.name = "needle", .shape = make_box({0.004, 0.004, 0.06})};
+  needle.X_WB = {
+      {-0.02185532282036204, 0.0016936230754722853, 0.0033340978943821368},
+      {0.712615073457925, 0.41349458235302994, -0.566313789112016, 0.022151291313163696}};
+  scene.tools = {needle};
+  scene.bodies = {{.name = "plate", .shape = make_box({0.4, 0.4, 0.0001})}};
+  const Vector3d turn(-0.743013, 1.0734, 0.0475759);
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / 8.0;
+    const Eigen::Vector3d push(0.003 * std::cos(angle), 0.003 * std::sin(angle), -0.0457);
+    const double more = 0.5 + 0.25 * k;
+    ContactLoop loop(scene);
+    const Pose target{needle.X_WB.position + push,
+                      Eigen::Quaterniond(Eigen::AngleAxisd(more * turn.norm(), turn.normalized())) *
+                          needle.X_WB.rotation.normalized()};
+    for (int cycle = 0; cycle < 300; ++cycle) {
+      const HapticCycle& done = loop.advance(std::array{target}, kMillisecond, cycle);
+      ASSERT_GE(done.clearance, 0.3 * loop.contact_distance()) << k << ", cycle " << cycle;
+    }
+  }
+}
+
 TEST(ContactLoop, StopsAtAThinPlateHoweverFast) {
   HapticScene scene;
   scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.05}));

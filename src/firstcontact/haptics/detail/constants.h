@@ -28,6 +28,9 @@ inline constexpr double kShareOfGap = 0.75;
 /// is wedged does not halve its way to nothing.
 inline constexpr double kLeastHeldGap = 0.5;
 inline constexpr double kShareOfJammedGap = 0.9;
+/// [-]  A pair that is nearer than this moves only where it ends no nearer: at a gap that rounding
+/// blurs nothing could be proven, not even that the tool is pulled out.
+inline constexpr double kFloorOfGap = 0.01;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 0.3;

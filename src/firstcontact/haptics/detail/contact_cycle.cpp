@@ -133,18 +133,13 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
   if (!(part < 1.0)) {
     return found;
   }
-  if (are_courses_moving_) {
-    for (Displacement& way : wanted) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
-    found = plan(wanted);
-  } else {
-    for (Displacement& way : found.displacements) {
-      way.translation *= part;
-      way.rotation_vector *= part;
-    }
+  // The plan is made anew: a part of it would only part touches that are too near by that part,
+  // and what turns again and again would sink more than that.
+  for (Displacement& way : wanted) {
+    way.translation *= part;
+    way.rotation_vector *= part;
   }
+  found = plan(wanted);
   found.is_shortened = true;
   return found;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/query/distance.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -44,6 +45,16 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
       proven.is_late = proven.is_late || scratch.reason == UndecidedReason::deadline;
     }
     proven.clearance = std::min(proven.clearance, held.margin);
+  }
+  const auto comes_nearer = [&](const HapticPair& pair) {
+    const auto [other, tool] = pair.members;
+    return pair.gap < kFloorOfGap * contact_distance &&
+           distance({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
+                    proven.t, workspace)
+                   .distance < pair.gap;
+  };
+  if (proven.t > 0.0 && std::ranges::any_of(pairs, comes_nearer)) {
+    proven.t = 0.0;
   }
   return proven;
 }

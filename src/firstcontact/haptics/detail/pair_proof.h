@@ -28,7 +28,8 @@ struct ProvenPart {
   bool is_late = false;    ///< The deadline ended a search.
 };
 
-/// Proves how much of a plan is free.
+/// Proves how much of a plan is free: nothing of it where that brings a wedged pair nearer
+/// (kFloorOfGap).
 ///
 /// @param motions  of all members over the plan
 [[nodiscard]] ProvenPart prove_plan(
