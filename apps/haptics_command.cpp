@@ -198,8 +198,8 @@ class HapticsRun {
                       : read_scene(arguments_.scene);
     require_no_input(outputs_of(arguments_), files_of(scene));
     try {
-      prepare_haptics(scene, named_.duration, arguments_.latency.value_or(0.0));
       ShapeCache cache;
+      prepare_haptics(scene, cache, named_.duration, arguments_.latency.value_or(0.0));
       return load_scene(std::move(scene), cache);
     } catch (const std::invalid_argument& error) {
       throw ParseError(arguments_.scene, error.what());

@@ -94,8 +94,8 @@ struct Fidelity {
 
 int run(const std::string& file, const Options& options) {
   Scene scene = read_scene(file);
-  prepare_haptics(scene, options.seconds);
   ShapeCache cache;
+  prepare_haptics(scene, cache, options.seconds);
   const HapticSetup setup = haptic_setup(load_scene(std::move(scene), cache));
   HapticSessionOptions session = setup.options;
   session.contacts.most_contacts = options.most_contacts;

@@ -132,8 +132,8 @@ Insertion insert(const HapticSetup& setup, std::uint64_t seed, double stiffness)
 
 int run(const std::string& file, int seeds, double stiffness) {
   Scene scene = read_scene(file);
-  prepare_haptics(scene, kEnd);
   ShapeCache cache;
+  prepare_haptics(scene, cache, kEnd);
   const HapticSetup setup = haptic_setup(load_scene(std::move(scene), cache));
   int inserted = 0;
   int still = 0;

@@ -31,9 +31,9 @@ TEST(HapticSetup, TakesWhatTheSceneSays) {
                      "contact_distance": 1e-5, "friction": 0.5, "max_force": 4,
                      "contact_rate": 500})"),
       "scene.json");
-  prepare_haptics(scene, 2.0);
-  EXPECT_EQ(scene.simulation->step, 0.002);
   ShapeCache cache;
+  prepare_haptics(scene, cache, 2.0);
+  EXPECT_EQ(scene.simulation->step, 0.002);
   const HapticSetup setup = haptic_setup(load_scene(std::move(scene), cache));
   ASSERT_EQ(setup.scene.tools.size(), 1U);
   EXPECT_EQ(setup.scene.tools[0].coupling.stiffness, 500.0);
@@ -72,7 +72,8 @@ TEST(HapticSetup, RefusesScenesWithoutHaptics) {
   Scene scene = parse_scene(
       R"({"firstcontact": 1, "bodies": [{"name": "a", "shape": {"sphere": {"radius": 1}}}]})",
       "scene.json");
-  EXPECT_THROW(prepare_haptics(scene, 1.0), std::invalid_argument);
+  ShapeCache cache;
+  EXPECT_THROW(prepare_haptics(scene, cache, 1.0), std::invalid_argument);
 }
 
 }  // namespace

@@ -150,7 +150,8 @@ std::unique_ptr<FeltSession> make_felt_session(const py::object& scene, double d
                         .cast<std::shared_ptr<HeldScene>>();
   const py::gil_scoped_release release;
   Scene prepared = held->scene();
-  prepare_haptics(prepared, duration, latency);
+  ShapeCache cache;
+  prepare_haptics(prepared, cache, duration, latency);
   const auto latency_ns = static_cast<std::int64_t>(1e9 * latency + 0.5);
   return std::make_unique<FeltSession>(held->sharing(std::move(prepared))->loaded(), latency_ns);
 }

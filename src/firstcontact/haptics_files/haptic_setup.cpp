@@ -10,6 +10,7 @@
 
 #include <firstcontact/geometry/shape_bounds.h>
 #include <firstcontact/haptics/detail/session_periods.h>
+#include <firstcontact/haptics_files/detail/rigid_robots.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
 #include <firstcontact/scene/simulation_duration.h>
@@ -75,14 +76,13 @@ HapticBody body_of(const LoadedScene& loaded, std::size_t number, double frictio
 
 }  // namespace
 
-void prepare_haptics(Scene& scene, double duration, double latency) {
+void prepare_haptics(Scene& scene, ShapeCache& cache, double duration, double latency) {
   const HapticQuestion& question = question_of(scene);
   constexpr double kLongest = 1e9;     // [s]
   constexpr double kMostLatency = 10;  // [s]
   require_of_haptics(duration > 0.0 && duration <= kLongest,
                      "the duration must be > 0 s and at most 1e9 s");
   require_of_haptics(latency >= 0.0 && latency <= kMostLatency, "the latency must be 0 s to 10 s");
-  require_of_haptics(scene.robots.empty(), "expected no robots in the scene");
   for (const Body& body : scene.bodies) {
     require_of_haptics(!body.free, "expected no \"dynamics\" of \"" + body.name + "\"");
     require_of_haptics(!std::holds_alternative<VertexMotion>(body.motion),
@@ -93,6 +93,7 @@ void prepare_haptics(Scene& scene, double duration, double latency) {
   require_of_haptics(
       scene.options.margin == 0.0 && scene.pair_margins.empty() && scene.group_margins.empty(),
       "expected no margins of pairs");
+  detail::make_robots_bodies(scene, cache);
   scene.simulation.emplace();
   for (const HapticToolQuestion& tool : question.tools) {
     scene.bodies[tool.body].free.emplace().mass = 1.0;

@@ -12,6 +12,7 @@
 
 namespace firstcontact {
 
+class ShapeCache;
 struct LoadedScene;
 struct Scene;
 
@@ -24,13 +25,16 @@ struct HapticSetup {
 
 /// Prepares a scene with "haptics" for the record of a session of this length.
 ///
-/// Its tools become free bodies; its simulation has the steps of the contact loop.
+/// Its tools become free bodies; its simulation has the steps of the contact loop. Robots that rest
+/// become bodies, each of one mesh.
 ///
 /// @param duration  [s]  > 0; motions of other bodies go on as in set_simulation_duration()
 /// @param latency   [s]  >= 0  of the contact loop in virtual time: its steps are as long at least
-/// @throws std::invalid_argument if the scene has no "haptics", robots, bodies that other things
-///         move (dynamics, vertices), margins; or the duration is not > 0
-FIRSTCONTACT_API void prepare_haptics(Scene& scene, double duration, double latency = 0.0);
+/// @throws std::invalid_argument if the scene has no "haptics", robots that move or hold a body,
+///         bodies that other things move (dynamics, vertices), margins; or the duration is not > 0
+/// @throws as load_scene, where there are robots
+FIRSTCONTACT_API void prepare_haptics(Scene& scene, ShapeCache& cache, double duration,
+                                      double latency = 0.0);
 
 /// @param loaded  of a scene that was prepared
 /// @throws std::invalid_argument as ContactLoop

@@ -13,9 +13,10 @@
 
 namespace firstcontact {
 
-/// A body of the scene that a device moves, and the spring between the two.
+/// A body or robot of the scene that a device moves, and the spring between the two.
 struct HapticToolQuestion {
   std::size_t body = 0;                        ///< Of the scene; it starts at its pose.
+  std::optional<std::size_t> robot = {};       ///< In place of the body: in one posture, rigid.
   double stiffness = 1000.0;                   ///< [N/m]  > 0
   double angular_stiffness = 1.0;              ///< [N m/rad]  > 0
   double damping = 0.0;                        ///< [N s/m]  >= 0
@@ -31,7 +32,7 @@ struct HapticToolQuestion {
 
 /// The tools of a scene, and how a user feels them.
 struct HapticQuestion {
-  std::vector<HapticToolQuestion> tools;        ///< 1 or 2, of different bodies.
+  std::vector<HapticToolQuestion> tools;        ///< 1 or 2, of different bodies or robots.
   std::optional<double> contact_distance = {};  ///< [m]  > 0
   double friction = 0.0;                        ///< [-]  >= 0  Of bodies whose surfaces give none.
   double force_rate = 4000.0;                   ///< [Hz]

@@ -28,6 +28,10 @@ inline constexpr double kShareOfGap = 0.75;
 /// is wedged does not halve its way to nothing.
 inline constexpr double kLeastHeldGap = 0.5;
 inline constexpr double kShareOfJammedGap = 0.9;
+/// [-]  A tool with a touch nearer than this first parts from its touches, if that takes it as far
+/// as the second number.
+inline constexpr double kPartBelow = 0.4;
+inline constexpr double kLeastParting = 0.1;
 /// [-]  A pair that is nearer than this moves only where it ends no nearer: at a gap that rounding
 /// blurs nothing could be proven, not even that the tool is pulled out.
 inline constexpr double kFloorOfGap = 0.01;

@@ -144,6 +144,23 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
   return found;
 }
 
+/// Plans the way; or where touches are very near only the way out of them, if there is one: what is
+/// pressed on while it has no room left sinks from round to round.
+detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
+    const detail::ToolDisplacements& ways) {
+  const bool is_near = std::ranges::any_of(touches_, [&](const HapticTouch& touch) {
+    return touch.contact.gap < detail::kPartBelow * distance_;
+  });
+  if (is_near && !are_courses_moving_) {
+    detail::GodObjectPlan parting = plan({});
+    if (gain_of(parting.displacements) > detail::kLeastParting * distance_) {
+      parting.is_shortened = true;
+      return parting;
+    }
+  }
+  return plan_within_turn(ways);
+}
+
 void ContactLoop::Implementation::append_piece(std::size_t member, const Displacement& way,
                                                double part, double to) {
   for (HapticMemberMotion& motion : cycle_.members) {
@@ -294,7 +311,7 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     double slot = (touches_.empty() || is_last ? 1.0 : 0.5) * part * straight;
     set_courses(slot);
     const detail::ToolDisplacements ways = wanted(targets);
-    detail::GodObjectPlan plan = plan_within_turn(ways);
+    detail::GodObjectPlan plan = plan_or_part(ways);
     ++cycle_.rounds;
     const bool gains = gain_of(plan.displacements) > least_gain;
     if (!gains && !are_courses_moving_) {

@@ -68,6 +68,7 @@ class ContactLoop::Implementation {
   void set_courses(double slot);
   [[nodiscard]] detail::GodObjectPlan plan(const detail::ToolDisplacements& wanted);
   [[nodiscard]] detail::GodObjectPlan plan_within_turn(detail::ToolDisplacements wanted);
+  [[nodiscard]] detail::GodObjectPlan plan_or_part(const detail::ToolDisplacements& ways);
   double execute(const detail::GodObjectPlan& plan, double slot, double dt,
                  const std::optional<Deadline>& deadline);
   void append_piece(std::size_t member, const Displacement& way, double part, double to);

@@ -62,10 +62,18 @@ class HapticsReader {
 
   HapticToolQuestion tool(const JsonValue& value, const HapticQuestion& before) const {
     const JsonObject& object = read_.object(
-        value, {{"body", "stiffness", "angular_stiffness", "damping", "centre", "scale",
+        value, {{"body", "robot", "stiffness", "angular_stiffness", "damping", "centre", "scale",
                  "device_axes", "handle", "begins_at_handle", "clutch_button", "dead_man_button"}});
     HapticToolQuestion tool;
-    tool.body = body(read_.member(value, "body"), before);
+    const JsonValue* robot = find(object, "robot");
+    if (robot != nullptr && find(object, "body") != nullptr) {
+      read_.fail(*robot, "expected either \"body\" or \"robot\", got both");
+    }
+    if (robot != nullptr) {
+      tool.robot = robot_named(*robot, before);
+    } else {
+      tool.body = body(read_.member(value, "body"), before);
+    }
     take_positive(object, "stiffness", tool.stiffness);
     take_positive(object, "angular_stiffness", tool.angular_stiffness);
     take_not_negative(object, "damping", tool.damping);
@@ -107,8 +115,30 @@ class HapticsReader {
       read_.fail(value, "expected a body with a \"pose\" alone: a device moves \"" + name + "\"");
     }
     for (const HapticToolQuestion& other : before.tools) {
-      if (other.body == number) {
+      if (!other.robot && other.body == number) {
         read_.fail(value, "expected another body than that of the other tool");
+      }
+    }
+    return number;
+  }
+
+  std::size_t robot_named(const JsonValue& value, const HapticQuestion& before) const {
+    const std::string& name = read_.string(value, "the name of a robot");
+    const auto found = std::ranges::find_if(
+        scene_.robots, [&](const SceneRobot& one) { return one.name == name; });
+    if (found == scene_.robots.end()) {
+      std::vector<std::string_view> names;
+      for (const SceneRobot& one : scene_.robots) {
+        names.push_back(one.name);
+      }
+      read_.fail_expected(names.empty() ? "a robot of the scene, which has none"
+                                        : "a robot of the scene (" + listed(names) + ")",
+                          value);
+    }
+    const auto number = static_cast<std::size_t>(found - scene_.robots.begin());
+    for (const HapticToolQuestion& other : before.tools) {
+      if (other.robot == number) {
+        read_.fail(value, "expected another robot than that of the other tool");
       }
     }
     return number;

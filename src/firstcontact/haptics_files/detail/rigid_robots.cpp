@@ -1,0 +1,210 @@
+#include <firstcontact/haptics_files/detail/rigid_robots.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/text/write_json.h>
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Translation3d;
+using Eigen::Vector3d;
+
+void require_rigid(const SceneRobot& robot) {
+  const auto require = [&](bool holds, const std::string& what) {
+    if (!holds) {
+      throw std::invalid_argument("haptics: robot " + in_quotes(robot.name) + ": expected " + what);
+    }
+  };
+  require(!robot.dynamics, "no \"dynamics\"");
+  require(robot.trajectory.points.size() <= 1 && std::holds_alternative<FixedMotion>(robot.base),
+          "one posture: a \"base\" at rest, and \"state\" or a trajectory of one point");
+  require(robot.attached.empty(), "no \"attached\" bodies; make them links of the robot");
+  require(robot.padding.empty(), "no \"padding\"");
+  require(robot.tracking_error.empty(), "no \"tracking_error\"");
+}
+
+Isometry3d isometry(const Pose& pose) {
+  return Translation3d(pose.position) * pose.rotation.normalized();
+}
+
+void append(const Mesh& mesh, const Isometry3d& X_RG, Mesh& all) {
+  const auto first = static_cast<std::uint32_t>(all.vertices.size());
+  for (const Vector3d& v : mesh.vertices) {
+    all.vertices.emplace_back(X_RG * v);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    all.triangles.push_back({first + a, first + b, first + c});
+  }
+}
+
+/// The triangles of a geometry; of a sphere or a capsule those that enclose it.
+void append_geometry(const Shape& shape, const Isometry3d& X_RG, Mesh& all) {
+  const Mesh& mesh = shape.mesh();
+  const double r = shape.radius();
+  if (r == 0.0) {
+    append(mesh, X_RG, all);
+    return;
+  }
+  const Shape ball = make_ellipsoid(Vector3d::Constant(r));
+  for (const Vector3d& centre : mesh.vertices) {
+    append(ball.mesh(), X_RG * Translation3d(centre), all);
+  }
+  if (mesh.vertices.size() == 2) {
+    const Vector3d axis = mesh.vertices[1] - mesh.vertices[0];
+    const Vector3d middle = 0.5 * (mesh.vertices[0] + mesh.vertices[1]);
+    append(
+        make_cylinder(r, axis.norm()).mesh(),
+        X_RG * Translation3d(middle) * Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis),
+        all);
+  }
+}
+
+/// A sphere and a capsule are thick points and segments, without an inside of their own.
+bool is_filled(const Shape& shape) { return shape.is_solid() || shape.radius() > 0.0; }
+
+class RobotsAsBodies {
+ public:
+  RobotsAsBodies(Scene& scene, ShapeCache& cache)
+      : scene_(scene), loaded_(load_scene(scene, cache)), first_(scene.bodies.size()) {}
+
+  void run() {
+    for (std::size_t r = 0; r < scene_.robots.size(); ++r) {
+      add(r);
+    }
+    take_ignored_pairs();
+    for (BodyGroup& group : scene_.groups) {
+      take_group(group);
+    }
+    for (HapticToolQuestion& tool : scene_.haptics->tools) {
+      if (tool.robot) {
+        tool.body = first_ + *std::exchange(tool.robot, {});
+      }
+    }
+    std::move(bodies_.begin(), bodies_.end(), std::back_inserter(scene_.bodies));
+    scene_.robots.clear();
+    scene_.text_digest = loaded_.input_digest;
+    scene_.warnings = loaded_.warnings;
+    scene_.file_reports = loaded_.files;
+  }
+
+ private:
+  void add(std::size_t robot) {
+    const RobotScene& robots = *loaded_.robots;
+    const SceneRobot& described = scene_.robots[robot];
+    const Pose base = std::get<FixedMotion>(described.base).pose;
+    const Isometry3d X_RW = isometry(base).inverse();
+    const std::size_t first = robots.first_member(robot);
+    Mesh mesh;
+    bool is_solid = true;
+    for (std::size_t m = first; m < first + described.model.links().size(); ++m) {
+      const auto geometries = robots.geometries(m);
+      for (std::size_t g = 0; g < geometries.size(); ++g) {
+        append_geometry(geometries[g].shape, X_RW * isometry(robots.geometry_pose(m, g, 0.0)),
+                        mesh);
+        is_solid = is_solid && is_filled(geometries[g].shape);
+      }
+      if (!geometries.empty()) {
+        body_of_[m] = first_ + robot;
+        ++counts_[first_ + robot];
+      }
+    }
+    Body body{.name = described.name, .shape = {}, .motion = FixedMotion{base}};
+    body.shape.source = Shape(std::move(mesh), 0.0, is_solid ? Filling::solid : Filling::surface);
+    bodies_.push_back(std::move(body));
+  }
+
+  /// The body that a member is now; none for a link without geometry.
+  [[nodiscard]] std::optional<std::size_t> body_of(std::size_t member) const {
+    if (member < first_) {
+      return member;
+    }
+    const auto found = body_of_.find(member);
+    return found == body_of_.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  /// The members that a body has: itself, or its links with geometry.
+  [[nodiscard]] std::size_t count(std::size_t body) const {
+    return body < first_ ? 1 : counts_.at(body);
+  }
+
+  [[nodiscard]] const std::string& name(std::size_t body) const {
+    return body < first_ ? scene_.bodies[body].name : bodies_[body - first_].name;
+  }
+
+  void take_ignored_pairs() {
+    std::map<BodyPair, std::set<BodyPair>> ignored;
+    for (const auto& [first, second] : scene_.ignored_pairs) {
+      const std::optional<std::size_t> a = body_of(first);
+      const std::optional<std::size_t> b = body_of(second);
+      if (a && b && *a != *b) {
+        ignored[{std::min(*a, *b), std::max(*a, *b)}].insert(
+            {std::min(first, second), std::max(first, second)});
+      }
+    }
+    scene_.ignored_pairs.clear();
+    scene_.allowed_pairs.clear();
+    for (const auto& [bodies, members] : ignored) {
+      if (members.size() != count(bodies[0]) * count(bodies[1])) {
+        throw std::invalid_argument("haptics: pairs: expected " + in_quotes(name(bodies[0])) +
+                                    " and " + in_quotes(name(bodies[1])) +
+                                    " ignored as a whole, got some links only");
+      }
+      scene_.ignored_pairs.push_back(bodies);
+    }
+  }
+
+  void take_group(BodyGroup& group) const {
+    std::map<std::size_t, std::size_t> found;
+    for (const std::size_t member : group.bodies) {
+      if (const std::optional<std::size_t> body = body_of(member)) {
+        ++found[*body];
+      }
+    }
+    group.bodies.clear();
+    for (const auto& [body, members] : found) {
+      if (members != count(body)) {
+        throw std::invalid_argument("haptics: group " + in_quotes(group.name) + ": expected " +
+                                    in_quotes(name(body)) + " as a whole, got some links only");
+      }
+      group.bodies.push_back(body);
+    }
+  }
+
+  Scene& scene_;
+  LoadedScene loaded_;
+  std::size_t first_;
+  std::vector<Body> bodies_;                         // Of robots.
+  std::map<std::size_t, std::size_t> body_of_ = {};  // Of members that are links.
+  std::map<std::size_t, std::size_t> counts_ = {};   // Links with geometry of such a body.
+};
+
+}  // namespace
+
+void make_robots_bodies(Scene& scene, ShapeCache& cache) {
+  if (!scene.robots.empty()) {
+    std::for_each(scene.robots.begin(), scene.robots.end(), require_rigid);
+    RobotsAsBodies(scene, cache).run();
+  }
+}
+
+}  // namespace firstcontact::detail

@@ -1,0 +1,28 @@
+/// @file
+/// Robots at rest as bodies: a hand in one posture as a tool, an arm as what it meets.
+
+#pragma once
+
+namespace firstcontact {
+class ShapeCache;
+struct Scene;
+}  // namespace firstcontact
+
+namespace firstcontact::detail {
+
+/// Puts one body in place of each robot, behind the bodies of the scene: a mesh of the triangles of
+/// all its links.
+///
+/// The body has the name of the robot, and the frame of its root link. Its vertices are rounded to
+/// doubles, which define it from then on. Curved geometries become the triangles that enclose them:
+/// those of cylinders and cones, and for spheres those of make_ellipsoid. It is solid where all of
+/// its geometries are. Tools that are robots become tools that are bodies.
+///
+/// @param scene  with haptics
+/// @throws std::invalid_argument  names the robot: it moves, has dynamics, holds a body, has
+/// padding
+///         or tracking errors; or a rule for pairs is of some of its links only
+/// @throws as load_scene
+void make_robots_bodies(Scene& scene, ShapeCache& cache);
+
+}  // namespace firstcontact::detail
