@@ -219,12 +219,19 @@ def test_bad_arguments_are_errors(arm, scene):
         scene.ignore("pst", "arm")
     with pytest.raises(TypeError):
         fc.RobotScene(arm, state=3)
-    flag = fc.move_vertices(fc.Shape(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])),
-                            [[0, 0, 1], [1, 0, 1], [0, 1, 1]])
-    scene.add_body("flag", flag.shape, flag.motion)
+
+
+def test_bodies_that_deform_meet_the_arm(arm, scene):
+    sheet = fc.Shape(([[3, 0, 1], [-3, 3, 1], [-3, -3, 1], [0, 0, 1]], [[0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    flag = fc.move_vertices(sheet, [[3, 0, 1], [-3, 3, 1], [-3, -3, 1], [0, 0, -1]])
+    scene.add_body("flag", *flag)
+    still = fc.Trajectory(["elbow"], [0, 1], [[0], [0]])
+    answer = scene.check(still, all_pairs=True)
+    times = [pair.t for pair in answer.pairs if "flag" in pair.names and pair.verdict == "contact"]
+    assert times and 0.4 < min(times) <= 0.5
     scene.attach("flag", "tip")
     with pytest.raises(ValueError, match="'flag' deforms; a link holds rigid bodies only"):
-        scene.check(fc.Trajectory(["elbow"], [0, 1], [[0], [1]]))
+        scene.check(still)
 
 
 @pytest.mark.parametrize(("make", "complaint"), [
