@@ -1,14 +1,17 @@
 // The claims of a result: all that was written of it, and by name what is no claim.
 
+#include <array>
 #include <limits>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <firstcontact/many_bodies/many_bodies.h>
 #include <firstcontact/scene/check_scene.h>
+#include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/shape_cache.h>
 #include <firstcontact/scene/version.h>
 #include <firstcontact/scene_files/read_claims.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -82,6 +85,20 @@ TEST(ReadClaims, OfNoPairAreOfNoContact) {
   EXPECT_EQ(claims.pairs, std::nullopt);  // They were not asked for.
   EXPECT_EQ(claims.clearance, std::numeric_limits<double>::infinity());
   EXPECT_EQ(claims.tested, 0u);
+}
+
+// A scene that is put together in a program has no text, and so no digest of one.
+TEST(ReadClaims, AreReadOfASceneWithoutText) {
+  Scene scene;
+  scene.bodies = {{.name = "ball", .shape = {.source = SphereShape{1.0}}, .motion = {}}};
+  ShapeCache cache;
+  const LoadedScene loaded = load_scene(scene, cache);
+  ManyBodiesWorkspace workspace;
+  const std::string text = write_result(loaded, check_scene(loaded, workspace));
+  EXPECT_NE(text.find(R"("scene_digest":"")"), std::string::npos);
+  const ResultClaims claims = read_claims(text, "r.json");
+  EXPECT_EQ(claims.scene.text_digest, "");
+  EXPECT_EQ(claims.has_own_scene, true);
 }
 
 /// The result of the fall with `from` replaced by `to`.
