@@ -217,6 +217,7 @@ class SceneBits {
   void add(const Surface& surface) {
     add(surface.friction);
     add(surface.restitution);
+    add(surface.velocity);
   }
   void add(const JointMotor& motor) {
     add(static_cast<double>(motor.kind));
@@ -249,6 +250,7 @@ class SceneBits {
     add(simulation.gravity);
     add(simulation.friction);
     add(simulation.restitution);
+    add(static_cast<double>(simulation.impacts));
     add(simulation.contact_distance);
     add(static_cast<double>(simulation.events));
     for (const PairSurface& pair : simulation.pairs) {

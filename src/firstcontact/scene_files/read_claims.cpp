@@ -72,7 +72,12 @@ class ClaimsReader {
 
   [[nodiscard]] std::string text_or_empty(const JsonObject& object, std::string_view key) const {
     const JsonValue* value = find(object, key);
-    return value == nullptr ? "" : reader_.string(*value, "a string");
+    if (value == nullptr) {
+      return "";
+    }
+    // A scene that no text was read for has an empty digest.
+    const auto* text = std::get_if<std::string>(&value->value);
+    return text != nullptr ? *text : reader_.string(*value, "a string");
   }
 
   [[nodiscard]] Verdict verdict(const JsonValue& object) const {

@@ -356,9 +356,13 @@ Scene parse_embedded_scene(std::string_view text, const std::string& name, std::
   if (scene == nullptr) {
     throw ParseError(name, first_line, "expected an object with a \"scene\"");
   }
+  const std::string own = "scene";
   try {
-    return parse_scene(detail::write_json(*scene), "scene", 1, options);
+    return parse_scene(detail::write_json(*scene), own, 1, options);
   } catch (const ParseError& error) {
+    if (error.path() != own) {
+      throw;  // A file that the scene names is wrong.
+    }
     throw ParseError(name, scene->line, "scene: " + error.message());
   }
 }

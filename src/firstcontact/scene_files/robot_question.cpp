@@ -42,6 +42,7 @@ class SceneBuilder {
 
   Scene build() {
     SceneRobot robot = read_robot();
+    robot_name_ = robot.name;
     take_motion(robot);
     for (const std::filesystem::path& file : question_.environment) {
       add_environment(file, robot);
@@ -216,8 +217,10 @@ class SceneBuilder {
 
   void add(Body body) {
     const auto is_taken = [&](const std::string& name) {
-      return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                         [&](const Body& other) { return other.name == name; });
+      const auto has_name = [&](const auto& other) { return other.name == name; };
+      return name == robot_name_ ||
+             std::any_of(scene_.bodies.begin(), scene_.bodies.end(), has_name) ||
+             std::any_of(scene_.groups.begin(), scene_.groups.end(), has_name);
     };
     const std::string name = body.name;
     for (int k = 2; is_taken(body.name); ++k) {
@@ -236,6 +239,12 @@ class SceneBuilder {
     if (!scene_.bodies.empty()) {
       throw ParseError(file.string(),
                        "expected a scene as the first of the surroundings: its rules go by bodies");
+    }
+    const auto has_name = [&](const auto& other) { return other.name == robot_name_; };
+    if (std::any_of(around.bodies.begin(), around.bodies.end(), has_name) ||
+        std::any_of(around.groups.begin(), around.groups.end(), has_name)) {
+      throw ParseError(file.string(), "expected no body or group " + in_quotes(robot_name_) +
+                                          ", as the robot has this name; rename it");
     }
     scene_.file_reports.push_back(detail::surroundings_report(file, "scene", around.bodies.size()));
     around_ = file;
@@ -364,6 +373,7 @@ class SceneBuilder {
 
   const RobotQuestion& question_;
   Scene scene_;
+  std::string robot_name_;
   std::string texts_;
   std::vector<AllowedCollisions> allowed_;
   std::map<std::size_t, std::string> ids_;  // Of bodies that are parts of planning scenes.

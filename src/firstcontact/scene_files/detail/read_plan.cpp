@@ -152,8 +152,11 @@ class PlanReader {
         scene_.robots.empty() ? "the name of a body" : "the name of a body, or robot/link";
     const std::string& name = read_.string(value, what);
     const auto found = names.find(name);
-    if (found == names.end() || found->second.kind != Named::Kind::member) {
+    if (found == names.end()) {
       read_.fail(value, "expected " + what + ", got " + in_quotes(name) + hint(names, name));
+    }
+    if (found->second.kind != Named::Kind::member) {
+      read_.fail(value, "expected " + what + ", got the robot or group " + in_quotes(name));
     }
     return found->second.index;
   }

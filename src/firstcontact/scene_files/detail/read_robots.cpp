@@ -51,7 +51,7 @@ class RobotReader {
       robot.srdf_digest = sha256(text);
     }
     robot.base = base(object);
-    take_motion(object, robot);
+    take_motion(value, object, robot);
     if (const JsonValue* attached = find(object, "attached")) {
       for (const JsonValue& element : read_.array(*attached, "an array of attached bodies")) {
         robot.attached.push_back(attachment(element, robot));
@@ -132,7 +132,7 @@ class RobotReader {
     }
   }
 
-  void take_motion(const JsonObject& object, SceneRobot& robot) const {
+  void take_motion(const JsonValue& value, const JsonObject& object, SceneRobot& robot) const {
     if (const JsonValue* trajectory = find(object, "trajectory")) {
       take_trajectory(*trajectory, robot);
       take_turning(object, robot);
@@ -149,7 +149,11 @@ class RobotReader {
     } catch (const std::invalid_argument& error) {
       const JsonValue* trajectory = find(object, "trajectory");
       const JsonValue* state = find(object, "state");
-      read_.fail(trajectory != nullptr ? *trajectory : *state, error.what());
+      // With neither, a joint rests at a limit that no motion can have.
+      read_.fail(trajectory != nullptr ? *trajectory
+                 : state != nullptr    ? *state
+                                       : value,
+                 error.what());
     }
   }
 
