@@ -177,13 +177,19 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   StillDevice device;
   Device* const devices[] = {&device};
   HapticSessionOptions options{.force_rate = 500.0, .contact_rate = 100.0};
+  options.forces.limits.fresh_ns = 5'000'000'000;  // Longer than a busy machine needs.
+  options.forces.limits.stale_ns = 6'000'000'000;
   std::uint64_t ticks = 0;
   std::uint64_t cycles = 0;
+  std::uint64_t stale = 0;
   double greatest = 0.0;
   const WallSessionReport report = run_wall_session(
       cube_on_floor(), options, devices, {.duration = 0.1, .real_time = false},
       [&](const ForceTick& tick) {
         ++ticks;
+        EXPECT_GE(tick.age_ns, 0);
+        stale +=
+            (tick.tools[0].faults & static_cast<std::uint32_t>(ForceFault::stale)) != 0 ? 1 : 0;
         greatest = std::max(greatest, tick.tools[0].command.force_D.norm());
       },
       [&](const HapticCycle& cycle, std::int64_t) {
@@ -192,6 +198,7 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
       });
   EXPECT_EQ(ticks, report.ticks);
   EXPECT_EQ(cycles, report.cycles);
+  EXPECT_EQ(stale, 0U);  // Not even the first ticks, before a cycle is over.
   EXPECT_EQ(report.unread_ticks, 0U);
   EXPECT_EQ(report.tick_cpu.count(), report.ticks);
   EXPECT_GE(report.ticks + report.skipped_ticks, 49U);

@@ -244,6 +244,16 @@ void hand_over(SharedSession& shared, const std::function<void(const ForceTick&)
   }
 }
 
+/// Puts the contacts at the start, as of a tick before the first one: that has no set else, and
+/// would be stale.
+void put_contacts_at_start(const ContactLoop& contacts, std::int64_t duration_ns,
+                           std::int64_t period_ns, SharedSession& shared) {
+  HapticContactSet set = contacts.contact_set();
+  set.stamp_ns = steady_now_ns() + std::min(kEmptyNs, duration_ns) - period_ns;
+  set.checksum = checksum_of(set);
+  shared.sets.put(set);
+}
+
 /// Ends both threads, whatever the caller's functions throw.
 class RunningThreads {
  public:
@@ -289,6 +299,7 @@ WallSessionReport run_wall_session(
   report.granted.locked_memory = wall.real_time && detail::lock_memory();
   {
     const auto duration_ns = static_cast<std::int64_t>(1e9 * wall.duration);
+    put_contacts_at_start(contacts, duration_ns, periods.force_ns, *shared);
     ForceThread force(*shared, forces, devices, periods.force_ns, duration_ns, wall.real_time,
                       report);
     ContactThread contact(*shared, contacts, periods.cycle_ns, wall, report);
