@@ -60,6 +60,23 @@ def test_is_proven_by_its_record(tmp_path):
     assert proof.steps == 100
 
 
+def test_feels_with_a_robot_in_one_posture(arm_folder):
+    scene = {
+        "firstcontact": 1,
+        "bodies": [SCENE["bodies"][0]],
+        "robots": [{"name": "arm", "urdf": str(arm_folder / "arm.urdf"), "state": {"elbow": 0.5},
+                    "base": {"position": [0, 0, 0.12]}}],
+        "haptics": {"tools": [{"robot": "arm"}]},
+    }
+    session = fc.HapticSession(scene)
+    tick = press(session, 0.03)
+    assert tick.forces[0, 2] > 1.0
+    assert session.poses[0].position[2] > 0.1  # The ball at the tip rests on the floor.
+    scene["robots"][0]["padding"] = 0.1
+    with pytest.raises(ValueError, match='robot "arm": expected no "padding"'):
+        fc.HapticSession(scene)
+
+
 def test_refuses_what_makes_no_sense():
     with pytest.raises(ValueError, match="haptics"):
         fc.HapticSession({key: value for key, value in SCENE.items() if key != "haptics"})
