@@ -227,7 +227,7 @@ def test_bodies_that_deform_meet_the_arm(arm, scene):
     scene.add_body("flag", *flag)
     still = fc.Trajectory(["elbow"], [0, 1], [[0], [0]])
     answer = scene.check(still, all_pairs=True)
-    times = [pair.t for pair in answer.pairs if "flag" in pair.names and pair.verdict == "contact"]
+    times = [pair.t for pair in answer.pairs if "flag" in pair.pair and pair.verdict == "contact"]
     assert times and 0.4 < min(times) <= 0.5
     scene.attach("flag", "tip")
     with pytest.raises(ValueError, match="'flag' deforms; a link holds rigid bodies only"):

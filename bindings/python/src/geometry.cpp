@@ -342,7 +342,8 @@ py::object move(const Shape& shape, const py::object& to) {
   const Eigen::Vector3d translation = body.X_WS.pose(1.0).position;
   RecordedMotion motion{
       std::move(body.X_WS), "constant_velocity",
-      py::make_tuple(Pose{}, py::make_tuple(translation.x(), translation.y(), translation.z()))};
+      py::make_tuple(Pose{}, py::make_tuple(translation.x(), translation.y(), translation.z()),
+                     py::make_tuple(0.0, 0.0, 0.0))};
   return py::module_::import("firstcontact._tuples")
       .attr("MovingShape")(std::move(body.shape), std::move(motion));
 }
