@@ -35,6 +35,8 @@ export class Run {
   readonly greatestForces: readonly number[];
   /// Whether there was any energy or force: the way of a haptic tool has neither.
   readonly hasDynamics: boolean;
+  /// What the events of a step are: a haptic tool has none but the rounds of its contact loop.
+  readonly eventName: "Impacts" | "Rounds";
   /// [W] Of all motors together in each step, negative where they brake; none without motors.
   readonly motorPowers: readonly number[] | null;
 
@@ -54,6 +56,7 @@ export class Run {
     this.hasDynamics =
       this.greatestForces.some(Boolean) ||
       steps.some((step) => step.kinetic_energy !== 0 || step.potential_energy !== 0);
+    this.eventName = this.hasDynamics ? "Impacts" : "Rounds";
     this.impacts = steps.flatMap((_, step) => this.impactsIn(step)).sort((a, b) => a.t - b.t);
     const hasMotors = steps.some(({ robots }) =>
       robots?.some(({ efforts }) => efforts.some(Boolean)),

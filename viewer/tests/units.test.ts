@@ -160,6 +160,7 @@ describe("a run", () => {
     expect(names).not.toContain("kinetic energy");
     expect(names).not.toContain("greatest contact force");
     expect(verdictOf({ result: null, run: felt } as never).text).toBe("Recorded");
+    expect(felt.eventName).toBe("Rounds");
     expect(verdictOf({ result: null, run: run(still, still) } as never).text).toBe("Simulated");
   });
 });

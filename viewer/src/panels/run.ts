@@ -25,7 +25,7 @@ function facts(model: Model, run: Run): [string, string][] {
     ...(clearances.length > 0
       ? [["Apart", `≥ ${lengthText(least(clearances), 4, { down: true })}`] as [string, string]]
       : []),
-    ["Impacts", String(sum(steps.map(({ events }) => events)))],
+    [run.eventName, String(sum(steps.map(({ events }) => events)))],
     ...(impulses.length > 0
       ? [["Greatest impact", impulseText(most(impulses))] as [string, string]]
       : []),
@@ -37,7 +37,14 @@ function facts(model: Model, run: Run): [string, string][] {
         ] as [string, string][])
       : []),
     ["Time lost", lost > 0 ? timeText(lost) : "none"],
-    ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`],
+    ...(run.hasDynamics
+      ? [
+          ["Residual", `≤ ${number(most(steps.map(({ residual }) => residual)), 2)} m/s`] as [
+            string,
+            string,
+          ],
+        ]
+      : []),
     ["Triangles", model.triangleCount.toLocaleString("en").replaceAll(",", " ")],
   ];
 }

@@ -152,7 +152,7 @@ const dynamic = (run: Run): RunChart[] =>
 export const runCharts = (run: Run): RunChart[] => [
   ...dynamic(run),
   amount(run, "contacts", ones, (_, k) => run.contactCount(k)),
-  amount(run, "impacts", ones, ({ events }) => events),
+  amount(run, run.eventName.toLowerCase(), ones, ({ events }) => events),
   ...impulse(run),
   ...power(run),
   ...clearance(run),

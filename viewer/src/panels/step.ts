@@ -34,7 +34,7 @@ function facts(run: Run, index: number): [string, string][] {
       "Apart",
       step.clearance === null ? "one body" : `≥ ${lengthText(step.clearance, 4, { down: true })}`,
     ],
-    ["Impacts", String(step.events)],
+    [run.eventName, String(step.events)],
     ...(run.hasDynamics
       ? ([
           ["Greatest contact force", forceText(run.greatestForces[index]!)],
@@ -42,9 +42,9 @@ function facts(run: Run, index: number): [string, string][] {
           ["Potential energy", energyText(step.potential_energy)],
           ["Momentum", sizeText(step.linear_momentum, "kg m/s")],
           ["Angular momentum", sizeText(step.angular_momentum, "kg m²/s")],
+          ["Residual", `${number(step.residual, 2)} m/s`],
         ] as [string, string][])
       : []),
-    ["Residual", `${number(step.residual, 2)} m/s`],
   ];
 }
 
