@@ -216,6 +216,26 @@ TEST(EmbeddedScene, NamesTheFileThatIsWrong) {
   EXPECT_EQ(embedded, said([&] { return parse_scene(write_scene(scene), "s"); }));
 }
 
+// It was written in a folder above its own, and is read in another one.
+TEST(EmbeddedScene, IsReadInAnotherFolder) {
+  const test::ArmFolder folder;
+  const std::string text =
+      R"({"scene": {"firstcontact": 1, "robots": [{"name": "r", "urdf": "arm.urdf",
+      "package_roots": ["."]}]}})";
+  const std::string file = (folder.path() / "out" / "deep" / "run.jsonl").string();
+  const Scene scene = parse_embedded_scene(text, file);
+  EXPECT_EQ(scene.robots.at(0).file.urdf, folder.path() / "arm.urdf");
+  EXPECT_EQ(
+      message_of<ParseError>([&] {
+        (void)parse_embedded_scene(
+            R"({"scene": {"firstcontact": 1, "robots": [{"name": "r", "urdf": "leg.urdf"}]}})",
+            file);
+      }),
+      file +
+          ":1: scene: robots[0].urdf: expected a URDF file, found none at \"leg.urdf\", "
+          "nor from a folder above this file");
+}
+
 TEST(SimulationScenes, AreReadAsLenientAsAsked) {
   const std::string text = test::scene(test::body("a"));
   EXPECT_FALSE(parse_simulation_scene(text, "s").options.lenient);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -59,11 +60,10 @@ void require_version(const JsonValue& root, const JsonReader& read) {
   }
 }
 
-SceneFolders read_folders(const JsonObject& scene, const std::filesystem::path& source,
-                          const JsonReader& read) {
-  SceneFolders folders{.scene = source.parent_path(), .package_roots = {}};
+SceneFolders with_package_roots(SceneFolders folders, const JsonObject& scene,
+                                const JsonReader& read) {
   if (const JsonValue* roots = find(scene, "package_roots")) {
-    folders.package_roots = detail::read_package_roots(*roots, folders.scene, read);
+    folders.package_roots = detail::read_package_roots(*roots, folders, read);
   }
   return folders;
 }
@@ -298,7 +298,7 @@ const JsonObject* take_options(const JsonObject& object, bool lenient, Scene& sc
   return given;
 }
 
-Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const JsonReader& read,
+Scene to_scene(const JsonValue& root, const SceneFolders& folders, const JsonReader& read,
                const ReadingOptions& options) {
   require_version(root, read);
   const JsonObject& object =
@@ -310,7 +310,7 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
     scene.id = text != nullptr ? *text : read.string(*id, "a string");
   }
   const JsonObject* given = take_options(object, options.lenient, scene, read);
-  read_members(root, object, read_folders(object, source, read), scene, read);
+  read_members(root, object, with_package_roots(folders, object, read), scene, read);
   if (const JsonValue* pairs = find(object, "pairs")) {
     detail::read_pairs(*pairs, scene, read);
   }
@@ -333,19 +333,35 @@ Scene to_scene(const JsonValue& root, const std::filesystem::path& source, const
   return scene;
 }
 
-}  // namespace
-
-Scene parse_scene(std::string_view text, const std::filesystem::path& source,
-                  std::size_t first_line, const ReadingOptions& options) {
+Scene parse_in(const SceneFolders& folders, std::string_view text, const std::string& name,
+               std::size_t first_line, const ReadingOptions& options) {
   const FloatEnvironmentGuard guard;
-  const std::string name = source.string();
   const JsonValue root = detail::parse_json(text, name, first_line);
-  Scene scene = to_scene(root, source, JsonReader(root, name), options);
+  Scene scene = to_scene(root, folders, JsonReader(root, name), options);
   const std::string own_digest = detail::sha256(text);
   scene.text_digest = scene.text_digest.empty()
                           ? own_digest
                           : detail::sha256(own_digest + '\n' + scene.text_digest);
   return scene;
+}
+
+/// The folder of a file, and all above it.
+std::vector<std::filesystem::path> folders_above(const std::string& file) {
+  std::vector<std::filesystem::path> folders;
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::absolute(file, error).parent_path();
+  while (!error && !folder.empty() && (folders.empty() || folder != folders.back())) {
+    folders.push_back(folder);
+    folder = folder.parent_path();
+  }
+  return folders;
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::filesystem::path& source,
+                  std::size_t first_line, const ReadingOptions& options) {
+  return parse_in({.scene = source.parent_path()}, text, source.string(), first_line, options);
 }
 
 Scene parse_embedded_scene(std::string_view text, const std::string& name, std::size_t first_line,
@@ -358,7 +374,8 @@ Scene parse_embedded_scene(std::string_view text, const std::string& name, std::
   }
   const std::string own = "scene";
   try {
-    return parse_scene(detail::write_json(*scene), own, 1, options);
+    return parse_in({.scene = {}, .others = folders_above(name)}, detail::write_json(*scene), own,
+                    1, options);
   } catch (const ParseError& error) {
     if (error.path() != own) {
       throw;  // A file that the scene names is wrong.

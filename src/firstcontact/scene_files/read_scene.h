@@ -42,10 +42,11 @@ namespace firstcontact {
                                                  const ReadingOptions& options = {});
 
 /// The scene under the key "scene" of a JSON object, as results and runs embed it. Its paths are as
-/// they were opened, not relative to the object's file.
+/// they were opened, not relative to the object's file. What is not there is looked for from the
+/// folder of that file, then from those above it, so that a file can be read in another folder.
 ///
 /// @param text  one JSON object; its other keys may be anything
-/// @param name  the file that the text is from, for errors
+/// @param name  the file that the text is from
 /// @throws ParseError  as read_scene, or if there is no scene
 [[nodiscard]] FIRSTCONTACT_API Scene parse_embedded_scene(std::string_view text,
                                                           const std::string& name,

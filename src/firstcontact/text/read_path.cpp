@@ -17,6 +17,26 @@ bool is_file(const std::filesystem::path& path) {
          std::filesystem::is_regular_file(path, error);
 }
 
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  return path.native().find('\0') == std::string::npos &&
+         std::filesystem::is_directory(path, error);
+}
+
+/// The path from where the scene is; or from the first other folder where it is, if any.
+template <class Is>
+std::filesystem::path opened(const std::string& name, const SceneFolders& folders, const Is& is) {
+  std::filesystem::path path = folders.scene / name;
+  if (!is(path)) {
+    for (const std::filesystem::path& other : folders.others) {
+      if (is(other / name)) {
+        return other / name;
+      }
+    }
+  }
+  return path;
+}
+
 std::filesystem::path find_in_packages(const JsonValue& value, const std::string& uri,
                                        const SceneFolders& folders, const JsonReader& read) {
   const std::string below = uri.substr(kPackage.size());
@@ -37,11 +57,11 @@ std::filesystem::path find_in_packages(const JsonValue& value, const std::string
 }  // namespace
 
 std::vector<std::filesystem::path> read_package_roots(const JsonValue& value,
-                                                      const std::filesystem::path& scene,
+                                                      const SceneFolders& folders,
                                                       const JsonReader& read) {
   std::vector<std::filesystem::path> roots;
   for (const JsonValue& root : read.array(value, "an array of folders")) {
-    roots.push_back(scene / read.string(root, "a folder"));
+    roots.push_back(opened(read.string(root, "a folder"), folders, is_folder));
   }
   return roots;
 }
@@ -52,9 +72,10 @@ std::filesystem::path read_path(const JsonValue& value, const std::string& what,
   if (name.starts_with(kPackage)) {
     return find_in_packages(value, name, folders, read);
   }
-  std::filesystem::path path = folders.scene / name;
+  std::filesystem::path path = opened(name, folders, is_file);
   if (!is_file(path)) {
-    read.fail(value, "expected " + what + ", found none at " + write_json(path.string()));
+    read.fail(value, "expected " + what + ", found none at " + write_json(path.string()) +
+                         (folders.others.empty() ? "" : ", nor from a folder above this file"));
   }
   return path;
 }

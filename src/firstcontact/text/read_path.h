@@ -13,15 +13,17 @@ namespace firstcontact::detail {
 
 /// Where the paths of a scene begin.
 struct SceneFolders {
-  std::filesystem::path scene;                       ///< Relative paths begin here.
-  std::vector<std::filesystem::path> package_roots;  ///< As opened. For "package://name/...".
+  std::filesystem::path scene;                            ///< Relative paths begin here...
+  std::vector<std::filesystem::path> others = {};         ///< ...or in the first that has the file.
+  std::vector<std::filesystem::path> package_roots = {};  ///< As opened. For "package://name/...".
 };
 
 /// An array of folders, as they are to be opened.
 ///
-/// @param scene  where relative paths begin
-[[nodiscard]] std::vector<std::filesystem::path> read_package_roots(
-    const JsonValue& value, const std::filesystem::path& scene, const JsonReader& read);
+/// @param folders  where relative paths begin
+[[nodiscard]] std::vector<std::filesystem::path> read_package_roots(const JsonValue& value,
+                                                                    const SceneFolders& folders,
+                                                                    const JsonReader& read);
 
 /// The path of a file that must exist, as it is to be opened.
 ///

@@ -77,7 +77,7 @@ class RobotReader {
     RobotFile file{.urdf = read_path(read_.member(value, "urdf"), "a URDF file", folders_, read_),
                    .package_roots = folders_.package_roots};
     if (const JsonValue* roots = find(object, "package_roots")) {
-      file.package_roots = read_package_roots(*roots, folders_.scene, read_);
+      file.package_roots = read_package_roots(*roots, folders_, read_);
     }
     if (const JsonValue* surface = find(object, "surface")) {
       file.surface = read_.enumerator<RobotSurface>(*surface, kRobotSurfaceWords);
