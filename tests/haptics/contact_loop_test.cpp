@@ -81,8 +81,6 @@ TEST(ContactLoop, RestsOnTheFloorWithinTheContactDistance) {
   EXPECT_EQ(loop.contact_set().checksum, checksum_of(loop.contact_set()));
 }
 
-// 5 m/s through a plate of 0.1 mm, at a thousand cycles a second: 5 mm a cycle.
-
 /// A needle that is turned while it is pressed flat onto a plate: its ends touch in turn.
 TEST(ContactLoop, KeepsItsDistanceWhereATurningToolIsPressedFlat) {
   HapticScene scene;
@@ -108,6 +106,7 @@ TEST(ContactLoop, KeepsItsDistanceWhereATurningToolIsPressedFlat) {
   }
 }
 
+// 5 m/s through a plate of 0.1 mm, at a thousand cycles a second: 5 mm a cycle.
 TEST(ContactLoop, StopsAtAThinPlateHoweverFast) {
   HapticScene scene;
   scene.tools.push_back(tool_at("ball", make_sphere(0.01), {0.0, 0.0, 0.05}));

@@ -10,6 +10,8 @@
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/haptics/detail/pair_proof.h>
 
+#include "support/random.h"
+
 namespace firstcontact::detail {
 namespace {
 
@@ -38,6 +40,32 @@ TEST(PairProof, AWedgedToolMovesWhereItComesNoNearer) {
   EXPECT_EQ(proven_part(wedged, {0.1, 0.0, -1e-10}).t, 0.0);
   EXPECT_EQ(proven_part(wedged, {0.0, 0.0, 1e-12}, {1e-9, 0.0, 0.0}).t, 0.0);  // An edge sinks.
   EXPECT_EQ(proven_part(wedged, {0.0, 0.0, -0.1}).t, 0.0);
+}
+
+/// A cube that slides along a plate, and one that rests on it while another one moves: anywhere.
+TEST(PairProof, RoundingAloneHoldsNoTool) {
+  const double wedged = 1e-3 * kDistance;
+  const std::vector<HapticMember> members = {{.shape = make_box({9.0, 9.0, 2.0}), .reach = 6.5},
+                                             {.shape = make_box({2.0, 2.0, 2.0}), .reach = 1.8},
+                                             {.shape = make_box({2.0, 2.0, 2.0}), .reach = 1.8}};
+  Workspace workspace;
+  FirstContactResult scratch;
+  test::Random random(5);
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Quaterniond turn = random.rotation();
+    const Vector3d origin = 10.0 * random.direction();
+    const auto placed = [&](const Vector3d& p) { return Pose{origin + turn * p, turn}; };
+    const std::array<Motion, 3> motions = {
+        Motion::fixed(placed(Vector3d::Zero())),
+        k % 2 == 0 ? Motion::fixed(placed({0.0, 0.0, 2.0 + wedged}))
+                   : Motion::constant_velocity(placed({0.0, 0.0, 2.0 + wedged}),
+                                               turn * Vector3d(0.1, 0.2, 0.0)),
+        Motion::constant_velocity(placed({0.0, 0.0, 20.0}), turn * Vector3d(0.0, 0.0, -1.0))};
+    const std::array<HapticPair, 2> pairs = {
+        {{.members = {0, 1}, .gap = wedged * (1.0 + 1e-7)},
+         {.members = {0, 2}, .gap = std::numeric_limits<double>::infinity()}}};
+    EXPECT_EQ(prove_plan(members, motions, pairs, kDistance, {}, workspace, scratch).t, 1.0) << k;
+  }
 }
 
 TEST(PairProof, AnotherOneMayComeNearerToItsShare) {

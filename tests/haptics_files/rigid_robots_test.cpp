@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include <firstcontact/geometry/hierarchy.h>
 #include <firstcontact/geometry/primitives.h>
 #include <firstcontact/haptics_files/haptic_run.h>
 #include <firstcontact/haptics_files/haptic_setup.h>
@@ -128,6 +129,51 @@ TEST_F(RigidRobots, AreFeltAndProven) {
     const RunVerification proof = verify_run(reader.header(), [&] { return reader.next(); });
     EXPECT_EQ(proof.verdict, RunVerdict::proven) << is_tool << ": " << proof.problem;
   }
+}
+
+/// The links are solid, but their mesh with an open one is not.
+TEST_F(RigidRobots, AreRefusedWhereAToolStartsInsideALink) {
+  folder_.write("open.obj", "v 0 0 2\nv 1 0 2\nv 0 1 2\nf 1 2 3\n");
+  folder_.write("mixed.urdf", R"(<robot name="mixed">
+      <link name="a"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+      <link name="b"><collision><geometry><mesh filename="open.obj"/></geometry></collision></link>
+      <joint name="weld" type="fixed"><parent link="a"/><child link="b"/></joint></robot>)");
+  const auto scene_with_ball_at = [&](const std::string& z) {
+    return parse_scene(R"({"firstcontact": 1, "bodies": [{"name": "ball",
+        "shape": {"sphere": {"radius": 0.1}}, "pose": {"position": [0, 0, )" +
+                           z + R"(]}}], "robots": [{"name": "mixed", "urdf": "mixed.urdf"}],
+        "haptics": {"tools": [{"body": "ball"}]}})",
+                       folder_.path() / "scene.json");
+  };
+  ShapeCache cache;
+  Scene inside = scene_with_ball_at("0.1");
+  EXPECT_EQ(
+      test::message_of<std::invalid_argument>([&] { prepare_haptics(inside, cache, 1.0); }),
+      "haptics: \"ball\" and \"mixed/a\" meet at the start; expected tools that are free there");
+  Scene outside = scene_with_ball_at("0.7");
+  EXPECT_NO_THROW(prepare_haptics(outside, cache, 1.0));
+}
+
+/// A capsule of no length is a sphere; warnings come once.
+TEST_F(RigidRobots, TakeCapsulesOfNoLengthAndWarnOnce) {
+  folder_.write("dot.urdf", R"(<robot name="dot"><link name="a"><collision><geometry>
+      <capsule radius="0.1" length="0"/></geometry></collision></link>
+      <link name="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint>
+      </robot>)");
+  Scene scene = parse_scene(R"({"firstcontact": 1, "bodies": [{"name": "hill",
+      "shape": {"vertices": [[9000, 0, -3], [0, 9000, -3], [-9000, -9000, -3]],
+      "triangles": [[0, 1, 2]]}}],
+      "robots": [{"name": "dot", "urdf": "dot.urdf"}], "haptics": {"tools": [{"robot": "dot"}]}})",
+                            folder_.path() / "scene.json");
+  ShapeCache cache;
+  prepare_haptics(scene, cache, 1.0);
+  const LoadedScene loaded = load_scene(std::move(scene), cache);
+  EXPECT_NEAR(loaded.bodies.shape(1).hierarchy().radius, 0.1, 1e-3);
+  const auto is_of_hill = [](const std::string& warning) {
+    return warning.find("hill") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(loaded.warnings, is_of_hill), 1);
+  EXPECT_EQ(loaded.warnings.size(), 2U);  // And of the joint, which nothing places.
 }
 
 TEST_F(RigidRobots, KeepTheRulesOfWholeRobots) {

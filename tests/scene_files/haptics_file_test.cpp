@@ -127,7 +127,7 @@ TEST(HapticsFile, SaysWhatIsWrongWithATool) {
        ".body: expected a body of the scene (\"plate\", \"peg\", \"belt\", \"loose\"), got "
        "\"peq\""},
       {R"("body": 1)", ".body: expected the name of a body, got 1"},
-      {R"("scale": 1)", ": expected a key \"body\", got none"},
+      {R"("scale": 1)", ": expected either \"body\" or \"robot\", got neither"},
       {R"("body": "belt")",
        ".body: expected a body with a \"pose\" alone: a device moves \"belt\""},
       {R"("body": "loose")",

@@ -35,6 +35,8 @@ inline constexpr double kLeastParting = 0.1;
 /// [-]  A pair that is nearer than this moves only where it ends no nearer: at a gap that rounding
 /// blurs nothing could be proven, not even that the tool is pulled out.
 inline constexpr double kFloorOfGap = 0.01;
+/// [-]  By this part of its gap it may come nearer nevertheless.
+inline constexpr double kSlackOfFloor = 1e-6;
 /// [-]  A tool that contacts press turns by no more in a round than brings its points this much
 /// nearer, in second order. Larger: more rounds end at a contact.
 inline constexpr double kSinkOfTurn = 0.3;

@@ -133,13 +133,18 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_within_turn(
   if (!(part < 1.0)) {
     return found;
   }
-  // The plan is made anew: a part of it would only part touches that are too near by that part,
-  // and what turns again and again would sink more than that.
-  for (Displacement& way : wanted) {
-    way.translation *= part;
-    way.rotation_vector *= part;
+  if (are_courses_moving_) {
+    for (Displacement& way : wanted) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
+    found = plan(wanted);
+  } else {
+    for (Displacement& way : found.displacements) {
+      way.translation *= part;
+      way.rotation_vector *= part;
+    }
   }
-  found = plan(wanted);
   found.is_shortened = true;
   return found;
 }
@@ -151,9 +156,11 @@ detail::GodObjectPlan ContactLoop::Implementation::plan_or_part(
   const bool is_near = std::ranges::any_of(touches_, [&](const HapticTouch& touch) {
     return touch.contact.gap < detail::kPartBelow * distance_;
   });
-  if (is_near && !are_courses_moving_) {
+  is_parting_ = false;
+  if (is_near && may_part_ && !are_courses_moving_) {
     detail::GodObjectPlan parting = plan({});
     if (gain_of(parting.displacements) > detail::kLeastParting * distance_) {
+      is_parting_ = true;
       parting.is_shortened = true;
       return parting;
     }
@@ -213,6 +220,7 @@ double ContactLoop::Implementation::execute(const detail::GodObjectPlan& plan, d
 
 void ContactLoop::Implementation::begin_cycle(double dt) {
   now_ = 0.0;
+  may_part_ = true;
   cycle_.index += 1;
   cycle_.asked = dt;
   cycle_.lasted = 0.0;
@@ -336,6 +344,10 @@ const HapticCycle& ContactLoop::Implementation::advance(std::span<const Pose> ta
     goes_on = made * gain_of(plan.displacements) > 1e-3 * least_gain ||
               (are_courses_moving_ && made > 0.0);
     goes_on = goes_on && !(is_there && !are_courses_moving_);
+    if (is_parting_ && made == 0.0) {  // The way of the device may lead out nevertheless.
+      may_part_ = false;
+      goes_on = true;
+    }
   }
   if (!are_courses_moving_) {
     rest_until(dt);

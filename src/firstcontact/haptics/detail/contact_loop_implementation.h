@@ -91,6 +91,8 @@ class ContactLoop::Implementation {
   std::vector<HapticTouch> touches_;
   std::vector<detail::PlannedTouch> planned_;
   detail::ToolFrames frames_;
+  bool may_part_ = true;         // No plan to part was in vain in this cycle.
+  bool is_parting_ = false;      // The plan only parts.
   double rest_clearance_ = 0.0;  // [m]  Proven where the members are.
   bool are_courses_moving_ = false;
   double now_ = 0.0;  // [s]  Since the cycle began.

@@ -47,11 +47,19 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
     proven.clearance = std::min(proven.clearance, held.margin);
   }
   const auto comes_nearer = [&](const HapticPair& pair) {
+    if (!(pair.gap < kFloorOfGap * contact_distance)) {
+      return false;
+    }
     const auto [other, tool] = pair.members;
-    return pair.gap < kFloorOfGap * contact_distance &&
-           distance({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
-                    proven.t, workspace)
-                   .distance < pair.gap;
+    const auto distance_at = [&](double t) {
+      return distance({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
+                      t, workspace)
+          .distance;
+    };
+    // Rounding alone must not hold a tool that slides or rests.
+    const double slack =
+        kSlackOfFloor * pair.gap + kRoundingOfPieces * (members[other].reach + members[tool].reach);
+    return distance_at(proven.t) < distance_at(0.0) - slack;
   };
   if (proven.t > 0.0 && std::ranges::any_of(pairs, comes_nearer)) {
     proven.t = 0.0;

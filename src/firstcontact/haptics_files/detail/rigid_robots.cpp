@@ -16,6 +16,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/query/distance.h>
 #include <firstcontact/robot_check/robot_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
@@ -69,8 +70,9 @@ void append_geometry(const Shape& shape, const Isometry3d& X_RG, Mesh& all) {
   for (const Vector3d& centre : mesh.vertices) {
     append(ball.mesh(), X_RG * Translation3d(centre), all);
   }
-  if (mesh.vertices.size() == 2) {
-    const Vector3d axis = mesh.vertices[1] - mesh.vertices[0];
+  const Vector3d axis =
+      mesh.vertices.size() == 2 ? Vector3d(mesh.vertices[1] - mesh.vertices[0]) : Vector3d(0, 0, 0);
+  if (axis.norm() > 0.0) {
     const Vector3d middle = 0.5 * (mesh.vertices[0] + mesh.vertices[1]);
     append(
         make_cylinder(r, axis.norm()).mesh(),
@@ -88,6 +90,7 @@ class RobotsAsBodies {
       : scene_(scene), loaded_(load_scene(scene, cache)), first_(scene.bodies.size()) {}
 
   void run() {
+    require_apart_at_start();
     for (std::size_t r = 0; r < scene_.robots.size(); ++r) {
       add(r);
     }
@@ -101,13 +104,82 @@ class RobotsAsBodies {
       }
     }
     std::move(bodies_.begin(), bodies_.end(), std::back_inserter(scene_.bodies));
+    take_warnings();
     scene_.robots.clear();
     scene_.text_digest = loaded_.input_digest;
-    scene_.warnings = loaded_.warnings;
     scene_.file_reports = loaded_.files;
   }
 
  private:
+  /// A mesh of links that are solid in part is a surface: what starts inside of a solid link would
+  /// not be noticed any more.
+  void require_apart_at_start() const {
+    const std::set<std::size_t> tools = members_of_tools();
+    for (std::size_t a = 0; a < loaded_.robots->size(); ++a) {
+      for (std::size_t b = a + 1; b < loaded_.robots->size(); ++b) {
+        const bool is_of_tool = tools.contains(a) || tools.contains(b);
+        const bool is_of_robot = std::max(a, b) >= first_;
+        if (is_of_tool && is_of_robot && !are_of_one_robot(a, b) &&
+            loaded_.robots->margin({a, b}) && meet_at_start(a, b)) {
+          throw std::invalid_argument("haptics: " + in_quotes(loaded_.robots->name(a)) + " and " +
+                                      in_quotes(loaded_.robots->name(b)) +
+                                      " meet at the start; expected tools that are free there");
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::set<std::size_t> members_of_tools() const {
+    std::set<std::size_t> members;
+    for (const HapticToolQuestion& tool : scene_.haptics->tools) {
+      if (!tool.robot) {
+        members.insert(tool.body);
+        continue;
+      }
+      const std::size_t links = scene_.robots[*tool.robot].model.links().size();
+      for (std::size_t k = 0; k < links; ++k) {
+        members.insert(loaded_.robots->first_member(*tool.robot) + k);
+      }
+    }
+    return members;
+  }
+
+  [[nodiscard]] bool are_of_one_robot(std::size_t a, std::size_t b) const {
+    const std::optional<RobotLink> link = loaded_.robots->robot_link(a);
+    const std::optional<RobotLink> other = loaded_.robots->robot_link(b);
+    return link && other && link->robot == other->robot;
+  }
+
+  [[nodiscard]] bool meet_at_start(std::size_t a, std::size_t b) const {
+    const RobotScene& robots = *loaded_.robots;
+    Workspace workspace;
+    for (std::size_t i = 0; i < robots.geometries(a).size(); ++i) {
+      const Motion X_WA = Motion::fixed(robots.geometry_pose(a, i, 0.0));
+      for (std::size_t k = 0; k < robots.geometries(b).size(); ++k) {
+        const Motion X_WB = Motion::fixed(robots.geometry_pose(b, k, 0.0));
+        const MovingShape A{robots.geometries(a)[i].shape, X_WA};
+        const MovingShape B{robots.geometries(b)[k].shape, X_WB};
+        if (distance(A, B, 0.0, workspace).distance <= 0.0) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Loading the bodies again gives its own warnings again: only those that it cannot give are
+  /// kept.
+  void take_warnings() {
+    for (const std::string& warning : loaded_.warnings) {
+      const auto is_of = [&](const SceneRobot& robot) {
+        return warning.starts_with(robot.name + ":");
+      };
+      if (std::any_of(scene_.robots.begin(), scene_.robots.end(), is_of)) {
+        scene_.warnings.push_back(warning);
+      }
+    }
+  }
+
   void add(std::size_t robot) {
     const RobotScene& robots = *loaded_.robots;
     const SceneRobot& described = scene_.robots[robot];

@@ -19,9 +19,9 @@ namespace firstcontact::detail {
 /// its geometries are. Tools that are robots become tools that are bodies.
 ///
 /// @param scene  with haptics
-/// @throws std::invalid_argument  names the robot: it moves, has dynamics, holds a body, has
-/// padding
-///         or tracking errors; or a rule for pairs is of some of its links only
+/// @throws std::invalid_argument  names the robot: it moves, has dynamics or tracking errors, is
+///         padded or holds a body; a rule for pairs is of some of its links only; or it meets a
+///         tool at the start
 /// @throws as load_scene
 void make_robots_bodies(Scene& scene, ShapeCache& cache);
 

@@ -66,8 +66,12 @@ class HapticsReader {
                  "device_axes", "handle", "begins_at_handle", "clutch_button", "dead_man_button"}});
     HapticToolQuestion tool;
     const JsonValue* robot = find(object, "robot");
-    if (robot != nullptr && find(object, "body") != nullptr) {
+    const bool has_body = find(object, "body") != nullptr;
+    if (robot != nullptr && has_body) {
       read_.fail(*robot, "expected either \"body\" or \"robot\", got both");
+    }
+    if (robot == nullptr && !has_body) {
+      read_.fail(value, "expected either \"body\" or \"robot\", got neither");
     }
     if (robot != nullptr) {
       tool.robot = robot_named(*robot, before);
