@@ -1,6 +1,7 @@
 #include <firstcontact/haptics/detail/pair_proof.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include <firstcontact/haptics/detail/constants.h>
@@ -50,7 +51,8 @@ ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Mot
     if (!(pair.gap < kFloorOfGap * contact_distance)) {
       return false;
     }
-    const auto [other, tool] = pair.members;
+    const std::size_t other = pair.members[0];
+    const std::size_t tool = pair.members[1];
     const auto distance_at = [&](double t) {
       return distance({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
                       t, workspace)
