@@ -14,8 +14,8 @@ struct Hierarchy;
 /// Points, one per row [m]: sums run along the columns.
 using PointRows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// A box and a polytope around all triangles, without the thickening; in the body frame. Of a shape
-/// that deforms they hold the triangles at all times of the step.
+/// A box and a polytope around all triangles, without the thickening; in the body frame. They
+/// hold the triangles of a shape that deforms at all times of the step.
 struct ShapeBounds {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< [m]  Of the box.
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< [-]  Of the box, one per row.

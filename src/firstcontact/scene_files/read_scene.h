@@ -42,8 +42,8 @@ namespace firstcontact {
                                                  const ReadingOptions& options = {});
 
 /// The scene under the key "scene" of a JSON object, as results and runs embed it. Its paths are as
-/// they were opened, not relative to the object's file. What is not there is looked for from the
-/// folder of that file, then from those above it, so that a file can be read in another folder.
+/// they were opened, not relative to the object's file. A file that is not there is looked for from
+/// the folder of the object's file, then from each folder above. So a run can be read anywhere.
 ///
 /// @param text  one JSON object; its other keys may be anything
 /// @param name  the file that the text is from

@@ -18,9 +18,9 @@ namespace firstcontact::detail {
 
 /// Loads the shape of a body and normalises its motion; one whose vertices move deforms.
 ///
-/// @param scene    has the duration and how files are read
-/// @param digests  the digest of what was read is added to it
-/// @param loaded   the account of a file is added to it
+/// @param scene    Has the duration and how files are read.
+/// @param digests  Takes the digest of what was read.
+/// @param loaded   Takes the account of a file.
 /// @throws ParseError if a file cannot be used, or has another number of vertices than move
 DeformingBody load_body(const Body& body, const Scene& scene, ShapeCache& cache,
                         std::string& digests, LoadedScene& loaded);
