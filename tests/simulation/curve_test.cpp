@@ -130,14 +130,14 @@ TEST(Curve, WhatSlidesInATubeKeepsItsEnergy) {
 // A disc rolls round on its rim without friction, its centre at rest (H. K. Moffatt, "Euler's disk
 // and its finite-time singularity", Nature 404, 2000): a thin disc of radius R that leans by a goes
 // round at the rate W, W^2 = 4 g / (R sin a), and turns about the line to its lowest point at
-// W sin a. Each step goes over more than two of its sides.
+// W sin a. A step goes over up to twenty-five of its sides.
 TEST(Curve, ADiscThatRollsOnItsRimKeepsItsEnergy) {
   constexpr double kRadius = 0.05;
   constexpr double kLean = 0.25;
   constexpr double kGap = 1e-6;
   const double I1 = 0.25 * kRadius * kRadius;  // [m^2]  Over the mass.
   const double rate = std::sqrt(9.81 / (I1 / kRadius * std::sin(kLean)));
-  for (const double step : {0.001, 0.0005}) {
+  for (const double step : {0.01, 0.004, 0.001, 0.0005}) {
     const double height = kRadius * std::sin(kLean) + 5e-4 * std::cos(kLean) + 5e-6;
     std::ostringstream dynamics;
     dynamics.precision(17);
@@ -152,7 +152,7 @@ TEST(Curve, ADiscThatRollsOnItsRimKeepsItsEnergy) {
                                   dynamics.str() + "}",
                               settings(step, 0.0, kGap)),
                     static_cast<std::size_t>(std::lround(0.3 / step)));
-    EXPECT_LT(kept.worst, 0.02 * kept.swing) << step;
+    EXPECT_LT(kept.worst, (step > 2e-3 ? 0.06 : 4e-3) * kept.swing) << step;
     EXPECT_TRUE(kept.is_proven) << step;
   }
 }

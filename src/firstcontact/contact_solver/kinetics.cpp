@@ -19,22 +19,12 @@ using Eigen::Vector3d;
 
 /// Beyond some thousands of sub-steps in a step a body spins faster than any result of it matters:
 /// it goes on about the same axis.
-constexpr double kSubStep = 0.1;  // [rad]
-constexpr int kMostSubSteps = 4096;
+constexpr double kSubStep = 0.04;  // [rad]
+constexpr int kMostSubSteps = 10240;
 
 constexpr int kIterations = 12;  // Each leaves about a twentieth.
 
 Matrix3d rotation(const Pose& X_WB) { return X_WB.rotation.normalized().toRotationMatrix(); }
-
-/// Whether every direction is a principal one: then the angular velocity is constant.
-bool is_isotropic(const Matrix3d& I) {
-  const double mean = I.trace() / 3.0;
-  return (I - mean * Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-9 * mean;
-}
-
-bool is_locked(const Inertia& inertia) {
-  return std::ranges::any_of(inertia.locked_rotation, [](bool lock) { return lock; });
-}
 
 /// The implicit midpoint rule on the angular velocity that the body sees,
 ///   I dW/dt = I W x W + torque,
@@ -99,6 +89,16 @@ FreeTurn locked_turn(const Inertia& inertia, const RigidState& state, const Vect
 
 }  // namespace
 
+bool is_isotropic(const Inertia& inertia) {
+  const Matrix3d& I = inertia.about_C_B;
+  const double mean = I.trace() / 3.0;
+  return (I - mean * Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-9 * mean;
+}
+
+bool is_locked(const Inertia& inertia) {
+  return std::ranges::any_of(inertia.locked_rotation, [](bool lock) { return lock; });
+}
+
 Vector3d centre_of_mass(const Inertia& inertia, const Pose& X_WB) {
   return X_WB.position + rotation(X_WB) * inertia.p_BC;
 }
@@ -135,14 +135,14 @@ double kinetic_energy(const Inertia& inertia, const RigidState& state) {
 
 Vector3d turned_along(const Inertia& inertia, const Vector3d& w_WB,
                       const Vector3d& rotation_vector) {
-  if (is_locked(inertia) || is_isotropic(inertia.about_C_B)) {
+  if (is_locked(inertia) || is_isotropic(inertia)) {
     return w_WB;
   }
   return turn(rotation_vector) * w_WB;
 }
 
 double tumbling_acceleration(const Inertia& inertia, const RigidState& state) {
-  if (is_isotropic(inertia.about_C_B)) {
+  if (is_isotropic(inertia)) {
     return 0.0;
   }
   const Vector3d momentum = rotational_inertia(inertia, state.X_WB) * state.w_WB;
@@ -153,7 +153,7 @@ double tumbling_acceleration(const Inertia& inertia, const RigidState& state) {
 FreeTurn free_turn(const Inertia& inertia, const RigidState& state, const Vector3d& torque_W,
                    double dt) {
   const double angle = state.w_WB.norm() * dt;
-  if (is_isotropic(inertia.about_C_B) || angle == 0.0) {  // No gyroscopic moment.
+  if (is_isotropic(inertia) || angle == 0.0) {  // No gyroscopic moment.
     const Vector3d change = inverse_inertia(inertia, state.X_WB).rotation * torque_W * dt;
     return {(state.w_WB + 0.5 * change) * dt, state.w_WB + change};
   }

@@ -49,6 +49,12 @@ struct InverseInertia {
 [[nodiscard]] FIRSTCONTACT_API double kinetic_energy(const Inertia& inertia,
                                                      const RigidState& state);  ///< [J]
 
+/// Whether an axis of rotation is locked.
+[[nodiscard]] FIRSTCONTACT_API bool is_locked(const Inertia& inertia);
+
+/// Whether every axis is a principal one: then nothing gyroscopic acts.
+[[nodiscard]] FIRSTCONTACT_API bool is_isotropic(const Inertia& inertia);
+
 /// [rad/s]  The angular velocity of a body after a turn that carries the velocity along.
 ///
 /// In the body's axes it is unchanged, and so is the kinetic energy. The difference of two
@@ -82,9 +88,9 @@ struct FreeTurn {
 /// turns by that mean, which is about none of them.
 ///
 /// Method: the implicit midpoint rule for the angular velocity in the body's axes, in sub-steps of
-/// at most 0.1 rad. The rule keeps the length of the momentum; a turn of the body keeps its
+/// at most 0.04 rad. The rule keeps the length of the momentum; a turn of the body keeps its
 /// direction (M. Austin, P. Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body
-/// systems", Journal of Computational Physics 107 (1993)). There are at most 4096 sub-steps: a body
+/// systems", Journal of Computational Physics 107 (1993)). There are at most 10,240 sub-steps: a body
 /// that spins faster goes on about the same axis.
 ///
 /// @param torque_W  [N m]  constant, about C

@@ -17,6 +17,32 @@
 namespace firstcontact::detail {
 namespace {
 
+/// Ends the rounds in which slight contacts ahead become constraints: after so many, or where pairs
+/// that jam are hit again and again, no later than before.
+class RoundsOfSlight {
+ public:
+  [[nodiscard]] bool end_with(const std::vector<Impact>& hits) {
+    std::vector<BodyPair> pairs;
+    double first = 1.0;
+    for (const Impact& hit : hits) {
+      pairs.push_back(hit.bodies);
+      first = std::min(first, hit.t);
+    }
+    std::ranges::sort(pairs);
+    const bool is_later = first > kLaterHit * latest_;
+    useless_ = pairs != pairs_ || is_later ? 0 : useless_ + 1;
+    pairs_ = std::move(pairs);
+    latest_ = std::max(latest_, first);
+    return ++rounds_ == kRoundsOfSlight || useless_ == kUselessRounds;
+  }
+
+ private:
+  int rounds_ = 0;
+  int useless_ = 0;                   // In a row.
+  double latest_ = 0.0;               // [-]  Of the span, of the first hits of all rounds.
+  std::vector<BodyPair> pairs_ = {};  // Of the last round.
+};
+
 class Island {
  public:
   Island(const StepContext& step, std::vector<std::size_t> members, Workspace& workspace,
@@ -34,6 +60,7 @@ class Island {
   std::optional<IslandTrack> run() {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
+    squeezed_ = is_squeezed() ? kMostSqueezed - kMostSqueezedAgain : 0;
     if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
@@ -43,7 +70,7 @@ class Island {
         break;
       }
       const double reached = state_.reached;
-      const double planned = span();
+      planned_ = span();
       const std::optional<double> t = advance();
       if (!t) {
         return std::nullopt;
@@ -52,8 +79,8 @@ class Island {
         ++track_.events;
         impact();
       }
-      choose_span(planned, *t);
-      squeezed_ += *t < 1.0 && state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
+      choose_span(*t);
+      squeezed_ += *t < 1.0 && is_squeezed();
       stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
     }
     track_.reached = state_.reached;
@@ -63,10 +90,10 @@ class Island {
 
  private:
   /// [s]  Of the next plan.
-  [[nodiscard]] double span() const {
+  [[nodiscard]] double span() {
     const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
                                     kLeastShareOfFast * state_.start.h);
-    return std::min({span_, state_.start.h - state_.reached, of_fast, tied_span()});
+    return std::min({span_, state_.start.h - state_.reached, of_fast, tied_span(), turning_span()});
   }
 
   /// [s]  For which no body with ties turns too far: impulses act where ties are halfway.
@@ -79,6 +106,48 @@ class Island {
     }
     return fastest > 0.0 ? std::max(kMostTurnOfTied / fastest, kLeastShareOfFast * state_.start.h)
                          : std::numeric_limits<double>::infinity();
+  }
+
+  /// [s]  In which bodies that touch turn no farther than contacts can follow.
+  [[nodiscard]] double turning_span() {
+    double longest = std::numeric_limits<double>::infinity();
+    for (const auto& [pair, manifold] : state_.manifolds) {
+      if (least_gap(manifold) > state_.model.distances.touching) {
+        continue;
+      }
+      for (const std::size_t body : pair) {
+        longest = std::min(longest, spinning_span(body));
+      }
+      for (const ManifoldPoint& touch : manifold.touches) {
+        longest = std::min(longest, rolling_span(touch));
+      }
+    }
+    return longest;
+  }
+
+  /// [s]  In which a body that touches turns no farther than gyroscopic moments allow.
+  [[nodiscard]] double spinning_span(std::size_t body) const {
+    const SimBody& described = state_.model.bodies[body];
+    if (described.kind != BodyKind::free || described.link_body ||
+        is_isotropic(described.inertia)) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double turning = state_.states[state_.place.at(body)].w_WB.norm();
+    return std::max(kMostTurnInContact / turning, kLeastShareOfPlan * state_.start.h);
+  }
+
+  /// [s]  In which a contact on a rim stays near its place on it. One that runs too fast for any
+  /// plan does not count.
+  [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
+    const bool is_on_rim = touch.round[0].circle != nullptr || touch.round[1].circle != nullptr;
+    const double shortest = kLeastShareOfPlan * state_.start.h;
+    const double span = is_on_rim ? kTurnOfCurve / state_.rate_on_rim(touch) : 0.0;
+    return span >= shortest ? std::max(kRollOfPlan * span, shortest)
+                            : std::numeric_limits<double>::infinity();
+  }
+
+  [[nodiscard]] bool is_squeezed() const {
+    return state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
@@ -102,32 +171,32 @@ class Island {
   /// A constraint is linear, the way of a point that turns is not: on a fast body it leads nearer
   /// than the distance of rest, to half of what is left with each impact, in less and less time.
   /// Then plans are as short as it took, so that what pushes apart gets there within them.
-  void choose_span(double planned, double t) {
+  void choose_span(double t) {
     if (t < 1.0) {
       span_ = state_.is_too_near()
-                  ? std::max(std::max(t, kLeastShareOfPlan) * planned, stall(state_.start.h))
+                  ? std::max(std::max(t, kLeastShareOfPlan) * planned_, stall(state_.start.h))
                   : state_.start.h;
     } else {
-      span_ = 2.0 * planned;
+      span_ = 2.0 * planned_;
     }
   }
 
   /// Moves everything to the first contact ahead that is no mere constraint, or to the end of the
   /// plan. Returns how far, in parts of its span; nothing if it was stopped.
   std::optional<double> advance() {
-    IslandPlanner planner(state_, span());
-    ImpactSearch search(state_, span(), workspace_);
-    for (int round = 1; !stop_.stop_requested(); ++round) {
+    IslandPlanner planner(state_, planned_);
+    ImpactSearch search(state_, planned_, workspace_);
+    RoundsOfSlight rounds;
+    while (!stop_.stop_requested()) {
       const Plan plan = planner.plan();
       const std::vector<Impact> hits = search.find(plan);
-      if (hits.empty() || round == kRoundsOfSlight ||
-          std::ranges::none_of(hits, &Impact::is_slight)) {
+      if (hits.empty() || rounds.end_with(hits) || std::ranges::none_of(hits, &Impact::is_slight)) {
         double t = state_.robots.share_within_limits(plan.robots);
         for (const Impact& hit : hits) {
           t = std::min(t, hit.t);
         }
         if (!state_.ties.empty() && state_.taut <= kMostTautEvents) {
-          const double within = share_within_cables(state_, plan, span());
+          const double within = share_within_cables(state_, plan, planned_);
           state_.taut += within < t ? 1 : 0;
           t = std::min(t, within);
         }
@@ -148,11 +217,10 @@ class Island {
   /// Makes the plan's motions real until t, and looks around there. Bodies stay where t is too
   /// little to be told from now.
   void move_to(const Plan& plan, std::vector<ManifoldPoint> touches, double t, double clearance) {
-    const double planned = span();
-    const bool is_last = planned >= state_.start.h - state_.reached;
-    const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned;
+    const bool is_last = planned_ >= state_.start.h - state_.reached;
+    const double to = t == 1.0 && is_last ? state_.start.h : state_.reached + t * planned_;
     t = to > state_.reached ? t : 0.0;
-    state_.robots.move_to(plan.robots, t, planned, to);
+    state_.robots.move_to(plan.robots, t, planned_, to);
     for (std::size_t k = 0; k < state_.size(); ++k) {
       const RigidState begin = state_.states[k];
       RigidState& end = state_.states[k];
@@ -172,7 +240,7 @@ class Island {
         track_.pieces[k].push_back({to, begin.X_WB, move, begin, end});
       }
     }
-    if (t == 1.0 && planned == state_.start.h && track_.events == 0 &&
+    if (t == 1.0 && planned_ == state_.start.h && track_.events == 0 &&
         falls_asleep(state_, plan, touches)) {
       come_to_rest();
     }
@@ -188,7 +256,7 @@ class Island {
     if (to < state_.start.h) {
       acted_ = touches;
       for (ManifoldPoint& touch : acted_) {
-        touch.impulse *= state_.start.h / planned;
+        touch.impulse *= state_.start.h / planned_;
       }
       std::ranges::stable_sort(acted_, comes_before);
       state_.find_manifolds(acted_, workspace_);
@@ -279,6 +347,7 @@ class Island {
   Workspace& workspace_;
   IslandTrack track_;
   double span_;               // [s]  Longest of a plan, for now.
+  double planned_ = 0.0;      // [s]  Of the plan.
   std::size_t squeezed_ = 0;  // Impacts that left a pair squeezed.
 };
 

@@ -125,15 +125,27 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
 }
 
 /// [m]  A displacement keeps a contact on its curve if it is no longer: the way of the contact
-/// times the turn of its normal, and a contact distance. An arc is an eighth of the former from its
-/// chord.
+/// times the turn of its normal, the sagittas of the arcs of both points, and a contact distance.
 double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
                                       const std::array<ContactSide, 2>& sides) const {
   const ContactPoint& now = acting_[k].now;
   const double turn = (there.frame.row(0) - now.frame.row(0)).norm();
-  const double way = span_ * (sides[0].v.norm() + sides[0].w.norm() * now.arm_A.norm() +
-                              sides[1].v.norm() + sides[1].w.norm() * now.arm_B.norm());
-  return state_.model.distances.least + way * turn;
+  double way = 0.0;
+  double sagittas = 0.0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Vector3d& w = sides[s].w;
+    const Vector3d& arm = s == 0 ? now.arm_A : now.arm_B;
+    way += span_ * (sides[s].v.norm() + w.norm() * arm.norm());
+    sagittas += 0.5 * span_ * span_ * w.norm() * w.cross(arm).norm();
+  }
+  return state_.model.distances.least + way * turn + sagittas;
+}
+
+/// [m]  The same for the velocities of the last solution.
+double IslandPlanner::most_from_curve(std::size_t k) const {
+  const std::array<ContactSide, 2> sides = mean_sides(k, last_->velocities.bodies);
+  return most_from_curve(
+      moved_contact(touches_[k], acting_[k].now, distance_of(touches_[k]), sides, span_), k, sides);
 }
 
 /// Adds displacements that keep pressed contacts on their curves: the plan's motion is along a

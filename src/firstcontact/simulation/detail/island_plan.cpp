@@ -31,6 +31,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
     const SimBody& body = state_.member(k);
     if (body.link_body) {
       flight.rotation_vectors.emplace_back(Vector3d::Zero());
+      flight.torques.emplace_back(Vector3d::Zero());
       continue;  // Flies with its robot.
     }
     Vector3d force = body.inertia.mass * state_.model.gravity;
@@ -50,6 +51,7 @@ IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
     const FreeTurn turn = free_turn(body.inertia, state_.states[k], torque, span_);
     flight.at_end[k].w = turned_along(body.inertia, turn.w_WB, -turn.rotation_vector);
     flight.rotation_vectors.push_back(turn.rotation_vector);
+    flight.torques.push_back(torque);
   }
   return flight;
 }
@@ -273,7 +275,8 @@ void IslandPlanner::solve() {
   if (last_) {
     again = project_plan_again(state_, problem_, *last_, changed_);
   }
-  last_ = again ? std::move(*again) : project_plan(state_, problem_);
+  const std::optional<double> free = spins_ ? std::optional(spins_->energy) : std::nullopt;
+  last_ = again ? std::move(*again) : project_plan(state_, problem_, free);
   changed_.clear();
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     problem_.contacts[k].guess = last_->velocities.impulses[k];
@@ -288,10 +291,19 @@ Plan IslandPlanner::plan() {
     choose_rules();
   }
   solve();
-  for (int pass = 0; pass < kPassesOfCurves && !by_end_ && follow_curves(); ++pass) {
+  for (int pass = 0; pass < kPassesOfCurves && !by_end_; ++pass) {
+    const bool turns = follow_curves();
+    if (!follow_spins() && !turns) {
+      break;
+    }
     solve();
   }
   by_end_ = by_end_ || !mean_is_allowed();
+  if (spins_ && (by_end_ || last_->is_limited)) {
+    forget_spins();
+    solve();
+    by_end_ = by_end_ || !mean_is_allowed();
+  }
   if (!state_.robots.empty() && lead_robots_by_end(led_by_end())) {
     solve();
     by_end_ = by_end_ || !mean_is_allowed();
@@ -317,6 +329,7 @@ Plan IslandPlanner::plan() {
   keep_on_curves(made);
   push_apart(made);
   settle_ties(made);
+  carry_back(made);
   state_.robots.keep_momenta(outer, span_, made.robots);
   state_.robots.set_moves(made.robots, state_.states, span_, made.moves);
   return made;
@@ -357,11 +370,11 @@ bool IslandPlanner::mean_is_allowed() const {
     mean[b].w = 0.5 * (before[b].w + mean[b].w);
   }
   const double slack = slack_of_mean();
-  const double kept = state_.model.distances.least / span_;  // By displacements.
   for (std::size_t k = 0; k < problem_.contacts.size(); ++k) {
     const bool is_kept = is_on_curve(k) && last_->velocities.impulses[k][0] > 0.0;
-    const double least = least_of_mean(k) - (is_kept ? kept : slack);
-    if (!(normal_velocity(problem_.contacts[k], mean) >= least)) {
+    const double missing = least_of_mean(k) - normal_velocity(problem_.contacts[k], mean);
+    const bool is_close = missing <= slack || (is_kept && missing * span_ <= most_from_curve(k));
+    if (!is_close) {
       return false;
     }
   }

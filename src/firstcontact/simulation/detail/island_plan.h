@@ -93,6 +93,15 @@ class IslandPlanner {
   struct FreeFlight {
     std::vector<ContactBody> at_end;
     std::vector<Eigen::Vector3d> rotation_vectors;
+    std::vector<Eigen::Vector3d> torques;  ///< [N m]  Constant, without contacts.
+  };
+
+  /// Bodies that spin in contact: their flights have the angular impulses of contacts. Angular
+  /// velocities of the problem are those of the world, at the end of the plan.
+  struct Spins {
+    FreeFlight without;           // Contacts.
+    double energy = 0.0;          // [J]  Of that flight.
+    std::vector<bool> is_member;  // Of each member: it is one of these bodies.
   };
 
   /// How far a plan leads a contact from its curve.
@@ -135,11 +144,17 @@ class IslandPlanner {
   [[nodiscard]] std::array<ContactSide, 2> mean_sides(std::size_t k,
                                                       const std::vector<ContactBody>& at_end) const;
   [[nodiscard]] bool follow_curves();
+  [[nodiscard]] bool follow_spins();
+  [[nodiscard]] bool may_spin(std::size_t k) const;
+  [[nodiscard]] std::vector<Eigen::Vector3d> angular_impulses() const;
+  void forget_spins();
+  void carry_back(Plan& plan) const;
   [[nodiscard]] bool lifts(const PredictedContact& ahead);
   void keep_on_curves(Plan& plan) const;
   [[nodiscard]] OffCurve off_curve(std::size_t k, const Plan& plan) const;
   [[nodiscard]] double most_from_curve(const MovedContact& there, std::size_t k,
                                        const std::array<ContactSide, 2>& sides) const;
+  [[nodiscard]] double most_from_curve(std::size_t k) const;
   void set_at_rest(ContactProblem& problem) const;
   void push_apart(Plan& plan);
   void limit_push(double most, ContactSolution& push) const;
@@ -154,6 +169,7 @@ class IslandPlanner {
   ContactProblem problem_;                      // Its guesses are the impulses of the last plan.
   std::vector<ManifoldPoint> touches_;          // Of each contact of the problem.
   std::vector<ActingContact> acting_;           // Those of touches of now.
+  std::optional<Spins> spins_ = {};             // Where bodies spin in contact.
   bool by_end_ = false;                         // Velocities at the end lead the bodies in contact.
   bool laid_by_end_ = false;                    // They did when the rows of ties were made.
   std::size_t first_ahead_ = 0;                 // Those before it are in the order of their pairs.

@@ -37,6 +37,18 @@ double of_gravity(const IslandState& state, double part) {
   return std::max(kLeastTolerance, part * state.model.gravity.norm() * state.start.h);
 }
 
+/// [J]  Of a member, by the inertia that the problem gives it: that of now or, where it spins, that
+/// of the end of the plan.
+double energy_of(const IslandState& state, std::size_t k, const InverseInertia& inverse,
+                 const ContactBody& moving) {
+  const Inertia& inertia = state.member(k).inertia;
+  if (is_locked(inertia)) {
+    return kinetic_energy(inertia, {state.states[k].X_WB, moving.v, moving.w});
+  }
+  return 0.5 * inertia.mass * moving.v.squaredNorm() +
+         0.5 * moving.w.dot(inverse.rotation.inverse() * moving.w);
+}
+
 /// [J]  Of the members and their robots.
 double energy_of(const IslandState& state, const ContactProblem& problem,
                  const std::vector<ContactBody>& bodies,
@@ -44,8 +56,7 @@ double energy_of(const IslandState& state, const ContactProblem& problem,
   double sum = kinetic_energy(problem.mechanisms, mechanisms);
   for (std::size_t k = 0; k < state.size(); ++k) {
     if (!state.member(k).link_body) {
-      sum +=
-          kinetic_energy(state.member(k).inertia, {state.states[k].X_WB, bodies[k].v, bodies[k].w});
+      sum += energy_of(state, k, problem.bodies[k].inverse_inertia, bodies[k]);
     }
   }
   return sum;
@@ -190,15 +201,15 @@ void shorten_within(const IslandState& state, const ContactProblem& problem, dou
 /// moves with the script. An island on which nothing outside acts keeps its momenta. Motors add
 /// what they want, as long as there is a solution.
 ///
+/// @param free  [J]  before; if nothing, that of the problem's velocities
 /// @returns whether it was shortened
 bool limit_energy(const IslandState& state, const ContactProblem& problem,
-                  ContactSolution& solution) {
+                  ContactSolution& solution, std::optional<double> free = std::nullopt) {
   const bool has_solution = is_solved(state, solution);
   if (has_solution && (state.robots.has_motors() || !problem.ties.empty())) {
     return false;
   }
-  const double before =
-      energy_of(state, problem, problem.bodies, velocities_of(problem.mechanisms));
+  const double before = free ? *free : free_energy(state, problem);
   const double after = energy_of(state, problem, solution.bodies, solution.mechanisms);
   double mass = 0.0;
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -254,7 +265,8 @@ bool stands(const IslandState& state) {
 }
 
 PlanSolution project_with(const IslandState& state, const ContactProblem& problem,
-                          const ProjectionOptions& options) {
+                          const ProjectionOptions& options,
+                          std::optional<double> free = std::nullopt) {
   if (problem.contacts.empty() && problem.drives.empty() && problem.ties.empty()) {
     return {unchanged(problem)};
   }
@@ -264,11 +276,15 @@ PlanSolution project_with(const IslandState& state, const ContactProblem& proble
       plan.velocities = project_on_contacts(*yielding, options);
     }
   }
-  plan.is_limited = limit_energy(state, problem, plan.velocities);
+  plan.is_limited = limit_energy(state, problem, plan.velocities, free);
   return plan;
 }
 
 }  // namespace
+
+double free_energy(const IslandState& state, const ContactProblem& problem) {
+  return energy_of(state, problem, problem.bodies, velocities_of(problem.mechanisms));
+}
 
 bool is_solved(const IslandState& state, const ContactSolution& solution) {
   const double left = state.robots.empty() ? solution.allowed : 0.0;
@@ -310,8 +326,9 @@ ProjectionOptions plan_options(const IslandState& state, const ContactProblem& p
   return options;
 }
 
-PlanSolution project_plan(const IslandState& state, const ContactProblem& problem) {
-  return project_with(state, problem, plan_options(state, problem));
+PlanSolution project_plan(const IslandState& state, const ContactProblem& problem,
+                          std::optional<double> free) {
+  return project_with(state, problem, plan_options(state, problem), free);
 }
 
 PlanSolution project_way(const IslandState& state, const ContactProblem& problem, double span) {

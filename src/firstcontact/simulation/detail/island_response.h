@@ -31,8 +31,14 @@ struct PlanSolution {
   bool is_limited = false;  ///< They are shorter than contacts would have them.
 };
 
+/// [J]  Of the free velocities of a plan.
+[[nodiscard]] double free_energy(const IslandState& state, const ContactProblem& problem);
+
 /// The free velocities of a plan as contacts and drives allow them.
-[[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem);
+///
+/// @param free  [J]  Contacts may not lead beyond it; by default free_energy()
+[[nodiscard]] PlanSolution project_plan(const IslandState& state, const ContactProblem& problem,
+                                        std::optional<double> free = std::nullopt);
 
 /// Velocities that lead along the way of a plan: as exactly as its displacements need.
 [[nodiscard]] PlanSolution project_way(const IslandState& state, const ContactProblem& problem,

@@ -1,11 +1,14 @@
 #include <firstcontact/simulation/detail/island_state.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
 #include <firstcontact/simulation/detail/seams.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/moving_contact.h>
 #include <firstcontact/simulation_model/detail/swept_hull.h>
 
 namespace firstcontact::detail {
@@ -106,6 +109,19 @@ bool IslandState::bounces(const BodyPair& pair, double closing) const {
 bool IslandState::is_nearer(double distance) const {
   return std::ranges::any_of(manifolds,
                              [&](const auto& entry) { return entry.second.gap < distance; });
+}
+
+double IslandState::rate_on_rim(const ManifoldPoint& touch) {
+  std::array<ContactSide, 2> sides;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::size_t body = touch.bodies[s];
+    sides[s].round = touch.round[s];
+    sides[s].R_WB = pose_of(body).rotation.normalized().toRotationMatrix();
+    sides[s].w = model.bodies[body].kind == BodyKind::free
+                     ? states[place.at(body)].w_WB
+                     : Eigen::Vector3d(start.scripted[body].rotation_vector / start.h);
+  }
+  return detail::rate_on_rim(touch.normal, sides);
 }
 
 bool IslandState::is_too_near() const { return is_nearer(model.distances.pushed); }

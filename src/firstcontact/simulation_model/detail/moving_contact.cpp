@@ -102,20 +102,22 @@ Vector3d MovedContact::velocity(const std::array<ContactSide, 2>& sides) const {
   return frame * (sides[1].v + sides[1].w.cross(arms[1]) - sides[0].v - sides[0].w.cross(arms[0]));
 }
 
-bool follows_curve(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
-                   double time) {
-  const Vector3d n = contact.frame.row(0).transpose();
+double rate_on_rim(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
+  double fastest = 0.0;
   for (std::size_t s = 0; s < 2; ++s) {
-    if (sides[s].round.circle == nullptr) {
-      continue;
-    }
-    const Vector3d axis = sides[s].R_WB * sides[s].round.circle->axis_B;
-    const double turn = sides[s].w.cross(axis).norm() + sides[1 - s].w.cross(n).norm();
-    if (!(time * turn <= kTurnOfCurve * axis.cross(n).norm())) {
-      return false;
+    if (sides[s].round.circle != nullptr) {
+      const Vector3d axis = sides[s].R_WB * sides[s].round.circle->axis_B;
+      const double turning = sides[s].w.cross(axis).norm() + sides[1 - s].w.cross(n).norm();
+      fastest = turning > 0.0 ? std::max(fastest, turning / axis.cross(n).norm()) : fastest;
     }
   }
-  return is_round(sides[0]) || is_round(sides[1]);
+  return fastest;
+}
+
+bool follows_curve(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
+                   double time) {
+  return time * rate_on_rim(contact.frame.row(0).transpose(), sides) <= kTurnOfCurve &&
+         (is_round(sides[0]) || is_round(sides[1]));
 }
 
 double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,

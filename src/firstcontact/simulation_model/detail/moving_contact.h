@@ -38,6 +38,11 @@ struct MovedContact {
   [[nodiscard]] Eigen::Vector3d velocity(const std::array<ContactSide, 2>& sides) const;
 };
 
+/// [1/s]  How fast a contact on a rim runs round it: infinite where the rim lies flat and turns.
+///
+/// @param n  [-]  the normal
+[[nodiscard]] double rate_on_rim(const Eigen::Vector3d& n, const std::array<ContactSide, 2>& sides);
+
 /// Whether a surface is curved at a contact, and the contact stays near its place on it for a time
 /// [s]: on a circle that lies nearly flat it does not.
 [[nodiscard]] bool follows_curve(const ContactPoint& contact,
