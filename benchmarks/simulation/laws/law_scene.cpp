@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +21,12 @@ Vector3d three(const json& v) {
 }
 json three(const Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
+/// What is in the scene is not in this comparison with other engines.
+class NotForPeer : public std::runtime_error {
+ public:
+  NotForPeer() : std::runtime_error("not for this engine") {}
+};
+
 LawShape shape_of(const json& shape) {
   if (shape.contains("box")) {
     return {LawShape::Kind::box, 0.5 * three(shape.at("box").at("size"))};
@@ -27,9 +34,14 @@ LawShape shape_of(const json& shape) {
   if (shape.contains("sphere")) {
     return {LawShape::Kind::sphere, Vector3d::Constant(shape.at("sphere").at("radius"))};
   }
-  const double radius = shape.at("cylinder").at("radius");
-  return {LawShape::Kind::cylinder,
-          {radius, radius, 0.5 * shape.at("cylinder").at("length").get<double>()}};
+  const bool is_capsule = shape.contains("capsule");
+  if (!is_capsule && !shape.contains("cylinder")) {
+    throw NotForPeer();
+  }
+  const json& round = shape.at(is_capsule ? "capsule" : "cylinder");
+  const double radius = round.at("radius");
+  return {is_capsule ? LawShape::Kind::capsule : LawShape::Kind::cylinder,
+          {radius, radius, 0.5 * round.at("length").get<double>()}};
 }
 
 /// Of a density of 1000 kg/m^3.
@@ -46,6 +58,7 @@ void fill_mass(LawBody& body) {
       body.mass = 4e3 / 3.0 * std::numbers::pi * std::pow(h.x(), 3);
       body.moments = Vector3d::Constant(0.4 * body.mass * h.x() * h.x());
       return;
+    case LawShape::Kind::capsule:  // Has its mass given.
     case LawShape::Kind::cylinder:
       body.mass = 2e3 * std::numbers::pi * h.x() * h.x() * h.z();
       const double across = body.mass * (0.25 * h.x() * h.x() + h.z() * h.z() / 3.0);
@@ -84,6 +97,10 @@ LawBody body_of(const json& described, double duration) {
       const json& rows = dynamics.at("inertia");
       body.moments = three(json::array({rows.at(0).at(0), rows.at(1).at(1), rows.at(2).at(2)}));
     }
+    if (dynamics.contains("centre_of_mass")) {
+      body.p_CS = -three(dynamics.at("centre_of_mass"));
+      body.p_WB -= body.q_WB * body.p_CS;
+    }
     if (dynamics.contains("linear_velocity")) {
       body.v = three(dynamics.at("linear_velocity"));
     }
@@ -97,9 +114,17 @@ LawBody body_of(const json& described, double duration) {
 
 LawRobot robot_of(const json& described, const std::filesystem::path& folder) {
   LawRobot robot{.urdf = folder / described.at("urdf").get<std::string>()};
-  const json motors = described.at("dynamics").value("motors", json::object());
+  const json& dynamics = described.at("dynamics");
+  const json motors = dynamics.value("motors", json::object());
+  const json velocities = dynamics.value("velocities", json::object());
+  robot.is_free = dynamics.at("base") == "free";
+  if (robot.is_free) {
+    robot.v = three(dynamics.at("linear_velocity"));
+    robot.w = three(dynamics.at("angular_velocity"));
+  }
   for (const auto& [joint, position] : described.at("state").items()) {
     robot.positions.push_back(position);
+    robot.velocities.push_back(velocities.value(joint, 0.0));
     robot.stiffnesses.push_back(motors.contains(joint) ? motors.at(joint).value("stiffness", 0.0)
                                                        : 0.0);
   }
@@ -110,6 +135,9 @@ LawScene scene_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   const json described = json::parse(file);
   const json& simulation = described.at("simulation");
+  if (simulation.contains("ties")) {
+    throw NotForPeer();
+  }
   LawScene scene{.step = simulation.at("step"),
                  .duration = simulation.at("duration"),
                  .gravity = -simulation.at("gravity").at(2).get<double>(),
@@ -123,18 +151,21 @@ LawScene scene_of(const std::filesystem::path& path) {
   return scene;
 }
 
-Vector3d angular_momentum(const LawBody& body) {
-  const Vector3d spin = body.moments.cwiseProduct(body.q_WB.conjugate() * body.w);
-  return body.mass * body.p_WB.cross(body.v) + body.q_WB * spin;
+void add_to(LawTotals& totals, const LawBody& body) {
+  const Vector3d w_B = body.q_WB.conjugate() * body.w;
+  const Vector3d spin = body.moments.cwiseProduct(w_B);
+  totals.momentum += body.mass * body.v;
+  totals.angular_momentum += body.mass * body.p_WB.cross(body.v) + body.q_WB * spin;
+  totals.kinetic_energy += 0.5 * (body.mass * body.v.squaredNorm() + spin.dot(w_B));
 }
 
-json line_of(const LawScene& scene, const LawEngine& engine, double time) {
+json line_of(const LawScene& scene, LawEngine& engine, double time) {
   json bodies = json::array();
-  Vector3d momentum = Vector3d::Zero();
+  LawTotals totals = engine.robots();
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     if (scene.bodies[k].motion == LawMotion::free) {
       const LawBody body = engine.body(k);
-      momentum += angular_momentum(body);
+      add_to(totals, body);
       bodies.push_back(
           {{"body", k},
            {"position", three(body.p_WB)},
@@ -150,7 +181,9 @@ json line_of(const LawScene& scene, const LawEngine& engine, double time) {
   return {{"time", time},
           {"bodies", bodies},
           {"robots", robots},
-          {"angular_momentum", three(momentum)}};
+          {"kinetic_energy", totals.kinetic_energy},
+          {"linear_momentum", three(totals.momentum)},
+          {"angular_momentum", three(totals.angular_momentum)}};
 }
 
 }  // namespace
@@ -164,7 +197,7 @@ int simulate_law(int argc, char** argv, bool has_robots,
   try {
     const LawScene scene = scene_of(argv[1]);
     if (!scene.robots.empty() && !has_robots) {
-      return 3;
+      throw NotForPeer();
     }
     const std::unique_ptr<LawEngine> engine = load(scene);
     std::ofstream run(argv[2]);
@@ -175,6 +208,8 @@ int simulate_law(int argc, char** argv, bool has_robots,
       run << line_of(scene, *engine, k * scene.step).dump() << "\n";
     }
     return 0;
+  } catch (const NotForPeer&) {
+    return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -15,7 +15,7 @@
 namespace firstcontact::benchmarks {
 
 struct LawShape {
-  enum class Kind { box, sphere, cylinder };
+  enum class Kind { box, sphere, cylinder, capsule };
   Kind kind = Kind::box;
   Eigen::Vector3d half =
       Eigen::Vector3d::Zero();  ///< [m]  A radius stands in x, half a length in z.
@@ -26,20 +26,32 @@ enum class LawMotion { rests, spins, free };
 struct LawBody {
   LawShape shape;
   LawMotion motion = LawMotion::rests;
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< [m]  Of the centre of mass.
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v = Eigen::Vector3d::Zero();        ///< [m/s]
   Eigen::Vector3d w = Eigen::Vector3d::Zero();        ///< [rad/s]  World axes.
   double mass = 0.0;                                  ///< [kg]
   Eigen::Vector3d moments = Eigen::Vector3d::Zero();  ///< [kg m^2]  About the axes of the body.
   double restitution = 0.0;
+  Eigen::Vector3d p_CS = Eigen::Vector3d::Zero();  ///< [m]  Of the shape, from the centre of mass.
 };
 
-/// A robot with a fixed base.
+/// A robot. Beside the URDF of one with a free base stands the same as MJCF.
 struct LawRobot {
   std::filesystem::path urdf;
   std::vector<double> positions = {};    ///< In the order of the file.
   std::vector<double> stiffnesses = {};  ///< [N/m or N m/rad]  Of springs whose rest is at 0.
+  std::vector<double> velocities = {};   ///< Of joints.
+  bool is_free = false;                  ///< At the origin at first.
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< [m/s]    Of a free base.
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
+};
+
+/// Of all that moves.
+struct LawTotals {
+  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          ///< [kg m/s]
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.
+  double kinetic_energy = 0.0;                                 ///< [J]
 };
 
 struct LawScene {
@@ -59,11 +71,14 @@ class LawEngine {
   [[nodiscard]] virtual LawBody body(
       std::size_t k) const = 0;  ///< With pose and velocities of now.
   [[nodiscard]] virtual std::vector<double> positions(std::size_t robot) const = 0;
+  /// Of the robots.
+  [[nodiscard]] virtual LawTotals robots() { return {}; }
 };
 
 /// Reads a scene, lets an engine simulate it, and writes the run: `laws_ENGINE SCENE RUN`.
 ///
-/// @returns the exit status: 3 where the engine has no robots and the scene has
+/// @returns the exit status: 3 where the scene is not for this engine: it has robots that the
+/// engine has not, ties, or a mesh
 int simulate_law(int argc, char** argv, bool has_robots,
                  const std::function<std::unique_ptr<LawEngine>(const LawScene&)>& load);
 

@@ -28,6 +28,9 @@ std::unique_ptr<btCollisionShape> shape_of(const LawShape& shape) {
       return std::make_unique<btSphereShape>(scalar(shape.half.x()));
     case LawShape::Kind::cylinder:
       return std::make_unique<btCylinderShapeZ>(vector(shape.half));
+    case LawShape::Kind::capsule:
+      return std::make_unique<btCapsuleShapeZ>(scalar(shape.half.x()),
+                                               scalar(2.0 * shape.half.z()));
   }
   return nullptr;
 }
@@ -76,6 +79,12 @@ class BulletLaw final : public LawEngine {
   void add(const LawBody& body) {
     const bool is_free = body.motion == LawMotion::free;
     shapes_.push_back(shape_of(body.shape));
+    if (!body.p_CS.isZero()) {
+      auto moved = std::make_unique<btCompoundShape>();
+      moved->addChildShape(btTransform(btQuaternion::getIdentity(), vector(body.p_CS)),
+                           shapes_.back().get());
+      shapes_.push_back(std::move(moved));
+    }
     states_.push_back(std::make_unique<btDefaultMotionState>(
         btTransform(rotation(body.q_WB), vector(body.p_WB))));
     btRigidBody::btRigidBodyConstructionInfo info(

@@ -34,9 +34,11 @@ std::string geom_of(const LawShape& shape) {
       return "type=\"box\" size=\"" + three(shape.half) + "\"";
     case LawShape::Kind::sphere:
       return "type=\"sphere\" size=\"" + std::to_string(shape.half.x()) + "\"";
+    case LawShape::Kind::capsule:
     case LawShape::Kind::cylinder:
-      return "type=\"cylinder\" size=\"" + std::to_string(shape.half.x()) + " " +
-             std::to_string(shape.half.z()) + "\"";
+      return std::string("type=\"") +
+             (shape.kind == LawShape::Kind::capsule ? "capsule" : "cylinder") + "\" size=\"" +
+             std::to_string(shape.half.x()) + " " + std::to_string(shape.half.z()) + "\"";
   }
   return {};
 }
@@ -57,7 +59,8 @@ std::string model_of(const LawScene& scene) {
           << "\"/><inertial pos=\"0 0 0\" mass=\"" << kHeavy << "\" diaginertia=\""
           << three(Vector3d::Constant(kHeavy)) << "\"/>";
     }
-    xml << "<geom " << geom_of(body.shape) << " friction=\"" << scene.friction << " 0 0\"/></body>";
+    xml << "<geom " << geom_of(body.shape) << " pos=\"" << three(body.p_CS) << "\" friction=\""
+        << scene.friction << " 0 0\"/></body>";
   }
   xml << "</worldbody></mujoco>";
   return xml.str();
@@ -69,7 +72,7 @@ class MujocoLaw final : public LawEngine {
     const std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("law_" + std::to_string(getpid()) + ".xml");
     std::ofstream(path) << model_of(scene);
-    load(scene.robots.empty() ? path : scene.robots[0].urdf);
+    load(scene.robots.empty() ? path : file_of(scene.robots[0]));
     std::filesystem::remove(path);
     if (!scene.robots.empty()) {
       start_robot(scene.robots[0]);
@@ -96,6 +99,19 @@ class MujocoLaw final : public LawEngine {
 
   [[nodiscard]] std::vector<double> positions(std::size_t /*robot*/) const override {
     return {data_->qpos, data_->qpos + model_->nq};
+  }
+
+  [[nodiscard]] LawTotals robots() override {
+    if (scene_.robots.empty()) {
+      return {};
+    }
+    mj_forward(model_.get(), data_.get());
+    mj_subtreeVel(model_.get(), data_.get());
+    mj_energyVel(model_.get(), data_.get());
+    const Vector3d momentum = model_->body_subtreemass[0] * Vector3d(data_->subtree_linvel);
+    return {momentum,
+            Vector3d(data_->subtree_angmom) + Vector3d(data_->subtree_com).cross(momentum),
+            data_->energy[1]};
   }
 
  private:
@@ -131,10 +147,22 @@ class MujocoLaw final : public LawEngine {
     }
   }
 
+  static std::filesystem::path file_of(const LawRobot& robot) {
+    std::filesystem::path file = robot.urdf;
+    return robot.is_free ? file.replace_extension(".xml") : file;
+  }
+
   void start_robot(const LawRobot& robot) {
+    const int base = robot.is_free ? 1 : 0;  // A joint.
+    for (int k = 0; k < 3 * base; ++k) {
+      data_->qvel[k] = robot.v[k];
+      data_->qvel[3 + k] = robot.w[k];
+    }
     for (std::size_t k = 0; k < robot.positions.size(); ++k) {
-      data_->qpos[k] = robot.positions[k];
-      model_->jnt_stiffness[k] = robot.stiffnesses[k];
+      const int joint = base + static_cast<int>(k);
+      data_->qpos[model_->jnt_qposadr[joint]] = robot.positions[k];
+      data_->qvel[model_->jnt_dofadr[joint]] = robot.velocities[k];
+      model_->jnt_stiffness[joint] = robot.stiffnesses[k];
     }
   }
 
