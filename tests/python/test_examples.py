@@ -19,8 +19,8 @@ def run(name: str, *arguments) -> str:
     return done.stdout
 
 
-def test_there_are_ten():
-    assert len(list(FOLDER.glob("*.py"))) == 10
+def test_there_are_eleven():
+    assert len(list(FOLDER.glob("*.py"))) == 11
 
 
 def test_tumbling_box():
@@ -118,6 +118,16 @@ def test_out_of_a_trap(tmp_path):
     # Half a gap of 10 mm is the most in the tube; the bound of the plan is one of the motion, too.
     assert 0 < bound <= closest <= 5.1
     assert (tmp_path / "page.html").stat().st_size > 100_000
+
+
+def test_timed_path(tmp_path):
+    told = run("timed_path", tmp_path / "way.yaml")
+    durations = [float(found) for found in re.findall(r": proven, ([0-9.]+) s", told)]
+    assert len(durations) == 3 and durations[2] <= durations[1] < durations[0]
+    # The margin is 5 mm, less what the tracking error lets the arm come closer.
+    assert all(float(found) > 5 for found in re.findall(r"points, ([0-9.]+) mm", told))
+    assert all(50 < float(found) <= 100 for found in re.findall(r": ([0-9.]+) % of its limit", told))
+    assert (tmp_path / "way.yaml").read_text().startswith("joint_names")
 
 
 @pytest.mark.parametrize("notebook", sorted(FOLDER.glob("*.ipynb")), ids=lambda path: path.stem)

@@ -35,10 +35,12 @@ from ._errors import ParseError
 from ._plan import EdgeChecker, plan
 from ._reports import (FileReport, LeftOut, MeshReading, PairCounts, PointReading,
                        UntestedPairs)
+from ._retime import retime
 from ._run import Run, read_run
 from ._simulate import simulate
 from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RobotGroup,
+                      LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RateUse,
+                      RetimeAnswer, RetimedMoment, RobotGroup,
                       RobotSemantics, RunContacts, RunImpacts, RunMoment, RunTies, RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, JointLimit,
                      JointType, RunVerdict, StartContacts, Turning, UndecidedReason, Verdict)
@@ -50,8 +52,8 @@ __all__ = [
     "HapticSession", "HapticTick", "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
-    "PlanAnswer", "PlanningRequest", "PointReading", "Pose",
-    "Result", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
+    "PlanAnswer", "PlanningRequest", "PointReading", "Pose", "RateUse",
+    "Result", "RetimeAnswer", "RetimedMoment", "RobotGroup", "RobotModel", "RobotScene", "RobotSemantics", "Run", "RunContacts",
     "RunImpacts", "RunMoment", "RunReader", "RunStep", "RunTies", "RunVerdict", "RunVerification", "Scene",
     "SceneClosest", "SceneContact", "SceneLike", "ScenePair", "SceneResult", "Shape", "ShapeCache", "Simulator",
     "StartContacts", "StopSource", "Trajectory", "Turning", "UndecidedReason", "UntestedPairs", "Verdict", "WorkCount", "Workspace",
@@ -63,7 +65,7 @@ __all__ = [
     "parse_scene", "parse_stl", "parse_xyz", "plan", "read_heights", "read_mesh", "read_mesh_file",
     "read_points", "read_points_file",
     "read_request", "read_run", "read_simulation_scene", "read_srdf", "read_trajectory", "read_urdf",
-    "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
+    "retime", "sample_gap", "simulate", "verify_run", "vertex_face_contact", "weld", "why_not_solid",
 ]
 
 # People should see, and pickle, the names that they use.

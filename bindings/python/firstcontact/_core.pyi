@@ -8,7 +8,7 @@ import numpy.typing as npt
 from ._reports import FileReport, MeshReading, PairCounts, PointReading
 from ._trajectory import Columns
 from ._tuples import (ContactInterval, EdgeAnswers, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
-                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RobotSemantics, RunContacts, RunImpacts, RunTies,
+                      LimitViolation, Mesh, MovingShape, PlanAnswer, PlanningRequest, RetimeAnswer, RobotSemantics, RunContacts, RunImpacts, RunTies,
                       RunVerification)
 from ._words import (Between, ContactState, ElementaryVerdict, FeatureType, Filling, StartContacts,
                      Turning, UndecidedReason, Verdict)
@@ -824,6 +824,12 @@ class EdgeChecker:
 def plan(scene: Scene, *, planner: str | None, contacts: str | None, seed: int | None,
          time: float | None, shortcuts: int, approximate: bool, threads: int,
          stop: StopSource | None) -> PlanAnswer: ...
+
+def retime(scene: Scene | None, text: str | None, file: _Path, *, mode: str, limits_text: str | None,
+           limits_file: _Path | None, max_velocity: float | None, max_acceleration: float | None,
+           max_jerk: float | None, tracking_error: float | None, tolerance: float | None,
+           which: str | None, lenient: bool, threads: int,
+           stop: StopSource | None) -> RetimeAnswer: ...
 
 def verify_run(path: _Path, *, scripted_tolerance: float = ..., work: int = ..., threads: int = ...,
                progress: Callable[[float], object] | None = ...,

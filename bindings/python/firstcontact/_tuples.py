@@ -1,5 +1,7 @@
 """What is plain data: pairs of arrays or objects with names."""
 
+import os
+import pathlib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -8,7 +10,7 @@ import numpy.typing as npt
 from ._words import JointLimit, JointType, RunVerdict, Turning, UndecidedReason
 
 if TYPE_CHECKING:
-    from ._core import Feature, Motion, Pose, Shape
+    from ._core import Feature, Motion, Pose, Shape, Trajectory
     from ._reports import PairCounts
 
 
@@ -260,6 +262,80 @@ class PlanAnswer(NamedTuple):
     warnings: tuple[str, ...]
     json: str | None
     """The path file, as the tool's ``firstcontact plan -o`` writes it."""
+
+
+class RetimedMoment(NamedTuple):
+    """Two bodies or links at a time of a trajectory."""
+
+    time: float
+    """[s]"""
+    pair: tuple[str, str]
+    """Their names."""
+    distance: float | None
+    """[m]  Of the closest approach."""
+
+
+class RateUse(NamedTuple):
+    """The greatest size of a rate of a joint over a whole trajectory; rad or m, per s, s^2, s^3."""
+
+    joint: str
+    rate: str
+    """``velocity``, ``acceleration`` or ``jerk``."""
+    limit: float
+    attained: float
+    """The trajectory has this size, or more, at ``time``."""
+    bound: float
+    """Proven: no greater size at any time. Infinite where it jumps."""
+    time: float
+    """[s]"""
+
+
+class RetimeAnswer(NamedTuple):
+    """A trajectory that is proven as its controller executes it, or what is in the way of one."""
+
+    verdict: str
+    """``proven``; ``refused``: a contact or a limit is in the way; ``undecided``."""
+    mode: str
+    """That of the trajectory: ``stop`` where no blend is proven and faster."""
+    trajectory: "Trajectory | None"
+    """Joint names, and arrays of times, positions, velocities and accelerations; if proven."""
+    duration: float
+    """[s]"""
+    stop_duration: float
+    """[s]  With rest at every waypoint."""
+    blends: int
+    """Waypoints that are passed without rest."""
+    shortened: int
+    """Times that a blend was made shorter, as it was not free."""
+    closest: RetimedMoment | None
+    """The closest approach, if proven; None where no pair is tested."""
+    rates: tuple[RateUse, ...]
+    """Of each joint, and of each rate that is limited."""
+    contact: RetimedMoment | None
+    """The first contact, or what is undecided; else None."""
+    limits: tuple[LimitViolation, ...]
+    """Positions beyond the limits of robots."""
+    warnings: tuple[str, ...]
+    yaml: str | None
+    """The file for a controller, a trajectory_msgs/JointTrajectory; proven as it is read back."""
+    json: str | None
+    """The same message as JSON, proven so too."""
+    csv: str | None
+    """A table, proven so too: a line for each point."""
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the file for a controller: .yaml, .json or .csv.
+
+        ValueError where nothing is proven, or the name has another ending.
+        """
+        ending = pathlib.Path(path).suffix.lower()
+        texts = {".yaml": self.yaml, ".yml": self.yaml, ".json": self.json, ".csv": self.csv}
+        if ending not in texts:
+            raise ValueError(f"path: expected a name that ends in .yaml, .json or .csv, got {os.fspath(path)!r}")
+        text = texts[ending]
+        if text is None:
+            raise ValueError(f'the verdict is "{self.verdict}": a motion that is not proven is not written')
+        pathlib.Path(path).write_text(text, encoding="utf-8")
 
 
 class RunMoment(NamedTuple):

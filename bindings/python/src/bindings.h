@@ -24,5 +24,6 @@ void bind_simulator(pybind11::module_& m);
 void bind_haptics(pybind11::module_& m);
 void bind_verify_run(pybind11::module_& m);
 void bind_planning(pybind11::module_& m);
+void bind_retiming(pybind11::module_& m);
 
 }  // namespace firstcontact::python

@@ -23,6 +23,7 @@ PYBIND11_MODULE(_core, m) {
   bind_haptics(m);
   bind_verify_run(m);
   bind_planning(m);
+  bind_retiming(m);
 }
 
 }  // namespace firstcontact::python

@@ -133,7 +133,9 @@ py::tuple intervals_of(const ScenePair& pair) {
   return py::tuple(list);
 }
 
-py::object to_tuple(const SceneRobot& robot, const LimitViolation& violation, double duration) {
+}  // namespace
+
+py::object limit_tuple(const SceneRobot& robot, const LimitViolation& violation, double duration) {
   std::vector<double> intervals;
   for (const TimeWindow& interval : violation.intervals) {
     intervals.push_back(interval.begin * duration);
@@ -146,12 +148,14 @@ py::object to_tuple(const SceneRobot& robot, const LimitViolation& violation, do
       py::array_t<double>({rows, py::ssize_t{2}}, intervals.data()));
 }
 
+namespace {
+
 py::tuple limits_of(const HeldResult& result) {
   const LoadedScene& loaded = loaded_without_gil(*result.scene);
   py::list list;
   for (const SceneLimits& limits : loaded.limits) {
     for (const LimitViolation& violation : limits.violations) {
-      list.append(to_tuple(loaded.scene.robots[limits.robot], violation, loaded.scene.duration));
+      list.append(limit_tuple(loaded.scene.robots[limits.robot], violation, loaded.scene.duration));
     }
   }
   return py::tuple(list);

@@ -10,9 +10,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <firstcontact/robot/limit_report.h>
 #include <firstcontact/scene/check_scene.h>
 #include <firstcontact/scene/loaded_scene.h>
 #include <firstcontact/scene/scene.h>
+#include <firstcontact/scene/scene_robot.h>
 #include <firstcontact/scene_files/write_result.h>
 
 namespace firstcontact::python {
@@ -64,6 +66,12 @@ struct HeldResult {
 
 /// HeldScene::loaded() for a thread that holds the GIL.
 const LoadedScene& loaded_without_gil(const HeldScene& scene);
+
+/// A LimitViolation of firstcontact/_tuples.py.
+///
+/// @param duration  [s]  of the motion that leaves the limit
+pybind11::object limit_tuple(const SceneRobot& robot, const LimitViolation& violation,
+                             double duration);
 
 using ResultClass = pybind11::class_<HeldResult, std::shared_ptr<HeldResult>>;
 

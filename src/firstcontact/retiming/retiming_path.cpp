@@ -126,8 +126,12 @@ RetimingPath retiming_path_of(Scene scene, const std::string& name) {
 
 RetimingPath read_retiming_path(const std::filesystem::path& file, const std::string& robot,
                                 const ReadingOptions& options) {
+  return parse_path_or_scene(detail::read_file(file, "a path or a scene"), file, robot, options);
+}
+
+RetimingPath parse_path_or_scene(std::string_view text, const std::filesystem::path& file,
+                                 const std::string& robot, const ReadingOptions& options) {
   const std::string name = file.string();
-  const std::string text = detail::read_file(file, "a path or a scene");
   const detail::JsonValue root = detail::parse_json(text, name);
   const auto* members = std::get_if<detail::JsonObject>(&root.value);
   if (members != nullptr && find(*members, "firstcontact_path") != nullptr) {

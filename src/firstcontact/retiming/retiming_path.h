@@ -50,6 +50,14 @@ struct RetimingPath {
                                                                const std::string& robot = {},
                                                                const ReadingOptions& options = {});
 
+/// Reads the text of a path file or of a scene file, as read_retiming_path() reads the file.
+///
+/// @param file  that the text is from: named in errors; relative paths begin in its folder
+[[nodiscard]] FIRSTCONTACT_API RetimingPath parse_path_or_scene(std::string_view text,
+                                                                const std::filesystem::path& file,
+                                                                const std::string& robot = {},
+                                                                const ReadingOptions& options = {});
+
 /// A scene with all that loading it found, ready for proofs.
 struct LoadedRetimingScene {
   LoadedScene loaded;

@@ -30,6 +30,8 @@ struct TimedPoint {
   std::vector<double> positions = {};      ///< [rad or m]
   std::vector<double> velocities = {};     ///< [rad/s or m/s]  As many, or none.
   std::vector<double> accelerations = {};  ///< [rad/s^2 or m/s^2]  So too; not without velocities.
+
+  friend bool operator==(const TimedPoint&, const TimedPoint&) = default;
 };
 
 /// The points between which a controller interpolates.
@@ -51,6 +53,8 @@ struct TimedMotion {
   [[nodiscard]] double duration() const {
     return points.empty() ? 0.0 : static_cast<double>(points.back().time) / 1e9;
   }
+
+  friend bool operator==(const TimedMotion&, const TimedMotion&) = default;
 };
 
 /// The motion as a trajectory: times are the doubles that are nearest to the nanoseconds.

@@ -1,0 +1,270 @@
+#include <firstcontact/retiming/retime.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/joint_limits.h>
+#include <firstcontact/retiming/retiming_path.h>
+#include <firstcontact/retiming/write_trajectory.h>
+#include <firstcontact/scene/scene_robot.h>
+#include <firstcontact/scene/shape_cache.h>
+
+#include "bindings.h"
+#include "errors.h"
+#include "interrupts.h"
+#include "query.h"
+#include "scene.h"
+#include "words.h"
+
+namespace firstcontact::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Texts = std::array<std::string, kTrajectoryEndings.size()>;  // Of each TrajectoryFormat.
+
+/// What is to be retimed: a scene, or else the text or the file of a path or of a scene.
+struct RetimingSource {
+  const HeldScene* scene = nullptr;
+  std::optional<std::string> text;
+  std::filesystem::path file;
+  std::string which;  // The robot; may be empty.
+  bool lenient = false;
+};
+
+/// How it is to be retimed.
+struct RetimingWish {
+  std::optional<std::string> limits_text;  // As a file of limits has it.
+  std::optional<std::filesystem::path> limits_file;
+  GivenLimits others;
+  std::optional<double> tracking_error;  // [rad or m]
+  std::optional<double> tolerance;       // [m]
+  RetimingOptions options;
+};
+
+/// A path, its scene, and what came of it.
+struct Retiming {
+  RetimingPath input;
+  std::optional<LoadedRetimingScene> scene;
+  RetimedMotion made;
+  ExecutedProof proof;  // Of the motion as it was read back, where that was reached.
+  Texts texts;
+};
+
+RetimingMode retiming_mode_from(const std::string& word) {
+  const auto found = std::find(kRetimingModeWords.begin(), kRetimingModeWords.end(), word);
+  if (found == kRetimingModeWords.end()) {
+    throw py::value_error(R"(mode: expected "stop", "blend" or "time_optimal", got ")" + word +
+                          "\"");
+  }
+  return static_cast<RetimingMode>(found - kRetimingModeWords.begin());
+}
+
+void require_above_zero(const std::optional<double>& number, const char* name) {
+  if (number && !(*number > 0.0 && std::isfinite(*number))) {
+    throw py::value_error(std::string(name) + ": expected a finite number > 0, got " +
+                          std::string(py::repr(py::float_(*number))));
+  }
+}
+
+RetimingPath retiming_input(const RetimingSource& source) {
+  if (source.scene != nullptr) {
+    return retiming_path_of(source.scene->scene(), source.which);
+  }
+  const ReadingOptions reading{.lenient = source.lenient};
+  return source.text ? parse_path_or_scene(*source.text, source.file, source.which, reading)
+                     : read_retiming_path(source.file, source.which, reading);
+}
+
+std::vector<RateLimits> rate_limits(const RetimingWish& wish, const RobotModel& model,
+                                    const std::vector<std::string>& joint_names) {
+  std::map<std::string, GivenLimits> given;
+  if (wish.limits_text) {
+    given = parse_joint_limits(*wish.limits_text, "limits.json", model);
+  } else if (wish.limits_file) {
+    given = read_joint_limits(*wish.limits_file, model);
+  }
+  return limits_of(model, joint_names, given, wish.others);
+}
+
+/// Writes a proven motion in all formats. Each text is read as a controller reads it, and what is
+/// read is proven.
+void write_and_prove(const std::vector<RateLimits>& limits, const RobotModel& model,
+                     const ProofOptions& options, Retiming& retiming) {
+  std::optional<TimedMotion> proven;
+  for (std::size_t k = 0; k < retiming.texts.size(); ++k) {
+    retiming.texts.at(k) = write_trajectory(retiming.made.motion, static_cast<TrajectoryFormat>(k));
+    TimedMotion read = parse_timed_motion(
+        retiming.texts.at(k), std::string("trajectory") + kTrajectoryEndings.at(k), model);
+    if (proven && read == *proven) {
+      continue;
+    }
+    retiming.proof = prove_motion(read, limits, retiming.scene->where, options);
+    if (!retiming.proof.is_proven()) {
+      return;
+    }
+    proven = std::move(read);
+  }
+}
+
+/// Without the GIL.
+Retiming retimed(const RetimingSource& source, const RetimingWish& wish, std::stop_token stop) {
+  Retiming retiming;
+  retiming.input = retiming_input(source);
+  RetimingPath& input = retiming.input;
+  if (wish.tracking_error) {
+    for (const std::size_t moving : input.robots) {
+      SceneRobot& robot = input.scene.robots.at(moving);
+      robot.tracking_error = joint_errors(robot.model, *wish.tracking_error);
+    }
+  }
+  ShapeCache cache;
+  retiming.scene = load_retiming_scene(input, cache);
+  const RetimingScene& where = retiming.scene->where;
+  const RobotModel model = joined_model(where);
+  const std::vector<RateLimits> limits = rate_limits(wish, model, input.path.joint_names);
+  RetimingOptions options = wish.options;
+  options.proof.tolerance = wish.tolerance.value_or(input.scene.options.tolerance);
+  options.proof.budget.stop = std::move(stop);
+  retiming.made = retime(input.path, limits, where, options);
+  retiming.proof = retiming.made.proof;
+  if (retiming.proof.is_proven()) {
+    options.proof.closest = true;
+    write_and_prove(limits, model, options.proof, retiming);
+  }
+  return retiming;
+}
+
+/// A RetimedMoment of firstcontact/_tuples.py.
+py::object moment_tuple(const RetimingScene& where, const BodyPair& members, double time,
+                        const py::object& distance) {
+  return tuple_type("RetimedMoment")(
+      time, py::make_tuple(where.scene.name(members[0]), where.scene.name(members[1])), distance);
+}
+
+py::object contact_of(const Retiming& retiming) {
+  const SceneResult& contact = retiming.proof.contact;
+  if (contact.verdict == Verdict::free || !contact.first) {
+    return py::none();
+  }
+  return moment_tuple(retiming.scene->where, contact.pairs.at(*contact.first).members,
+                      retiming.proof.contact_time(), py::none());
+}
+
+py::object closest_of(const Retiming& retiming) {
+  const SceneResult& contact = retiming.proof.contact;
+  if (!retiming.proof.is_proven() || !contact.closest) {
+    return py::none();
+  }
+  const PairAnswer& pair = contact.pairs.at(*contact.closest);
+  return moment_tuple(retiming.scene->where, pair.members,
+                      pair.closest->t * retiming.proof.duration,
+                      py::float_(pair.closest->distance));
+}
+
+py::tuple rates_of(const Retiming& retiming) {
+  py::list list;
+  for (const RateUse& use : retiming.proof.rates) {
+    list.append(tuple_type("RateUse")(retiming.input.path.joint_names.at(use.joint),
+                                      kJointRateWords.at(static_cast<std::size_t>(use.what)),
+                                      use.limit, use.attained, use.bound, use.time));
+  }
+  return py::tuple(list);
+}
+
+py::tuple left_limits_of(const Retiming& retiming) {
+  py::list list;
+  for (const SceneLimits& left : retiming.proof.positions) {
+    for (const LimitViolation& violation : left.violations) {
+      list.append(limit_tuple(retiming.input.scene.robots.at(left.robot), violation,
+                              retiming.proof.duration));
+    }
+  }
+  return py::tuple(list);
+}
+
+const char* verdict_of(const ExecutedProof& proof) {
+  if (proof.is_proven()) {
+    return "proven";
+  }
+  return proof.contact.verdict == Verdict::undecided ? "undecided" : "refused";
+}
+
+py::object answer_of(const Retiming& retiming) {
+  const bool is_proven = retiming.proof.is_proven();
+  py::list warnings;
+  if (retiming.input.is_approximate) {
+    warnings.append("the path is approximate: it ends before its goal");
+  }
+  const auto text = [&](TrajectoryFormat format) -> py::object {
+    return is_proven ? py::object(py::str(retiming.texts.at(static_cast<std::size_t>(format))))
+                     : py::none();
+  };
+  return tuple_type("RetimeAnswer")(
+      verdict_of(retiming.proof),
+      kRetimingModeWords.at(static_cast<std::size_t>(retiming.made.mode)),
+      is_proven ? py::cast(trajectory_of(retiming.made.motion)) : py::none(),
+      retiming.proof.duration, retiming.made.stop_duration, retiming.made.blends,
+      retiming.made.shortened, closest_of(retiming), rates_of(retiming), contact_of(retiming),
+      left_limits_of(retiming), py::tuple(warnings), text(TrajectoryFormat::yaml),
+      text(TrajectoryFormat::json), text(TrajectoryFormat::csv));
+}
+
+py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> text,
+                         std::filesystem::path file, const std::string& mode,
+                         std::optional<std::string> limits_text,
+                         std::optional<std::filesystem::path> limits_file,
+                         std::optional<double> max_velocity, std::optional<double> max_acceleration,
+                         std::optional<double> max_jerk, std::optional<double> tracking_error,
+                         std::optional<double> tolerance, const std::optional<std::string>& which,
+                         bool lenient, int threads, OrNone<std::stop_source> stop) {
+  require_above_zero(max_velocity, "max_velocity");
+  require_above_zero(max_acceleration, "max_acceleration");
+  require_above_zero(max_jerk, "max_jerk");
+  require_above_zero(tolerance, "tolerance");
+  if (tracking_error && !(*tracking_error >= 0.0 && std::isfinite(*tracking_error))) {
+    throw py::value_error("tracking_error: expected a finite number >= 0, got " +
+                          std::string(py::repr(py::float_(*tracking_error))));
+  }
+  if (scene == nullptr && !text) {
+    require_file(file);
+  }
+  if (limits_file) {
+    require_file(*limits_file);
+  }
+  const RetimingSource source{scene, std::move(text), std::move(file), which.value_or(""), lenient};
+  RetimingWish wish{std::move(limits_text),
+                    std::move(limits_file),
+                    {max_velocity, max_acceleration, max_jerk},
+                    tracking_error,
+                    tolerance,
+                    {.mode = retiming_mode_from(mode), .proof = {}}};
+  wish.options.proof.threads = threads;
+  return answer_of(
+      run_query(stop, [&](QueryStop& query) { return retimed(source, wish, query.token()); }));
+}
+
+}  // namespace
+
+void bind_retiming(py::module_& m) {
+  m.def("retime", &retime_source, py::arg("scene"), py::arg("text"), py::arg("file"), py::kw_only(),
+        py::arg("mode"), py::arg("limits_text"), py::arg("limits_file"), py::arg("max_velocity"),
+        py::arg("max_acceleration"), py::arg("max_jerk"), py::arg("tracking_error"),
+        py::arg("tolerance"), py::arg("which"), py::arg("lenient"), py::arg("threads"),
+        py::arg("stop"));
+}
+
+}  // namespace firstcontact::python
