@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <firstcontact/page/write_page.h>
+#include <firstcontact/retiming/retiming_path.h>
 #include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/timed_motion.h>
 #include <firstcontact/retiming/waypoint_path.h>
@@ -72,7 +73,7 @@ void append(std::vector<double>& times, std::vector<Place>& places, double time,
 constexpr double kToleranceOfContactPairs = 0.01;
 
 /// Gives contact pairs the distances that they are held to, in place of their margins.
-void hold_contact_pairs(const PlannedPath& path, Scene& scene) {
+void hold_contact_pairs(const std::vector<NamedContactPair>& pairs, Scene& scene) {
   std::map<std::string, std::size_t> members;
   for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
     members[scene.bodies[k].name] = k;
@@ -83,7 +84,7 @@ void hold_contact_pairs(const PlannedPath& path, Scene& scene) {
       members[member_name(scene, first + link)] = first + link;
     }
   }
-  for (const NamedContactPair& one : path.contact_pairs) {
+  for (const NamedContactPair& one : pairs) {
     const std::size_t a = members.at(one.pair[0]);
     const std::size_t b = members.at(one.pair[1]);
     const BodyPair pair = {std::min(a, b), std::max(a, b)};
@@ -122,7 +123,7 @@ void give_trajectories(const PlannedPath& path, const std::vector<double>& times
 
 Scene scene_in_motion(const PlannedPath& path) {
   Scene scene = path.scene;
-  hold_contact_pairs(path, scene);
+  hold_contact_pairs(path.contact_pairs, scene);
   std::vector<double> times;
   if (!path.body.empty()) {
     WaypointMotion motion;
@@ -151,7 +152,10 @@ Scene scene_in_motion(const PlannedPath& path) {
   return scene;
 }
 
-Scene scene_in_motion(Scene scene, const RetimingScene& where, const TimedMotion& motion) {
+Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
+                      const TimedMotion& motion) {
+  Scene scene = input.scene;
+  hold_contact_pairs(input.contact_pairs, scene);
   const std::vector<TimedMotion> parts = split_motion(motion, where);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     scene.robots.at(where.robots[k]).trajectory = trajectory_of(parts[k]);

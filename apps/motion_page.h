@@ -11,6 +11,7 @@
 
 namespace firstcontact {
 struct PlannedPath;
+struct RetimingPath;
 struct RetimingScene;
 struct TimedMotion;
 }  // namespace firstcontact
@@ -22,7 +23,7 @@ namespace firstcontact::app {
 [[nodiscard]] Scene scene_in_motion(const PlannedPath& path);
 
 /// The scene in which the robots of a retiming follow their motion.
-[[nodiscard]] Scene scene_in_motion(Scene scene, const RetimingScene& where,
+[[nodiscard]] Scene scene_in_motion(const RetimingPath& input, const RetimingScene& where,
                                     const TimedMotion& motion);
 
 /// Checks a scene once more and writes the page of the answer, with the gap over time.

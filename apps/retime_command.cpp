@@ -113,6 +113,7 @@ class Report {
                                motion.has_accelerations() ? "quintics" : "cubics"));
     rates(proof);
     clearance(proof);
+    held(proof);
     warnings();
     return text_;
   }
@@ -206,6 +207,16 @@ class Report {
                                 time_text(pair.closest->t * proof.duration), names(pair.members)));
   }
 
+  /// Pairs that were in contact at an end of the path.
+  void held(const ExecutedProof& proof) {
+    for (const ProvenHold& hold : proof.held) {
+      const std::string until = hold.to < proof.duration ? " until " + time_text(hold.to) : "";
+      const std::string since = hold.from > 0.0 ? " from " + time_text(hold.from) + " on" : "";
+      line("held", fmt::format("{}: more than {} apart{}{}", names(hold.members),
+                               length_text(hold.distance), since, until));
+    }
+  }
+
   void warnings() {
     if (input_.is_approximate) {
       line("warning", "the path is approximate: it ends before its goal");
@@ -271,9 +282,9 @@ ExitStatus retime_path(const Arguments& arguments) {
     }
     write_file(arguments.output, text);
     if (!arguments.page.empty()) {
-      write_motion_page(
-          arguments.page, viewer, scene_in_motion(input.scene, scene.where, retimed.motion),
-          interrupt.token(), [&](const std::string& what) { progress.doing("page: " + what); });
+      write_motion_page(arguments.page, viewer, scene_in_motion(input, scene.where, retimed.motion),
+                        interrupt.token(),
+                        [&](const std::string& what) { progress.doing("page: " + what); });
     }
     say(report.proven(proof));
     flush_stdout();

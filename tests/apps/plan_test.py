@@ -248,15 +248,35 @@ class Plan(tool_test.ToolTest):
         self.file("edited.json", {**path, "contact_pairs": [claim]})
         self.assert_refused_with(self.run_tool("verify", "edited.json"), "edited.json", "> 0")
 
-    def test_refuses_to_retime_what_is_in_contact(self):
+    def plan_off_a_part(self, policy, padding=0.0):
+        """The path of a tool that starts 0.5 mm over a part, within its margin."""
         self.file("gantry.urdf", URDF)
         part = {"name": "part", "shape": {"box": {"size": [0.2, 0.2, 0.2]}}, "pose": {"position": [0, 0, -0.2005]}}
-        self.file("scene.json", scene({"goal": {"x": 1}, "margin": 0.001, "contact_pairs": [
-            {"pair": ["g/tool", "part"], "policy": "may_stay"}]}, [part], robots=[{"name": "g", "urdf": "gantry.urdf"}]))
+        fence = {"name": "fence", "shape": {"box": {"size": [0.01, 1, 0.3]}}, "pose": {"position": [0.5, 0, 0]}}
+        robot = {"name": "g", "urdf": "gantry.urdf", "padding": {"tool": padding}}
+        self.file("scene.json", scene({"goal": {"x": 1, "z": 0}, "margin": 0.001, "contact_pairs": [
+            {"pair": ["g/tool", "part"], "policy": policy}]}, [part, fence], robots=[robot]))
         result = self.plan("scene.json", "-o", "path.json")
         self.assertEqual(result.returncode, 0, result)
-        retimed = self.run_tool("retime", "path.json", "-o", "trajectory.json")
-        self.assert_refused_with(retimed, "path.json", '"part"', '"g/tool"', "contact pair")
+        return json.loads((self.folder / "path.json").read_text())
+
+    def test_retimes_what_is_in_contact(self):
+        retime = ["retime", "path.json", "--max-acceleration", "2", "--max-jerk", "50", "-o", "way.json"]
+        for policy, gap in (("may_stay", "250 µm"), ("not_deeper", "46[89][.0-9]* µm"), ("must_open", "46[89][.0-9]* µm")):
+            path = self.plan_off_a_part(policy, padding=0.01)
+            for mode in ("stop", "blend", "time_optimal"):
+                result = self.run_tool(*retime, "--mode", mode)
+                self.assertEqual(result.returncode, 0, result)
+                until = " until .* m?s" if policy == "must_open" and len(path["waypoints"]) > 2 else ""
+                self.assertRegex(result.stdout, rf"held +part and g/tool: more than {gap} apart{until}\n")
+            # Held to more than it has, it is no longer proven, and nothing is written.
+            (self.folder / "way.json").unlink()
+            path["contact_pairs"][0]["distance"] = 0.000501
+            self.file("path.json", path)
+            result = self.run_tool(*retime)
+            self.assertEqual(result.returncode, 1, result)
+            self.assertIn("part and g/tool", result.stdout)
+            self.assertFalse((self.folder / "way.json").exists())
 
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))

@@ -174,6 +174,28 @@ def test_times_several_robots_with_one_clock(arm):
         fc.retime(path, limits={"elbow": {"max_acceleration": 3}}, max_acceleration=5)
 
 
+@pytest.mark.parametrize("policy, share", [("may_stay", 1 / 2), ("not_deeper", 15 / 16), ("must_open", 15 / 16)])
+def test_holds_contact_pairs(arm, policy, share):
+    # The ball is 0.5 mm beside the upper arm, whose margin is 10 mm.
+    ball = {**arm["bodies"][0], "pose": {"position": [0.5, -0.1505, 0]}}
+    scene = {**arm, "bodies": [ball], "plan": {
+        "robot": "arm", "goal": {"shoulder": 1, "elbow": 0.5}, "margin": 0.01,
+        "contact_pairs": [{"pair": ["arm/upper", "ball"], "policy": policy}]}}
+    path = fc.plan(scene)
+    assert path.verdict == "proven"
+    for mode in MODES:
+        answer = fc.retime(path, mode=mode, limits=LIMITS)
+        assert answer.verdict == "proven" and answer.closest.distance == pytest.approx(0.0005, abs=1e-6)
+        (held,) = answer.held
+        assert held.pair == ("ball", "arm/upper") and held.distance == pytest.approx(share * 0.0005, abs=1e-6)
+        assert held.start == 0 and 0 < held.end <= answer.duration
+        assert held.end == answer.duration or policy == "must_open"
+    edited = json.loads(path.json)
+    edited["contact_pairs"][0]["distance"] = 0.000501
+    answer = fc.retime(edited, limits=LIMITS)
+    assert (answer.verdict, answer.contact.pair, answer.contact.time) == ("refused", ("ball", "arm/upper"), 0)
+
+
 def test_a_stop_ends_it_undecided(arm):
     stop = fc.StopSource()
     stop.request_stop()

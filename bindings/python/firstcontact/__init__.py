@@ -38,7 +38,7 @@ from ._reports import (FileReport, LeftOut, MeshReading, PairCounts, PointReadin
 from ._retime import retime
 from ._run import Run, read_run
 from ._simulate import simulate
-from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, Joint, JointTurn,
+from ._tuples import (ContactInterval, EdgeAnswers, EndEffector, GapPoints, GapSamples, HeightMap, HeldPair, Joint, JointTurn,
                       LimitViolation, Mesh, Mimic, MovingShape, PlanAnswer, PlanningRequest, RateUse,
                       RetimeAnswer, RetimedMoment, RobotGroup,
                       RobotSemantics, RunContacts, RunImpacts, RunMoment, RunTies, RunVerification)
@@ -49,7 +49,7 @@ __all__ = [
     "Answer", "Between", "BodySet", "ClosestApproach", "ClosestApproachResult", "Contact", "ContactInterval",
     "ContactState", "DistanceResult", "EdgeAnswers", "EdgeChecker", "ElementaryContact", "ElementaryVerdict", "EndEffector",
     "Feature", "FeatureType", "FileReport", "Filling", "FirstContactResult", "GapPoints", "GapSamples",
-    "HapticSession", "HapticTick", "HeightMap", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
+    "HapticSession", "HapticTick", "HeightMap", "HeldPair", "Joint", "JointLimit", "JointTurn", "JointType", "LeftOut", "LimitViolation", "LinearContact",
     "ManyBodiesWorkspace", "Mesh", "MeshDefects", "MeshReading", "Mimic", "Motion",
     "MovingShape", "Pair", "PairAnswer", "PairCounts", "PairRules", "ParseError",
     "PlanAnswer", "PlanningRequest", "PointReading", "Pose", "RateUse",

@@ -275,6 +275,19 @@ class RetimedMoment(NamedTuple):
     """[m]  Of the closest approach."""
 
 
+class HeldPair(NamedTuple):
+    """A contact pair of a path, and what it keeps for a while in place of its margin."""
+
+    pair: tuple[str, str]
+    """Their names."""
+    distance: float
+    """[m]  They are farther apart, proven if the trajectory is."""
+    start: float
+    """[s]  Of the trajectory."""
+    end: float
+    """[s]"""
+
+
 class RateUse(NamedTuple):
     """The greatest size of a rate of a joint over a whole trajectory; rad or m, per s, s^2, s^3."""
 
@@ -309,6 +322,8 @@ class RetimeAnswer(NamedTuple):
     """Times that a blend was made shorter, as it was not free."""
     closest: RetimedMoment | None
     """The closest approach, if proven; None where no pair is tested."""
+    held: tuple[HeldPair, ...]
+    """Pairs that are in contact at an end of the path."""
     rates: tuple[RateUse, ...]
     """Of each joint, and of each rate that is limited."""
     contact: RetimedMoment | None

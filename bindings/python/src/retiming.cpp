@@ -185,6 +185,18 @@ py::tuple rates_of(const Retiming& retiming) {
   return py::tuple(list);
 }
 
+/// Of a motion that is proven: what its contact pairs kept.
+py::tuple held_pairs_of(const Retiming& retiming) {
+  py::list list;
+  for (const ProvenHold& hold : retiming.proof.held) {
+    const RobotScene& scene = retiming.scene->where.scene;
+    list.append(tuple_type("HeldPair")(
+        py::make_tuple(scene.name(hold.members[0]), scene.name(hold.members[1])), hold.distance,
+        hold.from, hold.to));
+  }
+  return py::tuple(list);
+}
+
 py::tuple left_limits_of(const Retiming& retiming) {
   py::list list;
   for (const SceneLimits& left : retiming.proof.positions) {
@@ -218,9 +230,9 @@ py::object answer_of(const Retiming& retiming) {
       kRetimingModeWords.at(static_cast<std::size_t>(retiming.made.mode)),
       is_proven ? py::cast(trajectory_of(retiming.made.motion)) : py::none(),
       retiming.proof.duration, retiming.made.stop_duration, retiming.made.blends,
-      retiming.made.shortened, closest_of(retiming), rates_of(retiming), contact_of(retiming),
-      left_limits_of(retiming), py::tuple(warnings), text(TrajectoryFormat::yaml),
-      text(TrajectoryFormat::json), text(TrajectoryFormat::csv));
+      retiming.made.shortened, closest_of(retiming), held_pairs_of(retiming), rates_of(retiming),
+      contact_of(retiming), left_limits_of(retiming), py::tuple(warnings),
+      text(TrajectoryFormat::yaml), text(TrajectoryFormat::json), text(TrajectoryFormat::csv));
 }
 
 py::object retime_source(OrNone<HeldScene> scene, std::optional<std::string> text,

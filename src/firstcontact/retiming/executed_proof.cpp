@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/retiming/detail/held_stretches.h>
 #include <firstcontact/robot/robot_motion.h>
 #include <firstcontact/robot/tracking_error.h>
 #include <firstcontact/scene/trajectory.h>
@@ -76,6 +77,9 @@ void require_held_all_the_time(const RobotScene& scene) {
     }
   }
 }
+
+/// [-]  Of the distance that a pair is held to. A plan leaves at least twice as much to it.
+constexpr double kToleranceOfHolds = 0x1p-7;
 
 double start_of(const CoordinatePath& path) {
   return path.segments().front().state(0.0).value.value();
@@ -177,6 +181,43 @@ void add_rounding_allowance(RobotScene& scene, std::size_t robot) {
   }
 }
 
+/// The robots that leave limits of positions.
+std::vector<SceneLimits> positions_beyond_limits(const TimedMotion& motion,
+                                                 const RetimingScene& where) {
+  std::vector<SceneLimits> all;
+  const std::vector<TimedMotion> parts = split_motion(motion, where);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::size_t robot = where.robots[k];
+    std::vector<LimitViolation> violations =
+        violations_of(parts[k], robot_motion_of(parts[k], where.scene.robot_motion(robot)));
+    if (!violations.empty()) {
+      all.push_back({robot, std::move(violations)});
+    }
+  }
+  return all;
+}
+
+/// Checks a stretch of a motion in which some pairs are held.
+SceneResult check_stretch(const TimedMotion& motion, const std::vector<RetimingHold>& holds,
+                          const RetimingScene& where, const ProofOptions& options) {
+  RobotScene scene = where.scene;
+  const std::vector<TimedMotion> parts = split_motion(motion, where);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const std::size_t robot = where.robots[k];
+    scene.set_motion(robot, robot_motion_of(parts[k], scene.robot_motion(robot)));
+    add_rounding_allowance(scene, robot);
+  }
+  double tolerance = options.tolerance;
+  for (const RetimingHold& hold : holds) {
+    scene.hold_pair(hold.members, hold.distance);
+    tolerance = std::min(tolerance, kToleranceOfHolds * hold.distance);
+  }
+  return check_robots(scene, {.tolerance = tolerance,
+                              .budget = options.budget,
+                              .threads = options.threads,
+                              .closest = options.closest});
+}
+
 /// Whether the reader found a point that stands twice: its warning is the only trace of it.
 bool takes_a_point_once(const Trajectory& trajectory) {
   return std::any_of(trajectory.warnings.begin(), trajectory.warnings.end(),
@@ -219,22 +260,18 @@ ExecutedProof prove_motion(const TimedMotion& motion, const std::vector<RateLimi
     throw std::invalid_argument("the motion lasts too long, or its rates are too high, to be " +
                                 std::string("proven in double precision"));
   }
-  RobotScene scene = where.scene;
-  const std::vector<TimedMotion> parts = split_motion(motion, where);
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const std::size_t robot = where.robots[k];
-    RobotMotion moved = robot_motion_of(parts[k], scene.robot_motion(robot));
-    std::vector<LimitViolation> violations = violations_of(parts[k], moved);
-    if (!violations.empty()) {
-      proof.positions.push_back({robot, std::move(violations)});
+  proof.positions = positions_beyond_limits(motion, where);
+  const detail::HeldStretches stretches(motion, where.holds);
+  proof.held = stretches.times();
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    detail::StretchResult found{
+        stretches.begin(k), stretches.end(k),
+        check_stretch(stretches.motion(k), stretches.holds(k), where, options)};
+    detail::append_result(std::move(found), proof.duration, proof.contact);
+    if (proof.contact.verdict != Verdict::free) {
+      break;
     }
-    scene.set_motion(robot, std::move(moved));
-    add_rounding_allowance(scene, robot);
   }
-  proof.contact = check_robots(scene, {.tolerance = options.tolerance,
-                                       .budget = options.budget,
-                                       .threads = options.threads,
-                                       .closest = options.closest});
   return proof;
 }
 

@@ -22,6 +22,14 @@ namespace firstcontact {
 /// @throws std::invalid_argument  names what moves
 FIRSTCONTACT_API void require_resting_surroundings(const RetimingScene& where);
 
+/// A pair that was held to a distance of its own for a while, in place of its margin.
+struct ProvenHold {
+  BodyPair members = {};
+  double distance = 0.0;  ///< [m]
+  double from = 0.0;      ///< [s]
+  double to = 0.0;        ///< [s]
+};
+
 /// The proof of a motion as its controller executes it.
 struct ExecutedProof {
   /// First contact over the motion; t = 1 is its last point. Margins contain the tracking errors,
@@ -30,8 +38,9 @@ struct ExecutedProof {
   /// The robots with positions beyond the limits of the URDF by more than 1e-9, or velocities of
   /// joints that mimic others. Joints that rest, and that the motion does not name, are left out.
   std::vector<SceneLimits> positions = {};
-  std::vector<RateUse> rates = {};  ///< As rate_report().
-  double duration = 0.0;            ///< [s]
+  std::vector<RateUse> rates = {};    ///< As rate_report().
+  std::vector<ProvenHold> held = {};  ///< In the order of the scene's holds.
+  double duration = 0.0;              ///< [s]
 
   /// All of it holds.
   [[nodiscard]] bool is_proven() const {
@@ -61,7 +70,11 @@ struct ProofOptions {
 /// Several robots move at once: the pairs of one with another are tested, too.
 ///
 /// @param limits  of each joint name of the motion
-/// @throws std::invalid_argument  names the joint that no robot has, or what else moves
+/// Pairs of the scene's holds are held for their times, and checked with a tolerance that is small
+/// beside their distances. Tracking errors count for them, too.
+///
+/// @throws std::invalid_argument  names the joint that no robot has, or what else moves; or the
+///         motion does not rest where a pair has to be open
 [[nodiscard]] FIRSTCONTACT_API ExecutedProof prove_motion(const TimedMotion& motion,
                                                           const std::vector<RateLimits>& limits,
                                                           const RetimingScene& where,

@@ -65,9 +65,20 @@ class Retimer {
     return blended;
   }
 
+  /// Where pairs have to be open the motion rests: there ends the time for which they are held.
+  [[nodiscard]] std::vector<double> longest_blends() const {
+    std::vector<double> longest(path_.waypoints.size() - 2, kLongestBlend);
+    for (const RetimingHold& hold : where_.holds) {
+      if (!hold.opens_at.empty() && !longest.empty()) {
+        (hold.at == PathEnd::start ? longest.front() : longest.back()) = 0.0;
+      }
+    }
+    return longest;
+  }
+
   /// A proven motion with blends that is faster than one without; none where there is none.
   std::optional<RetimedMotion> blend(double stop_duration) {
-    std::vector<double> longest(path_.waypoints.size() - 2, kLongestBlend);
+    std::vector<double> longest = longest_blends();
     while (!options_.proof.budget.stop.stop_requested()) {
       BlendedMotion blended = blended_within_limits(longest);
       if (!(blended.motion.duration() < stop_duration)) {

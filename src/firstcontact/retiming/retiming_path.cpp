@@ -1,8 +1,10 @@
 #include <firstcontact/retiming/retiming_path.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -11,7 +13,6 @@
 
 #include <firstcontact/retiming/executed_proof.h>
 #include <firstcontact/robot/coordinate_path.h>
-#include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/trajectory.h>
 #include <firstcontact/scene_files/read_planned_path.h>
 #include <firstcontact/scene_files/read_scene.h>
@@ -50,6 +51,34 @@ void require_mover(const RetimingPath& path, const std::string& robot, const std
   }
 }
 
+/// A contact pair of the path in the scene that was loaded.
+RetimingHold hold_of(const NamedContactPair& pair, const RetimingPath& input,
+                     const RobotScene& scene) {
+  const std::string names =
+      detail::in_quotes(pair.pair[0]) + " and " + detail::in_quotes(pair.pair[1]);
+  const std::optional<std::size_t> a = scene.find_member(pair.pair[0]);
+  const std::optional<std::size_t> b = scene.find_member(pair.pair[1]);
+  if (!a || !b || *a == *b) {
+    throw std::invalid_argument("contact_pairs: expected two bodies or links of the scene, got " +
+                                names);
+  }
+  RetimingHold hold{.members = {std::min(*a, *b), std::max(*a, *b)},
+                    .distance = pair.distance,
+                    .opens_at = {},
+                    .at = pair.at};
+  if (!scene.margin(hold.members)) {
+    throw std::invalid_argument("contact_pairs: " + names + " are not tested");
+  }
+  if (!(pair.distance > 0.0 && std::isfinite(pair.distance))) {
+    throw std::invalid_argument("contact_pairs: expected a distance above 0 of " + names);
+  }
+  const std::vector<std::vector<double>>& waypoints = input.path.waypoints;
+  if (pair.policy == ContactPolicy::must_open) {
+    hold.opens_at = pair.at == PathEnd::start ? waypoints[1] : waypoints[waypoints.size() - 2];
+  }
+  return hold;
+}
+
 }  // namespace
 
 RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
@@ -64,17 +93,11 @@ RetimingPath parse_retiming_path(std::string_view text, const std::string& name,
                      "expected a path without times: this one is among bodies that move, and "
                      "is proven for its own times alone");
   }
-  if (!path.contact_pairs.empty()) {
-    const NamedContactPair& first = path.contact_pairs.front();
-    throw ParseError(name, "expected a path whose pairs all keep their margins: " +
-                               detail::in_quotes(first.pair[0]) + " and " +
-                               detail::in_quotes(first.pair[1]) +
-                               " are a contact pair, which a retimed trajectory does not hold");
-  }
   RetimingPath result;
   result.is_approximate = !path.is_proven;
   result.path = {std::move(path.joints), std::move(path.waypoints)};
   result.scene = std::move(path.scene);
+  result.contact_pairs = std::move(path.contact_pairs);
   result.input_digest = std::move(path.input_digest);
   std::vector<bool> turns_short;
   for (const Turning turning : path.turnings) {
@@ -152,7 +175,10 @@ LoadedRetimingScene load_retiming_scene(const RetimingPath& input, ShapeCache& c
     throw std::invalid_argument(
         "a file of the scene has changed since the path was planned; plan it again");
   }
-  RetimingScene where{.scene = *loaded.robots, .robots = input.robots};
+  RetimingScene where{.scene = *loaded.robots, .robots = input.robots, .holds = {}};
+  for (const NamedContactPair& pair : input.contact_pairs) {
+    where.holds.push_back(hold_of(pair, input, where.scene));
+  }
   require_resting_surroundings(where);
   return {.loaded = std::move(loaded), .where = std::move(where)};
 }

@@ -13,6 +13,7 @@
 #include <firstcontact/retiming/retiming_scene.h>
 #include <firstcontact/retiming/waypoint_path.h>
 #include <firstcontact/scene/loaded_scene.h>
+#include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene/scene.h>
 
 namespace firstcontact {
@@ -23,6 +24,8 @@ struct RetimingPath {
   std::vector<std::size_t> robots = {0};  ///< That move, of the scene.
   /// Its numbers go the way that the joints turn. Joints are ROBOT/NAME where several robots move.
   WaypointPath path = {};
+  /// Pairs that are in contact at an end of the path, and the distances that they are held to.
+  std::vector<NamedContactPair> contact_pairs = {};
   std::string input_digest = {};  ///< Of all that the path was planned with; may be empty.
   bool is_approximate = false;    ///< It ends before its goal.
 };
@@ -67,7 +70,7 @@ struct LoadedRetimingScene {
 /// Loads the scene of a path.
 ///
 /// @throws std::invalid_argument if a file of the scene has changed since the path was planned, or
-///         anything but its robots moves
+///         anything but its robots moves, or a contact pair is not tested
 [[nodiscard]] FIRSTCONTACT_API LoadedRetimingScene load_retiming_scene(const RetimingPath& input,
                                                                        ShapeCache& cache);
 

@@ -6,12 +6,27 @@
 #include <cstddef>
 #include <vector>
 
+#include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/math/export.h>
 #include <firstcontact/retiming/timed_motion.h>
 #include <firstcontact/robot/robot_model.h>
 #include <firstcontact/robot_check/robot_scene.h>
+#include <firstcontact/scene/contact_pair.h>
 
 namespace firstcontact {
+
+/// A pair that is in contact at an end of the path. It is held to a distance of its own, in place
+/// of its margin and paddings.
+struct RetimingHold {
+  BodyPair members = {};
+  double distance = 0.0;  ///< [m]  > 0.
+  /// [rad or m]  The waypoint at which the pair has to be open, in the order of the motion's
+  /// joints. Empty where it is held all the time. A pair that opens after the start is held until the
+  /// motion first rests there. One that is in contact at the goal is held from the last such rest
+  /// on. At that rest and all other times the pair keeps its margin.
+  std::vector<double> opens_at = {};
+  PathEnd at = PathEnd::start;
+};
 
 /// The robots that move, and all around them, which rests.
 ///
@@ -21,6 +36,7 @@ namespace firstcontact {
 struct RetimingScene {
   RobotScene scene;
   std::vector<std::size_t> robots = {0};  ///< Of the scene; one or more, each once.
+  std::vector<RetimingHold> holds = {};   ///< Each pair once.
 };
 
 /// The robots that move as one model: limits and files of their joints are read by it.

@@ -235,6 +235,13 @@ void RobotScene::set_padding(std::size_t member, double padding) {
   members_[member].padding = checked(padding, "padding of '" + members_[member].name + "'");
 }
 
+void RobotScene::hold_pair(const BodyPair& members, double distance) {
+  require_member(members[0]);
+  require_member(members[1]);
+  held_[members] = checked(distance, "distance of '" + members_[members[0]].name + "' and '" +
+                                         members_[members[1]].name + "'");
+}
+
 void RobotScene::set_tracking_error(std::size_t robot, std::string_view joint,
                                     const TrackingError& error) {
   require_robot(robot);
@@ -308,7 +315,11 @@ std::optional<double> RobotScene::margin(const BodyPair& members) const {
     return std::nullopt;
   }
   const std::optional<double> margin = rules_.margin(members);
-  return margin ? std::optional(*margin + a.padding + b.padding) : std::nullopt;
+  if (!margin) {
+    return std::nullopt;
+  }
+  const auto held = held_.find(members);
+  return held != held_.end() ? held->second : *margin + a.padding + b.padding;
 }
 
 Pose RobotScene::pose(std::size_t member, double t) const {

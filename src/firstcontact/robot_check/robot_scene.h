@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -111,6 +112,12 @@ class FIRSTCONTACT_API RobotScene {
   /// @param padding  [m]  >= 0
   void set_padding(std::size_t member, double padding);
 
+  /// Holds a pair to a distance of its own, in place of its margin and of both paddings. A pair
+  /// that is not tested stays so.
+  ///
+  /// @param distance  [m]  >= 0
+  void hold_pair(const BodyPair& members, double distance);
+
   /// Sets the tracking error of a joint: its effect on a link adds to the margins of the link's
   /// pairs.
   ///
@@ -158,8 +165,9 @@ class FIRSTCONTACT_API RobotScene {
   /// All attachments, in order of body, then of time.
   [[nodiscard]] std::span<const Attachment> attachments() const { return attachments_; }
 
-  /// [m]  The margin of a pair with both paddings, without tracking errors; none where it is never
-  /// tested. A pair with an attached body has one, though it may not be tested all the time.
+  /// [m]  The margin of a pair with both paddings, or the distance that it is held to. Tracking
+  /// errors are left out. None where the pair is never tested. A pair with an attached body has
+  /// one, though it may not be tested all the time.
   [[nodiscard]] std::optional<double> margin(const BodyPair& members) const;
 
   /// The paths that all checks of the scene share.
@@ -203,6 +211,7 @@ class FIRSTCONTACT_API RobotScene {
   std::vector<Robot> robots_;
   std::vector<Attachment> attachments_;
   PairRules rules_;
+  std::map<BodyPair, double> held_;  // [m]
 };
 
 }  // namespace firstcontact

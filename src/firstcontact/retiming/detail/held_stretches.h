@@ -1,0 +1,70 @@
+/// @file
+/// The stretches of a motion in which contact pairs are held, and the result of all of them.
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <firstcontact/many_bodies/scene_result.h>
+#include <firstcontact/retiming/executed_proof.h>
+#include <firstcontact/retiming/retiming_scene.h>
+#include <firstcontact/retiming/timed_motion.h>
+
+namespace firstcontact::detail {
+
+/// A motion, cut where pairs open or where those at the goal begin to be held.
+///
+/// The cuts are points at which the motion rests. They belong to the stretches on both sides, so
+/// that a pair keeps its margin where it has opened. A cut at an end of the motion makes a stretch
+/// of one point.
+class HeldStretches {
+ public:
+  /// @param motion, holds  are referred to
+  /// @throws std::invalid_argument if the motion does not rest where a pair has to be open
+  HeldStretches(const TimedMotion& motion, std::span<const RetimingHold> holds);
+
+  [[nodiscard]] std::size_t size() const { return stretches_.size(); }
+
+  /// [s]  Of the first and the last point of a stretch.
+  [[nodiscard]] double begin(std::size_t stretch) const;
+  [[nodiscard]] double end(std::size_t stretch) const;
+
+  /// The points of a stretch; times from 0 on. Between them the motion is the same.
+  [[nodiscard]] TimedMotion motion(std::size_t stretch) const;
+
+  /// The pairs that are held in a stretch.
+  [[nodiscard]] std::vector<RetimingHold> holds(std::size_t stretch) const;
+
+  /// From when to when each pair is held.
+  [[nodiscard]] std::vector<ProvenHold> times() const;
+
+ private:
+  struct Stretch {
+    std::size_t first = 0;  // Of the points.
+    std::size_t last = 0;
+  };
+  [[nodiscard]] Stretch held_points(const RetimingHold& hold) const;
+  [[nodiscard]] double seconds(std::size_t point) const;
+
+  const TimedMotion& motion_;
+  std::span<const RetimingHold> holds_;
+  std::vector<Stretch> stretches_;
+};
+
+/// The answer about a stretch.
+struct StretchResult {
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
+  SceneResult result;
+};
+
+/// Takes the answer about the next stretch into that about the motion, which is free so far. The
+/// first answer is taken as it is where its stretch is the whole motion.
+///
+/// @param duration  [s]  of the motion
+void append_result(StretchResult next, double duration, SceneResult& all);
+
+}  // namespace firstcontact::detail
