@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <firstcontact/retiming/timed_motion.h>
 #include <firstcontact/retiming/waypoint_path.h>
 #include <firstcontact/scene/gap_bound.h>
+#include <firstcontact/scene/hold_contact_pairs.h>
 #include <firstcontact/scene/planned_path.h>
 #include <firstcontact/scene_files/write_result.h>
 
@@ -66,32 +66,6 @@ void append(std::vector<double>& times, std::vector<Place>& places, double time,
   if (times.empty() || time > times.back()) {
     times.push_back(time);
     places.push_back(std::move(place));
-  }
-}
-
-/// [-]  Of the distance of a contact pair: no farther beyond it is in contact.
-constexpr double kToleranceOfContactPairs = 0.01;
-
-/// Gives contact pairs the distances that they are held to, in place of their margins.
-void hold_contact_pairs(const std::vector<NamedContactPair>& pairs, Scene& scene) {
-  std::map<std::string, std::size_t> members;
-  for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
-    members[scene.bodies[k].name] = k;
-  }
-  for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
-    const std::size_t first = first_member(scene, robot);
-    for (std::size_t link = 0; link < scene.robots[robot].model.links().size(); ++link) {
-      members[member_name(scene, first + link)] = first + link;
-    }
-  }
-  for (const NamedContactPair& one : pairs) {
-    const std::size_t a = members.at(one.pair[0]);
-    const std::size_t b = members.at(one.pair[1]);
-    const BodyPair pair = {std::min(a, b), std::max(a, b)};
-    std::erase_if(scene.pair_margins, [&](const PairMargin& own) { return own.bodies == pair; });
-    scene.pair_margins.push_back({pair, one.distance});
-    scene.options.tolerance =
-        std::min(scene.options.tolerance, kToleranceOfContactPairs * one.distance);
   }
 }
 

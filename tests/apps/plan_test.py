@@ -5,6 +5,7 @@
 
 import json
 import pathlib
+import re
 import signal
 import sys
 import unittest
@@ -256,9 +257,17 @@ class Plan(tool_test.ToolTest):
         robot = {"name": "g", "urdf": "gantry.urdf", "padding": {"tool": padding}}
         self.file("scene.json", scene({"goal": {"x": 1, "z": 0}, "margin": 0.001, "contact_pairs": [
             {"pair": ["g/tool", "part"], "policy": policy}]}, [part, fence], robots=[robot]))
-        result = self.plan("scene.json", "-o", "path.json")
+        result = self.plan("scene.json", "-o", "path.json", *(["--html", "page.html"] if self.has_viewer() else []))
         self.assertEqual(result.returncode, 0, result)
         return json.loads((self.folder / "path.json").read_text())
+
+    def has_viewer(self):
+        return (pathlib.Path(tool_test.TOOL).parent.parent / "share/firstcontact/viewer.html").exists()
+
+    def result_of_page(self, page):
+        text = (self.folder / page).read_text(encoding="utf-8")
+        data = re.findall(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', text, re.DOTALL)
+        return json.loads(data[0])["result"]
 
     def test_retimes_what_is_in_contact(self):
         retime = ["retime", "path.json", "--max-acceleration", "2", "--max-jerk", "50", "-o", "way.json"]
@@ -277,6 +286,19 @@ class Plan(tool_test.ToolTest):
             self.assertEqual(result.returncode, 1, result)
             self.assertIn("part and g/tool", result.stdout)
             self.assertFalse((self.folder / "way.json").exists())
+
+    def test_page_holds_contact_pairs_in_place_of_paddings(self):
+        if not self.has_viewer():
+            self.skipTest("built without the viewer")
+        path = self.plan_off_a_part("may_stay", padding=0.01)
+        self.run_tool("retime", "path.json", "--max-acceleration", "2", "-o", "way.json", "--html", "way.html")
+        for page in ("page.html", "way.html"):
+            result = self.result_of_page(page)
+            self.assertEqual(result["verdict"], "free")
+            self.assertAlmostEqual(result["closest"]["distance"], 0.0005, places=8)
+            self.assertGreater(result["clearance"], 0.0002)
+            self.assertIn({"pair": ["part", "g/tool"], "margin": path["contact_pairs"][0]["distance"]},
+                          [{key: pair[key] for key in ("pair", "margin")} for pair in result["pairs"]])
 
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
