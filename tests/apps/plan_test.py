@@ -300,6 +300,64 @@ class Plan(tool_test.ToolTest):
             self.assertIn({"pair": ["part", "g/tool"], "margin": path["contact_pairs"][0]["distance"]},
                           [{key: pair[key] for key in ("pair", "margin")} for pair in result["pairs"]])
 
+    def test_plans_a_body_among_robots(self):
+        self.file("gantry.urdf", URDF)
+        lifts = {"joint_names": ["x", "z"], "points": [
+            {"time": t, "positions": [0, z]} for t, z in ((0, 0), (3, 1), (6, 0), (8, 0))]}
+        resting = {"name": "g", "urdf": "gantry.urdf", "padding": {"tool": 0.02}, "state": {"x": 0, "z": 0}}
+        moving = {"name": "g", "urdf": "gantry.urdf", "padding": {"tool": 0.02}, "trajectory": lifts}
+        timed = {"speeds": {"linear": 1, "angular": 2}, "box": [[-1, -0.01, -0.01], [1, 0.01, 0.01]]}
+        question = {"body": "peg", "goal": {"position": [0.5, 0, 0]}, "margin": 0.001}
+        for robot, more in ((resting, {}), (moving, timed)):
+            self.file("scene.json", scene({**question, **more}, [PEG], robots=[robot]))
+            result = self.plan("scene.json", "-o", "path.json", *(["--html", "page.html"] if self.has_viewer() else []))
+            self.assertEqual(result.returncode, 0, result)
+            self.assertIn("peg and g/tool", result.stdout)
+            verified = self.run_tool("verify", "path.json")
+            self.assertEqual(verified.returncode, 0, verified)
+            if self.has_viewer():
+                self.assertEqual(self.result_of_page("page.html")["verdict"], "free")
+            path = json.loads((self.folder / "path.json").read_text())
+            self.assertEqual(path["moves"], {"body": "peg"})
+            # Straight through where the tool is: no longer proven.
+            path["waypoints"] = [path["waypoints"][0], path["waypoints"][-1]]
+            if more:  # Before it is lifted high enough.
+                path["waypoints"].append(path["waypoints"][-1])
+                path["times"] = [0, 1, 8]
+            path["edges"] = [{"verdict": "proven", "clearance": 0}] * (len(path["waypoints"]) - 1)
+            path["clearance"] = 0
+            self.file("straight.json", path)
+            verified = self.run_tool("verify", "straight.json")
+            self.assertEqual(verified.returncode, 1, verified)
+            self.assertIn("peg", verified.stdout)
+        # Beside a robot that moves the body needs speeds.
+        (self.folder / "path.json").unlink()
+        self.file("scene.json", scene(question, [PEG], robots=[moving]))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), "speeds", '"g"')
+
+    def test_plans_a_part_that_flies_while_a_robot_moves(self):
+        """A body together with a robot: the body as a robot of its own, with three slides."""
+        self.file("gantry.urdf", URDF)
+        links = "".join(f'<link name="{name}"/>' for name in ("world", "sx", "sy"))
+        slides = "".join(
+            f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><axis xyz="{axis}"/>'
+            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
+            for name, parent, child, axis in (("x", "world", "sx", "1 0 0"), ("y", "sx", "sy", "0 1 0"),
+                                              ("z", "sy", "part", "0 0 1")))
+        self.file("part.urdf", f'<robot name="part">{links}<link name="part"><collision><geometry>'
+                               f'<box size="0.1 0.1 0.1"/></geometry></collision></link>{slides}</robot>')
+        question = {"robots": ["g", "p"], "joints": ["g/x", "g/z", "p/x", "p/y", "p/z"],
+                    "goal": {"g/x": 0.5, "p/x": -0.5}}
+        robots = [{"name": "g", "urdf": "gantry.urdf", "state": {"x": -0.5, "z": 0}},
+                  {"name": "p", "urdf": "part.urdf", "state": {"x": 0.5, "y": 0, "z": 0}}]
+        self.file("scene.json", scene(question, (), robots=robots))
+        result = self.plan("scene.json", "-o", "path.json")
+        self.assertEqual(result.returncode, 0, result)
+        self.assertEqual(self.run_tool("verify", "path.json").returncode, 0)
+        (self.folder / "path.json").unlink()
+        self.file("scene.json", scene({"robots": ["g", "p"], "body": "peg", "goal": GOAL}, [PEG], robots=robots))
+        self.assert_writes_nothing(self.plan("scene.json", "-o", "path.json"), '"robots" and "body"', "got several")
+
     def test_never_writes_over_its_question(self):
         self.file("scene.json", scene({"body": "peg", "goal": GOAL}))
         before = (self.folder / "scene.json").read_text()
