@@ -27,7 +27,7 @@ ProvenPart proven_part(double gap, const Vector3d& way, const Vector3d& turn = V
   const Pose start{{0.0, 0.0, 2.0 + above}, Eigen::Quaterniond::Identity()};
   const std::array<Motion, 2> motions = {Motion::fixed(),
                                          Motion::constant_velocity(start, way, turn)};
-  const HapticPair pair{.members = {0, 1}, .gap = gap};
+  HapticPair pair{.members = {0, 1}, .gap = gap};
   Workspace workspace;
   FirstContactResult scratch;
   return prove_plan(members, motions, std::span(&pair, 1), kDistance, {}, workspace, scratch);
@@ -61,7 +61,7 @@ TEST(PairProof, RoundingAloneHoldsNoTool) {
                    : Motion::constant_velocity(placed({0.0, 0.0, 2.0 + wedged}),
                                                turn * Vector3d(0.1, 0.2, 0.0)),
         Motion::constant_velocity(placed({0.0, 0.0, 20.0}), turn * Vector3d(0.0, 0.0, -1.0))};
-    const std::array<HapticPair, 2> pairs = {
+    std::array<HapticPair, 2> pairs = {
         {{.members = {0, 1}, .gap = wedged * (1.0 + 1e-7)},
          {.members = {0, 2}, .gap = std::numeric_limits<double>::infinity()}}};
     EXPECT_EQ(prove_plan(members, motions, pairs, kDistance, {}, workspace, scratch).t, 1.0) << k;

@@ -137,8 +137,8 @@ void ContactLoop::Implementation::find_contacts() {
   for (detail::HapticPair& pair : pairs_) {
     const auto [other, tool] = pair.members;
     const std::size_t first = touches_.size();
-    pair.gap =
-        finder_.find(members_[other], *placed_[other], members_[tool], *placed_[tool], touches_);
+    pair.gap = finder_.find(members_[other], *placed_[other], members_[tool], *placed_[tool],
+                            pair.front, touches_);
     for (std::size_t k = first; k < touches_.size(); ++k) {
       HapticContact& contact = touches_[k].contact;
       contact.tool = static_cast<std::int32_t>(tool);

@@ -7,6 +7,7 @@
 
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/detail/contact_state.h>
+#include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/resting_pair.h>
 
@@ -84,6 +85,19 @@ void close_features(const PlacedShape& A, const PlacedShape& B, double band, Wor
         const detail::RestingPair motion(first.path(), second.path());
         collect(first.shape(), second.shape(), motion, 0.0, {band, beside}, workspace, contacts);
       });
+}
+
+void detail::close_features_by_front(const PlacedShape& A, const PlacedShape& B, double band,
+                                     double beside, BoxFront& front, Workspace& workspace,
+                                     std::vector<Contact>& contacts) {
+  require_band(band, beside);
+  const FloatEnvironmentGuard guard;
+  contacts.clear();
+  const RestingPair motion(A.path(), B.path());
+  const MovingPair pair(A.shape().hierarchy(), B.shape().hierarchy(), motion);
+  const ContactFrame frame{A.shape(), B.shape(), pair, 0.0, motion.origin(0.0), beside};
+  const double radii = A.shape().radius() + B.shape().radius();
+  collect_contacts_by_front(frame, radii + band, front, workspace.data(), contacts);
 }
 
 }  // namespace firstcontact

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/math/float_environment.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
@@ -14,6 +15,7 @@
 #include <firstcontact/query/detail/convex_leaf.h>
 #include <firstcontact/query/detail/convex_search.h>
 #include <firstcontact/query/detail/corner_lines.h>
+#include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/detail/nearest_triangles.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/pair_query.h>
@@ -122,6 +124,7 @@ struct Query {
   const detail::CornerLines* lines;  ///< null: not known
   detail::WorkspaceData& workspace;
   Hold hold;
+  const detail::BoxFront* front = nullptr;  ///< null: begins at the roots
 };
 
 /// The pair that decided, alone.
@@ -197,7 +200,8 @@ bool solve_piece(const Query& query, const TimeWindow& part, FirstContactResult&
       .lines = by_triangles && query.lines->exist(state) ? query.lines : nullptr,
       .budget = options.budget,
       .A = pair.is_convex() ? nullptr : &A,
-      .B = pair.is_convex() ? nullptr : &B};
+      .B = pair.is_convex() ? nullptr : &B,
+      .front = query.front};
   const double above = std::max(0.0, limits.threshold - margin);  // Of a pair that is held.
   const double first = limits.tolerance;
   const detail::PieceResult found =
@@ -283,7 +287,7 @@ void solve_solids(const Query& query, const RelativeState& start, FirstContactRe
 /// @param held   how near the two may come; null: as the options say
 void answer(const ShapePair& pair, const TimeWindow& window, const detail::CornerLines* lines,
             const Hold* held, Workspace& workspace, const FirstContactOptions& options,
-            FirstContactResult& result) {
+            FirstContactResult& result, const detail::BoxFront* front = nullptr) {
   detail::validate(options);
   const FloatEnvironmentGuard guard;
   result.reason = UndecidedReason::none;
@@ -309,7 +313,7 @@ void answer(const ShapePair& pair, const TimeWindow& window, const detail::Corne
     hold = detail::keep_half(gap_at(pair, start, workspace.data(), options, result.work),
                              options.margin);
   }
-  const Query query{pair, window, options, lines, workspace.data(), hold};
+  const Query query{pair, window, options, lines, workspace.data(), hold, front};
   if (has_inside) {
     solve_solids(query, start, result);
   } else {
@@ -381,6 +385,24 @@ void detail::first_contact_within(const MovingShape& A, const MovingShape& B,
   for (Contact& contact : result.contacts) {
     swap_bodies(contact);
   }
+}
+
+bool detail::may_have_front(const Shape& A, const Shape& B) {
+  const bool are_triangles = !is_asked_as_convex(A, B) && !is_asked_as_convex(B, A);
+  const bool are_rigid = !A.hierarchy().deforms() && !B.hierarchy().deforms();
+  return are_triangles && are_rigid &&
+         std::max(A.hierarchy().triangles.size(), B.hierarchy().triangles.size()) >
+             FeatureTable::kMostTriangles;
+}
+
+void detail::first_contact_by_front(const BoxFront& front, const MovingShape& A,
+                                    const MovingShape& B, Workspace& workspace,
+                                    const FirstContactOptions& options,
+                                    FirstContactResult& result) {
+  const FloatEnvironmentGuard guard;
+  ConstantRatePair motion = motion_of(A, B, options.tolerance);
+  const CornerLines lines(A, B);
+  answer({A.shape, B.shape, motion}, {}, &lines, nullptr, workspace, options, result, &front);
 }
 
 void first_contact(const MovingShape& A, const MovingShape& B, Workspace& workspace,

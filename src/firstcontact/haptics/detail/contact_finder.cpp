@@ -12,6 +12,7 @@
 #include <firstcontact/haptics/detail/constants.h>
 #include <firstcontact/math/cell_hash.h>
 #include <firstcontact/query/close_features.h>
+#include <firstcontact/query/detail/front_query.h>
 
 namespace firstcontact::detail {
 namespace {
@@ -88,11 +89,16 @@ void ContactFinder::choose(const HapticMember& other, const PlacedShape& other_a
 }
 
 double ContactFinder::find(const HapticMember& other, const PlacedShape& other_at,
-                           const HapticMember& tool, const PlacedShape& tool_at,
+                           const HapticMember& tool, const PlacedShape& tool_at, BoxFront& front,
                            std::vector<HapticTouch>& touches) {
   const double reach = std::min(other.reach, tool.reach);
-  close_features(other_at, tool_at, kContactBand * distance_, workspace_, contacts_,
-                 kWidthOfNeighbourhood * reach);
+  const double band = kContactBand * distance_;
+  const double beside = kWidthOfNeighbourhood * reach;
+  if (may_have_front(other.shape, tool.shape)) {
+    close_features_by_front(other_at, tool_at, band, beside, front, workspace_, contacts_);
+  } else {
+    close_features(other_at, tool_at, band, workspace_, contacts_, beside);
+  }
   double least = std::numeric_limits<double>::infinity();
   for (const Contact& contact : contacts_) {
     least = std::min(least, contact.distance);

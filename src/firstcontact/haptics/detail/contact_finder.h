@@ -9,6 +9,7 @@
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/haptics/contact_loop.h>
+#include <firstcontact/query/detail/box_front.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>
@@ -34,7 +35,7 @@ class ContactFinder {
   ///
   /// @returns  [m]  the least distance of all features within the band; infinite where none is
   double find(const HapticMember& other, const PlacedShape& other_at, const HapticMember& tool,
-              const PlacedShape& tool_at, std::vector<HapticTouch>& touches);
+              const PlacedShape& tool_at, BoxFront& front, std::vector<HapticTouch>& touches);
 
  private:
   void choose(const HapticMember& other, const PlacedShape& other_at, const HapticMember& tool,

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <firstcontact/haptics/detail/constants.h>
+#include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/distance.h>
 
 namespace firstcontact::detail {
@@ -28,19 +29,25 @@ HeldApart held_apart(double gap, double contact_distance) {
 }  // namespace
 
 ProvenPart prove_plan(std::span<const HapticMember> members, std::span<const Motion> motions,
-                      std::span<const HapticPair> pairs, double contact_distance,
+                      std::span<HapticPair> pairs, double contact_distance,
                       const std::optional<std::chrono::steady_clock::time_point>& deadline,
                       Workspace& workspace, FirstContactResult& scratch) {
   ProvenPart proven{.clearance = std::numeric_limits<double>::infinity()};
-  for (const HapticPair& pair : pairs) {
+  for (HapticPair& pair : pairs) {
     const auto [other, tool] = pair.members;
     const HeldApart held = held_apart(pair.gap, contact_distance);
     FirstContactOptions options{
         .margin = held.margin, .tolerance = held.tolerance, .contacts = ContactState::none};
     options.budget.deadline = deadline;
     options.budget.steps = kProofSteps;
-    first_contact({members[other].shape, motions[other]}, {members[tool].shape, motions[tool]},
-                  workspace, options, scratch);
+    const MovingShape A{members[other].shape, motions[other]};
+    const MovingShape B{members[tool].shape, motions[tool]};
+    if (pair.front.is_empty()) {
+      first_contact(A, B, workspace, options, scratch);
+    } else {
+      first_contact_by_front(pair.front, A, B, workspace, options, scratch);
+      pair.front.count_work(scratch.work.node_groups + scratch.work.steps);
+    }
     if (scratch.verdict != Verdict::free) {
       proven.t = std::min(proven.t, scratch.t);
       proven.is_late = proven.is_late || scratch.reason == UndecidedReason::deadline;

@@ -12,6 +12,7 @@
 
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/motion/motion.h>
+#include <firstcontact/query/detail/box_front.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {
@@ -20,6 +21,7 @@ namespace firstcontact::detail {
 struct HapticPair {
   std::array<std::size_t, 2> members = {};  ///< The other one, then the tool.
   double gap = 0.0;                         ///< [m]  Infinite where it is beyond the band.
+  BoxFront front = {};  ///< Of the members in that order; empty where the roots do as well.
 };
 
 struct ProvenPart {
@@ -34,7 +36,7 @@ struct ProvenPart {
 /// @param motions  of all members over the plan
 [[nodiscard]] ProvenPart prove_plan(
     std::span<const HapticMember> members, std::span<const Motion> motions,
-    std::span<const HapticPair> pairs, double contact_distance,
+    std::span<HapticPair> pairs, double contact_distance,
     const std::optional<std::chrono::steady_clock::time_point>& deadline, Workspace& workspace,
     FirstContactResult& scratch);
 

@@ -23,6 +23,11 @@ constexpr std::size_t kMostRemembered = 256;
 /// screw_sliding.
 constexpr std::uint64_t kLongSearch = 1000;
 
+/// [-]  In the first window that begins at a front bodies move by so many thresholds; each further
+/// one is longer by the second factor.
+constexpr double kFirstWay = 8.0;
+constexpr double kLongerWindow = 4.0;
+
 /// Takes what is due first, again and again: bounds a group of boxes, opens what one of its lanes
 /// holds, or follows a pair of triangles.
 class Search {
@@ -33,6 +38,9 @@ class Search {
         triangles_(state_),
         groups_(state_, triangles_),
         windows_(state_),
+        front_(limits.front),
+        front_width_(kFirstWay * (limits.threshold + limits.tolerance) /
+                     std::max(pair.speed_bound(), 1e-300)),
         steps_before_(work.node_groups + work.steps),
         patience_(std::min(limits.patience, kLongSearch)) {}
 
@@ -77,7 +85,29 @@ class Search {
  private:
   void start(double t) {
     state_.queue.clear();
+    if (front_ != nullptr && start_at_front(t)) {
+      return;
+    }
     groups_.bound(state_.queue.new_group(t, root(state_.pair.A()), root(state_.pair.B()), 0));
+  }
+
+  /// Most first contacts are early: a search of a short window finds them among few pairs. Later
+  /// windows are longer. False where the front has too many pairs: it is not asked again.
+  bool start_at_front(double t) {
+    const double end = t + front_width_;
+    state_.t_end = end < state_.t_last ? end : state_.t_last;
+    if (!(state_.t_end > t) || !groups_.bound_front(*front_, t)) {
+      front_ = nullptr;
+      state_.t_end = state_.t_last;
+      return false;
+    }
+    front_width_ *= kLongerWindow;
+    if (state_.all_remembered) {
+      state_.all_remembered = false;
+      state_.box_threshold = state_.limits.threshold;
+      state_.instant.forget_boxes();
+    }
+    return true;
   }
 
   /// Many pairs come into the band together: they are sooner found again, by distance, than opened
@@ -96,7 +126,7 @@ class Search {
   [[nodiscard]] bool is_over() {
     while (state_.queue.empty() && !state_.best.contact && state_.t_end < state_.t_last) {
       const double t = state_.t_end;
-      if (!windows_.screw_sliding_on(t)) {
+      if (front_ != nullptr || !windows_.screw_sliding_on(t)) {
         start(t);
       }
     }
@@ -162,6 +192,8 @@ class Search {
   TriangleFollower triangles_;
   GroupBounder groups_;
   ScrewSlidingWindows windows_;
+  const BoxFront* front_;
+  double front_width_;  // [-]  Of the next window that begins at the front.
   std::uint64_t steps_before_;
   std::uint64_t patience_;  // Work until something is done about it.
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include <firstcontact/query/detail/box_front.h>
 #include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
@@ -42,6 +43,7 @@ struct SearchLimits {
   const Shape* A =
       nullptr;  ///< Of the pair, where it may be asked whether one slides on its screw.
   const Shape* B = nullptr;
+  const BoxFront* front = nullptr;  ///< Of the pair, if there is one: the search begins there.
 };
 
 /// Searches [t_begin, t_end].

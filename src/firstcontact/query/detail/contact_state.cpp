@@ -11,6 +11,7 @@
 #include <firstcontact/query/contact_selection.h>
 #include <firstcontact/query/detail/close_list.h>
 #include <firstcontact/query/detail/close_pairs.h>
+#include <firstcontact/query/detail/close_pairs_by_front.h>
 #include <firstcontact/query/detail/close_pairs_of_few.h>
 #include <firstcontact/query/detail/convex_contacts.h>
 
@@ -198,6 +199,16 @@ ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_
   }
   const ContactCount listed = append_contacts(frame, state, most, workspace.close_keys, contacts);
   return of_more.value_or(listed);
+}
+
+void collect_contacts_by_front(const ContactFrame& frame, double band, BoxFront& front,
+                               WorkspaceData& workspace, std::vector<Contact>& contacts) {
+  const RelativeState state = frame.pair.motion().state(frame.t);
+  if (!find_close_by_front(frame, state, band, front, workspace)) {
+    find_close(frame, state, band, ContactState::all.most, workspace);
+  }
+  sort_once(workspace);
+  append_contacts(frame, state, ContactState::all.most, workspace.close_keys, contacts);
 }
 
 }  // namespace firstcontact::detail

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <firstcontact/query/contact.h>
+#include <firstcontact/query/detail/box_front.h>
 #include <firstcontact/query/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
@@ -30,5 +31,10 @@ ContactCount collect_contacts_of(const ContactFrame& frame, double band, std::si
 /// The same of all triangles.
 ContactCount collect_contacts(const ContactFrame& frame, double band, std::size_t most,
                               WorkspaceData& workspace, std::vector<Contact>& contacts);
+
+/// The same of two rigid shapes that are asked by their triangles, from their front where it can
+/// be had; all of them.
+void collect_contacts_by_front(const ContactFrame& frame, double band, BoxFront& front,
+                               WorkspaceData& workspace, std::vector<Contact>& contacts);
 
 }  // namespace firstcontact::detail

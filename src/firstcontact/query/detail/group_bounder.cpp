@@ -1,6 +1,5 @@
 #include <firstcontact/query/detail/group_bounder.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -20,25 +19,79 @@ constexpr std::uint64_t kManyFreed = 256;
 constexpr std::uint64_t kFewRepeated = 64;
 constexpr std::uint64_t kRepeatedForOne = 4;
 
+/// Groups of a front with which a search begins, at most. From the roots it takes about as many.
+constexpr std::size_t kMostSeeds = 1000;
+
 }  // namespace
 
 void GroupBounder::bound(const Bounding& first) {
   search_.instant.place_boxes(first.t, search_.box_threshold, search_.horizon());
   const std::optional<Bounding> second = take_after(first.t);
-  const BoxFrame& frame = search_.instant.frame();
-  const BoxGroup& group = search_.queue.group(first.index);
-  BoxBounds bounds;
-  if (!second) {
-    search_.pair.bound(frame, group.node_a, group.node_b, bounds);
-    take(first, bounds);
+  if (second) {
+    bound_both(first, *second);
     return;
   }
-  const BoxGroup& other = search_.queue.group(second->index);
+  bound_one(first);
+}
+
+void GroupBounder::bound_one(const Bounding& bounding) {
+  const BoxGroup& group = search_.queue.group(bounding.index);
+  BoxBounds bounds;
+  search_.pair.bound(search_.instant.frame(), group.node_a, group.node_b, bounds);
+  take(bounding, bounds);
+}
+
+void GroupBounder::bound_both(const Bounding& first, const Bounding& second) {
+  const BoxGroup& group = search_.queue.group(first.index);
+  const BoxGroup& other = search_.queue.group(second.index);
+  BoxBounds bounds;
   BoxBounds other_bounds;
-  search_.pair.bound(frame, group.node_a, group.node_b, bounds, other.node_a, other.node_b,
-                     other_bounds);
+  search_.pair.bound(search_.instant.frame(), group.node_a, group.node_b, bounds, other.node_a,
+                     other.node_b, other_bounds);
   take(first, bounds);
-  take(*second, other_bounds);
+  take(second, other_bounds);
+}
+
+bool GroupBounder::bound_front(const BoxFront& front, double t) {
+  PairInstant& instant = search_.instant;
+  instant.place_boxes(t, search_.box_threshold, search_.horizon());
+  const FrontMotion motion(front.place(), search_.pair, instant.state(),
+                           search_.horizon() - instant.t());
+  const double near = (search_.box_threshold + instant.error()) * (1.0 + 0x1p-50);
+  std::vector<FrontSeed>& seeds = search_.workspace.front_seeds;
+  seeds.clear();
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    if (front.least(k) > near + motion.most()) {
+      continue;
+    }
+    if (const unsigned lanes = front.lanes_within(k, near + motion.of(front.ball(k)))) {
+      seeds.push_back({static_cast<std::uint32_t>(k), lanes});
+    }
+  }
+  if (seeds.size() > kMostSeeds) {
+    return false;
+  }
+  bound_seeds(front, t);
+  return true;
+}
+
+void GroupBounder::bound_seeds(const BoxFront& front, double t) {
+  GroupQueue& queue = search_.queue;
+  std::optional<Bounding> first;
+  for (const FrontSeed& seed : search_.workspace.front_seeds) {
+    const BoxFront::Group& group = front.group(seed.group);
+    const Bounding next = queue.new_group(t, {group.node_a, 0}, {group.node_b, 0}, 0);
+    queue.group(next.index).live = static_cast<std::uint16_t>(seed.lanes);
+    if (first) {
+      bound_both(*first, next);
+      first.reset();
+    } else {
+      first = next;
+    }
+  }
+  if (first) {
+    bound_one(*first);
+  }
 }
 
 std::optional<Bounding> GroupBounder::take_after(double t) {

@@ -25,7 +25,17 @@ class GroupBounder {
   /// can be done at the same instant: two take less than twice the time of one. Queues both.
   void bound(const Bounding& first);
 
+  /// Bounds the groups of a front of which lanes may come near in the window that begins at t.
+  /// False, with nothing done, where these are many.
+  [[nodiscard]] bool bound_front(const BoxFront& front, double t);
+
  private:
+  void bound_one(const Bounding& bounding);
+  void bound_both(const Bounding& first, const Bounding& second);
+
+  /// Bounds the lanes that WorkspaceData::front_seeds lists.
+  void bound_seeds(const BoxFront& front, double t);
+
   /// What comes next in the queue, if it is to be bounded and due soon after the bodies were
   /// placed. Not what is due as early as t: of ties one may turn out to be the contact.
   [[nodiscard]] std::optional<Bounding> take_after(double t);

@@ -46,31 +46,63 @@ Neighbourhood neighbourhood(const ClosestFeatures& closest, double edge) {
   return place;
 }
 
-}  // namespace
+/// The nearest pairs of each neighbourhood.
+class NearestOfPlaces {
+ public:
+  explicit NearestOfPlaces(double edge) : edge_(edge) {}
 
-void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,
-                  std::vector<IndexPair>& pairs) {
-  std::unordered_map<Neighbourhood, Nearest, CellHash> nearest;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const TrianglePair triangles = frame.pair.place(state, pairs[k].a, pairs[k].b);
-    const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
-    if (closest.distance <= reach) {
-      nearest[neighbourhood(closest, edge)].add({closest.distance, k});
-    }
+  void add(const ClosestFeatures& closest, std::size_t pair) {
+    nearest_[neighbourhood(closest, edge_)].add({closest.distance, pair});
   }
-  std::vector<std::size_t> kept;
-  for (const auto& [place, of_place] : nearest) {
-    for (const Nearest::Entry& entry : of_place.entries) {
-      if (entry.distance <= reach) {
-        kept.push_back(entry.pair);
+
+  /// In the order of the pairs.
+  [[nodiscard]] std::vector<std::size_t> kept() const {
+    std::vector<std::size_t> kept;
+    for (const auto& [place, of_place] : nearest_) {
+      for (const Nearest::Entry& entry : of_place.entries) {
+        if (entry.distance < std::numeric_limits<double>::infinity()) {
+          kept.push_back(entry.pair);
+        }
       }
     }
+    std::ranges::sort(kept);
+    return kept;
   }
-  std::ranges::sort(kept);
+
+ private:
+  double edge_;
+  std::unordered_map<Neighbourhood, Nearest, CellHash> nearest_;
+};
+
+template <class Pair>
+void keep(const std::vector<std::size_t>& kept, std::vector<Pair>& pairs) {
   for (std::size_t k = 0; k < kept.size(); ++k) {
     pairs[k] = pairs[kept[k]];  // Not before its own place.
   }
   pairs.resize(kept.size());
+}
+
+}  // namespace
+
+void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,
+                  std::vector<IndexPair>& pairs) {
+  NearestOfPlaces nearest(edge);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const TrianglePair triangles = frame.pair.place(state, pairs[k].a, pairs[k].b);
+    const ClosestFeatures closest = triangle_distance(triangles.A, triangles.B);
+    if (closest.distance <= reach) {
+      nearest.add(closest, k);
+    }
+  }
+  keep(nearest.kept(), pairs);
+}
+
+void keep_nearest(double edge, std::vector<NearTriangles>& pairs) {
+  NearestOfPlaces nearest(edge);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    nearest.add(pairs[k].closest, k);
+  }
+  keep(nearest.kept(), pairs);
 }
 
 }  // namespace firstcontact::detail

@@ -19,4 +19,7 @@ namespace firstcontact::detail {
 void keep_nearest(const ContactFrame& frame, const RelativeState& state, double reach, double edge,
                   std::vector<IndexPair>& pairs);
 
+/// The same of pairs within the reach whose closest points are known.
+void keep_nearest(double edge, std::vector<NearTriangles>& pairs);
+
 }  // namespace firstcontact::detail

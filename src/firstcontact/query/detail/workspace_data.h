@@ -48,6 +48,20 @@ struct IndexPair {
   std::uint32_t b = 0;
 };
 
+/// Lanes of a group of a BoxFront with which a search begins.
+struct FrontSeed {
+  std::uint32_t group = 0;
+  unsigned lanes = 0;
+};
+
+/// Two triangles in a lane of a BoxFront.
+struct FrontTriangles {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+  std::uint32_t group = 0;
+  int lane = 0;
+};
+
 /// Nodes of one level of two ScrewSlidingBounds.
 struct ScrewSlidingNodes {
   std::size_t level = 0;
@@ -61,6 +75,12 @@ struct OpenedPair {
   std::uint32_t b = 0;
   double t = 0.0;
   double distance = 0.0;  ///< [m]
+};
+
+/// Two triangles that are near at an instant.
+struct NearTriangles {
+  IndexPair at;
+  ClosestFeatures closest;
 };
 
 /// The closest features of two triangles (indices in the hierarchies' order).
@@ -208,6 +228,9 @@ struct WorkspaceData {
   ScrewSlidingBounds screw_sliding_bounds;  ///< Of the body that is no carrier.
   std::vector<ScrewSlidingNodes> screw_sliding_stack;
   std::vector<IndexPair> left_by_screw_sliding;
+  std::vector<FrontTriangles> front_triangles;
+  std::vector<FrontSeed> front_seeds;
+  std::vector<NearTriangles> near_triangles;
 };
 
 }  // namespace firstcontact::detail

@@ -1,0 +1,24 @@
+/// @file
+/// The pairs of features that are close at one instant, found from a front.
+
+#pragma once
+
+#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/query/detail/contact_frame.h>
+#include <firstcontact/query/detail/workspace_data.h>
+
+namespace firstcontact::detail {
+
+/// Lists all pairs of features within `band` [m] in workspace.close_pairs, as find_close() does,
+/// some of them more than once.
+///
+/// Begins at the front, and refines it. Where that is empty, or a new one is due, the front begins
+/// at this instant. False where surfaces that slide on a screw make that long: then nothing is
+/// listed, and the front is given up for a while.
+///
+/// @param state  at the instant, of rigid bodies
+/// @param band   [m]  radii included
+[[nodiscard]] bool find_close_by_front(const ContactFrame& frame, const RelativeState& state,
+                                       double band, BoxFront& front, WorkspaceData& workspace);
+
+}  // namespace firstcontact::detail
