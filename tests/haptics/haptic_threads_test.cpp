@@ -3,6 +3,8 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -203,6 +205,38 @@ TEST(WallSession, HandsOverEveryTickAndEveryCycle) {
   EXPECT_EQ(report.tick_cpu.count(), report.ticks);
   EXPECT_GE(report.ticks + report.skipped_ticks, 49U);
   EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());  // It is let go at the end.
+}
+
+/// What the caller throws reaches the caller, long before the session would have ended: both
+/// threads have stopped, and the device is let go.
+TEST(WallSession, EndsWithWhatTheCallerThrows) {
+  const HapticSessionOptions options{.force_rate = 500.0, .contact_rate = 100.0};
+  const WallSessionOptions wall{.duration = 3600.0, .real_time = false};
+  for (const bool in_cycle : {false, true}) {
+    StillDevice device;
+    Device* const devices[] = {&device};
+    int calls = 0;
+    const auto throw_at_third = [&] {
+      if (++calls == 3) {
+        throw std::runtime_error("the disk is full");
+      }
+    };
+    const std::function<void(const ForceTick&)> on_tick = [&](const ForceTick&) {
+      if (!in_cycle) {
+        throw_at_third();
+      }
+    };
+    const std::function<void(const HapticCycle&, std::int64_t)> on_cycle = [&](const HapticCycle&,
+                                                                               std::int64_t) {
+      if (in_cycle) {
+        throw_at_third();
+      }
+    };
+    EXPECT_THROW((void)run_wall_session(cube_on_floor(), options, devices, wall, on_tick, on_cycle),
+                 std::runtime_error);
+    EXPECT_EQ(calls, 3);
+    EXPECT_EQ(device.last().force_D, Eigen::Vector3d::Zero());
+  }
 }
 
 }  // namespace
