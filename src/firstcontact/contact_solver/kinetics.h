@@ -90,8 +90,8 @@ struct FreeTurn {
 /// Method: the implicit midpoint rule for the angular velocity in the body's axes, in sub-steps of
 /// at most 0.04 rad. The rule keeps the length of the momentum; a turn of the body keeps its
 /// direction (M. Austin, P. Krishnaprasad, L.-S. Wang, "Almost Poisson integration of rigid body
-/// systems", Journal of Computational Physics 107 (1993)). There are at most 10,240 sub-steps: a body
-/// that spins faster goes on about the same axis.
+/// systems", Journal of Computational Physics 107 (1993)). There are at most 10,240 sub-steps: a
+/// body that spins faster goes on about the same axis.
 ///
 /// @param torque_W  [N m]  constant, about C
 /// @param dt        [s]

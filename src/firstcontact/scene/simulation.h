@@ -114,7 +114,8 @@ struct Simulation {
   ImpactLaw impacts = ImpactLaw::sequential;
   /// [m]  > 0  The distance at which bodies that touch rest, up to one and a half of it.
   ///
-  /// The default is 1e-3 of the radius of the smallest free body.
+  /// The default is 1e-3 of the radius of the smallest free body. Without any it is
+  /// 5e-4 of that of the smallest link.
   std::optional<double> contact_distance;
   std::size_t events = 1000;  ///< > 0  In a step; past them the step ends early.
   std::vector<PairSurface> pairs;

@@ -15,6 +15,9 @@ inline constexpr double kDefaultDensity = 1000.0;
 /// [-]  The contact distance, by the radius of the smallest free body. Smaller: bodies rest nearer
 /// to each other, and steps take longer.
 inline constexpr double kContactDistanceOfRadius = 1e-3;
+/// [-]  The same by the smallest link, where no other body is free. A contact distance is missing
+/// to where a joint is told to be.
+inline constexpr double kContactDistanceOfLinks = 5e-4;
 
 /// [-]  A contact distance of more than this part of that radius, or of less than that, is warned
 /// of: bodies rest visibly apart, or steps take long.

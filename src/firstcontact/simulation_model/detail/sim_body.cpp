@@ -79,6 +79,15 @@ const SimBody* smallest_free_body(const std::vector<SimBody>& bodies) {
   return smallest;
 }
 
+double default_contact_distance(const std::vector<SimBody>& bodies) {
+  const SimBody* smallest = smallest_free_body(bodies);
+  if (smallest == nullptr) {
+    return kContactDistanceOfRadius;
+  }
+  return (smallest->link_body ? kContactDistanceOfLinks : kContactDistanceOfRadius) *
+         smallest->reach;
+}
+
 /// The number of a robot of the scene among those with dynamics.
 std::size_t number_in_world(const Scene& scene, std::size_t robot) {
   return static_cast<std::size_t>(
@@ -126,8 +135,7 @@ double contact_distance_of(const Simulation& simulation, const std::vector<SimBo
   if (simulation.contact_distance) {
     return *simulation.contact_distance;
   }
-  const SimBody* smallest = smallest_free_body(bodies);
-  return kContactDistanceOfRadius * (smallest != nullptr ? smallest->reach : 1.0);
+  return default_contact_distance(bodies);
 }
 
 std::vector<std::string> check_contact_distance(double contact_distance, const LoadedScene& linked,
@@ -153,7 +161,7 @@ std::vector<std::string> check_contact_distance(double contact_distance, const L
   const std::string of_body =
       '"' + linked.scene.bodies[static_cast<std::size_t>(smallest - bodies.data())].name +
       "\", the smallest free body, has a radius of " + metres(radius);
-  const std::string mend = "; without this key it is " + metres(kContactDistanceOfRadius * radius);
+  const std::string mend = "; without this key it is " + metres(default_contact_distance(bodies));
   if (contact_distance > radius) {
     throw std::invalid_argument(given + "larger than a body: " + of_body + mend);
   }

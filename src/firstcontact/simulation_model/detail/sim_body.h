@@ -58,7 +58,7 @@ struct SimBody {
 
 /// [m]  The contact distance of the scene, or 1e-3 of the radius of the smallest free body.
 ///
-/// Where there are links only, the radius is that of the smallest of them.
+/// Where there are links only, it is 5e-4 of the radius of the smallest of them.
 [[nodiscard]] double contact_distance_of(const Simulation& simulation,
                                          const std::vector<SimBody>& bodies);
 
