@@ -9,8 +9,8 @@
 
 #include <firstcontact/motion/constant_rate_pair.h>
 #include <firstcontact/motion/motion.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/detail/box_bounds.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 #include "benchmarks/support/normalised_mesh.h"
 #include "benchmarks/support/torus_knot.h"

@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/motion/constant_rate_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/detail/box_bounds.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 #include "query/moving_boxes.h"
 #include "support/instruction_sets.h"

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/close_features.h>
-#include <firstcontact/query/detail/box_front.h>
 #include <firstcontact/query/detail/front_query.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/detail/resting_pair.h>

@@ -14,8 +14,8 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/geometry/primitives.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/close_features.h>
-#include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/order.h>
 
 #include "support/instruction_sets.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <firstcontact/query/detail/lane_times.h>
+#include <firstcontact/moving_pairs/detail/lane_times.h>
 
 #include "support/instruction_sets.h"
 #include "support/random.h"

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <firstcontact/motion/constant_rate_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/contact_search.h>
-#include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/first_contact.h>
 
 #include "support/rounds.h"

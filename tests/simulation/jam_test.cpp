@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -109,24 +108,6 @@ TEST(Jam, AChainPulledTautLosesTimeAndIsProven) {
     EXPECT_LE(farthest_at_once(steps), 1.1 * kContactDistance);
     EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << chain.around;
   }
-}
-
-// What has jammed goes on to jam: a step that begins so ends after few impacts.
-TEST(Jam, AStepThatBeginsJammedEndsSoon) {
-  Simulator s = simulator(bodies_of({.around = 16, .section = 8, .speed = 0.2}),
-                          R"("duration": 1, )" + test::settings(0.01, 0.3, kContactDistance));
-  bool is_jammed = false;
-  std::size_t jammed_steps = 0;
-  for (int k = 0; k < 30; ++k) {
-    const RunStep step = s.step().value();
-    if (is_jammed) {
-      ++jammed_steps;
-      EXPECT_LE(step.events, 10u) << k;
-      EXPECT_GT(step.time_lost, 0.0) << k;
-    }
-    is_jammed = step.time_lost > 5e-3;
-  }
-  EXPECT_GE(jammed_steps, 5u);
 }
 
 }  // namespace

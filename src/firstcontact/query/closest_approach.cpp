@@ -7,7 +7,7 @@
 #include <string>
 
 #include <firstcontact/math/float_environment.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/order.h>
 #include <firstcontact/query/shape_pair.h>
 

@@ -9,10 +9,10 @@
 
 #include <firstcontact/geometry/feature_table.h>
 #include <firstcontact/math/float_environment.h>
+#include <firstcontact/moving_pairs/detail/convex_leaf.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/contact_state.h>
 #include <firstcontact/query/detail/containment.h>
-#include <firstcontact/query/detail/convex_leaf.h>
 #include <firstcontact/query/detail/convex_search.h>
 #include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/front_query.h>

@@ -16,9 +16,9 @@
 #include <firstcontact/scene/version.h>
 #include <firstcontact/simulation/detail/island_threads.h>
 #include <firstcontact/simulation/detail/islands.h>
-#include <firstcontact/simulation/detail/meeting.h>
 #include <firstcontact/simulation/detail/record_step.h>
 #include <firstcontact/simulation/detail/simulation_state.h>
+#include <firstcontact/simulation_model/detail/meeting.h>
 #include <firstcontact/simulation_model/detail/script.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 #include <firstcontact/simulation_model/detail/sim_robot.h>

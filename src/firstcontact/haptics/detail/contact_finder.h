@@ -9,7 +9,7 @@
 
 #include <firstcontact/geometry/shape.h>
 #include <firstcontact/haptics/contact_loop.h>
-#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>

@@ -12,7 +12,7 @@
 
 #include <firstcontact/haptics/detail/contact_finder.h>
 #include <firstcontact/motion/motion.h>
-#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/first_contact.h>
 
 namespace firstcontact::detail {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
 #include <firstcontact/query/detail/close_list.h>
 #include <firstcontact/query/detail/nearest_pairs.h>
 #include <firstcontact/query/detail/screw_sliding_cover.h>

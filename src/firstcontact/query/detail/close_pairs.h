@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <firstcontact/query/detail/contact_frame.h>
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
 

@@ -3,8 +3,8 @@
 
 #pragma once
 
-#include <firstcontact/query/detail/box_front.h>
-#include <firstcontact/query/detail/contact_frame.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <firstcontact/query/detail/contact_frame.h>
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/group_bounder.h>
 #include <firstcontact/query/detail/group_queue.h>
-#include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/screw_sliding_windows.h>
 #include <firstcontact/query/detail/search_state.h>
 #include <firstcontact/query/detail/triangle_follower.h>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/detail/corner_lines.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>

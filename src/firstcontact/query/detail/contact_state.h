@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <firstcontact/moving_pairs/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/contact.h>
-#include <firstcontact/query/detail/box_front.h>
-#include <firstcontact/query/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 #include <firstcontact/query/first_contact.h>
 

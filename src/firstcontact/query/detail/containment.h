@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include <firstcontact/geometry/shape.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/detail/contact_state.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 

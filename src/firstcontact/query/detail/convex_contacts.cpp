@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include <firstcontact/geometry/convex_set.h>
-#include <firstcontact/query/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/convex_leaf.h>
 #include <firstcontact/query/detail/close_pairs.h>
-#include <firstcontact/query/detail/convex_leaf.h>
 
 namespace firstcontact::detail {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cstdint>
 
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/contact.h>
-#include <firstcontact/query/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

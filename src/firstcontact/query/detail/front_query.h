@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
 #include <firstcontact/query/first_contact.h>
 #include <firstcontact/query/placed_shape.h>
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <bit>
 
-#include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/lane_times.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/lane_times.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 namespace {

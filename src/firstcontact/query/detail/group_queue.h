@@ -9,9 +9,9 @@
 #include <cstdint>
 
 #include <firstcontact/math/root_isolation.h>
-#include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/lane_times.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/lane_times.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <firstcontact/geometry/feature_table.h>
-#include <firstcontact/query/detail/contact_frame.h>
+#include <firstcontact/moving_pairs/detail/contact_frame.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/convex_leaf.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/convex_leaf.h>
 
 namespace firstcontact::detail {
 namespace {

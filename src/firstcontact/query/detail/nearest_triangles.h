@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <limits>
 
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/detail/budget_watch.h>
-#include <firstcontact/query/detail/moving_pair.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

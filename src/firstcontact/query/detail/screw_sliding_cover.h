@@ -9,7 +9,7 @@
 
 #include <firstcontact/geometry/screw_sliding_bounds.h>
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/pair_instant.h>
 #include <firstcontact/query/detail/budget_watch.h>
 #include <firstcontact/query/detail/contact_search.h>
 #include <firstcontact/query/detail/group_queue.h>
-#include <firstcontact/query/detail/moving_pair.h>
-#include <firstcontact/query/detail/pair_instant.h>
 #include <firstcontact/query/detail/workspace_data.h>
 
 namespace firstcontact::detail {

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/moving_pairs/detail/convex_leaf.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
-#include <firstcontact/query/detail/convex_leaf.h>
 #include <firstcontact/query/detail/search_state.h>
 #include <firstcontact/query/detail/workspace_data.h>
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <firstcontact/geometry/screw_sliding_bounds.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/lane_times.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
 #include <firstcontact/query/contact.h>
-#include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/lane_times.h>
 
 namespace firstcontact::detail {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 namespace {

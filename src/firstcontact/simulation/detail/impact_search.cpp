@@ -11,12 +11,9 @@
 #include <firstcontact/simulation_model/detail/contact_distances.h>
 
 namespace firstcontact::detail {
-namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-}  // namespace
 
 std::vector<Impact> ImpactSearch::find(const Plan& plan) {
   follow(plan);

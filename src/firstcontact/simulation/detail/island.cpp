@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -17,31 +18,35 @@
 namespace firstcontact::detail {
 namespace {
 
-/// Ends the rounds in which slight contacts ahead become constraints: after so many, or where pairs
-/// that jam are hit again and again, no later than before.
-class RoundsOfSlight {
- public:
-  [[nodiscard]] bool end_with(const std::vector<Impact>& hits) {
-    std::vector<BodyPair> pairs;
-    double first = 1.0;
-    for (const Impact& hit : hits) {
-      pairs.push_back(hit.bodies);
-      first = std::min(first, hit.t);
-    }
-    std::ranges::sort(pairs);
-    const bool is_later = first > kLaterHit * latest_;
-    useless_ = pairs != pairs_ || is_later ? 0 : useless_ + 1;
-    pairs_ = std::move(pairs);
-    latest_ = std::max(latest_, first);
-    return ++rounds_ == kRoundsOfSlight || useless_ == kUselessRounds;
+/// The contacts of a plan with their impulses, and with those that the plans of the step before it
+/// had at the same features, or else nearest to them on the same pair. Pairs that parted are left
+/// out.
+std::vector<ManifoldPoint> joined(const std::vector<ManifoldPoint>& before,
+                                  std::vector<ManifoldPoint> touches) {
+  std::multimap<BodyPair, ManifoldPoint*> of_pair;
+  for (ManifoldPoint& touch : touches) {
+    of_pair.emplace(touch.bodies, &touch);
   }
-
- private:
-  int rounds_ = 0;
-  int useless_ = 0;                   // In a row.
-  double latest_ = 0.0;               // [-]  Of the span, of the first hits of all rounds.
-  std::vector<BodyPair> pairs_ = {};  // Of the last round.
-};
+  for (const ManifoldPoint& earlier : before) {
+    if (earlier.impulse.isZero(0.0)) {
+      continue;
+    }
+    ManifoldPoint* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    const auto [first, end] = of_pair.equal_range(earlier.bodies);
+    for (auto found = first; found != end; ++found) {
+      ManifoldPoint& touch = *found->second;
+      const double apart =
+          same_features(touch, earlier) ? 0.0 : (touch.point - earlier.point).norm();
+      nearest = apart < least ? &touch : nearest;
+      least = std::min(least, apart);
+    }
+    if (nearest != nullptr) {
+      nearest->impulse += earlier.impulse;
+    }
+  }
+  return touches;
+}
 
 class Island {
  public:
@@ -60,7 +65,6 @@ class Island {
   std::optional<IslandTrack> run() {
     std::size_t stalls = 0;
     state_.find_manifolds(guesses_, workspace_);
-    squeezed_ = is_squeezed() ? kMostSqueezed - kMostSqueezedAgain : 0;
     if (has_bounce() || any_tie_is_hit(state_)) {
       ++track_.events;
       impact();
@@ -80,7 +84,7 @@ class Island {
         impact();
       }
       choose_span(*t);
-      squeezed_ += *t < 1.0 && is_squeezed();
+      squeezed_ += *t < 1.0 && state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
       stalls = state_.reached - reached > stall(state_.start.h) ? 0 : stalls + 1;
     }
     track_.reached = state_.reached;
@@ -89,11 +93,14 @@ class Island {
   }
 
  private:
-  /// [s]  Of the next plan.
+  /// [s]  Of the next plan. Plans that turning makes short are of equal length: in a sliver that is
+  /// left, impulses would say nothing about the next step.
   [[nodiscard]] double span() {
     const double of_fast = std::max(std::min(state_.robots.longest_span(), tumbling_span()),
                                     kLeastShareOfFast * state_.start.h);
-    return std::min({span_, state_.start.h - state_.reached, of_fast, tied_span(), turning_span()});
+    const double rest = state_.start.h - state_.reached;
+    const double plans = std::max(1.0, std::ceil(rest / turning_span()));
+    return std::min({span_, rest / plans, of_fast, tied_span()});
   }
 
   /// [s]  For which no body with ties turns too far: impulses act where ties are halfway.
@@ -108,9 +115,13 @@ class Island {
                          : std::numeric_limits<double>::infinity();
   }
 
-  /// [s]  In which bodies that touch turn no farther than contacts can follow.
+  /// [s]  In which bodies that touch turn no farther than contacts can follow. In heaps, and where
+  /// robots or ties act, they do not follow.
   [[nodiscard]] double turning_span() {
     double longest = std::numeric_limits<double>::infinity();
+    if (!state_.robots.empty() || !state_.ties.empty() || is_heap(state_, state_.touches())) {
+      return longest;
+    }
     for (const auto& [pair, manifold] : state_.manifolds) {
       if (least_gap(manifold) > state_.model.distances.touching) {
         continue;
@@ -128,7 +139,7 @@ class Island {
   /// [s]  In which a body that touches turns no farther than gyroscopic moments allow.
   [[nodiscard]] double spinning_span(std::size_t body) const {
     const SimBody& described = state_.model.bodies[body];
-    if (described.kind != BodyKind::free || described.link_body ||
+    if (described.kind != BodyKind::free || is_locked(described.inertia) ||
         is_isotropic(described.inertia)) {
       return std::numeric_limits<double>::infinity();
     }
@@ -144,10 +155,6 @@ class Island {
     const double span = is_on_rim ? kTurnOfCurve / state_.rate_on_rim(touch) : 0.0;
     return span >= shortest ? std::max(kRollOfPlan * span, shortest)
                             : std::numeric_limits<double>::infinity();
-  }
-
-  [[nodiscard]] bool is_squeezed() const {
-    return state_.is_nearer(kSqueezedOfDistance * state_.model.distances.least);
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until
@@ -186,11 +193,11 @@ class Island {
   std::optional<double> advance() {
     IslandPlanner planner(state_, planned_);
     ImpactSearch search(state_, planned_, workspace_);
-    RoundsOfSlight rounds;
-    while (!stop_.stop_requested()) {
+    for (int round = 1; !stop_.stop_requested(); ++round) {
       const Plan plan = planner.plan();
       const std::vector<Impact> hits = search.find(plan);
-      if (hits.empty() || rounds.end_with(hits) || std::ranges::none_of(hits, &Impact::is_slight)) {
+      if (hits.empty() || round == kRoundsOfSlight ||
+          std::ranges::none_of(hits, &Impact::is_slight)) {
         double t = state_.robots.share_within_limits(plan.robots);
         for (const Impact& hit : hits) {
           t = std::min(t, hit.t);
@@ -261,7 +268,10 @@ class Island {
       std::ranges::stable_sort(acted_, comes_before);
       state_.find_manifolds(acted_, workspace_);
     }
-    track_.touches = std::move(touches);
+    for (ManifoldPoint& touch : touches) {
+      touch.impulse *= t;
+    }
+    track_.touches = joined(track_.touches, std::move(touches));
   }
 
   /// What is left of the velocities at the end of the step is no motion.

@@ -125,7 +125,8 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
 }
 
 /// [m]  A displacement keeps a contact on its curve if it is no longer: the way of the contact
-/// times the turn of its normal, the sagittas of the arcs of both points, and a contact distance.
+/// times the turn of its normal, and a contact distance. So it may be longer by the sagittas of the
+/// arcs of both points, where flights have what contacts do to spins.
 double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
                                       const std::array<ContactSide, 2>& sides) const {
   const ContactPoint& now = acting_[k].now;
@@ -137,6 +138,9 @@ double IslandPlanner::most_from_curve(const MovedContact& there, std::size_t k,
     const Vector3d& arm = s == 0 ? now.arm_A : now.arm_B;
     way += span_ * (sides[s].v.norm() + w.norm() * arm.norm());
     sagittas += 0.5 * span_ * span_ * w.norm() * w.cross(arm).norm();
+  }
+  if (!state_.robots.empty() || !state_.ties.empty()) {
+    sagittas = 0.0;
   }
   return state_.model.distances.least + way * turn + sagittas;
 }

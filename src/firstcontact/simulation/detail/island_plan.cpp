@@ -1,9 +1,7 @@
 #include <firstcontact/simulation/detail/island_plan.h>
 
 #include <algorithm>
-#include <functional>
 #include <map>
-#include <numeric>
 
 #include <firstcontact/scene/simulation.h>
 #include <firstcontact/simulation/detail/island_state.h>
@@ -13,16 +11,7 @@
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
-namespace {
-
 using Eigen::Vector3d;
-
-std::size_t count_touches(const std::map<BodyPair, Manifold>& manifolds) {
-  return std::transform_reduce(manifolds.begin(), manifolds.end(), std::size_t{0}, std::plus{},
-                               [](const auto& entry) { return entry.second.touches.size(); });
-}
-
-}  // namespace
 
 IslandPlanner::FreeFlight IslandPlanner::free_flight() const {
   FreeFlight flight;
@@ -67,7 +56,7 @@ IslandPlanner::IslandPlanner(IslandState& state, double span)
   }
   add_tied_bodies(state_, bodies_);
   set_bodies();
-  by_end_ = is_heap(state_, count_touches(state_.manifolds));
+  by_end_ = is_heap(state_, state_.touches());
   for (const auto& [pair, manifold] : state_.manifolds) {
     const double lowest = least_gap(manifold);
     for (const ManifoldPoint& touch : manifold.touches) {

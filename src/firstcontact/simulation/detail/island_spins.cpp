@@ -8,18 +8,18 @@
 #include <firstcontact/simulation/detail/island_state.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
-#include <firstcontact/simulation_model/detail/simulation_model.h>
 
 namespace firstcontact::detail {
 
 using Eigen::Vector3d;
 
-/// Whether gyroscopic moments act on a member that turns much in the plan.
+/// Whether gyroscopic moments act on a member that turns much in the plan. Robots and ties have
+/// flights of their own.
 bool IslandPlanner::may_spin(std::size_t k) const {
-  const SimBody& body = state_.member(k);
-  return !body.link_body && !is_locked(body.inertia) && !is_isotropic(body.inertia) &&
-         span_ * state_.states[k].w_WB.norm() > kSpin &&
-         (state_.ties.empty() || state_.model.ties_of[state_.members[k]].empty());
+  const Inertia& inertia = state_.member(k).inertia;
+  const double turn = span_ * state_.states[k].w_WB.norm();
+  return state_.robots.empty() && state_.ties.empty() && !is_locked(inertia) &&
+         !is_isotropic(inertia) && turn > kSpin && turn < kMostSpin;
 }
 
 /// [N m s]  Of the contacts on each member in the last solution.

@@ -111,6 +111,14 @@ bool IslandState::is_nearer(double distance) const {
                              [&](const auto& entry) { return entry.second.gap < distance; });
 }
 
+std::size_t IslandState::touches() const {
+  std::size_t count = 0;
+  for (const auto& [pair, manifold] : manifolds) {
+    count += manifold.touches.size();
+  }
+  return count;
+}
+
 double IslandState::rate_on_rim(const ManifoldPoint& touch) {
   std::array<ContactSide, 2> sides;
   for (std::size_t s = 0; s < 2; ++s) {

@@ -75,6 +75,9 @@ struct IslandState {
   /// Whether any pair is nearer than where it is left.
   [[nodiscard]] bool is_too_near() const;
 
+  /// How many touches there are now.
+  [[nodiscard]] std::size_t touches() const;
+
   /// [1/s]  How fast a touch runs round the rim that it is on; 0: it is on none.
   [[nodiscard]] double rate_on_rim(const ManifoldPoint& touch);
 

@@ -108,9 +108,7 @@ inline constexpr std::size_t kMostStalls = 10;
 /// [-]  A pair nearer than this part of the contact distance is squeezed...
 inline constexpr double kSqueezedOfDistance = 1e-2;
 /// [impacts]  ...and after so many in a step that leave one squeezed the rest of the step is lost.
-inline constexpr std::size_t kMostSqueezed = 8;
-/// [impacts]  The same in a step that begins with such a pair: it jammed in the step before.
-inline constexpr std::size_t kMostSqueezedAgain = 2;
+inline constexpr std::size_t kMostSqueezed = 20;
 /// [-]  A stall, by the step.
 inline constexpr double kStallOfStep = 1e-9;
 
@@ -119,10 +117,6 @@ inline constexpr double kStallOfStep = 1e-9;
 /// [plans]  So often slight contacts of the motion ahead become constraints before bodies are moved
 /// until the first of them.
 inline constexpr int kRoundsOfSlight = 12;
-/// [plans]  The same where so many in a row hit the same pairs, [-] not even this much later: they
-/// jam, and every further plan would hit them again.
-inline constexpr int kUselessRounds = 2;
-inline constexpr double kLaterHit = 1.1;
 /// [-]  A plan that was stopped is followed by one of at least this part of its span.
 inline constexpr double kLeastShareOfPlan = 0.1;
 /// [-]  Links that turn fast and bodies that tumble make plans shorter, down to this part of the
@@ -165,13 +159,15 @@ inline constexpr double kBackToRest = 0.5;
 /// [-]  A contact follows its circle in a plan if the normal turns against its axis by less than
 /// this, by the sine between both. Larger: the lowest point of a nearly flat disc runs too far.
 inline constexpr double kTurnOfCurve = 0.2;
-/// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth of
-/// a step. Larger: a coin gains energy as it settles.
+/// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth
+/// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;
 /// [-]  So often is a plan solved with contacts where its solution before leads them.
 inline constexpr int kPassesOfCurves = 2;
 /// [rad]  Bodies that turn by more in a plan spin: gyroscopic moments act on what contacts change.
+/// Beyond the second it does not matter any more.
 inline constexpr double kSpin = 1e-3;
+inline constexpr double kMostSpin = 100.0;
 /// [rad]  Bodies that touch turn no farther in a plan, where gyroscopic moments act on them.
 inline constexpr double kMostTurnInContact = 0.5;
 /// [-]  So often does a polygon that stands out lift the contact of its circle in a plan, before

@@ -8,9 +8,9 @@
 #include <limits>
 
 #include <firstcontact/motion/relative_state.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/search_tuning.h>
 #include <firstcontact/narrowphase/detail/box_bounds.h>
-#include <firstcontact/query/detail/moving_pair.h>
-#include <firstcontact/query/detail/search_tuning.h>
 
 namespace firstcontact::detail {
 

@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 #include <firstcontact/geometry/convex_set.h>
 #include <firstcontact/math/root_isolation.h>
+#include <firstcontact/moving_pairs/detail/search_tuning.h>
 #include <firstcontact/narrowphase/convex_pair.h>
-#include <firstcontact/query/detail/search_tuning.h>
 
 namespace firstcontact::detail {
 namespace {

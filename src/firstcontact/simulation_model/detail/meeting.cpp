@@ -1,4 +1,4 @@
-#include <firstcontact/simulation/detail/meeting.h>
+#include <firstcontact/simulation_model/detail/meeting.h>
 
 #include <Eigen/Geometry>
 

@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/convex_leaf.h>
+#include <firstcontact/moving_pairs/detail/convex_leaf.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include <firstcontact/geometry/hierarchy.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/detail/box_bounds.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 

@@ -1,7 +1,7 @@
-#include <firstcontact/query/detail/lane_times.h>
+#include <firstcontact/moving_pairs/detail/lane_times.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "firstcontact/query/detail/lane_times.cpp"
+#define HWY_TARGET_INCLUDE "firstcontact/moving_pairs/detail/lane_times.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 

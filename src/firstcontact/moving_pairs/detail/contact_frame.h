@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include <firstcontact/geometry/shape.h>
-#include <firstcontact/query/detail/moving_pair.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 

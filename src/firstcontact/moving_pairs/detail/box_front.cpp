@@ -1,4 +1,4 @@
-#include <firstcontact/query/detail/box_front.h>
+#include <firstcontact/moving_pairs/detail/box_front.h>
 
 #include <algorithm>
 #include <bit>

@@ -9,9 +9,9 @@
 
 #include <Eigen/Core>
 
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/convex_closest.h>
 #include <firstcontact/narrowphase/triangle_distance.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 

@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include <firstcontact/math/export.h>
+#include <firstcontact/moving_pairs/detail/box_pairs.h>
+#include <firstcontact/moving_pairs/detail/moving_pair.h>
 #include <firstcontact/narrowphase/detail/box_bounds.h>
-#include <firstcontact/query/detail/box_pairs.h>
-#include <firstcontact/query/detail/moving_pair.h>
 
 namespace firstcontact::detail {
 
