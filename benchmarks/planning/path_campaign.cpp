@@ -1,12 +1,15 @@
 // The truth of paths: planned, retimed, as they are read back from their files.
 //
-//   path_campaign [--first N] [--seeds N] [--part K/N] [--retime EVERY] [--walls EVERY] OUTPUT.json
+//   path_campaign [--first N] [--seeds N] [--part K/N] [--shortcuts N] [--verify EVERY]
+//                 [--fcl EVERY] [--retime EVERY] [--walls EVERY] OUTPUT.json
 //
 // MotionBenchMaker's 400 problems of the Panda, each with N seeds from the first one on. Every path
-// is written, read back and proven by `verify`'s code, and FCL tests it every 0.25 degrees. Every
-// EVERY-th path is made a trajectory in all modes; FCL tests it as the controller interpolates the
-// file. Across every EVERY-th path a wall of 10 micrometres is put: its proof has to fail. Parts,
-// problem by problem, run side by side. Needs FIRSTCONTACT_DATA_DIR.
+// is written and read back. Of each N paths one is judged where an option has the number N: by
+// `verify`'s code (--verify, 1 by default), by FCL at each 0.25 degrees (--fcl, 1), as trajectories
+// in all modes, which FCL tests as the controller interpolates their files (--retime, 10), and with
+// a wall of 10 micrometres across it, with which its proof has to fail (--walls, 50). Parts,
+// problem by problem, run side by side. Processor times are those of one thread. Needs
+// FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +21,7 @@
 #include <iostream>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -37,6 +41,7 @@
 
 #include "benchmarks/planning/fcl_places.h"
 #include "benchmarks/support/panda_problems.h"
+#include "benchmarks/support/timing.h"
 #include "tests/retiming/retiming_cases.h"
 
 namespace firstcontact::benchmarks {
@@ -54,16 +59,21 @@ struct Settings {
   std::uint64_t seeds = 1;
   int part = 0;
   int parts = 1;
+  std::size_t shortcuts = PlanOptions().shortcuts;
+  int verify_every = 1;
+  int fcl_every = 1;
   int retime_every = 10;
   int walls_every = 50;
   std::string output;
 };
 
-/// What was counted; all but the first six should be 0.
+/// What was counted; from `unsolved` on all should be 0.
 struct Counts {
   int problems = 0;
   int paths = 0;
-  int samples = 0;
+  int paths_of_verify = 0;  ///< Paths that `verify` judged.
+  int paths_of_fcl = 0;     ///< Paths that FCL judged.
+  long long samples = 0;
   int trajectories = 0;
   int walls = 0;
   int unsolved = 0;
@@ -71,12 +81,18 @@ struct Counts {
   int colliding = 0;             ///< Paths with a sample that FCL finds in collision.
   int trajectories_refused = 0;  ///< No proven retiming.
   int trajectories_colliding = 0;
-  int walls_unseen = 0;  ///< Paths that are still proven with a wall across them.
-  int refused = 0;       ///< Questions that are none.
+  int walls_unseen = 0;    ///< Paths that are still proven with a wall across them.
+  int refused = 0;         ///< Questions that are none.
+  double planning = 0.0;   ///< [us]  Of the processor, as those below.
+  double verifying = 0.0;  ///< [us]
+  double fcl = 0.0;        ///< [us]  Of paths.
+  double retiming = 0.0;   ///< [us]  With the tests of FCL.
 
   [[nodiscard]] json summary() const {
     return {{"problems", problems},
             {"paths", paths},
+            {"paths_of_verify", paths_of_verify},
+            {"paths_of_fcl", paths_of_fcl},
             {"samples_of_fcl", samples},
             {"trajectories", trajectories},
             {"walls", walls},
@@ -86,21 +102,32 @@ struct Counts {
             {"colliding", colliding},
             {"trajectories_refused", trajectories_refused},
             {"trajectories_colliding", trajectories_colliding},
-            {"walls_unseen", walls_unseen}};
+            {"walls_unseen", walls_unseen},
+            {"planning_s", 1e-6 * planning},
+            {"verifying_s", 1e-6 * verifying},
+            {"fcl_s", 1e-6 * fcl},
+            {"retiming_s", 1e-6 * retiming}};
   }
 };
 
 /// One problem: its scene for the planner, and the same for FCL.
 class Problem {
  public:
-  Problem(ScenePlan scene, const Settings& settings, Counts& counts)
-      : scene_(std::move(scene)), settings_(settings), counts_(counts), places_(scene_) {}
+  Problem(std::string name, ScenePlan scene, const Settings& settings, Counts& counts)
+      : name_(std::move(name)),
+        scene_(std::move(scene)),
+        settings_(settings),
+        counts_(counts),
+        places_(scene_) {}
 
   void run(std::uint64_t seed) {
     PlanOptions options = scene_.options;
     options.seed = seed;
+    options.shortcuts = settings_.shortcuts;
     options.threads = 1;
+    double begin = thread_time();
     const PlanResult found = plan_path(scene_.plan, scene_.start, scene_.goals, options);
+    counts_.planning += since(begin);
     if (found.verdict != PlanVerdict::proven) {
       ++counts_.unsolved;
       return;
@@ -108,12 +135,25 @@ class Problem {
     const std::string text = write_planned_path(planned_path(scene_, options, found));
     const PlannedPath path = parse_planned_path(text, "path.json");
     const int number = counts_.paths++;
-    if (verify_path(path, {.threads = 1}).verdict != ProofVerdict::proven) {
-      ++counts_.not_verified;
+    if (number % settings_.verify_every == 0) {
+      ++counts_.paths_of_verify;
+      if (verify_path(path, {.threads = 1}).verdict != ProofVerdict::proven) {
+        ++counts_.not_verified;
+        report(seed, "not verified");
+      }
+      counts_.verifying += since(begin);
     }
-    counts_.colliding += collides(path) ? 1 : 0;
+    if (number % settings_.fcl_every == 0) {
+      ++counts_.paths_of_fcl;
+      if (collides(path)) {
+        ++counts_.colliding;
+        report(seed, "colliding");
+      }
+      counts_.fcl += since(begin);
+    }
     if (number % settings_.retime_every == 0) {
       retime_all(text);
+      counts_.retiming += since(begin);
     }
     if (number % settings_.walls_every == 0 && found.path.size() > 1) {
       put_a_wall_across(path, seed);
@@ -121,6 +161,16 @@ class Problem {
   }
 
  private:
+  /// [us]  Processor time since then, which becomes now.
+  static double since(double& then) {
+    const double now = thread_time();
+    return now - std::exchange(then, now);
+  }
+
+  void report(std::uint64_t seed, const char* fault) const {
+    std::cerr << name_ << ", seed " << seed << ": " << fault << '\n';
+  }
+
   bool collides_at(const std::vector<double>& waypoint) {
     ++counts_.samples;
     return places_.collide(waypoint);
@@ -132,13 +182,13 @@ class Problem {
     for (std::size_t edge = 0; edge + 1 < path.waypoints.size() && !any; ++edge) {
       any = places_.collide(path.waypoints[edge], path.waypoints[edge + 1], kStep);
     }
-    counts_.samples += static_cast<int>(places_.count() - before);
+    counts_.samples += static_cast<long long>(places_.count() - before);
     return any;
   }
 
   void retime_all(const std::string& text) {
     const RetimingPath input = parse_retiming_path(text, "path.json");
-    const RobotModel& model = input.scene.robots[input.robot].model;
+    const RobotModel& model = input.scene.robots[input.robots.front()].model;
     const std::vector<RateLimits> limits =
         limits_of(model, input.path.joint_names, {}, {.velocity = 2.0, .acceleration = 5.0});
     const LoadedRetimingScene loaded = load_retiming_scene(input, cache_);
@@ -211,6 +261,7 @@ class Problem {
         .normalized();
   }
 
+  std::string name_;
   ScenePlan scene_;
   const Settings& settings_;
   Counts& counts_;
@@ -223,7 +274,8 @@ int run(const Settings& settings) {
   if (data == nullptr || settings.output.empty()) {
     std::cerr
         << "usage: FIRSTCONTACT_DATA_DIR=... path_campaign [--first N] [--seeds N] [--part K/N] "
-           "[--retime EVERY] [--walls EVERY] OUTPUT.json\n";
+           "[--shortcuts N] [--verify EVERY] [--fcl EVERY] [--retime EVERY] [--walls EVERY] "
+           "OUTPUT.json\n";
     return 2;
   }
   Counts counts;
@@ -236,7 +288,8 @@ int run(const Settings& settings) {
       }
       ++counts.problems;
       const Scene scene = read_robot_question(panda_problem(data, family, problem));
-      Problem work(make_scene_plan(scene, question_of_trajectory(scene), cache), settings, counts);
+      Problem work(family + (' ' + std::to_string(problem)),
+                   make_scene_plan(scene, question_of_trajectory(scene), cache), settings, counts);
       for (std::uint64_t seed = settings.first; seed < settings.first + settings.seeds; ++seed) {
         try {
           work.run(seed);
@@ -271,6 +324,12 @@ int main(int argc, char** argv) {
       settings.seeds = std::strtoull(argv[++k], nullptr, 10);
     } else if (word == "--part" && has_value) {
       std::sscanf(argv[++k], "%d/%d", &settings.part, &settings.parts);
+    } else if (word == "--shortcuts" && has_value) {
+      settings.shortcuts = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--verify" && has_value) {
+      settings.verify_every = std::max(1, std::atoi(argv[++k]));
+    } else if (word == "--fcl" && has_value) {
+      settings.fcl_every = std::max(1, std::atoi(argv[++k]));
     } else if (word == "--retime" && has_value) {
       settings.retime_every = std::max(1, std::atoi(argv[++k]));
     } else if (word == "--walls" && has_value) {
