@@ -1,9 +1,12 @@
-// Plans of the Panda in MotionBenchMaker's 400 problems, and the edges that they are made of.
+// Plans of the Panda in MotionBenchMaker's 400 problems, and the edges that they are made of; or
+// plans in one scene.
 //
 //   planning_benchmark [--seeds N] [--every N] [--only plans|edges] [--time SECONDS] [--range RAD]
 //                      [--shortcuts N] [OUTPUT.json]
+//   planning_benchmark --scene SCENE.json [--seeds N] [--time SECONDS] [--range RAD]
+//                      [--shortcuts N] [OUTPUT.json]
 //
-// Processor times of one thread. Needs FIRSTCONTACT_DATA_DIR.
+// Processor times of one thread. The problems need FIRSTCONTACT_DATA_DIR.
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +27,7 @@
 #include <firstcontact/planning/plan_path.h>
 #include <firstcontact/planning/plan_scene.h>
 #include <firstcontact/scene/shape_cache.h>
+#include <firstcontact/scene_files/read_scene.h>
 #include <firstcontact/scene_files/robot_question.h>
 
 #include "benchmarks/support/panda_problems.h"
@@ -45,6 +49,7 @@ struct Settings {
   double range = PlanOptions().range;
   std::size_t shortcuts = PlanOptions().shortcuts;
   std::string only;
+  fs::path scene;
   std::string output;
 };
 
@@ -116,6 +121,27 @@ void for_each_problem(const Settings& settings, const std::string& family, const
   }
 }
 
+/// Plans once; `take` gets the result, and the times [ms] of the first path and of the whole.
+template <class Take>
+void plan_once(const Settings& settings, const ScenePlan& scene, std::uint64_t seed,
+               const Take& take) {
+  PlanOptions options = scene.options;
+  options.seed = seed;
+  options.time = settings.time;
+  options.threads = 1;
+  options.range = settings.range;
+  options.shortcuts = settings.shortcuts;
+  const double begin = thread_time();
+  double first = 0.0;
+  options.progress = [&](const PlanProgress& done) {
+    if (done.cost && first == 0.0) {
+      first = 1e-3 * (thread_time() - begin);
+    }
+  };
+  const PlanResult result = plan_path(scene.plan, scene.start, scene.goals, options);
+  take(result, first, 1e-3 * (thread_time() - begin));
+}
+
 json plans(const Settings& settings) {
   json out;
   PlanTimes all;
@@ -123,24 +149,12 @@ json plans(const Settings& settings) {
     PlanTimes times;
     for_each_problem(settings, family, [&](const ScenePlan& scene, int problem) {
       for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
-        PlanOptions options = scene.options;
-        options.seed = seed;
-        options.time = settings.time;
-        options.threads = 1;
-        options.range = settings.range;
-        options.shortcuts = settings.shortcuts;
         try {
-          const double begin = thread_time();
-          double first = 0.0;
-          options.progress = [&](const PlanProgress& done) {
-            if (done.cost && first == 0.0) {
-              first = 1e-3 * (thread_time() - begin);
-            }
-          };
-          const PlanResult result = plan_path(scene.plan, scene.start, scene.goals, options);
-          const double took = 1e-3 * (thread_time() - begin);
-          times.take(result, first, took, settings.time * 1e3);
-          all.take(result, first, took, settings.time * 1e3);
+          plan_once(settings, scene, seed,
+                    [&](const PlanResult& result, double first, double took) {
+                      times.take(result, first, took, settings.time * 1e3);
+                      all.take(result, first, took, settings.time * 1e3);
+                    });
         } catch (const std::invalid_argument& error) {
           ++times.refused;
           ++all.refused;
@@ -154,6 +168,20 @@ json plans(const Settings& settings) {
   }
   out["all"] = all.summary();
   return out;
+}
+
+json plans_in_scene(const Settings& settings) {
+  const Scene read = read_scene(settings.scene);
+  ShapeCache cache;
+  const ScenePlan scene = make_scene_plan(read, read.plan.value(), cache);
+  PlanTimes times;
+  for (std::uint64_t seed = 1; seed <= settings.seeds; ++seed) {
+    plan_once(settings, scene, seed, [&](const PlanResult& result, double first, double took) {
+      times.take(result, first, took, settings.time * 1e3);
+      std::cerr << "seed " << seed << ": " << first << " ms, " << took << " ms\n";
+    });
+  }
+  return times.summary();
 }
 
 /// Edges from the start and goal of a problem in random directions.
@@ -219,10 +247,12 @@ json edges(const Settings& settings) {
 
 int run(const Settings& settings) {
   json out = {{"seeds", settings.seeds}, {"every", settings.every}, {"time_s", settings.time}};
-  if (settings.only != "plans") {
+  if (!settings.scene.empty()) {
+    out["plans"] = plans_in_scene(settings);
+  } else if (settings.only != "plans") {
     out["edges"] = edges(settings);
   }
-  if (settings.only != "edges") {
+  if (settings.scene.empty() && settings.only != "edges") {
     out["plans"] = plans(settings);
   }
   if (settings.output.empty()) {
@@ -251,6 +281,8 @@ int main(int argc, char** argv) {
       settings.range = std::atof(argv[++k]);
     } else if (word == "--shortcuts" && has_value) {
       settings.shortcuts = std::strtoull(argv[++k], nullptr, 10);
+    } else if (word == "--scene" && has_value) {
+      settings.scene = argv[++k];
     } else if (word == "--only" && has_value) {
       settings.only = argv[++k];
     } else {
