@@ -4,11 +4,11 @@
     assembly.py TOOL DATA [--time SECONDS] [--seed N] [--only NAME,NAME] [--verify-time SECONDS]
 
 TOOL is the program firstcontact; DATA the folder of data sets (FIRSTCONTACT_DATA_DIR), with Factory's
-parts in assemblies/factory. For each assembly: `firstcontact plan` from the assembled place to one
-outside, and back; `firstcontact verify` of both paths. No pitch, no axis and no direction is given.
-Then what must be refused: threads that do not fit. Exit status 1 where anything fails; a proof that
-takes longer than --verify-time is left out, and the line says so. Times are wall clock of the tool,
-reading of meshes included.
+parts in assemblies/factory. An M8 nut and five beams are made here, with clearances that are known.
+For each assembly: `firstcontact plan` from the assembled place to one outside, and back; `firstcontact
+verify` of both paths. No pitch, no axis and no direction is given. Then what must be refused: threads
+that do not fit. Exit status 1 where anything fails; a proof that takes longer than --verify-time is
+left out, and the line says so. Times are wall clock of the tool, reading of meshes included.
 """
 
 import argparse
@@ -19,6 +19,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+import parts
 
 
 def box(size):
@@ -51,8 +53,9 @@ def meshes(data, fixed, moved, start, goal):
             {"position": goal})
 
 
-def assemblies(data):
-    found = {"square peg, 0.1 mm": square_peg(1e-4), "square peg, 0.01 mm": square_peg(1e-5)}
+def assemblies(data, made):
+    found = {"square peg, 0.1 mm": square_peg(1e-4), "square peg, 0.01 mm": square_peg(1e-5),
+             **parts.five_beams(made, 1e-3), **parts.five_beams(made, 1e-4), "nut m8, made": parts.nut_m8(made)}
     folder = pathlib.Path("factory_insertion")
     for kind in ("round", "rectangular"):
         for size in (8, 16):
@@ -160,7 +163,7 @@ def main():
     words = [word for word in arguments.only.split(",") if word]
     with tempfile.TemporaryDirectory() as name:
         campaign = Campaign(arguments, pathlib.Path(name))
-        for name, (bodies, goal) in assemblies(data).items():
+        for name, (bodies, goal) in assemblies(data, campaign.folder).items():
             if not words or any(word in name for word in words):
                 campaign.take_apart(name, bodies, goal)
         if not words or "wrong" in words:
@@ -172,6 +175,7 @@ def main():
             campaign.refuse("wrong pitch, onto the bolt", bodies, {"position": [0, 0, 0.012 - 0.0016]})
             bodies, _ = meshes(data, bolt, nut, [0, 0, 0.05], [0, 0, 0])
             campaign.refuse("crossed threads", bodies, {"position": [0, 0, 0.012], "rpy": [0.05, 0, 0]})
+            campaign.refuse("beams that lock", *parts.five_beams(campaign.folder, 1e-4, True)["five beams, E, 0.1 mm"])
     return 1 if campaign.failed else 0
 
 
