@@ -21,9 +21,9 @@ struct RetimingHold {
   BodyPair members = {};
   double distance = 0.0;  ///< [m]  > 0.
   /// [rad or m]  The waypoint at which the pair has to be open, in the order of the motion's
-  /// joints. Empty where it is held all the time. A pair that opens after the start is held until the
-  /// motion first rests there. One that is in contact at the goal is held from the last such rest
-  /// on. At that rest and all other times the pair keeps its margin.
+  /// joints. Empty where it is held all the time. A pair that opens after the start is held until
+  /// the motion first rests there. One that is in contact at the goal is held from the last such
+  /// rest on. At that rest and all other times the pair keeps its margin.
   std::vector<double> opens_at = {};
   PathEnd at = PathEnd::start;
 };
