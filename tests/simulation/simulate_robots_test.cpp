@@ -93,6 +93,19 @@ constexpr double kMoment = 0.001 + 1.0 * 0.25 * 0.25;  // [kg m^2]  About the hi
 
 double energy(const RunStep& step) { return step.kinetic_energy + step.potential_energy; }
 
+TEST_F(SimulateRobots, RestAtHalfOfTheDistanceOfBodies) {
+  const auto distance = [&](const std::string& bodies) {
+    return simulator(scene(kPendulum, R"("dynamics": {"base": "fixed"})", bodies, ""))
+        .header()
+        .scene.simulation->contact_distance.value();
+  };
+  const double reach = std::sqrt(0.25 * 0.25 + 2 * 0.01 * 0.01);  // [m]  Of the rod.
+  EXPECT_NEAR(distance(""), 5e-4 * reach, 1e-12);
+  // A free body decides where there is one, also a larger one.
+  EXPECT_NEAR(distance(body("a", box("[2, 2, 2]"), "[0, 0, 9]", R"(, "dynamics": {})")),
+              1e-3 * std::sqrt(3.0), 1e-12);
+}
+
 // As exactly with many links as with few.
 TEST_F(SimulateRobots, LongArmFollowsItsMotors) {
   constexpr int kJoints = 8;

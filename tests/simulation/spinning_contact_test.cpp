@@ -126,7 +126,8 @@ TEST(SpinningContact, ImpulsesAreOfTheWholeStep) {
   }
 }
 
-TEST(SpinningContact, FrictionOnlyTakesEnergy) {
+// At 0.4 rad a plan the midpoint rule is off by less than a thousandth of the energy.
+TEST(SpinningContact, FrictionAddsNoMoreThanTheErrorOfTheRule) {
   for (const double friction : {0.1, 0.5}) {
     for (const double step : {0.01, 0.0025}) {
       Simulator s = simulation_of({.spin = 80.0, .friction = friction}, step, 1e-4);

@@ -47,7 +47,7 @@ struct LawRobot {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();  ///< [rad/s]
 };
 
-/// Of all that moves.
+/// The momenta and the kinetic energy of all free bodies and robots.
 struct LawTotals {
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();          ///< [kg m/s]
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< [kg m^2/s]  About the origin.

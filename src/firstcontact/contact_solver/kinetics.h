@@ -52,7 +52,7 @@ struct InverseInertia {
 /// Whether an axis of rotation is locked.
 [[nodiscard]] FIRSTCONTACT_API bool is_locked(const Inertia& inertia);
 
-/// Whether every axis is a principal one: then nothing gyroscopic acts.
+/// Whether every axis is a principal one, to 1e-9 of the moments: then nothing gyroscopic acts.
 [[nodiscard]] FIRSTCONTACT_API bool is_isotropic(const Inertia& inertia);
 
 /// [rad/s]  The angular velocity of a body after a turn that carries the velocity along.

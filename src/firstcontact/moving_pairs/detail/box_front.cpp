@@ -98,8 +98,8 @@ void BoxFront::raise_lane(std::size_t k, int lane, double apart) {
 }
 
 void BoxFront::open(const MovingPair& pair, std::size_t k, int lane, const BoxPair& inside) {
+  add(pair, inside.A, inside.B);  // First: without memory for it, the front still covers all pairs.
   groups_[k].live = static_cast<std::uint16_t>(groups_[k].live & ~(1u << lane));
-  add(pair, inside.A, inside.B);
 }
 
 void BoxFront::settle(std::size_t k) {
@@ -128,13 +128,14 @@ bool BoxFront::is_due_again() {
 }
 
 void BoxFront::add(const MovingPair& pair, const NodeBoxes& a, const NodeBoxes& b) {
-  Group& group = groups_.emplace_back();
-  group.node_a = a.node;
-  group.node_b = b.node;
-  group.live = lanes_of(a.used, b.used);
+  const std::size_t k = groups_.size();
+  balls_.resize(k + 1);
+  least_.resize(k + 1);
+  balls_[k] = ball_of(pair.B(), b);
+  least_[k] = kUnknown;
+  Group group{.node_a = a.node, .node_b = b.node, .live = lanes_of(a.used, b.used), .apart = {}};
   group.apart.fill(kUnknown);
-  balls_.push_back(ball_of(pair.B(), b));
-  least_.push_back(kUnknown);
+  groups_.push_back(group);  // Last: it is counted once all of it is there.
 }
 
 FrontMotion::FrontMotion(const BoxFront::Place& begin, const MovingPair& pair,

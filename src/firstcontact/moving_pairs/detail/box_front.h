@@ -67,12 +67,9 @@ class FIRSTCONTACT_API BoxFront {
   /// The lanes of a group that may be nearer than that where the front began.
   [[nodiscard]] unsigned lanes_within(std::size_t k, double distance) const;
 
-  /// Raises the bounds of a group by those of an instant.
-  ///
-  /// @param unit   [m]  of the bounds
-  /// @param moved  [m]  distances of the group fell by no more since the front began
-  /// @param reach  [m]
-  /// @returns  the lanes that may be nearer than the reach at that instant
+  /// Raises the bounds of a group by those of an instant, which have the unit [m]. Distances of the
+  /// group fell by `moved` [m] at most since the front began. Returns the lanes that may be nearer
+  /// than the reach [m] at that instant.
   unsigned raise(std::size_t k, const BoxBounds& bounds, double unit, double moved, double reach);
   /// Raises the bound of a lane.
   void raise_lane(std::size_t k, int lane, double apart);
@@ -107,12 +104,14 @@ class FIRSTCONTACT_API BoxFront {
 ///
 /// Derivation: seen from A, a point y of B was at p_0 + R_0 y and is at p + R y. So distances of
 /// points in a ball (c, r) fell by no more than
-///   |p - p_0 + (R - R_0) c| + |R - R_0| r,
-/// |R - R_0| being the Frobenius norm by the root of 2. In the time tau from now on they fall by no
-/// more than MovingPair::speed_bound() tau. Where A does not turn, the way of these points seen
-/// from A is a bound, too: with v and w the rates of B's pivot and turn,
-///   (|v + w x c'| + |w| r) tau + w^2 d tau^2 / 2,
-/// c' being c from the pivot and d the greatest distance of B's points from it.
+///   |p - p_0 + (R - R_0) c| + |R - R_0| r.
+/// Here |R - R_0| is the Frobenius norm by the root of 2. In the time tau from now on distances
+/// fall by no more than MovingPair::speed_bound() tau.
+///
+/// Where A does not turn, the way of these points seen from A is a bound, too:
+///   (|v + w x c'| + |w| r) tau + w^2 d tau^2 / 2.
+/// The rates of B's pivot and turn are v and w. The ball's centre is at c' from the pivot. No point
+/// of B is farther than d from it.
 class FrontMotion {
  public:
   /// @param tau  [-]  >= 0
