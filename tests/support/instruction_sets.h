@@ -27,10 +27,14 @@ class OnInstructionSet : public testing::TestWithParam<std::int64_t> {
   }
 };
 
+/// All of them; under sanitizers the best one and the plainest.
 inline std::vector<std::int64_t> instruction_sets() {
   std::vector<std::int64_t> sets;
   for (std::int64_t all = detail::box_bounds_targets(); all != 0; all &= all - 1) {
     sets.push_back(all & -all);
+  }
+  if (FIRSTCONTACT_SANITIZED && sets.size() > 2) {
+    sets = {sets.front(), sets.back()};
   }
   return sets;
 }
