@@ -162,9 +162,11 @@ TEST(RoundContacts, TouchAPlaneInTheirLowestLine) {
     contact.p_WB = {contact.p_WA.x(), contact.p_WA.y(), 0.0};
     contact.n_AB_W = -Vector3d::UnitZ();
     contact.distance = contact.p_WA.z();
-    const PlacedRound on_floor{&floor, nullptr, {{0.0, 0.0, -0.5}, Eigen::Quaterniond::Identity()}};
+    const PlacedRound on_floor{.shape = &floor,
+                               .pose = {{0.0, 0.0, -0.5}, Eigen::Quaterniond::Identity()}};
     const auto round =
-        make_round({PlacedRound{&cylinder, &circles, lying}, on_floor}, 1.0, contact);
+        make_round({PlacedRound{.shape = &cylinder, .circles = &circles, .pose = lying}, on_floor},
+                   1.0, contact);
     EXPECT_NE(round[0].circle, nullptr);
     EXPECT_FALSE(round[0].is_hole);
     EXPECT_EQ(round[1].circle, nullptr);
@@ -209,8 +211,9 @@ struct HangingRing {
     }
     contact.feature_A = {FeatureType::edge, 0, 0};
     const Pose upright{Vector3d::Zero(), Eigen::Quaterniond::Identity()};
-    return make_round({PlacedRound{&pin, nullptr, upright}, PlacedRound{&ring, &circles, X}}, 1.0,
-                      contact);
+    return make_round({PlacedRound{.shape = &pin, .pose = upright},
+                       PlacedRound{.shape = &ring, .circles = &circles, .pose = X}},
+                      1.0, contact);
   }
 };
 

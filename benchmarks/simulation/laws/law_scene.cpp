@@ -34,6 +34,9 @@ LawShape shape_of(const json& shape) {
   if (shape.contains("sphere")) {
     return {LawShape::Kind::sphere, Vector3d::Constant(shape.at("sphere").at("radius"))};
   }
+  if (shape.contains("ellipsoid")) {
+    return {LawShape::Kind::ellipsoid, three(shape.at("ellipsoid").at("radii"))};
+  }
   const bool is_capsule = shape.contains("capsule");
   if (!is_capsule && !shape.contains("cylinder")) {
     throw NotForPeer();
@@ -58,7 +61,8 @@ void fill_mass(LawBody& body) {
       body.mass = 4e3 / 3.0 * std::numbers::pi * std::pow(h.x(), 3);
       body.moments = Vector3d::Constant(0.4 * body.mass * h.x() * h.x());
       return;
-    case LawShape::Kind::capsule:  // Has its mass given.
+    case LawShape::Kind::ellipsoid:  // Has its mass given, as a capsule has.
+    case LawShape::Kind::capsule:
     case LawShape::Kind::cylinder:
       body.mass = 2e3 * std::numbers::pi * h.x() * h.x() * h.z();
       const double across = body.mass * (0.25 * h.x() * h.x() + h.z() * h.z() / 3.0);

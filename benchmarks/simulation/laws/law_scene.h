@@ -15,7 +15,7 @@
 namespace firstcontact::benchmarks {
 
 struct LawShape {
-  enum class Kind { box, sphere, cylinder, capsule };
+  enum class Kind { box, sphere, cylinder, capsule, ellipsoid };
   Kind kind = Kind::box;
   Eigen::Vector3d half =
       Eigen::Vector3d::Zero();  ///< [m]  A radius stands in x, half a length in z.

@@ -46,6 +46,7 @@ ROWS = [
     ("top on its tip, 60 rad/s, 1 s", "axis", "rad", SMOOTH, contacts.top_on_its_tip),
     ("disc goes round on its rim, 0.3 s", "energy", "part", SMOOTH, contacts.disc_on_its_rim, 1e-6),
     ("ring of 180 corners swings on a pin, 1 s", "energy", "part", SMOOTH, contacts.ring_on_a_pin, 3e-4),
+    ("ellipsoid rocks, 1 s", "lean", "rad", SMOOTH, contacts.rocking_ellipsoid),
     ("cubes of 1, 100 and 10,000 kg on each other, 1 s", "place", "m", SMOOTH,
      lambda tool, step: contacts.standing(tool, step, [1, 100, 10000])),
     ("column of 50 cubes, 1 s", "place", "m", SMOOTH,

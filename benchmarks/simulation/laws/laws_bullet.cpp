@@ -31,6 +31,13 @@ std::unique_ptr<btCollisionShape> shape_of(const LawShape& shape) {
     case LawShape::Kind::capsule:
       return std::make_unique<btCapsuleShapeZ>(scalar(shape.half.x()),
                                                scalar(2.0 * shape.half.z()));
+    case LawShape::Kind::ellipsoid: {
+      const btVector3 middle(0, 0, 0);
+      const btScalar radius = 1;
+      auto ball = std::make_unique<btMultiSphereShape>(&middle, &radius, 1);
+      ball->setLocalScaling(vector(shape.half));
+      return ball;
+    }
   }
   return nullptr;
 }

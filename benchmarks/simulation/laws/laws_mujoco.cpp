@@ -34,6 +34,8 @@ std::string geom_of(const LawShape& shape) {
       return "type=\"box\" size=\"" + three(shape.half) + "\"";
     case LawShape::Kind::sphere:
       return "type=\"sphere\" size=\"" + std::to_string(shape.half.x()) + "\"";
+    case LawShape::Kind::ellipsoid:
+      return "type=\"ellipsoid\" size=\"" + three(shape.half) + "\"";
     case LawShape::Kind::capsule:
     case LawShape::Kind::cylinder:
       return std::string("type=\"") +

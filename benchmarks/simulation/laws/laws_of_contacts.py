@@ -2,7 +2,8 @@
 
 import math
 
-from law_scenes import G, NEAR, ball, body, box, energy, leaning, runge_kutta, scene, simulate, tube, turned
+from law_scenes import (G, NEAR, around_globe, ball, body, box, energy, is_ours, leaning, runge_kutta, scene, simulate,
+                        tube, turned)
 
 
 def turntable(tool, step):
@@ -195,6 +196,33 @@ def ring_on_a_pin(tool, step):
         1.0, step, contact_distance=1e-5))
     energies = run.energies()
     return max(abs(e - energies[0]) for e in energies) / max(step["kinetic_energy"] for step in run.steps)
+
+
+def rocking_ellipsoid(tool, step):
+    """How much an ellipsoid leans too far after 1 s, which rocks on the level from 0.1 rad without slipping."""
+    radii, error, lean = [0.1, 0.08, 0.05], 1e-4, 0.1
+    larger = around_globe(error / radii[0]) if is_ours(tool) else 1
+    long, high = larger * radii[0], larger * radii[2]
+    moments = [(radii[1] ** 2 + radii[2] ** 2) / 5, (radii[0] ** 2 + radii[2] ** 2) / 5,
+               (radii[0] ** 2 + radii[1] ** 2) / 5]
+
+    def height(q):
+        return math.hypot(long * math.sin(q), high * math.cos(q))
+
+    def rates(state):
+        q, w = state
+        h, squares = height(q), long ** 2 - high ** 2
+        slope = squares * math.sin(q) * math.cos(q) / h
+        bend = (squares * math.cos(2 * q) - slope ** 2) / h
+        return [w, -slope * (w * w * (h + bend) + G) / (moments[1] + h * h + slope * slope)]
+    run = simulate(tool, scene([FLOOR, body(
+        "egg", {"ellipsoid": {"radii": radii, "enclosure_error": error}}, (0, 0, height(lean) + 1e-6),
+        quaternion_wxyz=leaning(lean), dynamics={
+            "mass": 1, "centre_of_mass": [0, 0, 0],
+            "inertia": [[moments[0], 0, 0], [0, moments[1], 0], [0, 0, moments[2]]]})],
+        1.0, step, friction=2.0, contact_distance=1e-6))
+    x, _, z = turned(run.body(1)["quaternion_wxyz"], [0, 0, 1])
+    return abs(math.atan2(x, z) - runge_kutta(rates, [lean, 0.0], 1.0)[0])
 
 
 def cradle(tool, step):

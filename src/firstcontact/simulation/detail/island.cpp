@@ -1,6 +1,7 @@
 #include <firstcontact/simulation/detail/island.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -147,14 +148,22 @@ class Island {
     return std::max(kMostTurnInContact / turning, kLeastShareOfPlan * state_.start.h);
   }
 
-  /// [s]  In which a contact on a rim stays near its place on it. One that runs too fast for any
-  /// plan does not count.
+  /// [s]  In which a contact on a rim stays near its place on it, and one on an ellipsoid has
+  /// nearly the arm that it has. On a rim one that runs too fast for any plan does not count.
   [[nodiscard]] double rolling_span(const ManifoldPoint& touch) {
-    const bool is_on_rim = touch.round[0].circle != nullptr || touch.round[1].circle != nullptr;
+    double longest = std::numeric_limits<double>::infinity();
+    if (!touch.round[0].is_curved() && !touch.round[1].is_curved()) {
+      return longest;
+    }
+    const std::array<ContactSide, 2> sides = state_.turning_sides(touch);
     const double shortest = kLeastShareOfPlan * state_.start.h;
-    const double span = is_on_rim ? kTurnOfCurve / state_.rate_on_rim(touch) : 0.0;
-    return span >= shortest ? std::max(kRollOfPlan * span, shortest)
-                            : std::numeric_limits<double>::infinity();
+    const double on_rim = rate_on_rim(touch.normal, sides);
+    if (on_rim > 0.0 && kTurnOfCurve / on_rim >= shortest) {
+      longest = std::max(kRollOfPlan * kTurnOfCurve / on_rim, shortest);
+    }
+    const double on_ellipsoid = rate_on_ellipsoid(touch.normal, sides);
+    return on_ellipsoid > 0.0 ? std::min(longest, std::max(kArmOfPlan / on_ellipsoid, shortest))
+                              : longest;
   }
 
   /// Whether impacts go on to squeeze a pair: each of them leaves less of its distance, until

@@ -105,7 +105,7 @@ bool IslandPlanner::lifts(const PredictedContact& ahead) {
   const auto is_of_one_surface = [&](std::size_t k) {
     return touches_[k].bodies == ahead.touch.bodies && is_on_curve(k) &&
            touches_[k].normal.dot(ahead.touch.normal) >= kNearLine &&
-           (share_circle(touches_[k], ahead.touch) || same_features(touches_[k], ahead.touch));
+           (share_curve(touches_[k], ahead.touch) || same_features(touches_[k], ahead.touch));
   };
   std::optional<std::size_t> nearest;
   double least = 0.0;

@@ -414,7 +414,8 @@ bool IslandPlanner::stops_early(std::size_t first, std::size_t end) const {
     const ContactPoint& before = acting_[k].now;
     const Eigen::Vector2d slip =
         relative_velocity(before, bodies_.bodies()).tail<2>() - before.sticking_velocity;
-    slides = slides || (impulse[0] > 0.0 && slip.norm() > slow);
+    const double of_curve = kSlipOfChange * acting_[k].change.tail<2>().norm();
+    slides = slides || (impulse[0] > 0.0 && slip.norm() > std::max(slow, of_curve));
     friction += contact.frame.bottomRows<2>().transpose() * impulse.tail<2>();
     most += contact.friction * impulse[0];
   }

@@ -119,7 +119,7 @@ std::size_t IslandState::touches() const {
   return count;
 }
 
-double IslandState::rate_on_rim(const ManifoldPoint& touch) {
+std::array<ContactSide, 2> IslandState::turning_sides(const ManifoldPoint& touch) {
   std::array<ContactSide, 2> sides;
   for (std::size_t s = 0; s < 2; ++s) {
     const std::size_t body = touch.bodies[s];
@@ -129,7 +129,7 @@ double IslandState::rate_on_rim(const ManifoldPoint& touch) {
                      ? states[place.at(body)].w_WB
                      : Eigen::Vector3d(start.scripted[body].rotation_vector / start.h);
   }
-  return detail::rate_on_rim(touch.normal, sides);
+  return sides;
 }
 
 bool IslandState::is_too_near() const { return is_nearer(model.distances.pushed); }

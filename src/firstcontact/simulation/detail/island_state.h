@@ -20,6 +20,7 @@
 #include <firstcontact/simulation/detail/response.h>
 #include <firstcontact/simulation_model/detail/manifold.h>
 #include <firstcontact/simulation_model/detail/move.h>
+#include <firstcontact/simulation_model/detail/moving_contact.h>
 #include <firstcontact/simulation_model/detail/obstacles.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 #include <firstcontact/simulation_model/detail/step_start.h>
@@ -78,8 +79,8 @@ struct IslandState {
   /// How many touches there are now.
   [[nodiscard]] std::size_t touches() const;
 
-  /// [1/s]  How fast a touch runs round the rim that it is on; 0: it is on none.
-  [[nodiscard]] double rate_on_rim(const ManifoldPoint& touch);
+  /// The curves, rotations and angular velocities of a touch's bodies, without all else.
+  [[nodiscard]] std::array<ContactSide, 2> turning_sides(const ManifoldPoint& touch);
 
   /// Looks around after bodies were moved.
   ///

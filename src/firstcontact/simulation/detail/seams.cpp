@@ -51,8 +51,8 @@ Vector3d nearest_in_polar_cone(const Vector3d& v, const std::vector<Vector3d>& d
 Vector3d point_towards(const SimBody& body, const RoundFeature& round, const Pose& pose,
                        const Vector3d& before, const Vector3d& outwards_before,
                        const Vector3d& outwards) {
-  if (round.circle != nullptr) {
-    return nearest_on_circle(pose, round, before, outwards);
+  if (round.is_curved()) {
+    return farthest_on(pose, round, before, outwards);
   }
   return before + body.shape.radius() * (outwards - outwards_before);
 }
@@ -156,8 +156,8 @@ bool SeamFinder::lean(ManifoldPoint& touch, std::size_t side) {
   const Feature& feature = side == 0 ? touch.feature_A : touch.feature_B;
   const Feature& opposite = side == 0 ? touch.feature_B : touch.feature_A;
   const bool is_beside_face =
-      opposite.type == FeatureType::face && touch.round[1 - side].circle == nullptr;
-  if (feature.type == FeatureType::face || is_beside_face || touch.round[side].circle != nullptr ||
+      opposite.type == FeatureType::face && !touch.round[1 - side].is_curved();
+  if (feature.type == FeatureType::face || is_beside_face || touch.round[side].is_curved() ||
       state_.model.bodies[body].shape.radius() > 0.0) {
     return false;
   }
@@ -197,7 +197,7 @@ bool SeamFinder::take_normal(const Vector3d& outwards, std::size_t side, Manifol
   const Feature& feature = other == 0 ? touch.feature_A : touch.feature_B;
   const Pose pose = pose_of_(body);
   const RoundFeature& round = touch.round[other];
-  if (round.circle == nullptr && its.shape.radius() == 0.0 &&
+  if (!round.is_curved() && its.shape.radius() == 0.0 &&
       !state_.model.neighbours[body]->is_outermost(
           feature, pose.rotation.normalized().conjugate() * -outwards)) {
     return false;

@@ -153,6 +153,10 @@ inline constexpr double kSlackOfMean = 0.02;
 /// contact distance, or what so many sweeps leave: where that is too near, the proof finds it.
 inline constexpr double kToleranceOfWay = 2e-3;
 inline constexpr int kSweepsOfWay = 50;
+/// [-]  A contact that rolls slips by less, by the change of its velocity that its curve makes in
+/// half of a plan: the plan before led it nearly to that. Smaller: what rolls seems to slide and to
+/// stop.
+inline constexpr double kSlipOfChange = 0.05;
 /// [-]  A contact that presses and has drifted beyond where bodies rest may come back by this part
 /// of the way in a plan. Larger: the mean of the velocities leads too far in the next one.
 inline constexpr double kBackToRest = 0.5;
@@ -162,6 +166,9 @@ inline constexpr double kTurnOfCurve = 0.2;
 /// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth
 /// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;
+/// [-]  And, as far as that, so short that the arm of a contact on an ellipsoid changes by no more,
+/// by its length. Larger: ellipsoids that spin gain energy.
+inline constexpr double kArmOfPlan = 0.05;
 /// [-]  So often is a plan solved with contacts where its solution before leads them.
 inline constexpr int kPassesOfCurves = 2;
 /// [rad]  Bodies that turn by more in a plan spin: gyroscopic moments act on what contacts change.

@@ -16,6 +16,7 @@
 #include <firstcontact/query/close_features.h>
 #include <firstcontact/query/detail/surface_neighbours.h>
 #include <firstcontact/simulation_model/detail/constants.h>
+#include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
 #include <firstcontact/simulation_model/detail/round_contact.h>
 #include <firstcontact/simulation_model/detail/simulation_model.h>
 
@@ -65,10 +66,24 @@ class Successors {
         nearest = &touches_[k];
       }
     });
-    return nearest;
+    return nearest != nullptr ? nearest : on_curve(before);
   }
 
  private:
+  /// What rolls touches elsewhere after each step: the nearest touch on a curve that faces alike.
+  ManifoldPoint* on_curve(const ManifoldPoint& before) {
+    ManifoldPoint* nearest = nullptr;
+    for (ManifoldPoint& touch : touches_) {
+      const bool is_on_curve = touch.round[0].is_curved() || touch.round[1].is_curved();
+      if (is_on_curve && touch.normal.dot(before.normal) >= kNearLine &&
+          (nearest == nullptr ||
+           (touch.point - before.point).norm() < (nearest->point - before.point).norm())) {
+        nearest = &touch;
+      }
+    }
+    return nearest;
+  }
+
   /// As many are looked through as they are.
   static constexpr std::size_t kFew = 24;
 
@@ -128,12 +143,19 @@ struct TouchMaker {
              double its_margin)
       : bodies(pair), margin(its_margin), most_sag(most_sag_of(model, pair)) {
     for (std::size_t s = 0; s < 2; ++s) {
-      placed[s] = {&model.bodies[pair[s]].shape, model.round_circles[pair[s]].get(), poses[s]};
+      const SimBody& body = model.bodies[pair[s]];
+      placed[s] = {.shape = &body.shape,
+                   .circles = model.round_circles[pair[s]].get(),
+                   .ellipsoid = body.ellipsoid ? &*body.ellipsoid : nullptr,
+                   .pose = poses[s]};
     }
   }
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
-    const std::array<RoundFeature, 2> round = make_round(placed, most_sag, contact);
+    const bool is_any_ellipsoid = placed[0].ellipsoid != nullptr || placed[1].ellipsoid != nullptr;
+    const std::array<RoundFeature, 2> round = is_any_ellipsoid
+                                                  ? make_ellipsoidal(placed, most_sag, contact)
+                                                  : make_round(placed, most_sag, contact);
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,
@@ -236,10 +258,9 @@ bool same_features(const ManifoldPoint& x, const ManifoldPoint& y) {
          x.feature_B.type == y.feature_B.type && x.feature_B.index == y.feature_B.index;
 }
 
-bool share_circle(const ManifoldPoint& x, const ManifoldPoint& y) {
+bool share_curve(const ManifoldPoint& x, const ManifoldPoint& y) {
   const auto is_shared = [&](std::size_t side) {
-    return x.round[side].circle != nullptr && x.round[side].circle == y.round[side].circle &&
-           x.round[side].is_hole == y.round[side].is_hole;
+    return x.round[side].is_curved() && x.round[side] == y.round[side];
   };
   return is_shared(0) || is_shared(1);
 }

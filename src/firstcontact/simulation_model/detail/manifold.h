@@ -13,7 +13,7 @@
 #include <firstcontact/query/contact.h>
 #include <firstcontact/query/placed_shape.h>
 #include <firstcontact/query/workspace.h>
-#include <firstcontact/simulation_model/detail/round_contact.h>
+#include <firstcontact/simulation_model/detail/round_feature.h>
 
 namespace firstcontact::detail {
 
@@ -27,7 +27,7 @@ struct ManifoldPoint {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< [m]  SimulationModel, between the surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
-  std::array<RoundFeature, 2> round = {};             ///< On which circle of A, of B it is.
+  std::array<RoundFeature, 2> round = {};             ///< On which curve of A, of B it is.
   std::array<bool, 2> faces = {false, false};  ///< Whether its normal goes with A, with B, as if
                                                ///< it were that of a face.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
@@ -35,8 +35,8 @@ struct ManifoldPoint {
 
 [[nodiscard]] bool same_features(const ManifoldPoint& x, const ManifoldPoint& y);
 
-/// Whether both are on one circle of one of the bodies.
-[[nodiscard]] bool share_circle(const ManifoldPoint& x, const ManifoldPoint& y);
+/// Whether both are on one circle, or one ellipsoid, of one of the bodies.
+[[nodiscard]] bool share_curve(const ManifoldPoint& x, const ManifoldPoint& y);
 
 /// The contacts of a list at which both surfaces bulge towards each other, each place once; all of
 /// it where none does. Of very many, the nearest ones of each neighbourhood. Contacts without
@@ -82,7 +82,7 @@ class ManifoldFinder {
 /// Gives the manifold the impulses of the touches before.
 ///
 /// Each goes to the touch of the same features or, as these change with every rounding where edges
-/// lie on edges, to the nearest one close by.
+/// lie on edges, to the nearest one close by; or else to the nearest one on a curve.
 ///
 /// @param before  sorted
 /// @param size    [m]  of the smaller body

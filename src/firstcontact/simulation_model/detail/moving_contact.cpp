@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <firstcontact/motion/detail/turn.h>
+#include <firstcontact/simulation_model/detail/common_normal.h>
 #include <firstcontact/simulation_model/detail/constants.h>
 #include <firstcontact/simulation_model/detail/sim_body.h>
 
@@ -22,6 +23,7 @@ struct SurfaceThere {
   double radius = 0.0;                 // [m]  Of the surface about it, and half of the gap beyond.
   std::optional<Vector3d> along = {};  // Of an edge.
   double ring = 0.0;                   // [m]  Radius about that line; negative: of a hole.
+  std::optional<Matrix3d> squares = {};  // [m^2]  Of an ellipsoid: NormalSide.
   bool is_face = false;
 };
 
@@ -30,9 +32,24 @@ Vector3d across(Vector3d v, const std::optional<Vector3d>& along) {
   return along ? Vector3d(v - v.dot(*along) * *along) : v;
 }
 
+std::optional<Matrix3d> turned(const std::optional<Matrix3d>& squares, const Quaterniond& by) {
+  if (!squares) {
+    return std::nullopt;
+  }
+  const Matrix3d R = by.toRotationMatrix();
+  return R * *squares * R.transpose();
+}
+
 SurfaceThere surface_at(const ContactSide& side, const Feature& feature, const Vector3d& arm,
                         const Vector3d& outwards, double distance) {
   const Shape& shape = side.body->shape;
+  if (side.round.ellipsoid != nullptr) {
+    const RoundEllipsoid& ellipsoid = *side.round.ellipsoid;
+    const Matrix3d axes = side.R_WB * ellipsoid.radii.asDiagonal();
+    return {.centre = side.R_WB * (ellipsoid.centre_B - side.body->inertia.p_BC),
+            .radius = 0.5 * distance,
+            .squares = axes * axes.transpose()};
+  }
   if (side.round.circle != nullptr) {
     const Vector3d axis = side.R_WB * side.round.circle->axis_B;
     SurfaceThere found{
@@ -80,6 +97,11 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
       return (before.dot(n) < 0.0 ? -after : after).stableNormalized();
     }
   }
+  if (now[0].squares || now[1].squares) {
+    return common_normal({NormalSide{{}, turned(now[0].squares, by[0]), along[0]},
+                          NormalSide{apart, turned(now[1].squares, by[1]), along[1]}},
+                         n);
+  }
   if (radius == 0.0) {
     return n;
   }
@@ -89,8 +111,11 @@ Vector3d moved_normal(const Vector3d& n, const std::array<bool, 2>& faces,
   return between.dot(n) > 0.0 ? between.stableNormalized() : n;
 }
 
-/// [m]  Of the surface at a contact; 0: it is flat.
+/// [m]  Of the surface at a contact, or the greatest of an ellipsoid; 0: it is flat.
 double radius_of(const ContactSide& side) {
+  if (side.round.ellipsoid != nullptr) {
+    return side.round.ellipsoid->radii.maxCoeff();
+  }
   return side.round.circle != nullptr ? side.round.radius() : side.body->shape.radius();
 }
 
@@ -109,6 +134,21 @@ double rate_on_rim(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
       const Vector3d axis = sides[s].R_WB * sides[s].round.circle->axis_B;
       const double turning = sides[s].w.cross(axis).norm() + sides[1 - s].w.cross(n).norm();
       fastest = turning > 0.0 ? std::max(fastest, turning / axis.cross(n).norm()) : fastest;
+    }
+  }
+  return fastest;
+}
+
+double rate_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
+  double fastest = 0.0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    if (sides[s].round.ellipsoid != nullptr) {
+      const Vector3d n_B = sides[s].R_WB.transpose() * n;
+      const double height = sides[s].round.ellipsoid->farthest(n_B).dot(n_B);
+      // The surface of a ball of that height would bend by it in all directions along itself.
+      const Matrix3d ball = height * (Matrix3d::Identity() - n_B * n_B.transpose());
+      const double other = (sides[s].round.ellipsoid->bend(n_B) - ball).norm() / height;
+      fastest = std::max(fastest, other * (sides[s].w - sides[1 - s].w).cross(n).norm());
     }
   }
   return fastest;
@@ -155,17 +195,18 @@ MovedContact moved_contact(const ManifoldPoint& touch, const ContactPoint& conta
   const Vector3d apart = centre_there(1) - centre_there(0);
   const double radius = radius_of(sides[0]) + radius_of(sides[1]);
   const Vector3d n_there = moved_normal(n, touch.faces, now, by, apart, radius);
-  const Matrix3d turned = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
+  const Matrix3d turn_of_frame = Quaterniond::FromTwoVectors(n, n_there).toRotationMatrix();
   std::array<Vector3d, 2> arms;
   for (std::size_t s = 0; s < 2; ++s) {
     const Vector3d outwards = s == 0 ? n_there : Vector3d(-n_there);
     arms[s] = centres[s] + now[s].radius * outwards;
+    arms[s] += NormalSide{.squares = turned(now[s].squares, by[s])}.farthest(outwards);
     if (now[s].ring != 0.0) {
       arms[s] += now[s].ring * across(outwards, by[s] * *now[s].along).normalized();
     }
   }
   const Vector3d between = apart + arms[1] - centres[1] - (arms[0] - centres[0]);
-  return {arms, contact.frame * turned.transpose(), n_there.dot(between)};
+  return {arms, contact.frame * turn_of_frame.transpose(), n_there.dot(between)};
 }
 
 }  // namespace firstcontact::detail

@@ -43,6 +43,12 @@ struct MovedContact {
 /// @param n  [-]  the normal
 [[nodiscard]] double rate_on_rim(const Eigen::Vector3d& n, const std::array<ContactSide, 2>& sides);
 
+/// [1/s]  How fast a contact on an ellipsoid leaves the arm that it has: 0 on a ball.
+///
+/// @param n  [-]  the normal
+[[nodiscard]] double rate_on_ellipsoid(const Eigen::Vector3d& n,
+                                       const std::array<ContactSide, 2>& sides);
+
 /// Whether a surface is curved at a contact, and the contact stays near its place on it for a time
 /// [s]: on a circle that lies nearly flat it does not.
 [[nodiscard]] bool follows_curve(const ContactPoint& contact,
@@ -55,9 +61,10 @@ struct MovedContact {
 /// Moves a contact with the velocities of its bodies.
 ///
 /// A point of a body goes round with it. A round surface (a ball, a capsule, a cylinder, a rim, a
-/// hole) keeps its centre or axis, and the contact stays where the normal leaves it. The normal
-/// turns with the face that it belongs to, with both of two edges that cross, or with the line
-/// between two centres. So the result is right to first order in the time.
+/// hole) keeps its centre or axis, and the contact stays where the normal leaves it. So does that
+/// on an ellipsoid, which turns. The normal turns with the face that it belongs to, with both of
+/// two edges that cross, with the line between two centres, or it separates an ellipsoid most. So
+/// the result is right to first order in the time.
 ///
 /// Between two corners, or a corner and an edge, without radius the normal stays: it would turn
 /// about a point at the distance of the gap.

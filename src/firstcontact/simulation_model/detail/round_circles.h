@@ -42,6 +42,8 @@ struct OnCircle {
 /// meridian is. A thickened shape has none.
 class RoundCircles {
  public:
+  RoundCircles() = default;  ///< Of a shape that has none.
+
   /// @param sag  [m]
   RoundCircles(const Shape& shape, double sag);
 

@@ -75,7 +75,7 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
   side.radial = point - side.on_axis;
   const bool is_hole = side.radial.dot(outwards) < 0.0;
   if (is_hole ? on.circle->is_hole : on.circle->is_rim) {
-    side.feature = {on.circle, is_hole};
+    side.feature = {.circle = on.circle, .is_hole = is_hole};
     side.is_side = on.is_side;
     side.is_face = false;
     side.line = side.axis;
@@ -138,15 +138,6 @@ std::optional<OnRound> nearest_from_axis(const Side& side, const Vector3d& outwa
 }
 
 }  // namespace
-
-Vector3d nearest_on_circle(const Pose& pose, const RoundFeature& feature, const Vector3d& beside,
-                           const Vector3d& outwards) {
-  const Eigen::Quaterniond R = pose.rotation.normalized();
-  const Vector3d axis = R * feature.circle->axis_B;
-  const Vector3d centre = pose.position + R * feature.circle->centre_B;
-  return centre + (beside - centre).dot(axis) * axis +
-         feature.radius() * across_axis(outwards, axis).normalized();
-}
 
 std::array<RoundFeature, 2> make_round(const std::array<PlacedRound, 2>& bodies, double most_sag,
                                        Contact& contact) {

@@ -5,35 +5,10 @@
 
 #include <array>
 
-#include <Eigen/Core>
-
-#include <firstcontact/geometry/shape.h>
-#include <firstcontact/motion/pose.h>
 #include <firstcontact/query/contact.h>
-#include <firstcontact/simulation_model/detail/round_circles.h>
+#include <firstcontact/simulation_model/detail/round_feature.h>
 
 namespace firstcontact::detail {
-
-/// The circle on which a contact is.
-struct RoundFeature {
-  const RoundCircle* circle = nullptr;  ///< Null: the contact is on none.
-  bool is_hole = false;                 ///< Whether the circle goes round the other body.
-
-  /// [m]  Of the circle; negative: of a hole, whose surface is on the other side of its axis.
-  [[nodiscard]] double radius() const { return is_hole ? -circle->inner : circle->outer; }
-};
-
-/// A body with or without circles, where it is.
-struct PlacedRound {
-  const Shape* shape = nullptr;
-  const RoundCircles* circles = nullptr;  ///< Null: none.
-  Pose pose = {};
-};
-
-/// [m]  The point of a round feature that is farthest along a direction, beside a point of it.
-[[nodiscard]] Eigen::Vector3d nearest_on_circle(const Pose& pose, const RoundFeature& feature,
-                                                const Eigen::Vector3d& beside,
-                                                const Eigen::Vector3d& outwards);
 
 /// Replaces polygons of a contact by their circles: its closest points, normal and distance become
 /// those of the circles, where these are near to the point that is nearest to the other body.

@@ -107,7 +107,8 @@ std::vector<SimBody> make_sim_bodies(const Scene& scene, const LinksAsBodies& li
   std::vector<SimBody> bodies;
   for (std::size_t b = 0; b < loaded.scene.bodies.size(); ++b) {
     const Body& described = loaded.scene.bodies[b];
-    SimBody body{.shape = loaded.bodies.shape(b).as_triangles()};
+    const Shape& shape = loaded.bodies.shape(b);
+    SimBody body{.shape = shape.as_triangles(), .ellipsoid = round_ellipsoid_of(shape)};
     if (described.free && b >= first_link_body) {
       const LinkGeometryPose& geometry = linked.geometries[b - first_link_body];
       body.kind = BodyKind::free;

@@ -17,6 +17,7 @@
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/motion/pose.h>
 #include <firstcontact/scene/simulation.h>
+#include <firstcontact/simulation_model/detail/round_ellipsoid.h>
 
 namespace firstcontact {
 struct LinksAsBodies;
@@ -42,6 +43,7 @@ struct LinkBody {
 struct SimBody {
   BodyKind kind = BodyKind::fixed;
   Shape shape;
+  std::optional<RoundEllipsoid> ellipsoid = {};  ///< That the shape stands for.
   /// The inertia of a free body; of another, or of a link body, only p_BC, its pivot.
   Inertia inertia = {};
   std::optional<LinkBody> link_body = {};

@@ -34,7 +34,8 @@ std::vector<std::shared_ptr<const RoundCircles>> round_circles_of(
   for (const SimBody& body : bodies) {
     auto& entry = known[&body.shape.hierarchy()];
     if (!entry) {
-      entry = std::make_shared<const RoundCircles>(body.shape, sag);
+      entry = body.ellipsoid ? std::make_shared<const RoundCircles>()
+                             : std::make_shared<const RoundCircles>(body.shape, sag);
     }
     all.push_back(entry);
   }
@@ -54,6 +55,12 @@ std::vector<std::vector<std::size_t>> ties_of_bodies(const std::vector<SimTie>& 
   return of;
 }
 
+/// [m]  Of the circles of a body, or of the ellipsoid that it is.
+double sag_of(const SimulationModel& model, std::size_t body) {
+  const std::optional<RoundEllipsoid>& ellipsoid = model.bodies[body].ellipsoid;
+  return ellipsoid ? ellipsoid->sag : model.round_circles[body]->sag();
+}
+
 }  // namespace
 
 SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies& linked)
@@ -71,7 +78,7 @@ SimulationModel::SimulationModel(const LoadedScene& loaded, const LinksAsBodies&
   double sag = 0.0;
   double reach = 0.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    sag = std::max(sag, round_circles[b]->sag());
+    sag = std::max(sag, sag_of(*this, b));
     reach = std::max(reach, bodies[b].kind == BodyKind::free ? bodies[b].reach : 0.0);
   }
   distances.near += 2.0 * std::min(sag, kMostSagOfReach * reach + distances.tolerance);
@@ -85,7 +92,7 @@ double near_of(const SimulationModel& model, const BodyPair& bodies) {
   const double most = most_sag_of(model, bodies);
   double near = model.distances.band;
   for (const std::size_t body : bodies) {
-    near += std::min(model.round_circles[body]->sag(), most);
+    near += std::min(sag_of(model, body), most);
   }
   return near;
 }

@@ -1,0 +1,41 @@
+/// @file
+/// The ellipsoid that the triangles around an ellipsoid stand for.
+
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <firstcontact/geometry/shape.h>
+
+namespace firstcontact::detail {
+
+/// An ellipsoid along the axes of a body.
+struct RoundEllipsoid {
+  Eigen::Vector3d centre_B = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d radii = Eigen::Vector3d::Ones();     ///< [m]  It passes through all corners.
+  double sag = 0.0;  ///< [m]  The triangles are no farther inside of it.
+
+  /// [m]  The point that is farthest along a direction, from the centre; axes of the body.
+  [[nodiscard]] Eigen::Vector3d farthest(const Eigen::Vector3d& outwards_B) const {
+    const Eigen::Vector3d stretched = radii.cwiseProduct(outwards_B);
+    return radii.cwiseProduct(stretched / stretched.norm());
+  }
+
+  /// [m]  How that point changes with the direction, a unit vector: the second derivative of the
+  /// support function. Its eigenvalues along the surface are the principal radii of curvature.
+  [[nodiscard]] Eigen::Matrix3d bend(const Eigen::Vector3d& outwards_B) const {
+    const Eigen::Vector3d point = farthest(outwards_B);
+    const Eigen::Matrix3d squares = radii.cwiseAbs2().asDiagonal();
+    return (squares - point * point.transpose()) / point.dot(outwards_B);
+  }
+};
+
+/// The ellipsoid through the corners of a shape's triangles. Nothing where the shape is none.
+///
+/// It is as much larger than the shape as the triangles are, so contacts of the triangles have
+/// room for it.
+[[nodiscard]] std::optional<RoundEllipsoid> round_ellipsoid_of(const Shape& shape);
+
+}  // namespace firstcontact::detail

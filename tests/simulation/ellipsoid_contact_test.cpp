@@ -1,0 +1,334 @@
+// Contacts of ellipsoids, and what ellipsoids do on a floor.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <firstcontact/geometry/primitives.h>
+#include <firstcontact/motion/motion.h>
+#include <firstcontact/query/close_features.h>
+#include <firstcontact/query/distance.h>
+#include <firstcontact/query/first_contact.h>
+#include <firstcontact/query/placed_shape.h>
+#include <firstcontact/record/run_step.h>
+#include <firstcontact/simulation_model/detail/common_normal.h>
+#include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
+#include <firstcontact/simulation_model/detail/round_ellipsoid.h>
+
+#include "simulation/simulated_run.h"
+#include "support/random.h"
+#include "support/rounds.h"
+
+namespace firstcontact::detail {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Matrix3d squares_of(const Vector3d& radii, const Matrix3d& R) {
+  return R * radii.cwiseAbs2().asDiagonal() * R.transpose();
+}
+
+/// The point of an ellipsoid that is nearest to one outside, by bisection of Lagrange's multiplier
+/// in long double; axes of the ellipsoid.
+Vector3d nearest_by_bisection(const Vector3d& radii, const Vector3d& p) {
+  using Real = long double;
+  const auto excess = [&](Real t) {
+    Real sum = -1.0L;
+    for (int k = 0; k < 3; ++k) {
+      const Real r = radii[k];
+      const Real x = r * static_cast<Real>(p[k]) / (r * r + t);
+      sum += x * x;
+    }
+    return sum;
+  };
+  Real low = 0.0L;
+  Real high = 1.0L;
+  while (excess(high) > 0.0L) {
+    high *= 2.0L;
+  }
+  for (int k = 0; k < 200; ++k) {
+    const Real middle = 0.5L * (low + high);
+    (excess(middle) > 0.0L ? low : high) = middle;
+  }
+  Vector3d nearest;
+  for (int k = 0; k < 3; ++k) {
+    const Real r2 = static_cast<Real>(radii[k]) * radii[k];
+    nearest[k] = static_cast<double>(r2 * p[k] / (r2 + low));
+  }
+  return nearest;
+}
+
+/// [m]  Of an ellipsoid.
+Vector3d any_radii(double low, double high, test::Random& random) {
+  return {random.uniform(low, high), random.uniform(low, high), random.uniform(low, high)};
+}
+
+/// A unit vector near n.
+Vector3d near(const Vector3d& n, double by, test::Random& random) {
+  return (n + by * random.direction()).normalized();
+}
+
+TEST(CommonNormal, IsThatOfTheNearestPoint) {
+  test::Random random(1);
+  for (int k = 0; k < 500; ++k) {
+    const Vector3d radii = any_radii(0.1, 1.0, random);
+    const Matrix3d R = random.rotation().toRotationMatrix();
+    const Vector3d out = random.direction();
+    const RoundEllipsoid ellipsoid{.radii = radii};
+    const double apart = std::pow(10.0, random.uniform(-9.0, 1.0));
+    const Vector3d p = ellipsoid.farthest(out) + apart * out;
+    const Vector3d n =
+        common_normal({NormalSide{.squares = squares_of(radii, R)}, NormalSide{.point = R * p}},
+                      near(R * out, 0.4, random));
+    const Vector3d away = p - nearest_by_bisection(radii, p);
+    EXPECT_LE((n - R * out).norm(), 1e-12) << k;
+    EXPECT_NEAR(away.normalized().dot(out), 1.0, 1e-6 + 1e-12 / (apart * apart)) << "the oracle";
+  }
+}
+
+// Of two sets apart the segment between the points farthest along n and against it has that
+// direction, and only then.
+TEST(CommonNormal, JoinsClosestPointsOfTwoEllipsoids) {
+  test::Random random(2);
+  for (int k = 0; k < 500; ++k) {
+    const std::array<Matrix3d, 2> squares{
+        squares_of(any_radii(0.1, 1.0, random), random.rotation().toRotationMatrix()),
+        squares_of(any_radii(0.1, 1.0, random), random.rotation().toRotationMatrix())};
+    const Vector3d out = random.direction();
+    std::array<NormalSide, 2> sides{NormalSide{.squares = squares[0]},
+                                    NormalSide{.squares = squares[1]}};
+    const double apart = std::pow(10.0, random.uniform(-6.0, 0.0));
+    sides[1].point = sides[0].farthest(out) + apart * out + sides[1].farthest(out);
+    const Vector3d n = common_normal(sides, near(out, 0.4, random));
+    EXPECT_LE((n - out).norm(), 1e-12) << k;
+  }
+}
+
+TEST(CommonNormal, IsAcrossALine) {
+  test::Random random(3);
+  for (int k = 0; k < 500; ++k) {
+    const NormalSide egg{
+        .squares = squares_of(any_radii(0.1, 1.0, random), random.rotation().toRotationMatrix())};
+    const Vector3d out = random.direction();
+    const Vector3d along = out.cross(random.direction()).normalized();
+    const NormalSide line{.point = egg.farthest(out) + random.uniform(1e-6, 0.1) * out +
+                                   random.uniform(-3.0, 3.0) * along,
+                          .line = along};
+    EXPECT_LE((common_normal({egg, line}, near(out, 0.3, random)) - out).norm(), 1e-11) << k;
+    EXPECT_LE((common_normal({line, egg}, near(-out, 0.3, random)) + out).norm(), 1e-11) << k;
+  }
+}
+
+// Ends where it began, or better, also where the sets overlap.
+TEST(CommonNormal, SeparatesNoLessThanItsStart) {
+  test::Random random(4);
+  for (int k = 0; k < 500; ++k) {
+    const std::array<NormalSide, 2> sides{
+        NormalSide{.squares = squares_of(any_radii(0.01, 1.0, random), Matrix3d::Identity())},
+        NormalSide{.point = 0.3 * random.direction(),
+                   .squares = squares_of(any_radii(0.01, 1.0, random), Matrix3d::Identity())}};
+    const auto apart = [&](const Vector3d& n) {
+      return n.dot(sides[1].point - sides[0].farthest(n) - sides[1].farthest(n));
+    };
+    const Vector3d from = random.direction();
+    const Vector3d n = common_normal(sides, from);
+    EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    EXPECT_GE(apart(n), apart(from) - 1e-12) << k;
+  }
+}
+
+TEST(RoundEllipsoids, PassThroughAllCorners) {
+  const Vector3d radii(0.1, 0.04, 0.07);
+  for (const double error : {5e-4, 1e-4}) {
+    const Shape egg = make_ellipsoid(radii, error);
+    const auto round = round_ellipsoid_of(egg);
+    ASSERT_TRUE(round.has_value());
+    for (const Vector3d& corner : egg.mesh().vertices) {
+      EXPECT_NEAR(corner.cwiseQuotient(round->radii).norm(), 1.0, 1e-12);
+    }
+    EXPECT_GE(round->sag, egg.enclosure_error() * 0.99);
+    EXPECT_LE(round->sag, error);
+  }
+  EXPECT_FALSE(round_ellipsoid_of(make_cylinder(0.1, 0.2)).has_value());
+  EXPECT_FALSE(round_ellipsoid_of(make_sphere(0.1)).has_value());
+  EXPECT_FALSE(round_ellipsoid_of(make_box({1.0, 1.0, 1.0})).has_value());
+}
+
+/// A shape as triangles, and what it is exactly.
+struct Other {
+  Shape triangles;
+  Shape exact;
+  std::optional<RoundEllipsoid> ellipsoid = {};
+};
+
+Other egg_of(const Vector3d& radii, double error) {
+  const Shape egg = make_ellipsoid(radii, error);
+  const auto round = round_ellipsoid_of(egg);
+  return {egg.as_triangles(), make_ellipsoid(round->radii), round};
+}
+
+Other plain(const Shape& shape) { return {shape, shape}; }
+
+// The nearest contact of the triangles becomes as near as the distance of the exact sets, which
+// certified advancement finds.
+TEST(EllipsoidContacts, AreAsNearAsTheExactBodies) {
+  test::Random random(5);
+  Workspace workspace;
+  std::vector<Contact> contacts;
+  const auto exact_distance = [&](const Other& A, const Pose& X_A, const Other& B,
+                                  const Pose& X_B) {
+    const Motion a = Motion::fixed(X_A);
+    const Motion b = Motion::fixed(X_B);
+    return distance({A.exact, a}, {B.exact, b}, 0.0, workspace).distance;
+  };
+  for (int k = 0; k < test::rounds(50, 10); ++k) {
+    const Other egg = egg_of(any_radii(0.03, 0.1, random), 2e-4);
+    const std::array<Other, 5> others{plain(make_box({0.2, 0.15, 0.1})), plain(make_sphere(0.05)),
+                                      plain(make_capsule(0.03, 0.1)),
+                                      plain(Shape(make_box({0.05, 0.05, 0.05}).mesh(), 0.01)),
+                                      egg_of(any_radii(0.03, 0.1, random), 2e-4)};
+    const Other& other = others[static_cast<std::size_t>(k) % others.size()];
+    const Pose X_A{Vector3d(5.0, -3.0, 2.0), random.rotation()};
+    Pose X_B{X_A.position + random.direction(), random.rotation()};
+    // Towards each other, to 1 mm.
+    for (int pass = 0; pass < 40; ++pass) {
+      X_B.position += (exact_distance(egg, X_A, other, X_B) - 1e-3) *
+                      (X_A.position - X_B.position).normalized();
+    }
+    const double exact = exact_distance(egg, X_A, other, X_B);
+    ASSERT_NEAR(exact, 1e-3, 1e-6);
+    close_features(PlacedShape(egg.triangles, X_A), PlacedShape(other.triangles, X_B), 3e-3,
+                   workspace, contacts);
+    double least = std::numeric_limits<double>::infinity();
+    for (Contact contact : contacts) {
+      const auto round = make_ellipsoidal(
+          {PlacedRound{.shape = &egg.triangles, .ellipsoid = &*egg.ellipsoid, .pose = X_A},
+           PlacedRound{.shape = &other.triangles,
+                       .ellipsoid = other.ellipsoid ? &*other.ellipsoid : nullptr,
+                       .pose = X_B}},
+          1.0, contact);
+      if (round[0].is_curved()) {
+        least = std::min(least, contact.distance);
+        EXPECT_NEAR((contact.p_WB - contact.p_WA - contact.distance * *contact.n_AB_W).norm(), 0.0,
+                    1e-9);
+      }
+    }
+    EXPECT_NEAR(least, exact, 1e-9) << k;
+  }
+}
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+/// An ellipsoid that rocks without slipping about y on a floor.
+struct Rocking {
+  Vector3d radii = {0.1, 0.08, 0.05};  // [m]
+  double moment = 0.0;                 // [m^2]  Over the mass, about y.
+  Vector3d rolling = {};               // [m]  The ellipsoid through the corners.
+  double lean = 0.3;                   // [rad]
+
+  Rocking() {
+    moment = (radii.x() * radii.x() + radii.z() * radii.z()) / 5.0;
+    rolling = round_ellipsoid_of(make_ellipsoid(radii))->radii;
+  }
+
+  [[nodiscard]] double height(double q) const {
+    return std::hypot(rolling.x() * std::sin(q), rolling.z() * std::cos(q));
+  }
+
+  /// Of q'' from q and w = q': 2 T = (moment + h^2 + h'^2) w^2, and the potential is g h.
+  [[nodiscard]] double acceleration(double q, double w) const {
+    const double h = height(q);
+    const double squares = rolling.x() * rolling.x() - rolling.z() * rolling.z();
+    const double slope = squares * std::sin(q) * std::cos(q) / h;
+    const double bend = (squares * std::cos(2.0 * q) - slope * slope) / h;
+    const double inertia = moment + h * h + slope * slope;
+    return -(w * w * slope * (h + bend) + kGravity * slope) / inertia;
+  }
+
+  /// [rad]  By the classical rule of Runge and Kutta.
+  [[nodiscard]] double after(double duration) const {
+    constexpr int kParts = 20000;
+    const double h = duration / kParts;
+    double q = lean;
+    double w = 0.0;
+    for (int k = 0; k < kParts; ++k) {
+      const double a1 = acceleration(q, w);
+      const double a2 = acceleration(q + 0.5 * h * w, w + 0.5 * h * a1);
+      const double a3 = acceleration(q + 0.5 * h * (w + 0.5 * h * a1), w + 0.5 * h * a2);
+      const double a4 = acceleration(q + h * (w + 0.5 * h * a2), w + h * a3);
+      q += h * w + h * h / 6.0 * (a1 + a2 + a3);
+      w += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    }
+    return q;
+  }
+
+  /// [rad]  As simulated.
+  [[nodiscard]] double simulated(double duration, double step) const {
+    constexpr double kGap = 1e-6;  // [m]
+    Simulator s = test::simulator(
+        test::kFloor + R"(, {"name": "egg", "shape": {"ellipsoid": {"radii": [0.1, 0.08, 0.05]}},
+            "pose": {"position": )" +
+            test::numbers({0.0, 0.0, height(lean) + kGap}) + R"(, "quaternion_wxyz": )" +
+            test::numbers({std::cos(0.5 * lean), 0.0, std::sin(0.5 * lean), 0.0}) +
+            R"(}, "dynamics": {"mass": 1, "centre_of_mass": [0, 0, 0], "inertia": [[1, 0, 0], [0, )" +
+            std::to_string(moment) + R"(, 0], [0, 0, 1]]}})",
+        test::settings(step, 2.0, kGap));
+    const auto steps = static_cast<std::size_t>(std::lround(duration / step));
+    const Vector3d up = test::run(s, steps).back().bodies[0].X_WB.rotation * Vector3d::UnitZ();
+    return std::atan2(up.x(), up.z());
+  }
+};
+
+// Larger steps are made of shorter plans, so the error grows by less than its bound.
+TEST(Ellipsoids, RockToSecondOrderInTheStep) {
+  const Rocking egg;
+  const double right = egg.after(1.0);
+  for (const double step : {0.01, 0.005, 0.0025, 0.00125}) {
+    EXPECT_LE(std::abs(egg.simulated(1.0, step) - right), 70.0 * step * step) << step;
+  }
+}
+
+// One that rolls about its long axis goes on as it began.
+TEST(Ellipsoids, RollOnWithoutResistance) {
+  Simulator s = test::simulator(
+      test::kFloor + R"(, {"name": "egg", "shape": {"ellipsoid": {"radii": [0.1, 0.05, 0.05]}},
+          "pose": {"position": [0, -1, 0.0504]}, "dynamics": {"linear_velocity": [0, 0.5, 0],
+          "angular_velocity": [-10, 0, 0]}})",
+      test::settings(0.01, 0.8, 1e-4));
+  const std::vector<RunStep> steps = test::run(s, 300);
+  const double begin = steps[49].bodies[0].linear_velocity.y();
+  EXPECT_NEAR(steps.back().bodies[0].linear_velocity.y(), begin, 1e-4 * begin);
+  const RunVerification proof = test::verify(s.header(), steps);
+  EXPECT_EQ(proof.verdict, RunVerdict::proven) << proof.problem;
+}
+
+// An egg that spins on a floor gains no energy, however fast it is.
+TEST(Ellipsoids, ThatSpinGainNoEnergy) {
+  for (const std::string spin : {"[3, 8, 20]", "[40, 5, 10]", "[5, 30, 30]"}) {
+    Simulator s = test::simulator(
+        test::kFloor + R"(, {"name": "egg", "shape": {"ellipsoid": {"radii": [0.06, 0.05, 0.04]}},
+            "pose": {"position": [0, 0, 0.07]}, "dynamics": {"mass": 1, "angular_velocity": )" +
+            spin + "}}",
+        test::settings(0.005, 0.3, 1e-5));
+    const std::vector<RunStep> steps = test::run(s, 400);
+    double least = std::numeric_limits<double>::infinity();
+    for (const RunStep& step : steps) {
+      const double energy = step.kinetic_energy + step.potential_energy;
+      EXPECT_LE(energy, least + 2e-3) << spin << " " << step.time;
+      least = std::min(least, energy);
+    }
+    EXPECT_EQ(test::verify(s.header(), steps).verdict, RunVerdict::proven) << spin;
+  }
+}
+
+}  // namespace
+}  // namespace firstcontact::detail
