@@ -189,6 +189,32 @@ TEST(Curve, ACoinThatSettlesGainsNothing) {
   }
 }
 
+// A cone lies on its side and rolls round its tip, which stays where it is: it goes on for ever.
+// Its tip is a corner of its mesh, and its base a circle.
+TEST(Curve, AConeThatRollsRoundItsTipGoesOn) {
+  constexpr double kRadius = 0.1;
+  constexpr double kLength = 0.3;
+  constexpr double kGap = 1e-4;
+  const double half = std::atan2(kRadius, kLength);       // [rad]  Of the opening.
+  const double height = 0.75 * kLength * std::sin(half);  // [m]  Of the centre of mass.
+  // The base leads along -x, the tip along x; the line on the floor is the momentary axis.
+  const double middle = 0.5 * kLength * std::sin(half);  // [m]  Of the origin, halfway up the axis.
+  const double rate = 4.0;                               // [rad/s]
+  Simulator s = simulator(
+      test::kFloor + R"(, {"name": "cone", "shape": {"cone": {"radius": 0.1, "length": 0.3}},
+          "pose": {"position": )" +
+          numbers({0.0, 0.0, middle + kGap + 1e-5}) + R"(, "rpy": )" +
+          numbers({0.0, 0.5 * std::numbers::pi + half, 0.0}) +
+          R"(}, "dynamics": {"density": 1000, "angular_velocity": )" + numbers({rate, 0.0, 0.0}) +
+          R"(, "linear_velocity": )" + numbers({0.0, -rate * height, 0.0}) + "}}",
+      settings(0.01, 0.8, kGap));
+  const std::vector<RunStep> steps = run(s, 300);
+  const double begin = steps[9].kinetic_energy;
+  for (const RunStep& at : steps) {
+    EXPECT_NEAR(at.kinetic_energy, begin, 1e-3 * begin) << at.time;
+  }
+}
+
 // A ball lands on the rim of a fixed disc, its centre beyond the end, and slides off.
 TEST(Curve, ABallBesideARimSlidesOff) {
   Simulator s = simulator(

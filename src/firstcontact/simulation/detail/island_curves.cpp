@@ -205,7 +205,7 @@ IslandPlanner::OffCurve IslandPlanner::off_curve(std::size_t k, const Plan& plan
       sides[s].w = plan.moves[place].rotation_vector / span_;
     }
   }
-  if (!follows_curve(acting_[k].now, sides, span_)) {
+  if (!follows_curve(acting_[k].now, sides, span_) && !turns_on_corner(touch, sides, span_)) {
     return {};
   }
   const double distance = distance_of(touch);

@@ -171,7 +171,7 @@ ActingContact IslandPlanner::acting(const ManifoldPoint& touch, double least) co
   std::array<ContactSide, 2> sides{side_of(touch, 0), side_of(touch, 1)};
   ActingContact made;
   made.now = state_.contact(touch, bodies_, least);
-  made.is_round = follows_curve(made.now, sides, span_);
+  made.is_round = follows_curve(made.now, sides, span_) || turns_on_corner(touch, sides, span_);
   if (!made.is_round) {  // It goes with what it touches of the polygon.
     sides[0].round = {};
     sides[1].round = {};

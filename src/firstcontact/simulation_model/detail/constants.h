@@ -163,6 +163,9 @@ inline constexpr double kBackToRest = 0.5;
 /// [-]  A contact follows its circle in a plan if the normal turns against its axis by less than
 /// this, by the sine between both. Larger: the lowest point of a nearly flat disc runs too far.
 inline constexpr double kTurnOfCurve = 0.2;
+/// [rad]  A contact follows a corner on its circle about the centre of mass, too, where the body
+/// turns by more in a plan. Smaller: it costs time where bodies hardly move.
+inline constexpr double kTurnOnCorner = 0.01;
 /// [-]  Plans are so short, of the time in which contacts on rims turn by that, as far as a tenth
 /// of a step. Larger: a coin gains energy as it settles.
 inline constexpr double kRollOfPlan = 0.4;

@@ -162,7 +162,15 @@ struct TouchMaker {
             .point = 0.5 * (contact.p_WA + contact.p_WB),
             .normal = *contact.n_AB_W,
             .gap = contact.distance - margin,
-            .round = round};
+            .round = round,
+            .corner = {is_corner(0, contact.feature_A, contact.feature_B),
+                       is_corner(1, contact.feature_B, contact.feature_A)}};
+  }
+
+  [[nodiscard]] bool is_corner(std::size_t side, const Feature& its, const Feature& other) const {
+    return its.type == FeatureType::vertex && other.type == FeatureType::face &&
+           placed[side].ellipsoid == nullptr &&
+           placed[side].circles->at(*placed[side].shape, its).circle == nullptr;
   }
 
   BodyPair bodies;

@@ -28,8 +28,10 @@ struct ManifoldPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< [-]  From A to B.
   double gap = 0.0;                                   ///< [m]  Beyond the pair's margin.
   std::array<RoundFeature, 2> round = {};             ///< On which curve of A, of B it is.
-  std::array<bool, 2> faces = {false, false};  ///< Whether its normal goes with A, with B, as if
-                                               ///< it were that of a face.
+  std::array<bool, 2> corner = {false, false};  ///< Whether a corner of A, of B, is on a face; not
+                                                ///< one of a circle, which runs round.
+  std::array<bool, 2> faces = {false, false};   ///< Whether its normal goes with A, with B, as if
+                                                ///< it were that of a face.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();  ///< [N s]  On B, world; found or guessed.
 };
 

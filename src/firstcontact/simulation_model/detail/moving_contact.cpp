@@ -160,6 +160,14 @@ bool follows_curve(const ContactPoint& contact, const std::array<ContactSide, 2>
          (is_round(sides[0]) || is_round(sides[1]));
 }
 
+bool turns_on_corner(const ManifoldPoint& touch, const std::array<ContactSide, 2>& sides,
+                     double time) {
+  const auto turns = [&](std::size_t side) {
+    return touch.corner[side] && time * sides[side].w.norm() > kTurnOnCorner;
+  };
+  return turns(0) || turns(1);
+}
+
 double most_change(const ContactPoint& contact, const std::array<ContactSide, 2>& sides,
                    double time) {
   const std::array<double, 2> arms{contact.arm_A.norm(), contact.arm_B.norm()};

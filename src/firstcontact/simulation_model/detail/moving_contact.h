@@ -54,6 +54,10 @@ struct MovedContact {
 [[nodiscard]] bool follows_curve(const ContactPoint& contact,
                                  const std::array<ContactSide, 2>& sides, double time);
 
+/// Whether a corner of a body that turns touches a face: its way is known, as that of a curve is.
+[[nodiscard]] bool turns_on_corner(const ManifoldPoint& touch,
+                                   const std::array<ContactSide, 2>& sides, double time);
+
 /// [m/s]  A bound of how much moving a contact for a time [s] changes the velocity at it.
 [[nodiscard]] double most_change(const ContactPoint& contact,
                                  const std::array<ContactSide, 2>& sides, double time);
