@@ -65,35 +65,57 @@ EdgeFound EdgeSearch::found_by(const GeometryCandidate& candidate,
   return {result.verdict, result.t, timeline_.pairs()[candidate.pair].members, result.reason};
 }
 
+bool EdgeSearch::is_contact_at(const GeometryCandidate& instant) {
+  return is_contact(ask(instant, instant.window).verdict);
+}
+
 EdgeFound EdgeSearch::first_contact() {
   follow_motions();
   EdgeFound first;
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
+  const InstantProbe probe{[this](const GeometryCandidate& at) { return is_contact_at(at); }};
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
     if (timeline_.piece(piece).begin > first.t) {
       break;
     }
-    for (const GeometryCandidate& candidate : candidates_.find(piece, {})) {
-      if (candidate.window.begin > first.t) {
-        continue;
-      }
-      const FirstContactResult result =
-          ask(candidate, {candidate.window.begin, std::min(candidate.window.end, first.t)});
-      if (result.verdict == Verdict::free) {
-        continue;
-      }
-      // A contact at the same time decides rather than what is not known.
-      const bool is_earlier =
-          result.t < first.t || first.verdict == Verdict::free ||
-          (result.t == first.t && is_contact(result.verdict) && !is_contact(first.verdict));
-      if (is_earlier) {
-        first = found_by(candidate, result);
-      }
+    ProbedCandidates found = candidates_.find_until_contact(piece, probe);
+    if (found.contact && found.contact->window.begin < first.t) {
+      first = contact_at(*found.contact);
+    }
+    // The earliest first: a contact spares all that is later.
+    std::stable_sort(found.candidates.begin(), found.candidates.end(),
+                     [](const GeometryCandidate& x, const GeometryCandidate& y) {
+                       return x.window.begin < y.window.begin;
+                     });
+    for (const GeometryCandidate& candidate : found.candidates) {
+      first = earlier_by(candidate, first);
     }
   }
   return first;
+}
+
+EdgeFound EdgeSearch::contact_at(const GeometryCandidate& instant) const {
+  const double t = instant.window.begin;
+  return {t > 0.0 ? Verdict::contact : Verdict::contact_at_start, t,
+          timeline_.pairs()[instant.pair].members, UndecidedReason::none};
+}
+
+EdgeFound EdgeSearch::earlier_by(const GeometryCandidate& candidate, const EdgeFound& first) {
+  if (candidate.window.begin > first.t) {
+    return first;
+  }
+  const FirstContactResult result =
+      ask(candidate, {candidate.window.begin, std::min(candidate.window.end, first.t)});
+  if (result.verdict == Verdict::free) {
+    return first;
+  }
+  // A contact at the same time decides rather than what is not known.
+  const bool is_earlier =
+      result.t < first.t || first.verdict == Verdict::free ||
+      (result.t == first.t && is_contact(result.verdict) && !is_contact(first.verdict));
+  return is_earlier ? found_by(candidate, result) : first;
 }
 
 EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
@@ -102,37 +124,60 @@ EdgeFound EdgeSearch::any_contact(const TimeWindow& within) {
   if (const UndecidedReason reason = spent(options_.budget); reason != UndecidedReason::none) {
     return {Verdict::undecided, 0.0, {}, reason};
   }
+  const InstantProbe probe{[&](const GeometryCandidate& at) {
+                             return within.begin <= at.window.begin &&
+                                    at.window.begin <= within.end && is_contact_at(at);
+                           },
+                           true};
   for (std::size_t piece = 0; piece < timeline_.piece_count(); ++piece) {
     const TimeWindow whole = timeline_.piece(piece);
     if (whole.end < within.begin || whole.begin > within.end) {
       continue;
     }
-    std::vector<GeometryCandidate> candidates = candidates_.find(piece, {});
-    for (GeometryCandidate& candidate : candidates) {
-      candidate.window = {std::max(candidate.window.begin, within.begin),
-                          std::min(candidate.window.end, within.end)};
+    ProbedCandidates found = candidates_.find_until_contact(piece, probe);
+    if (found.contact) {
+      return contact_of(*found.contact);
     }
-    std::erase_if(candidates, [](const GeometryCandidate& candidate) {
-      return candidate.window.begin > candidate.window.end;
-    });
-    for (const GeometryCandidate& candidate : candidates) {
-      if (candidate.gap < 0.0) {
-        const double middle = 0.5 * (candidate.window.begin + candidate.window.end);
-        const FirstContactResult result = ask(candidate, {middle, middle});
-        if (is_contact(result.verdict)) {
-          return {Verdict::contact, 0.0, timeline_.pairs()[candidate.pair].members, {}};
-        }
-      }
+    const EdgeFound of_piece = any_contact(std::move(found.candidates), whole, within);
+    if (is_contact(of_piece.verdict)) {
+      return of_piece;
     }
-    for (const GeometryCandidate& candidate : candidates) {
-      const FirstContactResult result = ask(candidate, candidate.window);
-      if (is_contact(result.verdict)) {
-        return {Verdict::contact, 0.0, timeline_.pairs()[candidate.pair].members, {}};
-      }
-      if (result.verdict == Verdict::undecided) {
-        unknown = found_by(candidate, result);
-        unknown.t = 0.0;
-      }
+    unknown = of_piece.verdict == Verdict::undecided ? of_piece : unknown;
+  }
+  return unknown;
+}
+
+EdgeFound EdgeSearch::contact_of(const GeometryCandidate& candidate) const {
+  return {Verdict::contact, 0.0, timeline_.pairs()[candidate.pair].members, {}};
+}
+
+EdgeFound EdgeSearch::any_contact(std::vector<GeometryCandidate> candidates,
+                                  const TimeWindow& piece, const TimeWindow& within) {
+  for (GeometryCandidate& candidate : candidates) {
+    candidate.window = {std::max(candidate.window.begin, within.begin),
+                        std::min(candidate.window.end, within.end)};
+  }
+  std::erase_if(candidates, [](const GeometryCandidate& candidate) {
+    return candidate.window.begin > candidate.window.end;
+  });
+  // The middles of whole windows have been looked at, without tracking errors.
+  const bool is_clipped = piece.begin < within.begin || piece.end > within.end;
+  for (const GeometryCandidate& candidate : candidates) {
+    const double middle = 0.5 * (candidate.window.begin + candidate.window.end);
+    if (candidate.gap < 0.0 && (is_clipped || timeline_.has_tracking_errors()) &&
+        is_contact(ask(candidate, {middle, middle}).verdict)) {
+      return contact_of(candidate);
+    }
+  }
+  EdgeFound unknown;
+  for (const GeometryCandidate& candidate : candidates) {
+    const FirstContactResult result = ask(candidate, candidate.window);
+    if (is_contact(result.verdict)) {
+      return contact_of(candidate);
+    }
+    if (result.verdict == Verdict::undecided) {
+      unknown = found_by(candidate, result);
+      unknown.t = 0.0;
     }
   }
   return unknown;

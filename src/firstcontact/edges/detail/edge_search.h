@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <firstcontact/many_bodies/pair_rules.h>
 #include <firstcontact/motion/motion.h>
@@ -59,6 +60,15 @@ class EdgeSearch {
                                        const TimeWindow& window);
   /// The motion of a geometry as that of a rigid body, where it is no link among joints; null else.
   [[nodiscard]] const Motion* body_motion(std::size_t geometry) const;
+  /// Whether two geometries are in contact at the instant that is the candidate's window.
+  [[nodiscard]] bool is_contact_at(const GeometryCandidate& instant);
+  [[nodiscard]] EdgeFound contact_at(const GeometryCandidate& instant) const;
+  /// What is known of a contact of which the time was not asked.
+  [[nodiscard]] EdgeFound contact_of(const GeometryCandidate& candidate) const;
+  /// What a candidate adds to the first contact of others.
+  [[nodiscard]] EdgeFound earlier_by(const GeometryCandidate& candidate, const EdgeFound& first);
+  [[nodiscard]] EdgeFound any_contact(std::vector<GeometryCandidate> candidates,
+                                      const TimeWindow& piece, const TimeWindow& within);
   [[nodiscard]] EdgeFound found_by(const GeometryCandidate& candidate,
                                    const FirstContactResult& result) const;
 

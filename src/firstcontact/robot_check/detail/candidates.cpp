@@ -52,7 +52,43 @@ class Search {
         in_frames_(resting.size()) {}
 
   std::vector<GeometryCandidate> run(const std::function<bool(std::size_t)>& wanted) {
-    narrow({}, near_by_boxes(wanted));
+    return run_of(near_by_boxes(wanted));
+  }
+
+  ProbedCandidates run_until_contact(const InstantProbe& probe) {
+    probe_ = has_tracking_errors_ ? nullptr : &probe;
+    std::vector<Question> near = near_by_boxes({});
+    if (probe_ != nullptr && probe_->any_will_do) {
+      probe_end(near);
+    }
+    std::vector<GeometryCandidate> candidates = run_of(std::move(near));
+    return {std::move(candidates), contact_};
+  }
+
+ private:
+  /// Where a geometry is in the piece, tracking errors included.
+  struct Box {
+    Eigen::Vector3d low;
+    Eigen::Vector3d high;
+  };
+
+  /// Questions of a window.
+  struct Part {
+    GridWindow window;
+    std::vector<Question> questions;
+  };
+
+  /// Questions for which shorter windows help.
+  struct Open {
+    std::vector<Question> apart;     // At the middle.
+    std::vector<Question> in_first;  // In the first half alone.
+  };
+
+  std::vector<GeometryCandidate> run_of(std::vector<Question> near) {
+    narrow(std::move(near));
+    if (is_over()) {
+      return {};
+    }
     join_windows();
     std::vector<GeometryCandidate> whole;
     whole.swap(found_);
@@ -67,13 +103,6 @@ class Search {
     std::sort(found_.begin(), found_.end());
     return std::move(found_);
   }
-
- private:
-  /// Where a geometry is in the piece, tracking errors included.
-  struct Box {
-    Eigen::Vector3d low;
-    Eigen::Vector3d high;
-  };
 
   /// [m]  Of a tested pair, without tracking errors.
   [[nodiscard]] double margin_of(std::size_t pair) const {
@@ -121,49 +150,134 @@ class Search {
     return boxes;
   }
 
-  void narrow(const GridWindow& window, std::span<const Question> questions) {
-    std::vector<Question> open;
-    for (Question question : questions) {
-      if (is_far(question, window)) {
+  /// Windows are halved level by level: the sooner instants are seen all over the piece.
+  void narrow(std::vector<Question> near) {
+    std::deque<Part> parts;
+    parts.push_back({{}, std::move(near)});
+    while (!parts.empty() && !is_over()) {
+      const Part part = std::move(parts.front());
+      parts.pop_front();
+      if (contact_ && grid_.at(part.window.begin) > contact_->window.begin) {
+        continue;
+      }
+      Open open = still_open(part);
+      std::vector<Question> first = open.apart;
+      first.insert(first.end(), open.in_first.begin(), open.in_first.end());
+      if (!first.empty()) {
+        parts.push_back({part.window.first_half(), std::move(first)});
+      }
+      if (!open.apart.empty()) {
+        parts.push_back({part.window.second_half(), std::move(open.apart)});
+      }
+    }
+  }
+
+  /// Those for which shorter windows help; others that may touch are found.
+  Open still_open(const Part& part) {
+    Open open;
+    std::vector<Question> near;
+    std::vector<GeometryCandidate> suspects;
+    const double middle = grid_.at(part.window.middle());
+    for (Question question : part.questions) {
+      if (is_far(question, part.window)) {
         continue;
       }
       // Shorter windows help where the geometries are apart at the middle of this one.
-      if (window.can_be_halved() && question.apart) {
-        open.push_back(question);
-      } else {
-        found_.push_back({grid_.at(window), piece_, question.pair, question.geometries, 0.0,
-                          question.middle - margin_of(question.pair)});
+      if (part.window.can_be_halved() && question.apart) {
+        open.apart.push_back(question);
+        continue;
+      }
+      near.push_back(question);
+      if (probe_ != nullptr && !question.apart) {
+        suspects.push_back(candidate_of(question, {middle, middle}));
       }
     }
-    if (!open.empty()) {
-      narrow(window.first_half(), open);
-      narrow(window.second_half(), open);
+    probe(suspects);
+    // Beside a contact at the middle the second half is of no interest.
+    if (part.window.can_be_halved() && contact_ && contact_->window.begin <= middle) {
+      open.in_first = std::move(near);
+      return open;
     }
+    for (const Question& question : near) {
+      found_.push_back(candidate_of(question, grid_.at(part.window)));
+    }
+    return open;
+  }
+
+  [[nodiscard]] GeometryCandidate candidate_of(const Question& question,
+                                               const TimeWindow& window) const {
+    const double margin = margin_of(question.pair);
+    return {window, piece_, question.pair, question.geometries, margin, question.middle - margin};
+  }
+
+  /// Asks the probe about candidates of one instant, the deepest first, until it sees a contact.
+  void probe(std::vector<GeometryCandidate>& suspects) {
+    std::sort(suspects.begin(), suspects.end());
+    const auto hit = std::find_if(suspects.begin(), suspects.end(), [&](const auto& suspect) {
+      return (!contact_ || suspect.window.begin < contact_->window.begin) &&
+             probe_->is_contact(suspect);
+    });
+    if (hit != suspects.end()) {
+      contact_ = *hit;
+    }
+  }
+
+  /// Asks the probe about the end of the piece.
+  void probe_end(std::vector<Question>& near) {
+    std::vector<GeometryCandidate> suspects;
+    const double end = grid_.at(GridWindow::kSize);
+    for (Question& question : near) {
+      const SweptGeometry& A = in_world(question.geometries[0], {});
+      const SweptGeometry& B = in_world(question.geometries[1], {});
+      const double threshold = margin_of(question.pair) * kUp;
+      if ((A.rests && B.rests) || boxes_are_far(question, A, B, threshold)) {
+        continue;  // What rests is seen at the middle.
+      }
+      const SweptGap gap = gap_at_end(A, B, threshold, question.n);
+      question.n = gap.n;
+      question.middle = gap.bound;
+      if (!(gap.bound > threshold)) {
+        suspects.push_back(candidate_of(question, {end, end}));
+      }
+    }
+    probe(suspects);
+  }
+
+  [[nodiscard]] bool is_over() const {
+    return contact_ && probe_ != nullptr && probe_->any_will_do;
   }
 
   /// Whether the two are proven farther apart than their threshold throughout the window.
   bool is_far(Question& question, const GridWindow& window) {
-    const auto [first, second] = question.geometries;
     if (!question.placed) {
+      const auto [first, second] = question.geometries;
       const SweptGeometry& A = in_world(first, window);
       const SweptGeometry& B = in_world(second, window);
       const double threshold = threshold_of(question, window);
       if (boxes_are_far(question, A, B, threshold)) {
         return true;
       }
-      const std::optional<RobotLink> frame = frame_of(first, second);
-      if (!frame) {
+      if (!place_in_frame(question)) {
         return hulls_are_far(question, A, B, threshold);
       }
-      // In the world all pairs have their places in common. What is not far there may be so in a
-      // frame of its own, in which what moves both has cancelled.
-      question.placed = {in_frame(first, *frame), in_frame(second, *frame)};
-      question.n.setZero();
     }
     const SweptGeometry& A = placed_[(*question.placed)[0]].over(window);
     const SweptGeometry& B = placed_[(*question.placed)[1]].over(window);
     const double threshold = threshold_of(question, window);
     return boxes_are_far(question, A, B, threshold) || hulls_are_far(question, A, B, threshold);
+  }
+
+  /// In the world all pairs have their places in common. What is not far there may be so in a frame
+  /// of its own, in which what moves both has cancelled. False where there is no such frame.
+  bool place_in_frame(Question& question) {
+    const auto [first, second] = question.geometries;
+    const std::optional<RobotLink> frame = frame_of(first, second);
+    if (!frame) {
+      return false;
+    }
+    question.placed = {in_frame(first, *frame), in_frame(second, *frame)};
+    question.n.setZero();
+    return true;
   }
 
   static bool boxes_are_far(Question& question, const SweptGeometry& A, const SweptGeometry& B,
@@ -323,6 +437,8 @@ class Search {
   std::vector<std::optional<std::size_t>> in_world_;  // Of each geometry, where placed.
   std::vector<std::vector<std::pair<RobotLink, std::size_t>>> in_frames_;
   std::vector<GeometryCandidate> found_;
+  const InstantProbe* probe_ = nullptr;
+  std::optional<GeometryCandidate> contact_;  // That the probe has seen: the earliest.
 };
 
 }  // namespace
@@ -365,6 +481,11 @@ std::vector<GeometryCandidate> CandidateSearch::find(std::size_t piece,
                                                      const std::function<bool(std::size_t)>& wanted,
                                                      std::span<const double> held) const {
   return Search(timeline_, piece, trees_, resting_, held).run(wanted);
+}
+
+ProbedCandidates CandidateSearch::find_until_contact(std::size_t piece,
+                                                     const InstantProbe& probe) const {
+  return Search(timeline_, piece, trees_, resting_).run_until_contact(probe);
 }
 
 std::vector<GeometryCandidate> CandidateSearch::find_within(std::size_t piece,

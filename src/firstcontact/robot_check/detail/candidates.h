@@ -39,6 +39,20 @@ struct GeometryCandidate {
   }
 };
 
+/// Looks at instants while candidates are searched for, so that a contact spares the rest.
+struct InstantProbe {
+  /// Whether two geometries are in contact at an instant: a candidate whose window is that. Their
+  /// hulls overlap then, or nearly so.
+  std::function<bool(const GeometryCandidate&)> is_contact;
+  bool any_will_do = false;  ///< A contact ends the search; else only what is later is left out.
+};
+
+/// What may touch until the earliest contact that a probe has seen.
+struct ProbedCandidates {
+  std::vector<GeometryCandidate> candidates;  ///< Empty where any contact will do and one is known.
+  std::optional<GeometryCandidate> contact;   ///< Its window is the instant.
+};
+
 /// The links of a robot that joints move, each after the one that carries it.
 struct RobotTree {
   struct Node {
@@ -65,6 +79,15 @@ class CandidateSearch {
   [[nodiscard]] std::vector<GeometryCandidate> find(std::size_t piece,
                                                     const std::function<bool(std::size_t)>& wanted,
                                                     std::span<const double> held = {}) const;
+
+  /// The same, in windows that begin no later than the earliest contact that a probe sees. Between
+  /// that and the end of the piece nothing is known.
+  ///
+  /// Without tracking errors it is asked where the hulls of two geometries are no farther apart
+  /// than their threshold at the middle of a window; where any contact will do, also at the end of
+  /// the piece.
+  [[nodiscard]] ProbedCandidates find_until_contact(std::size_t piece,
+                                                    const InstantProbe& probe) const;
 
   /// The same of all pairs that are tested, with one distance [m] in place of their thresholds.
   [[nodiscard]] std::vector<GeometryCandidate> find_within(std::size_t piece,

@@ -132,6 +132,16 @@ SweptGap gap_at_middle(const SweptGeometry& A, const SweptGeometry& B, double en
   return {found.gap - thick, found.n};
 }
 
+SweptGap gap_at_end(const SweptGeometry& A, const SweptGeometry& B, double enough,
+                    const Vector3d& n) {
+  const GeometryPlace& end_A = A.controls.back();
+  const GeometryPlace& end_B = B.controls.back();
+  const double thick = thickness(A, B, end_A.error + end_B.error);
+  const double needed = (thick + enough) * kUp;
+  const Separation found = separate(hull(A, end_A), hull(B, end_B), n, {needed, needed});
+  return {found.gap - thick, found.n};
+}
+
 SweptGap gap_throughout(const SweptGeometry& A, const SweptGeometry& B, double enough,
                         const Vector3d& n) {
   const std::array<PlacedPolytope, 3> hulls_A = {hull(A, A.controls[0]), hull(A, A.controls[1]),

@@ -104,6 +104,12 @@ struct SweptGap {
 [[nodiscard]] SweptGap gap_at_middle(const SweptGeometry& A, const SweptGeometry& B, double enough,
                                      const Eigen::Vector3d& n, double near = 0.9);
 
+/// The same at the end of a window.
+///
+/// @param enough  [m]  neither less nor more is of interest
+[[nodiscard]] SweptGap gap_at_end(const SweptGeometry& A, const SweptGeometry& B, double enough,
+                                  const Eigen::Vector3d& n);
+
 /// The same throughout the window, by the convex hull of all differences of control points.
 ///
 /// Derivation: along n the gap of a point of A and one of B is a polynomial of time, within the sum
