@@ -25,6 +25,7 @@ class PlanTree {
   std::size_t add(Configuration q, std::size_t parent, bool is_found = true) {
     places_.push_back(std::move(q));
     parents_.push_back(parent);
+    domains_.push_back(std::numeric_limits<double>::infinity());
     if (is_found) {
       found_.push_back(places_.size() - 1);
     }
@@ -36,6 +37,10 @@ class PlanTree {
 
   /// Marks a place as one from which to move in contact.
   void mark(std::size_t node) { marked_.push_back(node); }
+
+  /// How far samples may be that a place is extended towards; infinite at first.
+  [[nodiscard]] double domain(std::size_t node) const { return domains_[node]; }
+  void set_domain(std::size_t node, double domain) { domains_[node] = domain; }
 
   [[nodiscard]] std::size_t size() const { return places_.size(); }
   /// kNoParent of a root; else less than the node.
@@ -70,6 +75,7 @@ class PlanTree {
   const ConfigurationSpace* space_;
   std::vector<Configuration> places_;
   std::vector<std::size_t> parents_;
+  std::vector<double> domains_;
   std::vector<std::size_t> found_;
   std::vector<std::size_t> marked_;
 };
