@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <firstcontact/planning/detail/contact_growth.h>
+#include <firstcontact/planning/detail/plan_range.h>
 #include <firstcontact/planning/detail/plan_tree.h>
 
 namespace firstcontact::detail {
@@ -16,7 +17,8 @@ namespace {
 constexpr std::size_t kTriesToLeave = 8;   // Iterations before pushes, and before a tree is stuck.
 constexpr std::size_t kReportEvery = 256;  // Iterations.
 
-/// [-]  The domain of a place with a blocked edge, in ranges.
+/// [-]  The domain of a place with a blocked edge, in ranges. One that is shorter than the default
+/// does not shorten it: few samples would count, and each costs a search for the nearest place.
 constexpr double kDomain = 3.0;
 
 class Connect {
@@ -24,6 +26,7 @@ class Connect {
   Connect(PlanWork& work, double range)
       : work_(work),
         range_(range),
+        domain_(kDomain * std::max(range, default_range(work.space()))),
         trees_{PlanTree(work.space()), PlanTree(work.space())},
         contact_(work, work.options().contacts, range) {}
 
@@ -103,7 +106,7 @@ class Connect {
   /// exploration by controlling the sampling domain", ICRA 2005.
   void narrow_domain(PlanTree& tree, std::size_t node) const {
     if (work_.options().contacts == ContactUse::none) {
-      tree.set_domain(node, kDomain * range_);
+      tree.set_domain(node, domain_);
     }
   }
 
@@ -237,6 +240,7 @@ class Connect {
 
   PlanWork& work_;
   double range_;
+  double domain_;
   std::array<PlanTree, 2> trees_;
   std::array<std::size_t, 2> roots_ = {};
   std::array<std::size_t, 2> pushed_ = {};  // Nodes of pushes from roots.

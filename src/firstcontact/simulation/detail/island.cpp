@@ -161,7 +161,7 @@ class Island {
     if (on_rim > 0.0 && kTurnOfCurve / on_rim >= shortest) {
       longest = std::max(kRollOfPlan * kTurnOfCurve / on_rim, shortest);
     }
-    const double on_ellipsoid = rate_on_ellipsoid(touch.normal, sides);
+    const double on_ellipsoid = rate_on_ellipsoid(touch.normal, sides, span_);
     return on_ellipsoid > 0.0 ? std::min(longest, std::max(kArmOfPlan / on_ellipsoid, shortest))
                               : longest;
   }

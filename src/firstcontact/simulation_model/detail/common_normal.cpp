@@ -13,8 +13,6 @@ using Eigen::Vector3d;
 
 constexpr int kMostSteps = 50;
 constexpr int kMostHalvings = 30;
-/// [-]  The normal is found where the next step turns it by less.
-constexpr double kLeastTurn = 1e-15;
 /// [-]  A step that turns it by less is taken as it is: f is too flat there to compare.
 constexpr double kSmallTurn = 1e-5;
 
@@ -74,6 +72,19 @@ class Separation {
   std::optional<Vector3d> line_;
 };
 
+/// Goes on until steps no longer become shorter, as rounding has it.
+///
+/// @param step  from n
+Vector3d take_small_steps(const Separation& separation, Vector3d n, Vector3d step) {
+  double before = 2.0 * kSmallTurn;
+  for (int k = 0; k < kMostSteps && step.norm() <= 0.5 * before; ++k) {
+    before = step.norm();
+    n = separation.allowed(n + step);
+    step = separation.step(n);
+  }
+  return n;
+}
+
 }  // namespace
 
 Vector3d NormalSide::farthest(const Vector3d& n) const {
@@ -90,13 +101,11 @@ Vector3d common_normal(const std::array<NormalSide, 2>& sides, const Vector3d& f
   double most = separation.along(n);
   for (int k = 0; k < kMostSteps; ++k) {
     Vector3d step = separation.step(n);
-    if (!(step.norm() > kLeastTurn)) {  // NaN ends it, too.
+    if (!step.allFinite()) {
       break;
     }
     if (step.norm() <= kSmallTurn) {
-      n = separation.allowed(n + step);
-      most = separation.along(n);
-      continue;
+      return take_small_steps(separation, n, step);
     }
     bool grows = false;
     for (int halvings = 0; halvings < kMostHalvings && !grows; ++halvings, step *= 0.5) {

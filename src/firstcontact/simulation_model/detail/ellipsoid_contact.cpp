@@ -1,7 +1,9 @@
 #include <firstcontact/simulation_model/detail/ellipsoid_contact.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -19,9 +21,10 @@ constexpr double kRoundingOfEllipsoids = 1e-12;
 
 /// An edge from its middle.
 struct Edge {
-  Vector3d middle = Vector3d::Zero();     // [m]
-  Vector3d direction = Vector3d::Zero();  // [-]
-  double half = 0.0;                      // [m]
+  std::array<std::uint32_t, 2> ends = {};  // Vertices.
+  Vector3d middle = Vector3d::Zero();      // [m]
+  Vector3d direction = Vector3d::Zero();   // [-]
+  double half = 0.0;                       // [m]
 };
 
 /// One body of a contact in the world.
@@ -56,7 +59,8 @@ Side side_of(const PlacedRound& body, const Feature& feature, const Vector3d& po
     const auto [a, b] = body.shape->edge(feature.index);
     const auto& v = body.shape->mesh().vertices;
     const Vector3d along = R * (v[b] - v[a]);
-    side.edge = Edge{.middle = body.pose.position + R * (0.5 * (v[a] + v[b])),
+    side.edge = Edge{.ends = {a, b},
+                     .middle = body.pose.position + R * (0.5 * (v[a] + v[b])),
                      .direction = along.stableNormalized(),
                      .half = 0.5 * along.norm()};
     side.core.line = side.edge->direction;
@@ -82,9 +86,9 @@ Separated separate(const std::array<Side, 2>& sides, const Vector3d& before) {
   return found;
 }
 
-/// Makes a side the end of its edge where the closest point of the line is beyond. Returns whether
-/// it did.
-bool end_edge(Side& side, const Vector3d& closest) {
+/// Makes a side, and its feature, the end of its edge where the closest point of the line is
+/// beyond. Returns whether it did.
+bool end_edge(Side& side, const Vector3d& closest, Feature& feature) {
   if (!side.edge) {
     return false;
   }
@@ -95,6 +99,8 @@ bool end_edge(Side& side, const Vector3d& closest) {
   side.core.point =
       side.edge->middle + std::copysign(side.edge->half, along) * side.edge->direction;
   side.core.line.reset();
+  feature.type = FeatureType::vertex;
+  feature.index = side.edge->ends[along > 0.0 ? 1 : 0];
   return true;
 }
 
@@ -109,7 +115,9 @@ std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& b
     return {};
   }
   Separated found = separate(sides, before);
-  if (end_edge(sides[0], found.points[0]) || end_edge(sides[1], found.points[1])) {
+  std::array<Feature, 2> features{contact.feature_A, contact.feature_B};
+  if (end_edge(sides[0], found.points[0], features[0]) ||
+      end_edge(sides[1], found.points[1], features[1])) {
     found = separate(sides, before);
   }
   double sag = 0.0;
@@ -128,6 +136,8 @@ std::array<RoundFeature, 2> make_ellipsoidal(const std::array<PlacedRound, 2>& b
       found.points[s] = found.points[1 - s] + (s == 1 ? distance : -distance) * found.n;
     }
   }
+  contact.feature_A = features[0];
+  contact.feature_B = features[1];
   contact.n_AB_W = found.n;
   contact.distance = distance;
   contact.p_WA = found.points[0];

@@ -11,7 +11,8 @@
 namespace firstcontact::detail {
 
 /// Replaces the triangles of ellipsoids in a contact by the ellipsoids: its closest points, normal
-/// and distance become theirs.
+/// and distance become theirs. Where the nearest point of an edge is its end, the feature is that
+/// corner then.
 ///
 /// An ellipsoid is outside of its triangles, so the distance becomes smaller. Where it becomes
 /// larger, or smaller by more than the sag, the contact stays as it is: then another feature of the

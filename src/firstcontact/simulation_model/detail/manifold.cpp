@@ -152,10 +152,10 @@ struct TouchMaker {
   }
 
   [[nodiscard]] ManifoldPoint make(Contact contact) const {
-    const bool is_any_ellipsoid = placed[0].ellipsoid != nullptr || placed[1].ellipsoid != nullptr;
-    const std::array<RoundFeature, 2> round = is_any_ellipsoid
-                                                  ? make_ellipsoidal(placed, most_sag, contact)
-                                                  : make_round(placed, most_sag, contact);
+    std::array<RoundFeature, 2> round = make_ellipsoidal(placed, most_sag, contact);
+    if (!round[0].is_curved() && !round[1].is_curved()) {
+      round = make_round(placed, most_sag, contact);
+    }
     return {.bodies = bodies,
             .feature_A = contact.feature_A,
             .feature_B = contact.feature_B,

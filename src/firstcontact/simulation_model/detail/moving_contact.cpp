@@ -119,6 +119,14 @@ double radius_of(const ContactSide& side) {
   return side.round.circle != nullptr ? side.round.radius() : side.body->shape.radius();
 }
 
+/// [-]  How much the surface bends otherwise at a direction than that of the ball of its height, by
+/// that height.
+double unlike_a_ball(const RoundEllipsoid& ellipsoid, const Vector3d& n_B) {
+  const double height = ellipsoid.farthest(n_B).dot(n_B);
+  const Matrix3d ball = height * (Matrix3d::Identity() - n_B * n_B.transpose());
+  return (ellipsoid.bend(n_B) - ball).norm() / height;
+}
+
 bool is_round(const ContactSide& side) { return radius_of(side) != 0.0; }
 
 }  // namespace
@@ -139,16 +147,18 @@ double rate_on_rim(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
   return fastest;
 }
 
-double rate_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& sides) {
+double rate_on_ellipsoid(const Vector3d& n, const std::array<ContactSide, 2>& sides, double time) {
   double fastest = 0.0;
   for (std::size_t s = 0; s < 2; ++s) {
-    if (sides[s].round.ellipsoid != nullptr) {
-      const Vector3d n_B = sides[s].R_WB.transpose() * n;
-      const double height = sides[s].round.ellipsoid->farthest(n_B).dot(n_B);
-      // The surface of a ball of that height would bend by it in all directions along itself.
-      const Matrix3d ball = height * (Matrix3d::Identity() - n_B * n_B.transpose());
-      const double other = (sides[s].round.ellipsoid->bend(n_B) - ball).norm() / height;
-      fastest = std::max(fastest, other * (sides[s].w - sides[1 - s].w).cross(n).norm());
+    if (sides[s].round.ellipsoid == nullptr) {
+      continue;
+    }
+    const Vector3d turning = (sides[1 - s].w - sides[s].w).cross(n);  // Of n, seen from the body.
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const Vector3d there = (n + share * time * turning).normalized();
+      const double other =
+          unlike_a_ball(*sides[s].round.ellipsoid, sides[s].R_WB.transpose() * there);
+      fastest = std::max(fastest, other * turning.norm());
     }
   }
   return fastest;

@@ -43,11 +43,12 @@ struct MovedContact {
 /// @param n  [-]  the normal
 [[nodiscard]] double rate_on_rim(const Eigen::Vector3d& n, const std::array<ContactSide, 2>& sides);
 
-/// [1/s]  How fast a contact on an ellipsoid leaves the arm that it has: 0 on a ball.
+/// [1/s]  How fast a contact on an ellipsoid leaves the arm that it has, at most of three instants
+/// of a time [s]: 0 on a ball.
 ///
 /// @param n  [-]  the normal
 [[nodiscard]] double rate_on_ellipsoid(const Eigen::Vector3d& n,
-                                       const std::array<ContactSide, 2>& sides);
+                                       const std::array<ContactSide, 2>& sides, double time);
 
 /// Whether a surface is curved at a contact, and the contact stays near its place on it for a time
 /// [s]: on a circle that lies nearly flat it does not.
